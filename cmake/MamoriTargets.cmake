@@ -1,0 +1,61 @@
+# The functions that every layer's CMakeLists.txt uses. Arguments only, no ambient variables.
+include_guard(GLOBAL)
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# Flags that every C++ target of the project has.
+#   -ffp-contract=off: the same bytes everywhere (a fused multiply-add rounds once where two operations round twice).
+#   -UNDEBUG: assertions stay on in every configuration, and Debian's Simbody headers need it to match its library.
+function(mamori_common_flags target)
+    target_compile_features(${target} PUBLIC cxx_std_17)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+    target_compile_options(${target} PRIVATE
+        -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
+        -Woverloaded-virtual -Wdouble-promotion -Werror -ffp-contract=off -UNDEBUG)
+endfunction()
+
+# mamori_library(<layer> [TARGET_SUBSET] SOURCES ... [HEADER_ONLY] DEPENDS ...)
+#   gives mamori_<layer> and its alias mamori::<layer>, exported and installed.
+#   TARGET_SUBSET: the layer runs on a bare controller: no exceptions, no RTTI, no guarded statics.
+function(mamori_library layer)
+    cmake_parse_arguments(arg "TARGET_SUBSET" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+    set(target mamori_${layer})
+    add_library(${target} STATIC ${arg_SOURCES})
+    add_library(mamori::${layer} ALIAS ${target})
+    mamori_common_flags(${target})
+    target_include_directories(${target} PUBLIC
+        $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_link_libraries(${target} PUBLIC ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
+    if(arg_TARGET_SUBSET)
+        target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics)
+    endif()
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${layer})
+    install(TARGETS ${target} EXPORT mamoriTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# mamori_test(<name> SOURCES ... DEPENDS ...)
+#   one GoogleTest program; ctest runs it and its JUnit file goes to <build>/evidence/junit/<name>.xml.
+function(mamori_test name)
+    cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+    if(NOT MAMORI_BUILD_TESTS)
+        return()
+    endif()
+    find_package(GTest REQUIRED)
+    add_executable(${name} ${arg_SOURCES})
+    mamori_common_flags(${name})
+    target_link_libraries(${name} PRIVATE ${arg_DEPENDS} GTest::gtest GTest::gtest_main)
+    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/verification/support/include)
+    add_test(NAME ${name} COMMAND ${name} --gtest_output=xml:${PROJECT_BINARY_DIR}/evidence/junit/${name}.xml)
+    set_tests_properties(${name} PROPERTIES TIMEOUT 600)
+endfunction()
+
+function(mamori_install_package)
+    configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/mamoriConfig.cmake.in"
+        "${PROJECT_BINARY_DIR}/mamoriConfig.cmake" INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)
+    write_basic_package_version_file("${PROJECT_BINARY_DIR}/mamoriConfigVersion.cmake"
+        VERSION ${PROJECT_VERSION} COMPATIBILITY SameMinorVersion)
+    install(FILES "${PROJECT_BINARY_DIR}/mamoriConfig.cmake" "${PROJECT_BINARY_DIR}/mamoriConfigVersion.cmake"
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)
+    install(EXPORT mamoriTargets NAMESPACE mamori:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)
+endfunction()

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What an executive tells about its own course: windows, component runs, lateness and overruns.
+/// Supervision listens here, so that it does not depend on the help of the code it supervises.
+///
+/// @satisfies SWR-KRN-020      Design: docs/design/kernel.md#observation
+#ifndef MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
+#define MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
+
+#include <cstddef>
+
+#include "mamori/kernel/time.hpp"
+
+namespace mamori {
+
+/// Listener to one executive. Indices are positions in the system table (components, windows).
+///
+/// Calling context: the context that runs the windows, except on_budget_overrun, which a port's guard may call
+/// from its own context. Implementations must not block and must be O(1).
+class ExecutionObserver {
+  public:
+    /// Component `component` is about to run in this window.
+    virtual void on_component_started(std::size_t component, Instant now) noexcept = 0;
+    /// Component `component` has returned from its run. Never called for a run that does not return.
+    virtual void on_component_finished(std::size_t component, Instant now) noexcept = 0;
+    /// Window `window` used its budget up while `component` was running; its outputs are not published.
+    virtual void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept = 0;
+    /// Window `window` opened `lateness` after its place in the frame.
+    virtual void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept = 0;
+
+  protected:
+    ~ExecutionObserver() = default;
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_EXECUTION_OBSERVER_HPP

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A view of contiguous elements owned by somebody else, with checked access.
+///
+/// @satisfies SWR-KRN-002      Design: docs/design/kernel.md#memory
+#ifndef MAMORI_KERNEL_SPAN_HPP
+#define MAMORI_KERNEL_SPAN_HPP
+
+#include <array>
+#include <cstddef>
+
+#include "mamori/kernel/assert.hpp"
+
+namespace mamori {
+
+/// Pointer and size. The owner of the elements must outlive every copy of the span.
+///
+/// Thread safety: as that of the elements. Time: O(1). Memory: two words.
+template <typename T>
+class Span final {
+  public:
+    constexpr Span() noexcept = default;
+    constexpr Span(T* first, std::size_t size) noexcept : data_(first), size_(size) {}
+    template <typename U, std::size_t N>
+    constexpr Span(std::array<U, N>& elements) noexcept : data_(elements.data()), size_(N) {}  // NOLINT: implicit
+    template <typename U, std::size_t N>
+    constexpr Span(const std::array<U, N>& elements) noexcept : data_(elements.data()), size_(N) {}  // NOLINT
+
+    /// @param[in] index 0 .. size() - 1; anything else is an own bug and ends in the assertion handler.
+    constexpr T& operator[](std::size_t index) const noexcept {
+        MAMORI_REQUIRE(1, index < size_);
+        return data_[index];
+    }
+    constexpr std::size_t size() const noexcept { return size_; }
+    constexpr bool empty() const noexcept { return size_ == 0U; }
+    constexpr T* data() const noexcept { return data_; }
+    constexpr T* begin() const noexcept { return data_; }
+    constexpr T* end() const noexcept { return data_ + size_; }
+
+  private:
+    T* data_{nullptr};
+    std::size_t size_{0U};
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_SPAN_HPP

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Durations and instants as signed 64-bit nanoseconds in types that cannot be mixed.
+/// No clock is read here: code is given the time, only ports read a real clock.
+///
+/// @satisfies SWR-KRN-004      Design: docs/design/kernel.md#time
+#ifndef MAMORI_KERNEL_TIME_HPP
+#define MAMORI_KERNEL_TIME_HPP
+
+#include <cstdint>
+
+namespace mamori {
+
+/// Signed span of time. Range: +-292 years; sums are not checked for overflow beyond it.
+struct Duration {
+    std::int64_t ns{0};
+
+    friend constexpr Duration operator+(Duration a, Duration b) noexcept { return {a.ns + b.ns}; }
+    friend constexpr Duration operator-(Duration a, Duration b) noexcept { return {a.ns - b.ns}; }
+    friend constexpr Duration operator*(Duration a, std::int64_t factor) noexcept { return {a.ns * factor}; }
+    friend constexpr bool operator==(Duration a, Duration b) noexcept { return a.ns == b.ns; }
+    friend constexpr bool operator!=(Duration a, Duration b) noexcept { return a.ns != b.ns; }
+    friend constexpr bool operator<(Duration a, Duration b) noexcept { return a.ns < b.ns; }
+    friend constexpr bool operator<=(Duration a, Duration b) noexcept { return a.ns <= b.ns; }
+    friend constexpr bool operator>(Duration a, Duration b) noexcept { return a.ns > b.ns; }
+    friend constexpr bool operator>=(Duration a, Duration b) noexcept { return a.ns >= b.ns; }
+};
+
+/// Point on the monotonic time line of the port; zero is the port's start.
+struct Instant {
+    std::int64_t ns{0};
+
+    friend constexpr Instant operator+(Instant a, Duration b) noexcept { return {a.ns + b.ns}; }
+    friend constexpr Instant operator-(Instant a, Duration b) noexcept { return {a.ns - b.ns}; }
+    friend constexpr Duration operator-(Instant a, Instant b) noexcept { return {a.ns - b.ns}; }
+    friend constexpr bool operator==(Instant a, Instant b) noexcept { return a.ns == b.ns; }
+    friend constexpr bool operator!=(Instant a, Instant b) noexcept { return a.ns != b.ns; }
+    friend constexpr bool operator<(Instant a, Instant b) noexcept { return a.ns < b.ns; }
+    friend constexpr bool operator<=(Instant a, Instant b) noexcept { return a.ns <= b.ns; }
+    friend constexpr bool operator>(Instant a, Instant b) noexcept { return a.ns > b.ns; }
+    friend constexpr bool operator>=(Instant a, Instant b) noexcept { return a.ns >= b.ns; }
+};
+
+/// Seconds as a real number, for physics and reports; exact up to 2^53 ns (104 days).
+constexpr double to_seconds(Duration duration) noexcept { return static_cast<double>(duration.ns) * 1.0e-9; }
+
+inline namespace literals {
+constexpr Duration operator""_ns(unsigned long long value) noexcept {
+    return {static_cast<std::int64_t>(value)};
+}
+constexpr Duration operator""_us(unsigned long long value) noexcept {
+    return {static_cast<std::int64_t>(value) * 1000};
+}
+constexpr Duration operator""_ms(unsigned long long value) noexcept {
+    return {static_cast<std::int64_t>(value) * 1000000};
+}
+constexpr Duration operator""_s(unsigned long long value) noexcept {
+    return {static_cast<std::int64_t>(value) * 1000000000};
+}
+}  // namespace literals
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_TIME_HPP

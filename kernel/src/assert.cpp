@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/kernel/assert.hpp"
+
+#include <atomic>
+
+namespace mamori {
+namespace {
+
+std::atomic<AssertionHandler> g_handler{nullptr};
+
+}  // namespace
+
+void set_assertion_handler(AssertionHandler handler) noexcept {
+    g_handler.store(handler, std::memory_order_release);
+}
+
+namespace detail {
+
+void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line) noexcept {
+    const AssertionHandler handler = g_handler.load(std::memory_order_acquire);
+    if (handler != nullptr) {
+        handler(AssertionRecord{file, id, line});
+    }
+    // A halt that no debugger switch can turn into a no-op: the watchdog is no longer served from here on.
+    __builtin_trap();
+}
+
+}  // namespace detail
+}  // namespace mamori

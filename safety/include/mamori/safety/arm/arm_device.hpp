@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Process image of a seven-joint arm: what its devices give and take in each frame. A machine and a simulated
+/// plant fill the same image, so the safety code cannot tell them apart.
+///
+/// @satisfies SWR-ARM-001      Design: docs/design/safe_arm.md#process-image
+#ifndef MAMORI_SAFETY_ARM_ARM_DEVICE_HPP
+#define MAMORI_SAFETY_ARM_ARM_DEVICE_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/fields.hpp"
+
+namespace mamori::safety {
+
+/// Joints of the arm, numbered 0 .. 6 from the base to the flange.
+inline constexpr std::size_t kArmJointCount = 7U;
+
+/// One number per joint.
+using JointVector = std::array<double, kArmJointCount>;
+
+/// Sampled by the device layer at the start of each frame.
+struct ArmInputs {
+    /// Channel A: incremental encoder at the motor, as counts of the joint angle; zero at joint angle 0.
+    std::array<std::int32_t, kArmJointCount> encoder_a_counts{};
+    /// Channel B: absolute encoder at the link, as counts of the joint angle; zero at joint angle 0.
+    std::array<std::int32_t, kArmJointCount> encoder_b_counts{};
+    /// Torque at the joint side as measured from the motor current [N m].
+    JointVector measured_torque_nm{};
+    /// Feedback contact of each brake: true = closed (holding).
+    std::array<bool, kArmJointCount> brake_closed{};
+    /// Feedback of the safe-torque-off input of the drives: true = torque is possible.
+    bool torque_enabled{false};
+    /// Drive supply voltage is inside its range.
+    bool power_good{false};
+    /// Operator asks for operation (deliberate rising edge).
+    bool start_button{false};
+    /// Operator acknowledges a latched fault (deliberate rising edge).
+    bool reset_button{false};
+};
+
+/// Written by the safety partition at the end of each frame. Default: the safe state.
+struct ArmOutputs {
+    /// Torque asked of each drive at the joint side [N m]; the drive saturates it.
+    JointVector torque_nm{};
+    /// Safe torque off, inverted: false = no torque on any joint (STO, IEC 61800-5-2).
+    bool torque_enable{false};
+    /// Safe brake control: false = all brakes close (SBC, IEC 61800-5-2).
+    bool brake_release{false};
+};
+
+}  // namespace mamori::safety
+
+MAMORI_FIELDS(mamori::safety::ArmInputs, encoder_a_counts, encoder_b_counts, measured_torque_nm, brake_closed,
+              torque_enabled, power_good, start_button, reset_button)
+MAMORI_FIELDS(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release)
+
+#endif  // MAMORI_SAFETY_ARM_ARM_DEVICE_HPP

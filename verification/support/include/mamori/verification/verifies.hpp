@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Writes into a GoogleTest result which requirement the running test verifies, and how.
+/// Technique and polarity are enumerators, so a misspelt one does not compile. One requirement per test.
+#ifndef MAMORI_VERIFICATION_VERIFIES_HPP
+#define MAMORI_VERIFICATION_VERIFIES_HPP
+
+#include <gtest/gtest.h>
+
+namespace mamori::verification {
+
+/// How the test case was derived (names as in IEC 61508-3 Annex B, where it has one).
+enum class Technique {
+    kRequirementsBased,
+    kBoundaryValues,
+    kEquivalenceClasses,
+    kFaultInjection,
+    kStateTransition,
+    kErrorGuessing,
+    kInterface,
+    kBackToBack,
+};
+
+/// kNominal shows that the wanted thing happens; kViolation shows that the unwanted thing is stopped.
+enum class Polarity { kNominal, kViolation };
+
+constexpr const char* get_name(Technique technique) noexcept {
+    switch (technique) {
+        case Technique::kRequirementsBased:
+            return "requirements_based";
+        case Technique::kBoundaryValues:
+            return "boundary_values";
+        case Technique::kEquivalenceClasses:
+            return "equivalence_classes";
+        case Technique::kFaultInjection:
+            return "fault_injection";
+        case Technique::kStateTransition:
+            return "state_transition";
+        case Technique::kErrorGuessing:
+            return "error_guessing";
+        case Technique::kInterface:
+            return "interface";
+        case Technique::kBackToBack:
+            return "back_to_back";
+    }
+    return "invalid";
+}
+
+constexpr const char* get_name(Polarity polarity) noexcept {
+    return polarity == Polarity::kNominal ? "nominal" : "violation";
+}
+
+/// Call once, first thing in a test. @param[in] requirement id of one requirement, for example "SWR-KRN-001".
+inline void verifies(const char* requirement, Technique technique = Technique::kRequirementsBased,
+                     Polarity polarity = Polarity::kNominal) {
+    ::testing::Test::RecordProperty("requirement", requirement);
+    ::testing::Test::RecordProperty("technique", get_name(technique));
+    ::testing::Test::RecordProperty("polarity", get_name(polarity));
+}
+
+}  // namespace mamori::verification
+
+#endif  // MAMORI_VERIFICATION_VERIFIES_HPP
