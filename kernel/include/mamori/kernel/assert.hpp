@@ -34,8 +34,8 @@ namespace detail {
 }  // namespace mamori
 
 /// Pre-condition, post-condition and invariant: same mechanism, three words for the reader.
-#define MAMORI_REQUIRE(id, condition)                             \
-    ((condition) ? static_cast<void>(0)                           \
+#define MAMORI_REQUIRE(id, condition)   \
+    ((condition) ? static_cast<void>(0) \
                  : ::mamori::detail::fail_assertion(__FILE__, (id), static_cast<std::uint32_t>(__LINE__)))
 #define MAMORI_ENSURE(id, condition) MAMORI_REQUIRE(id, condition)
 #define MAMORI_INVARIANT(id, condition) MAMORI_REQUIRE(id, condition)

@@ -15,8 +15,8 @@ namespace mamori {
 
 /// Listener to one executive. Indices are positions in the system table (components, windows).
 ///
-/// Calling context: the context that runs the windows, except on_budget_overrun, which a port's guard may call
-/// from its own context. Implementations must not block and must be O(1).
+/// Calling context: the context that runs the windows, except on_budget_overrun, which a port's guard may
+/// call from its own context. Implementations must not block and must be O(1).
 class ExecutionObserver {
   public:
     /// Component `component` is about to run in this window.

@@ -28,7 +28,8 @@ struct IsStdArray<std::array<T, N>> : std::true_type {};
 
 }  // namespace detail
 
-/// True when T can travel through a port: a number, bool, enum, an array of such, or a type with a field list.
+/// True when T can travel through a port: a number, bool, enum, an array of such, or a type with a field
+/// list.
 template <typename T>
 constexpr bool is_payload() noexcept {
     if constexpr (detail::IsStdArray<T>::value) {
@@ -59,29 +60,48 @@ constexpr void visit_scalars(const T& value, Visitor& visitor) noexcept {
 
 #define MAMORI_DETAIL_EXPAND(x) x
 #define MAMORI_DETAIL_F1(a) call(value.a);
-#define MAMORI_DETAIL_F2(a, ...) call(value.a); MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F1(__VA_ARGS__))
-#define MAMORI_DETAIL_F3(a, ...) call(value.a); MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F2(__VA_ARGS__))
-#define MAMORI_DETAIL_F4(a, ...) call(value.a); MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F3(__VA_ARGS__))
-#define MAMORI_DETAIL_F5(a, ...) call(value.a); MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F4(__VA_ARGS__))
-#define MAMORI_DETAIL_F6(a, ...) call(value.a); MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F5(__VA_ARGS__))
-#define MAMORI_DETAIL_F7(a, ...) call(value.a); MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F6(__VA_ARGS__))
-#define MAMORI_DETAIL_F8(a, ...) call(value.a); MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F7(__VA_ARGS__))
-#define MAMORI_DETAIL_F9(a, ...) call(value.a); MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F8(__VA_ARGS__))
-#define MAMORI_DETAIL_F10(a, ...) call(value.a); MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F9(__VA_ARGS__))
+#define MAMORI_DETAIL_F2(a, ...) \
+    call(value.a);               \
+    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F1(__VA_ARGS__))
+#define MAMORI_DETAIL_F3(a, ...) \
+    call(value.a);               \
+    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F2(__VA_ARGS__))
+#define MAMORI_DETAIL_F4(a, ...) \
+    call(value.a);               \
+    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F3(__VA_ARGS__))
+#define MAMORI_DETAIL_F5(a, ...) \
+    call(value.a);               \
+    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F4(__VA_ARGS__))
+#define MAMORI_DETAIL_F6(a, ...) \
+    call(value.a);               \
+    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F5(__VA_ARGS__))
+#define MAMORI_DETAIL_F7(a, ...) \
+    call(value.a);               \
+    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F6(__VA_ARGS__))
+#define MAMORI_DETAIL_F8(a, ...) \
+    call(value.a);               \
+    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F7(__VA_ARGS__))
+#define MAMORI_DETAIL_F9(a, ...) \
+    call(value.a);               \
+    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F8(__VA_ARGS__))
+#define MAMORI_DETAIL_F10(a, ...) \
+    call(value.a);                \
+    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F9(__VA_ARGS__))
 #define MAMORI_DETAIL_PICK(a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, name, ...) name
 
-/// Declares the fields of `Type` (1 to 10), at global scope:  MAMORI_FIELDS(ns::JointState, position_rad, velocity_rad_s)
-#define MAMORI_FIELDS(Type, ...)                                                                                  \
-    template <>                                                                                                   \
-    struct mamori::Fields<Type> {                                                                                 \
-        static constexpr bool kDeclared = true;                                                                   \
-        template <typename Call>                                                                                  \
-        static constexpr void for_each(const Type& value, Call&& call) noexcept {                                 \
-            MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_PICK(                                                              \
-                __VA_ARGS__, MAMORI_DETAIL_F10, MAMORI_DETAIL_F9, MAMORI_DETAIL_F8, MAMORI_DETAIL_F7,             \
-                MAMORI_DETAIL_F6, MAMORI_DETAIL_F5, MAMORI_DETAIL_F4, MAMORI_DETAIL_F3, MAMORI_DETAIL_F2,         \
-                MAMORI_DETAIL_F1, unused)(__VA_ARGS__))                                                           \
-        }                                                                                                         \
+/// Declares the fields of `Type` (1 to 10), at global scope:  MAMORI_FIELDS(ns::JointState, position_rad,
+/// velocity_rad_s)
+#define MAMORI_FIELDS(Type, ...)                                                                          \
+    template <>                                                                                           \
+    struct mamori::Fields<Type> {                                                                         \
+        static constexpr bool kDeclared = true;                                                           \
+        template <typename Call>                                                                          \
+        static constexpr void for_each(const Type& value, Call&& call) noexcept {                         \
+            MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_PICK(                                                      \
+                __VA_ARGS__, MAMORI_DETAIL_F10, MAMORI_DETAIL_F9, MAMORI_DETAIL_F8, MAMORI_DETAIL_F7,     \
+                MAMORI_DETAIL_F6, MAMORI_DETAIL_F5, MAMORI_DETAIL_F4, MAMORI_DETAIL_F3, MAMORI_DETAIL_F2, \
+                MAMORI_DETAIL_F1, unused)(__VA_ARGS__))                                                   \
+        }                                                                                                 \
     };
 
 #endif  // MAMORI_KERNEL_FIELDS_HPP

@@ -22,7 +22,8 @@ class Span final {
     constexpr Span() noexcept = default;
     constexpr Span(T* first, std::size_t size) noexcept : data_(first), size_(size) {}
     template <typename U, std::size_t N>
-    constexpr Span(std::array<U, N>& elements) noexcept : data_(elements.data()), size_(N) {}  // NOLINT: implicit
+    constexpr Span(std::array<U, N>& elements) noexcept
+        : data_(elements.data()), size_(N) {}  // NOLINT: implicit
     template <typename U, std::size_t N>
     constexpr Span(const std::array<U, N>& elements) noexcept : data_(elements.data()), size_(N) {}  // NOLINT
 

@@ -51,7 +51,8 @@ class [[nodiscard]] Result final {
     static_assert(std::is_default_constructible_v<T>, "Result<T> keeps a T even when it holds a status");
 
   public:
-    constexpr Result(const T& value) noexcept : value_(value), status_(Status::kOk) {}  // NOLINT: implicit on purpose
+    constexpr Result(const T& value) noexcept
+        : value_(value), status_(Status::kOk) {}  // NOLINT: implicit on purpose
     /// @param[in] status the reason; kOk is turned into kError, since a success must carry a value.
     constexpr Result(Status status) noexcept  // NOLINT: implicit on purpose
         : value_(), status_(status == Status::kOk ? Status::kError : status) {}

@@ -42,7 +42,9 @@ struct Instant {
 };
 
 /// Seconds as a real number, for physics and reports; exact up to 2^53 ns (104 days).
-constexpr double to_seconds(Duration duration) noexcept { return static_cast<double>(duration.ns) * 1.0e-9; }
+constexpr double to_seconds(Duration duration) noexcept {
+    return static_cast<double>(duration.ns) * 1.0e-9;
+}
 
 inline namespace literals {
 constexpr Duration operator""_ns(unsigned long long value) noexcept {

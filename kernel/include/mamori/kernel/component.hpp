@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// An RT component: a named object with ports as members and the actions of the OMG RTC standard, which its
+/// execution context calls. A component belongs to exactly one context; the system table proves it.
+///
+/// @satisfies SWR-KRN-011      Design: docs/design/kernel.md#components
+/// Source:   OMG RTC 1.0, LightweightRTObject, ComponentAction, DataFlowComponentAction,
+/// FsmParticipantAction,
+///           MultiModeComponentAction
+#ifndef MAMORI_KERNEL_COMPONENT_HPP
+#define MAMORI_KERNEL_COMPONENT_HPP
+
+#include <cstdint>
+
+#include "mamori/kernel/lifecycle.hpp"
+#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/time.hpp"
+
+namespace mamori {
+
+/// Names the context an action is called from. Valid for the duration of the call and as an identity.
+struct ContextHandle {
+    std::int32_t id{-1};  ///< index of the window in the system table; -1: no context
+    Instant now{};        ///< start of the window that runs the action (not the time of the call: see LET)
+};
+
+class Component;
+class ExecutionContext;
+
+/// Where a component stands in its context. Only the component and its context write it.
+class LifecycleRegion {
+  protected:
+    constexpr LifecycleRegion() noexcept = default;
+    ~LifecycleRegion() = default;
+
+  private:
+    friend class Component;
+    friend class ExecutionContext;
+
+    LifecycleState state_{LifecycleState::kCreated};
+    bool is_participating_{false};
+};
+
+/// Base of every component. Derive, add ports, override the actions you need; each defaults to kOk.
+///
+/// Thread safety: none; actions are called by one context, never reentrantly.
+/// Time:          an action must return within its window's budget.
+/// Memory:        no heap; instances are static and constant-initialised.
+class Component : public LifecycleRegion {
+  public:
+    Component(const Component&) = delete;
+    Component& operator=(const Component&) = delete;
+
+    /// @name RTC actions. Any return other than kOk while Active takes the component to Error.
+    /// @{
+    virtual Status on_initialize() noexcept { return Status::kOk; }                ///< once, Created -> Alive
+    virtual Status on_finalize() noexcept { return Status::kOk; }                  ///< once, Alive -> Created
+    virtual Status on_startup(ContextHandle) noexcept { return Status::kOk; }      ///< context starts
+    virtual Status on_shutdown(ContextHandle) noexcept { return Status::kOk; }     ///< context stops
+    virtual Status on_activated(ContextHandle) noexcept { return Status::kOk; }    ///< Inactive -> Active
+    virtual Status on_deactivated(ContextHandle) noexcept { return Status::kOk; }  ///< Active -> Inactive
+    virtual Status on_aborting(ContextHandle) noexcept { return Status::kOk; }  ///< once per entry into Error
+    virtual Status on_error(ContextHandle) noexcept { return Status::kOk; }     ///< each cycle while in Error
+    virtual Status on_reset(ContextHandle) noexcept { return Status::kOk; }    ///< Error -> Inactive when kOk
+    virtual Status on_execute(ContextHandle) noexcept { return Status::kOk; }  ///< each cycle, first pass
+    virtual Status on_state_update(ContextHandle) noexcept {
+        return Status::kOk;
+    }  ///< each cycle, second pass
+    virtual Status on_rate_changed(ContextHandle) noexcept {
+        return Status::kOk;
+    }                                                                         ///< after the rate changed
+    virtual Status on_action(ContextHandle) noexcept { return Status::kOk; }  ///< FSM participant
+    virtual Status on_mode_changed(ContextHandle) noexcept {
+        return Status::kOk;
+    }  ///< before on_execute in a new mode
+    /// @}
+
+    /// Created -> Alive. Calls on_initialize once.
+    /// @return kOk; kPreconditionNotMet (not Created); else what on_initialize returned, and it stays
+    /// Created.
+    Status initialize() noexcept;
+
+    /// Alive -> Created. Calls on_finalize once, whose failure is returned but does not keep the component
+    /// alive.
+    /// @return kOk; kPreconditionNotMet (Created, or still participating in a context); else on_finalize's
+    /// code.
+    Status finalize() noexcept;
+
+    /// True from a successful initialize() until finalize().
+    bool is_alive() const noexcept { return state_ != LifecycleState::kCreated; }
+
+    /// Name given at construction; static storage, never nullptr.
+    const char* get_name() const noexcept { return name_; }
+
+  protected:
+    /// @param[in] name instance name; must have static storage.
+    constexpr explicit Component(const char* name) noexcept : name_(name) {}
+    ~Component() = default;
+
+  private:
+    const char* name_;
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_COMPONENT_HPP

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Bounded log of numbered events. Records are numbers, not strings: the tables that name them stay on the
+/// host. When it is full the oldest record gives way and is counted as lost.
+///
+/// @satisfies SWR-KRN-019      Design: docs/design/kernel.md#event-log
+#ifndef MAMORI_KERNEL_EVENT_LOG_HPP
+#define MAMORI_KERNEL_EVENT_LOG_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/time.hpp"
+
+namespace mamori {
+
+/// How much an event matters.
+enum class Severity : std::uint8_t { kInfo, kWarning, kFault };
+
+/// One record.
+struct Event {
+    std::uint32_t sequence{0U};  ///< 0, 1, 2, ... without a gap at writing; wraps at 2^32
+    Severity severity{Severity::kInfo};
+    std::uint16_t source{0U};  ///< who: component index or a number of the application
+    std::uint16_t code{0U};    ///< what: number of the application's event table
+    Instant time{};
+    std::int64_t argument{0};  ///< meaning depends on the code
+};
+
+/// Ring of events over storage given by its owner, which must outlive it.
+///
+/// Thread safety: none; one log per context. Time: O(1). Memory: none of its own beyond the counters.
+class EventLog final {
+  public:
+    /// @param[in] storage at least one record; an empty one makes every write a lost record.
+    constexpr explicit EventLog(Span<Event> storage) noexcept : storage_(storage) {}
+
+    /// Appends a record; never fails, never blocks.
+    void write(Instant time, Severity severity, std::uint16_t source, std::uint16_t code,
+               std::int64_t argument) noexcept;
+
+    /// Records that can be read, 0 .. capacity.
+    std::size_t size() const noexcept;
+    /// @param[in] index 0 = oldest kept .. size() - 1 = newest.
+    const Event& get(std::size_t index) const noexcept;
+    /// Records that were overwritten before anyone could read them (saturates at 2^32 - 1).
+    std::uint32_t get_lost_count() const noexcept { return lost_count_; }
+
+  private:
+    Span<Event> storage_;
+    std::uint32_t written_count_{0U};
+    std::uint32_t lost_count_{0U};
+    std::size_t next_index_{0U};
+    std::size_t kept_count_{0U};
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_EVENT_LOG_HPP

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Periodic execution context: starts and stops its participants, moves them through their life cycle and
+/// runs them once per cycle in two passes, first on_execute of all, then on_state_update of all.
+///
+/// @satisfies SWR-KRN-012, SWR-KRN-013, SWR-KRN-014      Design: docs/design/kernel.md#execution-context
+/// Source:   OMG RTC 1.0, ExecutionContext (kind PERIODIC). Choices where the text leaves one:
+/// docs/design/kernel.md
+#ifndef MAMORI_KERNEL_EXECUTION_CONTEXT_HPP
+#define MAMORI_KERNEL_EXECUTION_CONTEXT_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/component.hpp"
+#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/time.hpp"
+
+namespace mamori {
+
+/// Runs the components of one window.
+///
+/// Thread safety: none; call from the context that runs the windows, between cycles. Calls from within an
+/// action
+///                of a participant are refused with kPreconditionNotMet.
+/// Time:          O(participants) for start, stop and a cycle; O(participants) search for the others.
+/// Memory:        no heap; refers to the participant list, which must outlive it.
+class ExecutionContext final {
+  public:
+    constexpr ExecutionContext() noexcept = default;
+    ExecutionContext(const ExecutionContext&) = delete;
+    ExecutionContext& operator=(const ExecutionContext&) = delete;
+
+    /// Takes its participants. Call once, before anything else.
+    /// @param[in] id           identity handed to the actions, >= 0.
+    /// @param[in] participants execution order; each must be in no other context.
+    /// @param[in] period       time between two cycles, > 0.
+    /// @return kOk; kBadParameter (id, period, no participant, a null or already participating one);
+    ///         kPreconditionNotMet (already attached).
+    Status attach(std::int32_t id, Span<Component* const> participants, Duration period) noexcept;
+
+    /// Gives its participants up, so that they can be finalized.
+    /// @return kOk; kPreconditionNotMet (Running, or one of them is Active).
+    Status detach() noexcept;
+
+    /// Stopped -> Running; on_startup of every participant. A participant that refuses keeps the context
+    /// Stopped; those already started get on_shutdown.
+    /// @return kOk; kPreconditionNotMet (Running, or a participant is not alive); else on_startup's code.
+    Status start(Instant now) noexcept;
+
+    /// Running -> Stopped; on_shutdown of every participant. States of components do not change.
+    /// @return kOk; kPreconditionNotMet (Stopped); else the first failing on_shutdown's code (it is Stopped
+    /// anyway).
+    Status stop(Instant now) noexcept;
+
+    /// Inactive -> Active, after on_activated. When that fails: Error, on_aborting, and its code is returned;
+    /// the component is never seen Active.
+    /// @return kOk; kBadParameter (no participant, or not alive); kPreconditionNotMet (not Inactive); else
+    /// the code.
+    Status activate_component(const Component& component, Instant now) noexcept;
+
+    /// Active -> Inactive, after on_deactivated, whose failure is returned but does not keep it Active.
+    /// @return kOk; kBadParameter (no participant, or not alive); kPreconditionNotMet (not Active); else the
+    /// code.
+    Status deactivate_component(const Component& component, Instant now) noexcept;
+
+    /// Error -> Inactive, after on_reset returned kOk; otherwise it stays in Error.
+    /// @return kOk; kBadParameter (no participant); kPreconditionNotMet (not in Error); else on_reset's code.
+    Status reset_component(const Component& component, Instant now) noexcept;
+
+    /// @return kInactive, kActive or kError; kBadParameter (no participant, or not alive).
+    Result<LifecycleState> get_component_state(const Component& component) const noexcept;
+
+    /// Cycles per second, from the table; negative while not attached.
+    double get_rate() const noexcept;
+
+    /// Rates come from the static table. @param[in] rate_hz wanted cycles per second.
+    /// @return kBadParameter (0, negative, not a number); kUnsupported otherwise: the rate is kept.
+    Status set_rate(double rate_hz) noexcept;
+
+    bool is_running() const noexcept { return is_running_; }
+    std::size_t get_participant_count() const noexcept { return participants_.size(); }
+
+    /// @name One cycle, in the steps that the executive needs. Order: begin, execute 0..n-1, update 0..n-1,
+    /// end.
+    /// @{
+    /// @return kOk; kPreconditionNotMet (Stopped, or a cycle is already under way).
+    Status begin_cycle(Instant now) noexcept;
+    /// on_execute when Active, on_error when in Error, nothing when Inactive.
+    void execute(std::size_t index) noexcept;
+    /// on_state_update when Active and on_execute was kOk in this cycle.
+    void update_state(std::size_t index) noexcept;
+    void end_cycle() noexcept;
+    /// @}
+
+  private:
+    Result<std::size_t> find(const Component& component) const noexcept;
+    Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
+    void enter_error(Component& component) noexcept;
+    ContextHandle make_handle(Instant now) const noexcept { return {id_, now}; }
+
+    Span<Component* const> participants_{};
+    Duration period_{};
+    Instant cycle_start_{};
+    std::int32_t id_{-1};
+    bool is_running_{false};
+    bool is_in_action_{false};  ///< an action is being called: life-cycle operations must wait
+    bool is_in_cycle_{false};
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_EXECUTION_CONTEXT_HPP
