@@ -14,11 +14,12 @@ function(mamori_common_flags target)
         -Woverloaded-virtual -Wdouble-promotion -Werror -ffp-contract=off -UNDEBUG)
 endfunction()
 
-# mamori_library(<layer> [TARGET_SUBSET] SOURCES ... [HEADER_ONLY] DEPENDS ...)
+# mamori_library(<layer> [TARGET_SUBSET] [NO_INSTALL] SOURCES ... DEPENDS ... PRIVATE_DEPENDS ...)
 #   gives mamori_<layer> and its alias mamori::<layer>, exported and installed.
 #   TARGET_SUBSET: the layer runs on a bare controller: no exceptions, no RTTI, no guarded statics.
+#   NO_INSTALL: the layer stays out of the package, for instance because it needs libraries that have no package of their own.
 function(mamori_library layer)
-    cmake_parse_arguments(arg "TARGET_SUBSET" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+    cmake_parse_arguments(arg "TARGET_SUBSET;NO_INSTALL" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
     set(target mamori_${layer})
     add_library(${target} STATIC ${arg_SOURCES})
     add_library(mamori::${layer} ALIAS ${target})
@@ -30,8 +31,10 @@ function(mamori_library layer)
         target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics)
     endif()
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${layer})
-    install(TARGETS ${target} EXPORT mamoriTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    if(NOT arg_NO_INSTALL)
+        install(TARGETS ${target} EXPORT mamoriTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+        install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    endif()
 endfunction()
 
 # mamori_test(<name> SOURCES ... DEPENDS ...)

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What can be wrong with the simulated devices right now. Written by whoever runs the fault plan, read by
+/// the plant.
+///
+/// @satisfies SWR-SIM-012      Design: docs/design/simulation.md#fault-plan
+#ifndef MAMORI_SIMBODY_SIM_PLANT_FAULTS_HPP
+#define MAMORI_SIMBODY_SIM_PLANT_FAULTS_HPP
+
+#include <array>
+#include <optional>
+
+#include "mamori/safety/arm/arm_device.hpp"
+
+namespace mamori::sim {
+
+/// State of one encoder channel; the bias is added before a bit is flipped. Default: sound.
+struct EncoderFault {
+    bool frozen{false};                     ///< keeps the last sound count
+    double bias_rad{0.0};                   ///< added to the position
+    std::optional<unsigned> flipped_bit{};  ///< 0 .. 31, inverted in the count
+};
+
+/// State of all devices. Default: sound.
+struct PlantFaults {
+    std::array<EncoderFault, safety::kArmJointCount> encoder_a{};
+    std::array<EncoderFault, safety::kArmJointCount> encoder_b{};
+    /// The drive delivers this fraction of its torque limit, -1 .. 1, whatever it is told.
+    std::array<std::optional<double>, safety::kArmJointCount> torque_runaway{};
+    /// Fraction of its torque that the brake has lost, 0 .. 1.
+    safety::JointVector brake_fade{};
+    bool power_lost{false};
+};
+
+}  // namespace mamori::sim
+
+#endif  // MAMORI_SIMBODY_SIM_PLANT_FAULTS_HPP

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/simbody_sim/fault_plan.hpp"
+
+#include "mamori/kernel/assert.hpp"
+
+namespace mamori::sim {
+
+bool operator==(const FaultPlan& a, const FaultPlan& b) noexcept {
+    return a.kind == b.kind && a.joint == b.joint && a.channel == b.channel && a.at == b.at &&
+           a.span == b.span && a.duration == b.duration && a.magnitude == b.magnitude && a.seed == b.seed;
+}
+
+const char* get_name(FaultKind kind) noexcept {
+    switch (kind) {
+        case FaultKind::kNone:
+            return "none";
+        case FaultKind::kEncoderFreeze:
+            return "encoder_freeze";
+        case FaultKind::kEncoderBitFlip:
+            return "encoder_bit_flip";
+        case FaultKind::kEncoderBias:
+            return "encoder_bias";
+        case FaultKind::kTorqueRunaway:
+            return "torque_runaway";
+        case FaultKind::kPowerLoss:
+            return "power_loss";
+        case FaultKind::kBrakeFade:
+            return "brake_fade";
+        case FaultKind::kControllerHang:
+            return "controller_hang";
+        case FaultKind::kMessageLost:
+            return "message_lost";
+        case FaultKind::kMessageLate:
+            return "message_late";
+        case FaultKind::kSupervisorHang:
+            return "supervisor_hang";
+    }
+    return "invalid";
+}
+
+const char* get_name(FaultChannel channel) noexcept {
+    switch (channel) {
+        case FaultChannel::kA:
+            return "a";
+        case FaultChannel::kB:
+            return "b";
+        case FaultChannel::kBoth:
+            return "both";
+    }
+    return "invalid";
+}
+
+bool uses_channel(FaultKind kind) noexcept {
+    return kind == FaultKind::kEncoderFreeze || kind == FaultKind::kEncoderBitFlip ||
+           kind == FaultKind::kEncoderBias;
+}
+
+bool uses_joint(FaultKind kind) noexcept {
+    return uses_channel(kind) || kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade;
+}
+
+bool uses_magnitude(FaultKind kind) noexcept {
+    return kind == FaultKind::kEncoderBitFlip || kind == FaultKind::kEncoderBias ||
+           kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
+           kind == FaultKind::kMessageLate;
+}
+
+bool is_active(const FaultPlan& plan, Instant now) noexcept {
+    const Instant begin = Instant{} + plan.at;
+    if (plan.kind == FaultKind::kNone || now < begin) {
+        return false;
+    }
+    switch (plan.span) {
+        case FaultSpan::kOnce:
+            return now - begin < kOnceLength;
+        case FaultSpan::kForTime:
+            return now - begin < plan.duration;
+        case FaultSpan::kPersistent:
+            return true;
+    }
+    return false;
+}
+
+namespace {
+
+void apply_to_encoder(const FaultPlan& plan, bool active, EncoderFault& encoder) noexcept {
+    if (plan.kind == FaultKind::kEncoderFreeze) {
+        encoder.frozen = active;
+    } else if (plan.kind == FaultKind::kEncoderBias) {
+        encoder.bias_rad = active ? plan.magnitude : 0.0;
+    } else if (active) {
+        encoder.flipped_bit = static_cast<unsigned>(plan.magnitude);
+    } else {
+        encoder.flipped_bit.reset();
+    }
+}
+
+}  // namespace
+
+void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults) noexcept {
+    MAMORI_REQUIRE(1, plan.joint < safety::kArmJointCount);
+    const bool active = is_active(plan, now);
+    if (uses_channel(plan.kind)) {
+        if (plan.channel != FaultChannel::kB) {
+            apply_to_encoder(plan, active, faults.encoder_a[plan.joint]);
+        }
+        if (plan.channel != FaultChannel::kA) {
+            apply_to_encoder(plan, active, faults.encoder_b[plan.joint]);
+        }
+    } else if (plan.kind == FaultKind::kTorqueRunaway) {
+        faults.torque_runaway[plan.joint] = active ? std::optional<double>(plan.magnitude) : std::nullopt;
+    } else if (plan.kind == FaultKind::kBrakeFade) {
+        faults.brake_fade[plan.joint] = active ? plan.magnitude : 0.0;
+    } else if (plan.kind == FaultKind::kPowerLoss) {
+        faults.power_lost = active;
+    }
+}
+
+}  // namespace mamori::sim

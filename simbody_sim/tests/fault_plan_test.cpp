@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a fault plan is read exactly or refused with the reason, and acts at its simulated time only.
+#include "mamori/simbody_sim/fault_plan.hpp"
+
+#include <array>
+#include <utility>
+
+#include "arm_test_support.hpp"
+
+namespace mamori::sim {
+namespace {
+
+using namespace test;
+
+FaultPlan parse(std::string_view text) {
+    const ParsedFaultPlan parsed = parse_fault_plan(text);
+    EXPECT_TRUE(parsed.plan) << parsed.error;
+    return parsed.plan.value_or(FaultPlan{});
+}
+
+std::string get_error(std::string_view text) {
+    const ParsedFaultPlan parsed = parse_fault_plan(text);
+    EXPECT_FALSE(parsed.plan) << text;
+    EXPECT_EQ(parsed.error.find('\n'), std::string::npos);
+    return parsed.error;
+}
+
+TEST(FaultPlanTest, TextGivesEachPart) {
+    verifies("SWR-SIM-011");
+
+    const FaultPlan plan =
+        parse("kind=encoder_bias,joint=2,channel=both,at=2.5,duration=0.25,magnitude=-0.1,seed=42");
+    EXPECT_EQ(plan.kind, FaultKind::kEncoderBias);
+    EXPECT_EQ(plan.joint, 1U);
+    EXPECT_EQ(plan.channel, FaultChannel::kBoth);
+    EXPECT_EQ(plan.at, 2500_ms);
+    EXPECT_EQ(plan.span, FaultSpan::kForTime);
+    EXPECT_EQ(plan.duration, 250_ms);
+    EXPECT_EQ(plan.magnitude, -0.1);
+    EXPECT_EQ(plan.seed, 42U);
+}
+
+TEST(FaultPlanTest, AFaultStaysUnlessItIsSaidOtherwise) {
+    verifies("SWR-SIM-011");
+
+    EXPECT_EQ(parse("kind=power_loss,at=0").span, FaultSpan::kPersistent);
+    EXPECT_EQ(parse("kind=power_loss,at=0,duration=persistent").span, FaultSpan::kPersistent);
+    EXPECT_EQ(parse("kind=message_lost,at=1,duration=once").span, FaultSpan::kOnce);
+    EXPECT_EQ(parse("kind=none"), FaultPlan{});
+}
+
+TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
+    verifies("SWR-SIM-011", Technique::kEquivalenceClasses);
+    const std::array<std::string, 12U> texts{
+        "kind=none",
+        "kind=none,seed=18446744073709551615",
+        "kind=encoder_freeze,joint=1,channel=a,at=2",
+        "kind=encoder_bit_flip,joint=7,channel=b,at=0.000000001,duration=once,magnitude=31",
+        "kind=encoder_bias,joint=3,channel=both,at=999999.999999999,duration=0.1,magnitude=0.1",
+        "kind=torque_runaway,joint=4,at=3.125,magnitude=-1",
+        "kind=power_loss,at=0",
+        "kind=brake_fade,joint=2,at=1,magnitude=0.8",
+        "kind=controller_hang,at=1,duration=0.05",
+        "kind=message_lost,at=1,duration=once,seed=7",
+        "kind=message_late,at=1,duration=2,magnitude=0.02",
+        "kind=supervisor_hang,at=1.5"};
+
+    for (const std::string& text : texts) {
+        EXPECT_EQ(to_text(parse(text)), text);
+        EXPECT_EQ(parse(to_text(parse(text))), parse(text));
+    }
+}
+
+TEST(FaultPlanTest, MisspeltWordsAreRefusedWithTheNearestOne) {
+    verifies("SWR-SIM-011", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_EQ(
+        get_error("kind=encoder_freze,joint=1,channel=a,at=2"),
+        "fault plan 'kind=encoder_freze,joint=1,channel=a,at=2': unknown kind 'encoder_freze'; did you mean "
+        "'encoder_freeze'?");
+    EXPECT_NE(get_error("kind=power_loss,att=2").find("unknown key 'att'; did you mean 'at'?"),
+              std::string::npos);
+    EXPECT_NE(get_error("kind=encoder_freeze,joint=1,channel=bth,at=2").find("did you mean 'both'?"),
+              std::string::npos);
+}
+
+TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
+    verifies("SWR-SIM-011", Technique::kErrorGuessing, Polarity::kViolation);
+    const std::array<std::pair<const char*, const char*>, 24U> cases{{
+        {"", "'' is not key=value"},
+        {"kind", "'kind' is not key=value"},
+        {"kind=", "'kind=' is not key=value"},
+        {"=none", "'=none' is not key=value"},
+        {"kind=power_loss,at=1,", "'' is not key=value"},
+        {"at=1", "kind= is missing"},
+        {"kind=power_loss,at=1,at=2", "at is given twice"},
+        {"kind=power_loss", "kind power_loss needs at="},
+        {"kind=power_loss,at=1,joint=1", "kind power_loss takes no joint"},
+        {"kind=power_loss,at=1,magnitude=1", "kind power_loss takes no magnitude"},
+        {"kind=none,at=1", "kind none takes no at"},
+        {"kind=none,duration=once", "kind none takes no duration"},
+        {"kind=encoder_freeze,channel=a,at=1", "kind encoder_freeze needs joint="},
+        {"kind=encoder_freeze,joint=1,at=1", "kind encoder_freeze needs channel="},
+        {"kind=torque_runaway,joint=1,channel=a,at=1,magnitude=1", "kind torque_runaway takes no channel"},
+        {"kind=torque_runaway,joint=1,at=1", "kind torque_runaway needs magnitude="},
+        {"kind=power_loss,at=soon", "at must be a finite number, is 'soon'"},
+        {"kind=power_loss,at=nan", "at must be a finite number, is 'nan'"},
+        {"kind=power_loss,at=1s", "at must be a finite number, is '1s'"},
+        {"kind=power_loss,at=1,duration=long", "duration must be once, persistent or seconds, is 'long'"},
+        {"kind=power_loss,at=1,seed=-1", "seed must be a whole number from 0, is '-1'"},
+        {"kind=power_loss,at=1,seed=1.5", "seed must be a whole number from 0, is '1.5'"},
+        {"kind=encoder_freeze,joint=one,channel=a,at=1", "joint must be a whole number from 0, is 'one'"},
+        {"kind=power_loss, at=1", "unknown key ' at'"},
+    }};
+
+    for (const auto& [text, reason] : cases) {
+        EXPECT_NE(get_error(text).find(reason), std::string::npos) << get_error(text);
+    }
+}
+
+TEST(FaultPlanTest, BothSidesOfEveryLimit) {
+    verifies("SWR-SIM-011", Technique::kBoundaryValues, Polarity::kViolation);
+    const std::array<std::pair<std::string, std::array<const char*, 2U>>, 14U> cases{{
+        // accepted, refused
+        {"kind=encoder_freeze,channel=a,at=1,joint=", {"1", "0"}},
+        {"kind=encoder_freeze,channel=a,at=1,joint=", {"7", "8"}},
+        {"kind=power_loss,at=", {"0", "-0.000000001"}},
+        {"kind=power_loss,at=", {"1000000", "1000000.1"}},
+        {"kind=power_loss,at=1,duration=", {"0.000000001", "0"}},
+        {"kind=encoder_bit_flip,joint=1,channel=a,at=1,magnitude=", {"0", "-1"}},
+        {"kind=encoder_bit_flip,joint=1,channel=a,at=1,magnitude=", {"31", "32"}},
+        {"kind=encoder_bit_flip,joint=1,channel=a,at=1,magnitude=", {"1", "1.5"}},
+        {"kind=encoder_bias,joint=1,channel=a,at=1,magnitude=", {"-10", "-10.1"}},
+        {"kind=torque_runaway,joint=1,at=1,magnitude=", {"1", "1.001"}},
+        {"kind=torque_runaway,joint=1,at=1,magnitude=", {"-1", "0"}},
+        {"kind=brake_fade,joint=1,at=1,magnitude=", {"1", "1.001"}},
+        {"kind=brake_fade,joint=1,at=1,magnitude=", {"0.001", "0"}},
+        {"kind=message_late,at=1,magnitude=", {"10", "10.1"}},
+    }};
+
+    for (const auto& [text, values] : cases) {
+        EXPECT_TRUE(parse_fault_plan(text + values[0]).plan) << parse_fault_plan(text + values[0]).error;
+        EXPECT_NE(get_error(text + values[1]).find(std::string("is ") + values[1]), std::string::npos);
+    }
+}
+
+TEST(FaultPlanTest, AFaultIsActiveFromItsInstantForItsLength) {
+    verifies("SWR-SIM-012", Technique::kBoundaryValues);
+    const auto at = [](std::int64_t ns) { return Instant{ns}; };
+    const FaultPlan persistent = parse("kind=power_loss,at=0.002");
+    const FaultPlan once = parse("kind=power_loss,at=0.002,duration=once");
+    const FaultPlan timed = parse("kind=power_loss,at=0.002,duration=0.003");
+
+    for (const FaultPlan& plan : {persistent, once, timed}) {
+        EXPECT_FALSE(is_active(plan, at(1999999)));
+        EXPECT_TRUE(is_active(plan, at(2000000)));
+    }
+    EXPECT_TRUE(is_active(once, at(2999999)));
+    EXPECT_FALSE(is_active(once, at(3000000)));
+    EXPECT_TRUE(is_active(timed, at(4999999)));
+    EXPECT_FALSE(is_active(timed, at(5000000)));
+    EXPECT_TRUE(is_active(persistent, at(INT64_MAX)));
+    EXPECT_FALSE(is_active(FaultPlan{}, at(0)));
+}
+
+TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
+    verifies("SWR-SIM-012");
+    const Instant before{999999999};
+    const Instant during{1000000000};
+    const Instant after{1500000000};
+    const auto apply = [](const char* text, Instant now, PlantFaults faults = {}) {
+        apply_plant_faults(parse(text), now, faults);
+        return faults;
+    };
+    const char* const freeze = "kind=encoder_freeze,joint=2,channel=both,at=1,duration=0.5";
+    const char* const flip = "kind=encoder_bit_flip,joint=3,channel=a,at=1,duration=0.5,magnitude=12";
+    const char* const bias = "kind=encoder_bias,joint=4,channel=b,at=1,duration=0.5,magnitude=0.25";
+    const char* const runaway = "kind=torque_runaway,joint=5,at=1,duration=0.5,magnitude=-0.5";
+    const char* const fade = "kind=brake_fade,joint=6,at=1,duration=0.5,magnitude=0.75";
+    const char* const power = "kind=power_loss,at=1,duration=0.5";
+
+    EXPECT_TRUE(apply(freeze, during).encoder_a[1].frozen);
+    EXPECT_TRUE(apply(freeze, during).encoder_b[1].frozen);
+    EXPECT_EQ(apply(flip, during).encoder_a[2].flipped_bit, 12U);
+    EXPECT_FALSE(apply(flip, during).encoder_b[2].flipped_bit);
+    EXPECT_EQ(apply(bias, during).encoder_b[3].bias_rad, 0.25);
+    EXPECT_EQ(apply(bias, during).encoder_a[3].bias_rad, 0.0);
+    EXPECT_EQ(apply(runaway, during).torque_runaway[4], -0.5);
+    EXPECT_EQ(apply(fade, during).brake_fade[5], 0.75);
+    EXPECT_TRUE(apply(power, during).power_lost);
+
+    for (const Instant now : {before, after}) {
+        EXPECT_FALSE(apply(freeze, now, apply(freeze, during)).encoder_a[1].frozen);
+        EXPECT_FALSE(apply(freeze, now, apply(freeze, during)).encoder_b[1].frozen);
+        EXPECT_FALSE(apply(flip, now, apply(flip, during)).encoder_a[2].flipped_bit);
+        EXPECT_EQ(apply(bias, now, apply(bias, during)).encoder_b[3].bias_rad, 0.0);
+        EXPECT_FALSE(apply(runaway, now, apply(runaway, during)).torque_runaway[4]);
+        EXPECT_EQ(apply(fade, now, apply(fade, during)).brake_fade[5], 0.0);
+        EXPECT_FALSE(apply(power, now, apply(power, during)).power_lost);
+    }
+}
+
+TEST(FaultPlanTest, PlansOfTheRunnerLeaveThePlantAlone) {
+    verifies("SWR-SIM-012", Technique::kEquivalenceClasses);
+    PlantFaults faults;
+    faults.power_lost = true;
+    faults.brake_fade[0] = 0.5;
+
+    for (const char* const text : {"kind=none", "kind=controller_hang,at=0", "kind=message_lost,at=0",
+                                   "kind=message_late,at=0,magnitude=0.1", "kind=supervisor_hang,at=0",
+                                   "kind=torque_runaway,joint=1,at=5,magnitude=1"}) {
+        apply_plant_faults(parse(text), Instant{1}, faults);
+        EXPECT_TRUE(faults.power_lost);
+        EXPECT_EQ(faults.brake_fade[0], 0.5);
+        EXPECT_FALSE(faults.encoder_a[0].frozen);
+        EXPECT_FALSE(faults.torque_runaway[0]);
+    }
+}
+
+}  // namespace
+}  // namespace mamori::sim
