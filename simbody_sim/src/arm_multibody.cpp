@@ -44,9 +44,9 @@ struct ArmMultibody::Impl {
             const SimTK::Rotation turned(SimTK::UnitVec3(to_vec3(joint.axis)), SimTK::ZAxis);
             SimTK::MobilizedBody::Pin body(parent, SimTK::Transform(turned, to_vec3(joint.offset_m)),
                                            SimTK::Body::Rigid(properties), SimTK::Transform(turned));
-            SimTK::Force::MobilityLinearStop(forces, body, SimTK::MobilizerQIndex(0),
-                                             joint.stop_stiffness_nm_rad, joint.stop_dissipation_s_rad,
-                                             joint.position_min_rad, joint.position_max_rad);
+            const SimTK::Force::MobilityLinearStop stop(
+                forces, body, SimTK::MobilizerQIndex(0), joint.stop_stiffness_nm_rad,
+                joint.stop_dissipation_s_rad, joint.position_min_rad, joint.position_max_rad);
             armature[i] = calc_armature(joint);
             parent = body;
         }

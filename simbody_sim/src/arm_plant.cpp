@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "bristle_brake.hpp"
 #include "drive.hpp"
@@ -115,8 +116,8 @@ void ArmPlant::Impl::update_switches(const safety::ArmOutputs& outputs) noexcept
 void ArmPlant::Impl::calc_motor_torques(const safety::ArmOutputs& outputs) noexcept {
     for (std::size_t i = 0U; i < kArmJointCount; ++i) {
         const JointModel& joint = model.joints[i];
-        const double wanted = faults.torque_runaway[i] ? *faults.torque_runaway[i] * joint.torque_limit_nm
-                                                       : outputs.torque_nm[i];
+        const std::optional<double> runaway = faults.torque_runaway[i];
+        const double wanted = runaway ? *runaway * joint.torque_limit_nm : outputs.torque_nm[i];
         motor_torque[i] = torque_possible.is_on() ? detail::calc_motor_torque(joint, wanted, u[i]) : 0.0;
     }
 }

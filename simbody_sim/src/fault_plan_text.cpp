@@ -31,7 +31,7 @@ constexpr std::array<FaultKind, 11U> kKinds{
 constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel::kB, FaultChannel::kBoth};
 
 /// Times in a plan end here, so that they stay far from the range of Instant.
-constexpr double kLatest_s = 1.0e6;
+constexpr double kLatestSeconds = 1.0e6;
 
 Pairs split(std::string_view text) {
     const std::vector<std::string_view> keys{"kind",     "joint",     "channel", "at",
@@ -113,7 +113,7 @@ std::size_t to_joint(const std::string& text) {
 
 Duration to_time(const char* key, const std::string& text, bool zero_allowed) {
     const double seconds = to_number(key, text);
-    const Duration time{std::abs(seconds) <= kLatest_s ? std::llround(seconds * 1.0e9) : -1};
+    const Duration time{std::abs(seconds) <= kLatestSeconds ? std::llround(seconds * 1.0e9) : -1};
     if (time < Duration{} || (time == Duration{} && !zero_allowed)) {
         throw PlanError(std::string(key) + " must be " + (zero_allowed ? "at least" : "more than") +
                         " 0 s and at most 1000000 s, is " + text);

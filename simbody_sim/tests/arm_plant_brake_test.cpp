@@ -64,6 +64,21 @@ TEST(ArmPlantBrakeTest, FadedBrakeSlips) {
     EXPECT_GT(sut.positions()[1] - kBentPose[1], 0.3);
 }
 
+TEST(ArmPlantBrakeTest, ABrakeThatSlippedHoldsWhereItCaughtTheJoint) {
+    verifies("SWR-SIM-007", Technique::kStateTransition);
+    ArmPlant sut(make_model_with_brake(3.0));
+    sut.reset(kBentPose);
+    sut.faults().brake_fade[1] = 0.9;
+    ASSERT_EQ(sut.step({}, 400_ms), Status::kOk);
+    ASSERT_GT(sut.positions()[1] - kBentPose[1], 0.1);
+
+    const double recovered_at = sut.positions()[1];
+    sut.faults().brake_fade[1] = 0.0;
+    ASSERT_EQ(sut.step({}, 2_s), Status::kOk);
+    EXPECT_GT(sut.positions()[1], recovered_at) << "friction takes speed, it does not pull back";
+    EXPECT_LT(calc_distance(sut.velocities(), {}), 1.0e-3);
+}
+
 TEST(ArmPlantBrakeTest, LostBrakeLetsTheJointFall) {
     verifies("SWR-SIM-007", Technique::kBoundaryValues);
     ArmPlant sut(load_shipped_model());

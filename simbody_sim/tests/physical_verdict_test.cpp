@@ -105,7 +105,8 @@ TEST_F(PhysicalVerdictTest, DriftCountsFromTheStandstillOnAndForEver) {
     sut_.mark_stop();
 
     feed(at(30_ms), 0.5, 0.0);
-    feed(at(60_ms), 0.501, 0.0);
+    feed(at(40_ms), 0.501, 0.0);
+    feed(at(60_ms), 0.5, 0.0);
     ASSERT_TRUE(sut_.get_standstill());
     EXPECT_NEAR(sut_.get_hold_drift_rad(), 0.001, 1.0e-12)
         << "a slow creep inside the confirmation is drift, too";
