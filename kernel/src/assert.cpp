@@ -17,7 +17,8 @@ void set_assertion_handler(AssertionHandler handler) noexcept {
 namespace detail {
 
 void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line) noexcept {
-    const AssertionHandler handler = g_handler.load(std::memory_order_acquire);
+    // Taken out before it is called: a check that fails inside the handler halts instead of calling it again.
+    const AssertionHandler handler = g_handler.exchange(nullptr, std::memory_order_acq_rel);
     if (handler != nullptr) {
         handler(AssertionRecord{file, id, line});
     }

@@ -5,10 +5,12 @@ namespace mamori {
 
 Status Component::initialize() noexcept {
     const LifecycleTransition transition = get_transition(state_, LifecycleEvent::kInitialize);
-    if (transition.admission != Status::kOk) {
-        return transition.admission;
+    if (is_changing_ || transition.admission != Status::kOk) {
+        return Status::kPreconditionNotMet;
     }
+    is_changing_ = true;
     const Status result = on_initialize();
+    is_changing_ = false;
     if (result == Status::kOk) {
         state_ = transition.target;
     }
@@ -16,11 +18,14 @@ Status Component::initialize() noexcept {
 }
 
 Status Component::finalize() noexcept {
-    if (!is_alive() || is_participating_) {
+    if (is_changing_ || is_participating_ || !is_alive()) {
         return Status::kPreconditionNotMet;
     }
     state_ = LifecycleState::kCreated;
-    return on_finalize();
+    is_changing_ = true;
+    const Status result = on_finalize();
+    is_changing_ = false;
+    return result;
 }
 
 }  // namespace mamori

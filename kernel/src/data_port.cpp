@@ -9,6 +9,7 @@ bool OutPortBase::publish(Instant now) noexcept {
     }
     copy_staged_(*this);
     published_at_ = now;
+    published_revision_ = revision_;
     ++sequence_;
     is_staged_ = false;
     return true;

@@ -4,19 +4,33 @@
 namespace mamori {
 namespace {
 
-/// Marks that an action is being called, for as long as it lives.
-class ActionScope final {
+/// Moves a component along a transition that the table allows.
+constexpr LifecycleState calc_target(LifecycleState state, LifecycleEvent event) noexcept {
+    const LifecycleTransition transition = get_transition(state, event);
+    MAMORI_REQUIRE(1, transition.admission == Status::kOk);
+    return transition.target;
+}
+
+}  // namespace
+
+/// Marks that an action of one participant is being called, for as long as it lives.
+class ExecutionContext::ActionScope final {
   public:
-    explicit ActionScope(bool& flag) noexcept : flag_(flag) { flag_ = true; }
-    ~ActionScope() { flag_ = false; }
+    ActionScope(ExecutionContext& context, std::size_t position) noexcept : context_(context) {
+        context_.acting_position_ = position;
+        context_.is_in_action_.store(true, std::memory_order_release);
+    }
+    ~ActionScope() { context_.is_in_action_.store(false, std::memory_order_release); }
     ActionScope(const ActionScope&) = delete;
     ActionScope& operator=(const ActionScope&) = delete;
 
   private:
-    bool& flag_;
+    ExecutionContext& context_;
 };
 
-}  // namespace
+bool ExecutionContext::is_busy() const noexcept {
+    return is_in_cycle_ || is_in_action_.load(std::memory_order_acquire);
+}
 
 Status ExecutionContext::attach(std::int32_t id, Span<Component* const> participants,
                                 Duration period) noexcept {
@@ -46,7 +60,7 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
 }
 
 Status ExecutionContext::detach() noexcept {
-    if (is_running_ || is_in_action_) {
+    if (id_ < 0 || is_running_ || is_busy()) {
         return Status::kPreconditionNotMet;
     }
     for (const Component* component : participants_) {
@@ -56,6 +70,9 @@ Status ExecutionContext::detach() noexcept {
     }
     for (Component* component : participants_) {
         component->is_participating_ = false;
+        if (component->state_ == LifecycleState::kError) {
+            component->state_ = LifecycleState::kInactive;
+        }
     }
     participants_ = {};
     id_ = -1;
@@ -63,7 +80,7 @@ Status ExecutionContext::detach() noexcept {
 }
 
 Status ExecutionContext::start(Instant now) noexcept {
-    if (id_ < 0 || is_running_ || is_in_action_) {
+    if (id_ < 0 || is_running_ || is_busy()) {
         return Status::kPreconditionNotMet;
     }
     for (const Component* component : participants_) {
@@ -71,14 +88,17 @@ Status ExecutionContext::start(Instant now) noexcept {
             return Status::kPreconditionNotMet;
         }
     }
-    const ActionScope scope{is_in_action_};
+    has_refusal_ = false;
     for (std::size_t i = 0U; i < participants_.size(); ++i) {
+        const ActionScope scope{*this, i};
         const Status result = participants_[i]->on_startup(make_handle(now));
         if (result != Status::kOk) {
             for (std::size_t started = 0U; started < i; ++started) {
                 // The refusal is what the caller must hear; a second failure would only hide it.
                 static_cast<void>(participants_[started]->on_shutdown(make_handle(now)));
             }
+            refusing_position_ = i;
+            has_refusal_ = true;
             return result;
         }
     }
@@ -87,14 +107,14 @@ Status ExecutionContext::start(Instant now) noexcept {
 }
 
 Status ExecutionContext::stop(Instant now) noexcept {
-    if (!is_running_ || is_in_action_) {
+    if (!is_running_ || is_busy()) {
         return Status::kPreconditionNotMet;
     }
     is_running_ = false;
-    const ActionScope scope{is_in_action_};
     Status first_failure = Status::kOk;
-    for (Component* component : participants_) {
-        const Status result = component->on_shutdown(make_handle(now));
+    for (std::size_t i = 0U; i < participants_.size(); ++i) {
+        const ActionScope scope{*this, i};
+        const Status result = participants_[i]->on_shutdown(make_handle(now));
         if (first_failure == Status::kOk) {
             first_failure = result;
         }
@@ -116,17 +136,17 @@ Result<std::size_t> ExecutionContext::admit(const Component& component, Lifecycl
     if (!index.has_value()) {
         return index;
     }
-    if (is_in_action_) {
+    if (is_busy()) {
         return Status::kPreconditionNotMet;
     }
     const Status admission = get_transition(component.state_, event).admission;
     return admission == Status::kOk ? index : Result<std::size_t>{admission};
 }
 
-void ExecutionContext::enter_error(Component& component) noexcept {
-    component.state_ = LifecycleState::kError;
+void ExecutionContext::enter_error(Component& component, Instant now) noexcept {
+    component.state_ = calc_target(component.state_, LifecycleEvent::kFail);
     // on_aborting cannot make matters worse: the component is in Error whatever it answers.
-    static_cast<void>(component.on_aborting(make_handle(cycle_start_)));
+    static_cast<void>(component.on_aborting(make_handle(now)));
 }
 
 Status ExecutionContext::activate_component(const Component& component, Instant now) noexcept {
@@ -135,13 +155,12 @@ Status ExecutionContext::activate_component(const Component& component, Instant 
         return index.get_status();
     }
     Component& participant = *participants_[index.get_value()];
-    const ActionScope scope{is_in_action_};
-    cycle_start_ = now;
+    const ActionScope scope{*this, index.get_value()};
     const Status result = participant.on_activated(make_handle(now));
     if (result == Status::kOk) {
-        participant.state_ = LifecycleState::kActive;
+        participant.state_ = calc_target(participant.state_, LifecycleEvent::kActivate);
     } else {
-        enter_error(participant);
+        enter_error(participant, now);
     }
     return result;
 }
@@ -152,8 +171,8 @@ Status ExecutionContext::deactivate_component(const Component& component, Instan
         return index.get_status();
     }
     Component& participant = *participants_[index.get_value()];
-    const ActionScope scope{is_in_action_};
-    participant.state_ = LifecycleState::kInactive;
+    const ActionScope scope{*this, index.get_value()};
+    participant.state_ = calc_target(participant.state_, LifecycleEvent::kDeactivate);
     return participant.on_deactivated(make_handle(now));
 }
 
@@ -163,10 +182,10 @@ Status ExecutionContext::reset_component(const Component& component, Instant now
         return index.get_status();
     }
     Component& participant = *participants_[index.get_value()];
-    const ActionScope scope{is_in_action_};
+    const ActionScope scope{*this, index.get_value()};
     const Status result = participant.on_reset(make_handle(now));
     if (result == Status::kOk) {
-        participant.state_ = LifecycleState::kInactive;
+        participant.state_ = calc_target(participant.state_, LifecycleEvent::kReset);
     }
     return result;
 }
@@ -190,8 +209,22 @@ Status ExecutionContext::set_rate(double rate_hz) noexcept {
     return Status::kUnsupported;
 }
 
+Result<std::size_t> ExecutionContext::get_acting_position() const noexcept {
+    if (!is_in_action_.load(std::memory_order_acquire)) {
+        return Status::kPreconditionNotMet;
+    }
+    return acting_position_;
+}
+
+Result<std::size_t> ExecutionContext::get_refusing_position() const noexcept {
+    if (!has_refusal_) {
+        return Status::kPreconditionNotMet;
+    }
+    return refusing_position_;
+}
+
 Status ExecutionContext::begin_cycle(Instant now) noexcept {
-    if (!is_running_ || is_in_cycle_ || is_in_action_) {
+    if (!is_running_ || is_busy()) {
         return Status::kPreconditionNotMet;
     }
     is_in_cycle_ = true;
@@ -200,34 +233,36 @@ Status ExecutionContext::begin_cycle(Instant now) noexcept {
 }
 
 void ExecutionContext::execute(std::size_t index) noexcept {
-    MAMORI_REQUIRE(1, is_in_cycle_);
+    MAMORI_REQUIRE(2, is_in_cycle_);
     Component& component = *participants_[index];
-    const ActionScope scope{is_in_action_};
+    const Instant now = cycle_start_;
+    const ActionScope scope{*this, index};
     switch (component.state_) {
         case LifecycleState::kError:
-            static_cast<void>(component.on_error(make_handle(cycle_start_)));
+            static_cast<void>(component.on_error(make_handle(now)));
             return;
         case LifecycleState::kActive:
-            if (component.on_execute(make_handle(cycle_start_)) != Status::kOk) {
-                enter_error(component);
+            if (component.on_execute(make_handle(now)) != Status::kOk) {
+                enter_error(component, now);
             }
             return;
         case LifecycleState::kCreated:
         case LifecycleState::kInactive:
             return;
     }
-    MAMORI_INVARIANT(2, false);  // only a corrupted state comes here
+    MAMORI_INVARIANT(3, false);  // only a corrupted state comes here
 }
 
 void ExecutionContext::update_state(std::size_t index) noexcept {
-    MAMORI_REQUIRE(3, is_in_cycle_);
+    MAMORI_REQUIRE(4, is_in_cycle_);
     Component& component = *participants_[index];
     if (component.state_ != LifecycleState::kActive) {
         return;
     }
-    const ActionScope scope{is_in_action_};
-    if (component.on_state_update(make_handle(cycle_start_)) != Status::kOk) {
-        enter_error(component);
+    const Instant now = cycle_start_;
+    const ActionScope scope{*this, index};
+    if (component.on_state_update(make_handle(now)) != Status::kOk) {
+        enter_error(component, now);
     }
 }
 

@@ -1,48 +1,229 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a system table is what its description says. Method: a two-component table, read back row by row.
+// Goal: a system table is what its description says, and each rule finds its guilty row.
+// Method: a constant table read back row by row; tables that break one rule each, on both sides of its limit.
+// That the compiler refuses a broken table: compile_fail_test.cpp.
 #include "mamori/kernel/system.hpp"
 
-#include "mamori/verification/verifies.hpp"
+#include <gtest/gtest.h>
 
-namespace mamori {
-struct Sample {
-    double value{0.0};
-    std::int32_t count{0};
-};
-}  // namespace mamori
-MAMORI_FIELDS(mamori::Sample, value, count)
+#include <limits>
+
+#include "mamori/verification/verifies.hpp"
+#include "support/flow_components.hpp"
 
 namespace mamori {
 namespace {
 
-class Producer final : public Component {
+using testing_support::Counter;
+using testing_support::Relay;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+class Listener final : public Component {
   public:
-    constexpr Producer() noexcept : Component("producer") {}
-    OutPort<Sample> out{"out"};
-    using Ports = mamori::Ports<&Producer::out>;
+    constexpr Listener() noexcept : Component("listener") {}
+    InPort<std::int64_t, Need::kOptional> in{"in"};
+    using Ports = mamori::Ports<&Listener::in>;
 };
-class Consumer final : public Component {
+class Portless final : public Component {
   public:
-    constexpr Consumer() noexcept : Component("consumer") {}
-    InPort<Sample> in{"in"};
-    using Ports = mamori::Ports<&Consumer::in>;
+    constexpr Portless() noexcept : Component("portless") {}
 };
 
-Producer g_producer;
-Consumer g_consumer;
+Counter g_counter;
+Relay g_relay;
+Relay g_second_relay;
+Listener g_listener;
+Portless g_portless;
+
 constexpr auto kSystem =
-    system(frame(1_ms), window("w", 0_us, 100_us, budget(50_us), run(g_producer, g_consumer)),
-           connect(g_producer.out, g_consumer.in));
+    system(frame(1_ms), window("sense", 0_us, 100_us, budget(50_us), run(g_portless, g_counter, g_relay)),
+           window("act", 100_us, 900_us, budget(900_us), run(g_second_relay, g_listener)),
+           connect(g_counter.out, g_relay.in), connect(g_relay.out, g_second_relay.in),
+           connect(g_second_relay.out, g_listener.in));
 MAMORI_CHECK(kSystem);
 
-TEST(SystemTest, TableHoldsWhatTheDescriptionSays) {
-    verification::verifies("SWR-KRN-017");
+TEST(SystemTest, WindowsHoldTheirPlaceBudgetAndComponents) {
+    verifies("SWR-KRN-017");
 
-    ASSERT_EQ(kSystem.windows.size(), 1U);
+    ASSERT_EQ(kSystem.windows.size(), 2U);
+    EXPECT_EQ(kSystem.frame, 1_ms);
+    EXPECT_STREQ(kSystem.windows[1].name, "act");
+    EXPECT_EQ(kSystem.windows[1].offset, 100_us);
+    EXPECT_EQ(kSystem.windows[1].length, 900_us);
     EXPECT_EQ(kSystem.windows[0].budget, 50_us);
-    EXPECT_EQ(kSystem.components[1], &g_consumer);
-    EXPECT_EQ(kSystem.connections[0].sink, &g_consumer.in);
+    EXPECT_EQ(kSystem.windows[1].first_component, 3U);
+    EXPECT_EQ(kSystem.windows[1].component_count, 2U);
+    EXPECT_EQ(kSystem.components,
+              (std::array<Component*, 5>{&g_portless, &g_counter, &g_relay, &g_second_relay, &g_listener}));
+}
+
+TEST(SystemTest, PortsAreListedWithOwnerWindowAndNeed) {
+    verifies("SWR-KRN-017");
+
+    ASSERT_EQ(kSystem.ports.size(), 6U);
+    EXPECT_EQ(kSystem.ports[0].output, &g_counter.out);
+    EXPECT_EQ(kSystem.ports[0].component, 1U);
+    EXPECT_EQ(kSystem.ports[1].input, &g_relay.in);
+    EXPECT_TRUE(kSystem.ports[1].is_mandatory);
+    EXPECT_EQ(kSystem.ports[3].owner, &g_second_relay);
+    EXPECT_EQ(kSystem.ports[3].window, 1U);
+    EXPECT_EQ(kSystem.ports[3].component, 3U);
+    EXPECT_FALSE(kSystem.ports[5].is_mandatory);
+}
+
+TEST(SystemTest, ConnectionsKnowWhatTheyJoinAndWhetherTheyAreForwardInAWindow) {
+    verifies("SWR-KRN-017");
+
+    ASSERT_EQ(kSystem.connections.size(), 3U);
+    EXPECT_EQ(kSystem.connections[0].sink, &g_relay.in);
+    EXPECT_EQ(kSystem.connections[0].source_component, 1U);
     EXPECT_TRUE(kSystem.connections[0].is_forward_in_window);
+    EXPECT_EQ(kSystem.connections[1].source_window, 0U);
+    EXPECT_EQ(kSystem.connections[1].sink_window, 1U);
+    EXPECT_FALSE(kSystem.connections[1].is_forward_in_window) << "another window";
+    EXPECT_TRUE(kSystem.connections[2].is_forward_in_window);
+}
+
+TEST(SystemTest, AConnectionAgainstTheOrderOrOntoItselfIsNotForward) {
+    verifies("SWR-KRN-017", Technique::kBoundaryValues);
+    static constexpr auto kBackward =
+        system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_relay, g_second_relay)),
+               connect(g_second_relay.out, g_relay.in), connect(g_relay.out, g_second_relay.in));
+    static constexpr auto kOntoItself = system(
+        frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_relay)), connect(g_relay.out, g_relay.in));
+    MAMORI_CHECK(kBackward);
+    MAMORI_CHECK(kOntoItself);
+
+    EXPECT_FALSE(kBackward.connections[0].is_forward_in_window);
+    EXPECT_TRUE(kBackward.connections[1].is_forward_in_window);
+    EXPECT_FALSE(kOntoItself.connections[0].is_forward_in_window);
+}
+
+TEST(SystemTest, ATableWithoutAnyRowIsATable) {
+    verifies("SWR-KRN-017", Technique::kBoundaryValues);
+    static constexpr auto kEmpty = system(frame(1_ms));
+    static constexpr auto kWithoutPorts =
+        system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_portless)));
+    MAMORI_CHECK(kEmpty);
+    MAMORI_CHECK(kWithoutPorts);
+
+    EXPECT_TRUE(make_view(kEmpty).windows.empty());
+    EXPECT_TRUE(make_view(kEmpty).components.empty());
+    EXPECT_TRUE(make_view(kWithoutPorts).ports.empty());
+    EXPECT_EQ(make_view(kWithoutPorts).components.size(), 1U);
+}
+
+// The rules, each at its limit and one nanosecond or one row beyond.
+
+constexpr Finding check_window(Duration offset, Duration length, Duration limit) {
+    return check(
+        make_view(system(frame(1000_ns), window("first", 0_ns, 100_ns, budget(100_ns), run(g_portless)),
+                         window("second", offset, length, budget(limit), run(g_listener)))));
+}
+template <typename Table>
+Finding check_table(const Table& table) {
+    return check(make_view(table));
+}
+
+TEST(SystemCheckTest, TablesAtTheLimitsKeepTheRules) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues);
+
+    static_assert(check_window(100_ns, 900_ns, 900_ns).rule == Rule::kNone);
+    EXPECT_EQ(check_window(999_ns, 1_ns, 1_ns).rule, Rule::kNone);
+    EXPECT_EQ(check_table(system(frame(1_ns))).rule, Rule::kNone);
+    EXPECT_EQ(check_table(kSystem).rule, Rule::kNone);
+}
+
+TEST(SystemCheckTest, AFrameIsPositive) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+
+    EXPECT_EQ(check_table(system(frame(0_ns))).rule, Rule::kFrameNotPositive);
+    EXPECT_EQ(check_table(system(frame(Duration{-1}))).rule, Rule::kFrameNotPositive);
+}
+
+TEST(SystemCheckTest, AWindowOutsideTheFrameIsNamed) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr Duration kLongest{std::numeric_limits<std::int64_t>::max()};
+
+    for (const Finding& finding :
+         {check_window(100_ns, 901_ns, 1_ns), check_window(100_ns, 0_ns, 1_ns),
+          check_window(100_ns, Duration{-1}, 1_ns), check_window(Duration{-1}, 10_ns, 1_ns),
+          check_window(1000_ns, 1_ns, 1_ns), check_window(100_ns, kLongest, 1_ns),
+          check_window(kLongest, kLongest, 1_ns)}) {
+        EXPECT_EQ(finding.rule, Rule::kWindowOutsideFrame);
+        EXPECT_EQ(finding.element, 1U);
+    }
+}
+
+TEST(SystemCheckTest, WindowsThatOverlapOrAreOutOfOrderAreNamed) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+
+    for (const Finding& finding : {check_window(99_ns, 1_ns, 1_ns), check_window(0_ns, 1_ns, 1_ns)}) {
+        EXPECT_EQ(finding.rule, Rule::kWindowsOverlap);
+        EXPECT_EQ(finding.element, 1U);
+    }
+}
+
+TEST(SystemCheckTest, ABudgetIsPositiveAndNotOverItsWindow) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+
+    for (const Finding& finding : {check_window(100_ns, 10_ns, 11_ns), check_window(100_ns, 10_ns, 0_ns),
+                                   check_window(100_ns, 10_ns, Duration{-1})}) {
+        EXPECT_EQ(finding.rule, Rule::kBudgetExceedsWindow);
+        EXPECT_EQ(finding.element, 1U);
+    }
+}
+
+TEST(SystemCheckTest, AComponentInTwoPlacesIsNamedAtTheSecond) {
+    verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const Finding across =
+        check_table(system(frame(1_ms), window("a", 0_us, 1_us, budget(1_us), run(g_portless, g_listener)),
+                           window("b", 1_us, 1_us, budget(1_us), run(g_listener))));
+    const Finding within =
+        check_table(system(frame(1_ms), window("a", 0_us, 1_us, budget(1_us), run(g_portless, g_portless))));
+
+    EXPECT_EQ(across.rule, Rule::kComponentInTwoPlaces);
+    EXPECT_EQ(across.element, 2U);
+    EXPECT_EQ(within.rule, Rule::kComponentInTwoPlaces);
+    EXPECT_EQ(within.element, 1U);
+}
+
+TEST(SystemCheckTest, AConnectionOfAComponentThatIsNotInTheTableIsNamed) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    const Finding source =
+        check_table(system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_listener)),
+                           connect(g_counter.out, g_listener.in)));
+    const Finding sink =
+        check_table(system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_counter)),
+                           connect(g_counter.out, g_listener.in)));
+
+    EXPECT_EQ(source.rule, Rule::kPortOfUnknownComponent);
+    EXPECT_EQ(sink.rule, Rule::kPortOfUnknownComponent);
+}
+
+TEST(SystemCheckTest, AMandatoryInputWithoutASourceIsNamedAndAnOptionalOneIsNot) {
+    verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const Finding mandatory =
+        check_table(system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_listener, g_relay))));
+    const Finding optional =
+        check_table(system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_listener))));
+
+    EXPECT_EQ(mandatory.rule, Rule::kInputNotConnected);
+    EXPECT_EQ(mandatory.element, 1U);
+    EXPECT_EQ(optional.rule, Rule::kNone);
+}
+
+TEST(SystemCheckTest, ASecondWriterOfAnInputIsNamed) {
+    verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const Finding finding = check_table(
+        system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_counter, g_relay, g_listener)),
+               connect(g_counter.out, g_relay.in), connect(g_counter.out, g_listener.in),
+               connect(g_relay.out, g_listener.in)));
+
+    EXPECT_EQ(finding.rule, Rule::kInputHasTwoWriters);
+    EXPECT_EQ(finding.element, 2U);
 }
 
 }  // namespace

@@ -9,8 +9,9 @@ void FrameRunner::run_frame() noexcept {
     host_.advance_to(start);
     devices_.begin_frame(frame_count_, start);
     for (std::size_t window = 0U; window < view.windows.size(); ++window) {
-        host_.advance_to(start + view.windows[window].offset);
-        if (executive_.run_window(window, host_) == WindowOutcome::kOverrun) {
+        const Instant release = start + view.windows[window].offset;
+        host_.advance_to(release);
+        if (executive_.run_window(window, release, host_) == WindowOutcome::kOverrun) {
             ++overrun_count_;
         }
     }

@@ -6,14 +6,15 @@
 namespace mamori::ports::virtual_time {
 
 bool VirtualHost::run_within(std::size_t component, Work work, Instant deadline) noexcept {
-    const Duration duration = component < durations_.size() ? durations_[component] : Duration{0};
-    if (duration == kNever) {
-        advance_to(deadline);
-        return false;
+    const bool is_modelled = work.pass == Pass::kExecute && component < durations_.size();
+    const Duration duration = is_modelled ? durations_[component] : Duration{0};
+    MAMORI_REQUIRE(2, duration >= Duration{0});
+    if (duration != kNever) {
+        work.function(work.argument);
     }
-    work.function(work.argument);
-    if (now_ + duration > deadline) {
-        advance_to(deadline);
+    // Written without the sum, which could overflow.
+    if (duration == kNever || duration > deadline - now_) {
+        advance_to(deadline > now_ ? deadline : now_);
         return false;
     }
     now_ = now_ + duration;

@@ -19,7 +19,8 @@ struct AssertionRecord {
     std::uint32_t line;
 };
 
-/// Takes the failure record; must not return. Called from any context, interrupts included.
+/// Takes the failure record; must not return. Called from any context, interrupts included, and at most
+/// once: a check that fails while it runs, or after it returned, halts at once.
 using AssertionHandler = void (*)(const AssertionRecord& record) noexcept;
 
 /// Installs the application's handler. @param[in] handler nullptr restores the default, which halts.

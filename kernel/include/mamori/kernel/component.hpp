@@ -5,8 +5,7 @@
 ///
 /// @satisfies SWR-KRN-011      Design: docs/design/kernel.md#components
 /// Source:   OMG RTC 1.0, LightweightRTObject, ComponentAction, DataFlowComponentAction,
-/// FsmParticipantAction,
-///           MultiModeComponentAction
+///           FsmParticipantAction, MultiModeComponentAction
 #ifndef MAMORI_KERNEL_COMPONENT_HPP
 #define MAMORI_KERNEL_COMPONENT_HPP
 
@@ -39,6 +38,7 @@ class LifecycleRegion {
 
     LifecycleState state_{LifecycleState::kCreated};
     bool is_participating_{false};
+    bool is_changing_{false};  ///< on_initialize or on_finalize is being called
 };
 
 /// Base of every component. Derive, add ports, override the actions you need; each defaults to kOk.
@@ -51,39 +51,55 @@ class Component : public LifecycleRegion {
     Component(const Component&) = delete;
     Component& operator=(const Component&) = delete;
 
-    /// @name RTC actions. Any return other than kOk while Active takes the component to Error.
+    /// @name RTC actions: once in a life
     /// @{
-    virtual Status on_initialize() noexcept { return Status::kOk; }                ///< once, Created -> Alive
-    virtual Status on_finalize() noexcept { return Status::kOk; }                  ///< once, Alive -> Created
-    virtual Status on_startup(ContextHandle) noexcept { return Status::kOk; }      ///< context starts
-    virtual Status on_shutdown(ContextHandle) noexcept { return Status::kOk; }     ///< context stops
-    virtual Status on_activated(ContextHandle) noexcept { return Status::kOk; }    ///< Inactive -> Active
-    virtual Status on_deactivated(ContextHandle) noexcept { return Status::kOk; }  ///< Active -> Inactive
-    virtual Status on_aborting(ContextHandle) noexcept { return Status::kOk; }  ///< once per entry into Error
-    virtual Status on_error(ContextHandle) noexcept { return Status::kOk; }     ///< each cycle while in Error
-    virtual Status on_reset(ContextHandle) noexcept { return Status::kOk; }    ///< Error -> Inactive when kOk
-    virtual Status on_execute(ContextHandle) noexcept { return Status::kOk; }  ///< each cycle, first pass
-    virtual Status on_state_update(ContextHandle) noexcept {
-        return Status::kOk;
-    }  ///< each cycle, second pass
-    virtual Status on_rate_changed(ContextHandle) noexcept {
-        return Status::kOk;
-    }                                                                         ///< after the rate changed
-    virtual Status on_action(ContextHandle) noexcept { return Status::kOk; }  ///< FSM participant
-    virtual Status on_mode_changed(ContextHandle) noexcept {
-        return Status::kOk;
-    }  ///< before on_execute in a new mode
+    /// Created -> Alive. Anything but kOk keeps the component Created.
+    virtual Status on_initialize() noexcept { return Status::kOk; }
+    /// Alive -> Created.
+    virtual Status on_finalize() noexcept { return Status::kOk; }
+    /// @}
+
+    /// @name RTC actions: changes of state
+    /// @{
+    /// The context starts. Anything but kOk keeps it Stopped.
+    virtual Status on_startup(ContextHandle) noexcept { return Status::kOk; }
+    /// The context stops; the state of the component stays.
+    virtual Status on_shutdown(ContextHandle) noexcept { return Status::kOk; }
+    /// Inactive -> Active. Anything but kOk leads to Error.
+    virtual Status on_activated(ContextHandle) noexcept { return Status::kOk; }
+    /// Active -> Inactive, whatever it returns.
+    virtual Status on_deactivated(ContextHandle) noexcept { return Status::kOk; }
+    /// Once per entry into Error, which it cannot prevent.
+    virtual Status on_aborting(ContextHandle) noexcept { return Status::kOk; }
+    /// Error -> Inactive when kOk.
+    virtual Status on_reset(ContextHandle) noexcept { return Status::kOk; }
+    /// @}
+
+    /// @name RTC actions: each cycle
+    /// @{
+    /// First pass, while Active. Anything but kOk leads to Error.
+    virtual Status on_execute(ContextHandle) noexcept { return Status::kOk; }
+    /// Second pass, while Active. Anything but kOk leads to Error.
+    virtual Status on_state_update(ContextHandle) noexcept { return Status::kOk; }
+    /// In place of both while in Error.
+    virtual Status on_error(ContextHandle) noexcept { return Status::kOk; }
+    /// @}
+
+    /// @name RTC actions that the periodic context with its fixed rate never calls
+    /// @{
+    virtual Status on_rate_changed(ContextHandle) noexcept { return Status::kOk; }
+    virtual Status on_action(ContextHandle) noexcept { return Status::kOk; }
+    virtual Status on_mode_changed(ContextHandle) noexcept { return Status::kOk; }
     /// @}
 
     /// Created -> Alive. Calls on_initialize once.
-    /// @return kOk; kPreconditionNotMet (not Created); else what on_initialize returned, and it stays
-    /// Created.
+    /// @return kOk; kPreconditionNotMet (not Created, or called from on_initialize or on_finalize); else what
+    ///         on_initialize returned, and it stays Created.
     Status initialize() noexcept;
 
-    /// Alive -> Created. Calls on_finalize once, whose failure is returned but does not keep the component
-    /// alive.
-    /// @return kOk; kPreconditionNotMet (Created, or still participating in a context); else on_finalize's
-    /// code.
+    /// Alive -> Created. Calls on_finalize once, whose failure is returned but does not keep it alive.
+    /// @return kOk; kPreconditionNotMet (Created, still participating in a context, or called from
+    ///         on_initialize or on_finalize); else on_finalize's code.
     Status finalize() noexcept;
 
     /// True from a successful initialize() until finalize().

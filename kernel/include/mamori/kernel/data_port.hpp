@@ -2,7 +2,7 @@
 /// @file
 /// Latest-value data ports. A component writes into its OutPort and reads its InPort; the executive moves
 /// values at window boundaries, so what is read does not depend on how long the code took (logical execution
-/// time).
+/// time). Within one window the executive hands a value on to the components that come later in its order.
 ///
 /// @satisfies SWR-KRN-015, SWR-KRN-016      Design: docs/design/kernel.md#ports
 #ifndef MAMORI_KERNEL_DATA_PORT_HPP
@@ -34,7 +34,7 @@ class OutPortBase {
     /// Makes the staged value the published one. For the executive, at the close of the window.
     /// @param[in] now instant of publication. @return true when there was one.
     bool publish(Instant now) noexcept;
-    /// Throws the staged value away: its window overran.
+    /// Throws the staged value away: its window overran. What was published before stays.
     void discard() noexcept { is_staged_ = false; }
     /// Adds the published value, its sequence and instant.
     void hash_into(TraceHash& hash) const noexcept;
@@ -51,6 +51,8 @@ class OutPortBase {
     CopyStaged copy_staged_;
     HashPublished hash_published_;
     Instant published_at_{};
+    std::uint64_t revision_{0U};            ///< writes so far
+    std::uint64_t published_revision_{0U};  ///< of them, the one that is published
     std::uint32_t sequence_{0U};
     bool is_staged_{false};
 };
@@ -64,10 +66,11 @@ class InPortBase {
     const char* get_name() const noexcept { return name_; }
     /// False until the first value has arrived.
     bool has_value() const noexcept { return has_value_; }
-    /// True when the value arrived since the component's last cycle.
+    /// True when the value arrived since the last cycle in which its owner was Active or in Error and came
+    /// through its first pass within the budget. A value that the owner had no chance to use stays new.
     bool is_new() const noexcept { return is_new_; }
-    /// Time since the value was published (or handed on within the window); undefined before has_value().
-    /// @param[in] now start of the window, as in ContextHandle::now.
+    /// Time since the value was published, or handed on within the window; without meaning before
+    /// has_value(). @param[in] now start of the window, as in ContextHandle::now.
     Duration calc_age(Instant now) const noexcept { return now - published_at_; }
     /// For the executive, after the owner's cycle.
     void mark_read() noexcept { is_new_ = false; }
@@ -78,7 +81,7 @@ class InPortBase {
 
     const char* name_;
     Instant published_at_{};
-    std::uint32_t sequence_{0U};
+    std::uint64_t revision_{0U};  ///< write of the source that is held here
     bool has_value_{false};
     bool is_new_{false};
 };
@@ -102,6 +105,7 @@ class OutPort final : public OutPortBase {
     /// Stages a value for the close of the window; a second write in one cycle replaces the first.
     void write(const T& value) noexcept {
         staged_ = value;
+        ++revision_;
         is_staged_ = true;
     }
 
@@ -143,24 +147,26 @@ class InPort final : public InPortBase {
     /// Latched value; a value-initialised T while has_value() is false.
     const T& read() const noexcept { return value_; }
 
-    /// Takes what `source` has published, when there is something newer. For the executive, at window open.
+    /// Takes what `source` has published, when it is newer than what is held. For the executive, at the
+    /// opening of the window.
     void latch(const OutPort<T>& source) noexcept {
-        if (source.sequence_ != sequence_) {
-            take(source.published_, source.sequence_, source.published_at_);
+        if (source.published_revision_ > revision_) {
+            take(source.published_, source.published_revision_, source.published_at_);
         }
     }
 
     /// Takes what `source` has staged in this very window, ahead of its publication. For the executive.
+    /// @param[in] now start of the window.
     void hand_on(const OutPort<T>& source, Instant now) noexcept {
-        if (source.is_staged_) {
-            take(source.staged_, source.sequence_ + 1U, now);
+        if (source.is_staged_ && source.revision_ > revision_) {
+            take(source.staged_, source.revision_, now);
         }
     }
 
   private:
-    void take(const T& value, std::uint32_t sequence, Instant published_at) noexcept {
+    void take(const T& value, std::uint64_t revision, Instant published_at) noexcept {
         value_ = value;
-        sequence_ = sequence;
+        revision_ = revision;
         published_at_ = published_at;
         has_value_ = true;
         is_new_ = true;

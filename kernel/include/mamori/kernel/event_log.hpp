@@ -33,7 +33,7 @@ struct Event {
 /// Thread safety: none; one log per context. Time: O(1). Memory: none of its own beyond the counters.
 class EventLog final {
   public:
-    /// @param[in] storage at least one record; an empty one makes every write a lost record.
+    /// @param[in] storage room for the records; with none at all every write is a lost record.
     constexpr explicit EventLog(Span<Event> storage) noexcept : storage_(storage) {}
 
     /// Appends a record; never fails, never blocks.
@@ -43,6 +43,7 @@ class EventLog final {
     /// Records that can be read, 0 .. capacity.
     std::size_t size() const noexcept;
     /// @param[in] index 0 = oldest kept .. size() - 1 = newest.
+    /// @return valid until the next write; an index out of range is an own bug.
     const Event& get(std::size_t index) const noexcept;
     /// Records that were overwritten before anyone could read them (saturates at 2^32 - 1).
     std::uint32_t get_lost_count() const noexcept { return lost_count_; }

@@ -4,11 +4,12 @@
 /// runs them once per cycle in two passes, first on_execute of all, then on_state_update of all.
 ///
 /// @satisfies SWR-KRN-012, SWR-KRN-013, SWR-KRN-014      Design: docs/design/kernel.md#execution-context
-/// Source:   OMG RTC 1.0, ExecutionContext (kind PERIODIC). Choices where the text leaves one:
-/// docs/design/kernel.md
+/// Source:   OMG RTC 1.0, ExecutionContext (kind PERIODIC); where the text leaves a choice, the design note
+///           says which one was taken.
 #ifndef MAMORI_KERNEL_EXECUTION_CONTEXT_HPP
 #define MAMORI_KERNEL_EXECUTION_CONTEXT_HPP
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,10 +22,13 @@ namespace mamori {
 
 /// Runs the components of one window.
 ///
-/// Thread safety: none; call from the context that runs the windows, between cycles. Calls from within an
-/// action
-///                of a participant are refused with kPreconditionNotMet.
-/// Time:          O(participants) for start, stop and a cycle; O(participants) search for the others.
+/// The context is busy while a cycle is under way and while an action of a participant is being called (or
+/// hangs). Every operation that changes anything is refused with kPreconditionNotMet then, so that actions
+/// are never reentrant and nothing changes in mid-cycle.
+///
+/// Thread safety: none; call from the context that runs the windows. Only get_acting_position() may be asked
+///                while an abandoned action still runs elsewhere.
+/// Time:          O(participants). Nothing blocks beyond the actions.
 /// Memory:        no heap; refers to the participant list, which must outlive it.
 class ExecutionContext final {
   public:
@@ -36,37 +40,40 @@ class ExecutionContext final {
     /// @param[in] id           identity handed to the actions, >= 0.
     /// @param[in] participants execution order; each must be in no other context.
     /// @param[in] period       time between two cycles, > 0.
-    /// @return kOk; kBadParameter (id, period, no participant, a null or already participating one);
-    ///         kPreconditionNotMet (already attached).
+    /// @return kOk; kPreconditionNotMet (already attached); kBadParameter (id, period, no participant, a null
+    ///         or already participating one, or one named twice).
     Status attach(std::int32_t id, Span<Component* const> participants, Duration period) noexcept;
 
-    /// Gives its participants up, so that they can be finalized.
-    /// @return kOk; kPreconditionNotMet (Running, or one of them is Active).
+    /// Gives its participants up, so that they can be finalized; one in Error becomes Inactive, since Error
+    /// is a state in this context only.
+    /// @return kOk; kPreconditionNotMet (not attached, Running, busy, or one of them is Active).
     Status detach() noexcept;
 
     /// Stopped -> Running; on_startup of every participant. A participant that refuses keeps the context
     /// Stopped; those already started get on_shutdown.
-    /// @return kOk; kPreconditionNotMet (Running, or a participant is not alive); else on_startup's code.
+    /// @return kOk; kPreconditionNotMet (not attached, Running, busy, or a participant is not alive); else
+    ///         on_startup's code.
     Status start(Instant now) noexcept;
 
     /// Running -> Stopped; on_shutdown of every participant. States of components do not change.
-    /// @return kOk; kPreconditionNotMet (Stopped); else the first failing on_shutdown's code (it is Stopped
-    /// anyway).
+    /// @return kOk; kPreconditionNotMet (Stopped, or busy); else the first failing on_shutdown's code, and it
+    ///         is Stopped anyway.
     Status stop(Instant now) noexcept;
 
     /// Inactive -> Active, after on_activated. When that fails: Error, on_aborting, and its code is returned;
-    /// the component is never seen Active.
-    /// @return kOk; kBadParameter (no participant, or not alive); kPreconditionNotMet (not Inactive); else
-    /// the code.
+    /// the component is never seen Active. Allowed while Stopped as well.
+    /// @return kOk; kBadParameter (no participant, or not alive); kPreconditionNotMet (not Inactive, or
+    ///         busy); else the code.
     Status activate_component(const Component& component, Instant now) noexcept;
 
-    /// Active -> Inactive, after on_deactivated, whose failure is returned but does not keep it Active.
-    /// @return kOk; kBadParameter (no participant, or not alive); kPreconditionNotMet (not Active); else the
-    /// code.
+    /// Active -> Inactive, then on_deactivated, whose failure is returned but does not keep it Active.
+    /// @return kOk; kBadParameter (no participant, or not alive); kPreconditionNotMet (not Active, or busy);
+    ///         else the code.
     Status deactivate_component(const Component& component, Instant now) noexcept;
 
     /// Error -> Inactive, after on_reset returned kOk; otherwise it stays in Error.
-    /// @return kOk; kBadParameter (no participant); kPreconditionNotMet (not in Error); else on_reset's code.
+    /// @return kOk; kBadParameter (no participant); kPreconditionNotMet (not in Error, or busy); else
+    ///         on_reset's code.
     Status reset_component(const Component& component, Instant now) noexcept;
 
     /// @return kInactive, kActive or kError; kBadParameter (no participant, or not alive).
@@ -82,31 +89,43 @@ class ExecutionContext final {
     bool is_running() const noexcept { return is_running_; }
     std::size_t get_participant_count() const noexcept { return participants_.size(); }
 
-    /// @name One cycle, in the steps that the executive needs. Order: begin, execute 0..n-1, update 0..n-1,
-    /// end.
+    /// Position of the participant whose action is being called or hangs. @return kPreconditionNotMet: none.
+    Result<std::size_t> get_acting_position() const noexcept;
+    /// Position of the participant that refused the last start(). @return kPreconditionNotMet: none did.
+    Result<std::size_t> get_refusing_position() const noexcept;
+
+    /// @name One cycle in steps, as the executive needs it: begin, execute 0..n-1, update_state 0..n-1, end.
+    /// Calling a step outside a cycle, or with an index out of range, is an own bug.
     /// @{
-    /// @return kOk; kPreconditionNotMet (Stopped, or a cycle is already under way).
+    /// @return kOk; kPreconditionNotMet (Stopped, or busy).
     Status begin_cycle(Instant now) noexcept;
     /// on_execute when Active, on_error when in Error, nothing when Inactive.
     void execute(std::size_t index) noexcept;
-    /// on_state_update when Active and on_execute was kOk in this cycle.
+    /// on_state_update when Active, so not when on_execute failed in this cycle.
     void update_state(std::size_t index) noexcept;
     void end_cycle() noexcept;
     /// @}
 
   private:
+    class ActionScope;
+
+    bool is_busy() const noexcept;
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
-    void enter_error(Component& component) noexcept;
+    void enter_error(Component& component, Instant now) noexcept;
     ContextHandle make_handle(Instant now) const noexcept { return {id_, now}; }
 
     Span<Component* const> participants_{};
     Duration period_{};
     Instant cycle_start_{};
+    std::size_t acting_position_{0U};
+    std::size_t refusing_position_{0U};
     std::int32_t id_{-1};
+    /// Atomic, since an action that its host has abandoned ends on another thread.
+    std::atomic<bool> is_in_action_{false};
     bool is_running_{false};
-    bool is_in_action_{false};  ///< an action is being called: life-cycle operations must wait
     bool is_in_cycle_{false};
+    bool has_refusal_{false};
 };
 
 }  // namespace mamori

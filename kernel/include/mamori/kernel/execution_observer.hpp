@@ -16,16 +16,20 @@ namespace mamori {
 /// Listener to one executive. Indices are positions in the system table (components, windows).
 ///
 /// Calling context: the context that runs the windows, except on_budget_overrun, which a port's guard may
-/// call from its own context. Implementations must not block and must be O(1).
+/// call from its own context. Implementations must not block and must be O(1); operations on the executive
+/// are refused while it calls.
 class ExecutionObserver {
   public:
-    /// Component `component` is about to run in this window.
+    /// Component `component` is about to run its first pass (on_execute) in this window.
     virtual void on_component_started(std::size_t component, Instant now) noexcept = 0;
-    /// Component `component` has returned from its run. Never called for a run that does not return.
+    /// Component `component` came through its first pass within the budget. Never called for one that did
+    /// not.
     virtual void on_component_finished(std::size_t component, Instant now) noexcept = 0;
-    /// Window `window` used its budget up while `component` was running; its outputs are not published.
+    /// Window `window` used its budget up while `component` was running, in either pass, or could not begin
+    /// because `component` still hangs from an earlier cycle; its outputs are not published.
     virtual void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept = 0;
-    /// Window `window` opened `lateness` after its place in the frame.
+    /// Window `window` opened `lateness` (> 0) after its place in the frame; called before its components
+    /// run.
     virtual void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept = 0;
 
   protected:

@@ -3,7 +3,7 @@
 /// Runs the windows of a system table: latches inputs when a window opens, runs its components in order under
 /// a budget that the port enforces, hands values on within the window, and publishes outputs when it closes.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023      Design: docs/design/kernel.md#windows
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024      Design: docs/design/kernel.md#windows
 #ifndef MAMORI_KERNEL_EXECUTIVE_HPP
 #define MAMORI_KERNEL_EXECUTIVE_HPP
 
@@ -15,71 +15,75 @@
 #include "mamori/kernel/execution_observer.hpp"
 #include "mamori/kernel/system_table.hpp"
 #include "mamori/kernel/trace_hash.hpp"
+#include "mamori/kernel/window_host.hpp"
 
 namespace mamori {
 
-/// What a port gives to the executive: the time, and a way to run work that does not run for ever.
-///
-/// Calling context: the context that runs the windows.
-class WindowHost {
-  public:
-    virtual Instant get_now() const noexcept = 0;
-
-    /// A piece of work; call it at most once.
-    struct Work {
-        void (*function)(void* argument) noexcept;
-        void* argument;
-    };
-
-    /// Runs `work` of component `component`.
-    /// @param[in] deadline instant at which the window's budget is used up.
-    /// @return true when it returned before the deadline; false when the budget ran out first, whether the
-    /// work
-    ///         returned late, was abandoned, or never began because earlier work of its context still hangs.
-    virtual bool run_within(std::size_t component, Work work, Instant deadline) noexcept = 0;
-
-  protected:
-    ~WindowHost() = default;
-};
-
 /// How a window ended.
 enum class WindowOutcome : std::uint8_t {
-    kCompleted,  ///< every component ran; outputs are published
-    kOverrun,    ///< the budget ran out; no output of this window is published
+    kCompleted,  ///< every component came through both passes; outputs are published
+    kOverrun,    ///< the budget ran out, or earlier work still hangs; no output of this window is published
     kStopped,    ///< the context is Stopped; nothing ran
 };
 
+namespace detail {
+/// What the executive keeps for each window while the system runs.
+struct WindowState {
+    ExecutionContext context{};
+    bool has_abandoned_outputs{false};  ///< hanging work may still write; discard once it has returned
+};
+}  // namespace detail
+
 /// Size-free executive; instantiate ExecutiveFor.
 ///
-/// Thread safety: none; one executive per core. Time: O(components + connections of the window).
+/// Operations called from within an action of a component or from the observer are refused; running a window
+/// from there is an own bug.
+///
+/// Thread safety: none; one executive per core. Time: O(components + connections + ports) per window.
 /// Memory: no heap; refers to the table.
 class Executive {
   public:
     Executive(const Executive&) = delete;
     Executive& operator=(const Executive&) = delete;
 
-    /// Initialises every component and attaches it to the context of its window, in table order.
-    /// @return kOk; kPreconditionNotMet (done before); else the code of the first refusal, after which the
-    /// system
-    ///         must not be started: get_failed_component() tells whose.
+    /// Initialises every component that is not alive yet and attaches it to the context of its window, in
+    /// table order. After a refusal no context is attached, and a second call goes on where the first ended.
+    /// @return kOk; kPreconditionNotMet (done before, or called from an action); kBadParameter (a component
+    ///         participates elsewhere); else the code of the on_initialize that refused.
     Status initialize() noexcept;
 
-    /// Starts every context, then activates every component, in table order.
-    /// @return kOk; kPreconditionNotMet (not initialised, or running); else the first refusal's code.
+    /// Starts every context, then activates every component, in table order. After a refusal everything is
+    /// stopped again, as by stop().
+    /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is in Error, or
+    ///         called from an action); else the code of the on_startup or on_activated that refused.
     Status start() noexcept;
 
     /// Deactivates every Active component and stops every running context, in reverse order.
-    /// @return kOk; kPreconditionNotMet (not initialised); else the first refusal's code; all are stopped
-    /// anyway.
+    /// @return kOk; kPreconditionNotMet (not initialised, or called from an action); else the code of the
+    ///         first refusal: everything is stopped anyway but a context whose work hangs.
     Status stop() noexcept;
 
-    /// Runs window `index` once. @param[in] index 0 .. get_view().windows.size() - 1.
-    WindowOutcome run_window(std::size_t index, WindowHost& host) noexcept;
+    /// Gives every context's components up and finalizes them, in reverse order; initialize() may follow.
+    /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is Active, or
+    ///         called from an action); else the code of the first on_finalize that failed: all are finalized
+    ///         anyway.
+    Status finalize() noexcept;
+
+    /// Runs window `index` once. Actions and publications carry the planned instants, not the measured ones,
+    /// so a late release changes no data.
+    /// @param[in] index   0 .. get_view().windows.size() - 1.
+    /// @param[in] release planned opening of the window, not after host.get_now(); later is an own bug.
+    WindowOutcome run_window(std::size_t index, Instant release, WindowHost& host) noexcept;
+    /// The same for a host that releases windows exactly: the planned opening is now.
+    WindowOutcome run_window(std::size_t index, WindowHost& host) noexcept {
+        return run_window(index, host.get_now(), host);
+    }
 
     /// Context of window `index`, to start, stop or reset a single component.
-    ExecutionContext& get_context(std::size_t index) noexcept { return contexts_[index]; }
+    ExecutionContext& get_context(std::size_t index) noexcept { return windows_[index].context; }
     const SystemView& get_view() const noexcept { return view_; }
-    /// Component whose refusal ended initialize() or start(); kNoIndex when none did.
+    /// Component whose refusal ended the last initialize() or start(), for a participation elsewhere the
+    /// first of its window; kNoIndex when none did.
     std::size_t get_failed_component() const noexcept { return failed_component_; }
 
     /// @param[in] observer listens to the course of execution, or nullptr; must outlive the executive.
@@ -88,41 +92,56 @@ class Executive {
     std::uint64_t get_trace_hash() const noexcept { return trace_hash_.get_value(); }
 
   protected:
-    constexpr Executive(const SystemView& view, Span<ExecutionContext> contexts) noexcept
-        : view_(view), contexts_(contexts) {}
+    constexpr Executive(const SystemView& view, Span<detail::WindowState> windows) noexcept
+        : view_(view), windows_(windows) {}
     ~Executive() = default;
 
   private:
     struct ComponentRun;
 
+    bool is_any_running() const noexcept;
+    Status initialize_components() noexcept;
+    Status attach_contexts() noexcept;
+    Status start_all() noexcept;
+    Status stop_all() noexcept;
+    WindowOutcome run_open_window(std::size_t window, Instant release, WindowHost& host) noexcept;
+    bool run_first_pass(std::size_t window, std::size_t position, Instant deadline,
+                        WindowHost& host) noexcept;
+    bool run_second_pass(std::size_t window, std::size_t position, Instant deadline,
+                         WindowHost& host) noexcept;
+    void report_overrun(std::size_t window, std::size_t component, Instant now) noexcept;
     void latch_inputs(std::size_t window) noexcept;
     void hand_on_outputs(std::size_t component, Instant now) noexcept;
-    void close_window(std::size_t window, bool is_complete, Instant now) noexcept;
-    bool run_component(std::size_t window, std::size_t position, Instant deadline, WindowHost& host) noexcept;
+    void mark_inputs_read(std::size_t window, std::size_t finished_count) noexcept;
+    void publish_outputs(std::size_t window, Instant now) noexcept;
+    void discard_outputs(std::size_t window) noexcept;
 
     SystemView view_;
-    Span<ExecutionContext> contexts_;
+    Span<detail::WindowState> windows_;
     ExecutionObserver* observer_{nullptr};
     TraceHash trace_hash_{};
+    Instant last_release_{};
     std::size_t failed_component_{kNoIndex};
     bool is_initialized_{false};
+    bool is_busy_{false};  ///< an operation or a window is under way: another one must wait
 };
 
 namespace detail {
-/// Base so that the contexts exist before the executive that refers to them.
+/// Base so that the states exist before the executive that refers to them.
 template <std::size_t kCount>
-struct ContextStorage {
-    std::array<ExecutionContext, kCount> contexts{};
+struct WindowStorage {
+    std::array<WindowState, kCount> windows{};
 };
 }  // namespace detail
 
 /// Executive with the storage that `Table` needs:  inline mamori::ExecutiveFor executive{kSystem};
 template <typename Table>
-class ExecutiveFor final : private detail::ContextStorage<Table::kWindowCount>, public Executive {
+class ExecutiveFor final : private detail::WindowStorage<Table::kWindowCount>, public Executive {
   public:
-    /// @param[in] table must have static storage; check it with MAMORI_CHECK.
+    /// @param[in] table must outlive the executive; check it with MAMORI_CHECK.
     constexpr explicit ExecutiveFor(const Table& table) noexcept
-        : Executive(make_view(table), detail::ContextStorage<Table::kWindowCount>::contexts) {}
+        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows) {}
+    explicit ExecutiveFor(const Table&& table) = delete;
 };
 
 }  // namespace mamori

@@ -28,8 +28,8 @@ struct IsStdArray<std::array<T, N>> : std::true_type {};
 
 }  // namespace detail
 
-/// True when T can travel through a port: a number, bool, enum, an array of such, or a type with a field
-/// list.
+/// True when T can travel through a port: a number, bool, enum, a type with a field list, or an array of
+/// such.
 template <typename T>
 constexpr bool is_payload() noexcept {
     if constexpr (detail::IsStdArray<T>::value) {
@@ -89,8 +89,8 @@ constexpr void visit_scalars(const T& value, Visitor& visitor) noexcept {
     MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F9(__VA_ARGS__))
 #define MAMORI_DETAIL_PICK(a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, name, ...) name
 
-/// Declares the fields of `Type` (1 to 10), at global scope:  MAMORI_FIELDS(ns::JointState, position_rad,
-/// velocity_rad_s)
+/// Declares the fields of `Type` (1 to 10, every one it has), at global scope:
+///     MAMORI_FIELDS(ns::JointState, position_rad, velocity_rad_s)
 #define MAMORI_FIELDS(Type, ...)                                                                          \
     template <>                                                                                           \
     struct mamori::Fields<Type> {                                                                         \

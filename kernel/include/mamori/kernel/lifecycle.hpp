@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/assert.hpp"
 #include "mamori/kernel/status.hpp"
 
 namespace mamori {
@@ -26,20 +27,20 @@ enum class LifecycleEvent : std::uint32_t {
     kActivate,    ///< ExecutionContext.activate_component()
     kDeactivate,  ///< ExecutionContext.deactivate_component()
     kReset,       ///< ExecutionContext.reset_component()
-    kFail,        ///< an action of an active component did not return kOk
+    kFail,        ///< on_activated, on_execute or on_state_update did not return kOk
 };
 inline constexpr std::size_t kLifecycleEventCount = 5U;
 
 /// One cell of the table.
 struct LifecycleTransition {
-    Status admission{Status::kPreconditionNotMet};  ///< kOk: allowed here; else what the caller is told
-    LifecycleState target{
-        LifecycleState::kCreated};  ///< state after the event when it is allowed and its action is kOk
+    /// kOk: allowed here; else what the caller is told.
+    Status admission{Status::kPreconditionNotMet};
+    /// State after an allowed event whose action returned kOk; without meaning when it is not allowed.
+    LifecycleState target{LifecycleState::kCreated};
 };
 
-/// Cell for (state, event). Pure; O(1).
-/// @return admission kOk with the target; kBadParameter (not alive yet); kPreconditionNotMet (alive, wrong
-/// state).
+/// Cell for (state, event). Pure; O(1). A value that is no enumerator is an own bug (corrupted memory).
+/// @return admission kOk with the target; kBadParameter (not alive yet); kPreconditionNotMet (wrong state).
 constexpr LifecycleTransition get_transition(LifecycleState state, LifecycleEvent event) noexcept {
     constexpr LifecycleTransition kBad{Status::kBadParameter, LifecycleState::kCreated};
     constexpr LifecycleTransition kNo{};
@@ -49,11 +50,14 @@ constexpr LifecycleTransition get_transition(LifecycleState state, LifecycleEven
     constexpr std::array<std::array<LifecycleTransition, kLifecycleEventCount>, kLifecycleStateCount> kTable{{
         //  kInitialize  kActivate  kDeactivate  kReset       kFail
         {{kToInactive, kBad, kBad, kNo, kNo}},     // kCreated
-        {{kNo, kToActive, kNo, kNo, kNo}},         // kInactive
+        {{kNo, kToActive, kNo, kNo, kToError}},    // kInactive
         {{kNo, kNo, kToInactive, kNo, kToError}},  // kActive
         {{kNo, kNo, kNo, kToInactive, kNo}},       // kError
     }};
-    return kTable[static_cast<std::size_t>(state)][static_cast<std::size_t>(event)];
+    const auto row = static_cast<std::size_t>(state);
+    const auto column = static_cast<std::size_t>(event);
+    MAMORI_REQUIRE(1, row < kLifecycleStateCount && column < kLifecycleEventCount);
+    return kTable[row][column];
 }
 
 /// Spelling of a state as the standard prints it; never nullptr.

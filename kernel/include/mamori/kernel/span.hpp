@@ -8,29 +8,40 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "mamori/kernel/assert.hpp"
 
 namespace mamori {
 
 /// Pointer and size. The owner of the elements must outlive every copy of the span.
+/// An array of U converts when a U is laid out as a T, so a derived class does not pass for its base.
 ///
 /// Thread safety: as that of the elements. Time: O(1). Memory: two words.
 template <typename T>
 class Span final {
+    template <typename U>
+    using EnableFor = std::enable_if_t<std::is_convertible_v<U (*)[], T (*)[]>>;
+
   public:
     constexpr Span() noexcept = default;
     constexpr Span(T* first, std::size_t size) noexcept : data_(first), size_(size) {}
-    template <typename U, std::size_t N>
-    constexpr Span(std::array<U, N>& elements) noexcept
-        : data_(elements.data()), size_(N) {}  // NOLINT: implicit
-    template <typename U, std::size_t N>
-    constexpr Span(const std::array<U, N>& elements) noexcept : data_(elements.data()), size_(N) {}  // NOLINT
+    template <typename U, std::size_t N, typename = EnableFor<U>>
+    constexpr Span(std::array<U, N>& elements) noexcept  // NOLINT: implicit on purpose
+        : data_(elements.data()), size_(N) {}
+    template <typename U, std::size_t N, typename = EnableFor<const U>>
+    constexpr Span(const std::array<U, N>& elements) noexcept  // NOLINT: implicit on purpose
+        : data_(elements.data()), size_(N) {}
 
     /// @param[in] index 0 .. size() - 1; anything else is an own bug and ends in the assertion handler.
     constexpr T& operator[](std::size_t index) const noexcept {
         MAMORI_REQUIRE(1, index < size_);
         return data_[index];
+    }
+    /// `count` elements from `first` on. Both must lie inside this span; anything else is an own bug.
+    constexpr Span subspan(std::size_t first, std::size_t count) const noexcept {
+        MAMORI_REQUIRE(2, first <= size_ && count <= size_ - first);
+        return {data_ + first, count};
     }
     constexpr std::size_t size() const noexcept { return size_; }
     constexpr bool empty() const noexcept { return size_ == 0U; }

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "mamori/kernel/component.hpp"
 #include "mamori/kernel/data_port.hpp"
@@ -24,8 +25,8 @@
 
 namespace mamori {
 
-/// Ports of a component, as pointers to its members:  using Ports = mamori::Ports<&Monitor::joints,
-/// &Monitor::verdict>; A component without the alias has no ports.
+/// Ports of a component, as pointers to its members; a component without the alias has no ports:
+///     using Ports = mamori::Ports<&Monitor::joints, &Monitor::verdict>;
 template <auto... kMembers>
 struct Ports {
     static constexpr std::size_t kCount = sizeof...(kMembers);
@@ -126,13 +127,16 @@ constexpr Window<Cs...> window(const char* name, Duration offset, Duration lengt
 }
 
 /// Feeds `sink` from `source`; their payload types must be the same.
-template <typename T, Need kNeed>
-constexpr Connection connect(OutPort<T>& source, InPort<T, kNeed>& sink) noexcept {
+template <typename T, typename U, Need kNeed>
+constexpr Connection connect(OutPort<T>& source, InPort<U, kNeed>& sink) noexcept {
+    static_assert(std::is_same_v<T, U>, "connect() joins ports of one payload type");
     ConnectionRow row{};
     row.source = &source;
     row.sink = &sink;
-    row.latch = &detail::latch<OutPort<T>, InPort<T, kNeed>>;
-    row.hand_on = &detail::hand_on<OutPort<T>, InPort<T, kNeed>>;
+    if constexpr (std::is_same_v<T, U>) {
+        row.latch = &detail::latch<OutPort<T>, InPort<T, kNeed>>;
+        row.hand_on = &detail::hand_on<OutPort<T>, InPort<T, kNeed>>;
+    }
     return {row};
 }
 
@@ -178,14 +182,19 @@ struct TableBuilder {
         row.budget = part.budget;
         row.first_component = component_count;
         row.component_count = part.components.size();
-        for (Component* component : part.components) {
-            table.components[component_count] = component;
-            ++component_count;
-        }
         for (const PortRow& port : part.ports) {
             table.ports[port_count] = port;
             table.ports[port_count].window = window_count;
+            for (std::size_t i = 0U; i < part.components.size(); ++i) {
+                if (part.components[i] == port.owner) {
+                    table.ports[port_count].component = component_count + i;
+                }
+            }
             ++port_count;
+        }
+        for (Component* component : part.components) {
+            table.components[component_count] = component;
+            ++component_count;
         }
         ++window_count;
     }

@@ -16,9 +16,9 @@ namespace mamori {
 /// Why a table is refused. `Finding::element` is the index of the row named here.
 enum class Rule {
     kNone,                    ///< the table keeps every rule
-    kFrameNotPositive,        ///< -
+    kFrameNotPositive,        ///< no row: element is 0
     kWindowOutsideFrame,      ///< window
-    kWindowsOverlap,          ///< window that begins before an earlier one has closed
+    kWindowsOverlap,          ///< window that begins before the one listed before it has closed
     kBudgetExceedsWindow,     ///< window whose budget is not in 1 ns .. its length
     kComponentInTwoPlaces,    ///< component, second place
     kPortOfUnknownComponent,  ///< connection that names a port of no component in the table
@@ -39,7 +39,9 @@ constexpr Finding check_windows(const SystemView& view) noexcept {
     }
     for (std::size_t i = 0U; i < view.windows.size(); ++i) {
         const WindowRow& row = view.windows[i];
-        if (row.offset < Duration{0} || row.length <= Duration{0} || row.offset + row.length > view.frame) {
+        // Written without sums, which could overflow.
+        if (row.offset < Duration{0} || row.length <= Duration{0} || row.offset > view.frame ||
+            row.length > view.frame - row.offset) {
             return {Rule::kWindowOutsideFrame, i};
         }
         if (row.budget <= Duration{0} || row.budget > row.length) {

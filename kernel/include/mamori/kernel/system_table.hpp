@@ -26,7 +26,7 @@ struct WindowRow {
     const char* name{nullptr};
     Duration offset{};  ///< from the start of the frame
     Duration length{};
-    Duration budget{};  ///< from the opening of the window
+    Duration budget{};  ///< from the opening of the window; never beyond its close
     std::size_t first_component{0U};
     std::size_t component_count{0U};
 };
@@ -38,6 +38,7 @@ struct PortRow {
     OutPortBase* output{nullptr};
     bool is_mandatory{false};
     std::size_t window{kNoIndex};
+    std::size_t component{kNoIndex};  ///< its owner's place in the table
 };
 
 struct ConnectionRow {
@@ -95,19 +96,13 @@ constexpr void resolve_connections(Table& table) noexcept {
     for (ConnectionRow& connection : table.connections) {
         std::size_t sink_component = kNoIndex;
         for (const PortRow& port : table.ports) {
-            std::size_t owner = kNoIndex;
-            for (std::size_t i = 0U; i < table.components.size(); ++i) {
-                if (table.components[i] == port.owner) {
-                    owner = i;
-                }
-            }
             if (port.output != nullptr && port.output == connection.source) {
                 connection.source_window = port.window;
-                connection.source_component = owner;
+                connection.source_component = port.component;
             }
             if (port.input != nullptr && port.input == connection.sink) {
                 connection.sink_window = port.window;
-                sink_component = owner;
+                sink_component = port.component;
             }
         }
         connection.is_forward_in_window = connection.source_window != kNoIndex &&

@@ -17,6 +17,7 @@
 namespace mamori {
 
 /// FNV-1a over scalars, each taken as its value bits in little-endian order, whatever the machine's order is.
+/// A payload of fixed-width types gives one hash on each machine; `long` or `size_t` would not.
 ///
 /// Thread safety: none. Time: O(bytes). Memory: eight bytes.
 class TraceHash final {
@@ -28,9 +29,7 @@ class TraceHash final {
         if constexpr (std::is_floating_point_v<T>) {
             static_assert(sizeof(T) == sizeof(std::uint64_t) || sizeof(T) == sizeof(std::uint32_t));
             using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
-            Bits bits{};
-            __builtin_memcpy(&bits, &scalar, sizeof bits);
-            add_bits(bits, sizeof bits);
+            add_bits(__builtin_bit_cast(Bits, scalar), sizeof scalar);
         } else {
             add_bits(static_cast<std::uint64_t>(scalar), sizeof scalar);
         }

@@ -26,7 +26,8 @@ class FrameDevices {
     ~FrameDevices() = default;
 };
 
-/// Drives one executive. All references must outlive it.
+/// Drives one executive; frame n begins at n times the frame length. All references must outlive it, and the
+/// clock of `host` must not be past the frame that is run next (own bug).
 ///
 /// Thread safety: none. Time: one frame per call, as fast as the host computes it.
 class FrameRunner final {
@@ -39,7 +40,7 @@ class FrameRunner final {
 
     /// Frames run so far.
     std::uint64_t get_frame_count() const noexcept { return frame_count_; }
-    /// Windows that ran out of budget so far.
+    /// Windows that ended with WindowOutcome::kOverrun so far.
     std::uint64_t get_overrun_count() const noexcept { return overrun_count_; }
 
   private:

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "mamori/kernel/component.hpp"
 #include "mamori/kernel/data_port.hpp"
@@ -19,14 +20,17 @@ namespace mamori::ports::virtual_time {
 /// Faults of a transport, judged worst first: a lost message is not delayed as well.
 struct ChannelFault {
     bool is_losing{false};  ///< messages that arrive now are dropped
-    Duration delay{0};      ///< messages that arrive now leave this much later; >= 0
+    Duration delay{0};      ///< messages that arrive now leave at least this much later; below 0 counts as 0
 };
 
 /// Channel for payload T that can hold `kCapacity` delayed messages; the oldest gives way when it is full.
+/// Messages never overtake each other: one without delay waits for a delayed one before it.
 ///
 /// Thread safety: none; runs in its window. Time: O(kCapacity). Memory: kCapacity T.
 template <typename T, std::size_t kCapacity>
 class SimulatedChannel final : public Component {
+    static_assert(kCapacity > 0U, "a channel holds at least one message");
+
   public:
     constexpr explicit SimulatedChannel(const char* name) noexcept : Component(name) {}
 
@@ -37,9 +41,12 @@ class SimulatedChannel final : public Component {
     /// Takes effect on messages that arrive from the next cycle on.
     void set_fault(const ChannelFault& fault) noexcept { fault_ = fault; }
 
+    /// Messages that gave way to newer ones because the channel was full.
+    std::uint32_t get_dropped_count() const noexcept { return dropped_count_; }
+
     Status on_execute(ContextHandle context) noexcept override {
         if (in.is_new() && !fault_.is_losing) {
-            store(in.read(), context.now + fault_.delay);
+            store(in.read(), context.now);
         }
         deliver(context.now);
         return Status::kOk;
@@ -48,30 +55,36 @@ class SimulatedChannel final : public Component {
   private:
     struct Slot {
         T message{};
-        Instant due{};
+        Instant arrival{};
+        Duration delay{};
     };
 
-    void store(const T& message, Instant due) noexcept {
+    void store(const T& message, Instant arrival) noexcept {
         if (count_ == kCapacity) {
-            first_ = (first_ + 1U) % kCapacity;
-            --count_;
+            drop_first();
+            ++dropped_count_;
         }
-        slots_[(first_ + count_) % kCapacity] = {message, due};
+        slots_[(first_ + count_) % kCapacity] = {message, arrival, fault_.delay};
         ++count_;
     }
 
-    /// Messages leave in the order in which they came, at most one per cycle reaches the latest-value port.
+    /// Of all messages that are due now the newest leaves: `out` keeps the latest value only.
     void deliver(Instant now) noexcept {
-        while (count_ > 0U && slots_[first_].due <= now) {
+        while (count_ > 0U && now - slots_[first_].arrival >= slots_[first_].delay) {
             out.write(slots_[first_].message);
-            first_ = (first_ + 1U) % kCapacity;
-            --count_;
+            drop_first();
         }
+    }
+
+    void drop_first() noexcept {
+        first_ = (first_ + 1U) % kCapacity;
+        --count_;
     }
 
     std::array<Slot, kCapacity> slots_{};
     std::size_t first_{0U};
     std::size_t count_{0U};
+    std::uint32_t dropped_count_{0U};
     ChannelFault fault_{};
 };
 

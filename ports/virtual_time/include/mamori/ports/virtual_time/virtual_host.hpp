@@ -12,10 +12,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "mamori/kernel/executive.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
+#include "mamori/kernel/window_host.hpp"
 
 namespace mamori::ports::virtual_time {
 
@@ -28,14 +28,14 @@ inline constexpr Duration kNever{std::numeric_limits<std::int64_t>::max()};
 class VirtualHost final : public WindowHost {
   public:
     /// @param[in] durations one modelled execution time per component of the system table, each >= 0 or
-    /// kNever;
-    ///            must outlive this object. A component without an entry takes no time.
+    ///            kNever; must outlive this object. A component without an entry takes no time.
     explicit VirtualHost(Span<Duration> durations) noexcept : durations_(durations) {}
 
     Instant get_now() const noexcept override { return now_; }
 
     /// Work whose modelled time fits runs and the clock moves on by it. Work that does not fit is cut off at
     /// the deadline: a late one still has its effect on its component, a hanging one has none.
+    /// The modelled time is that of the first pass; the second takes none.
     bool run_within(std::size_t component, Work work, Instant deadline) noexcept override;
 
     /// Lets time pass without work. @param[in] instant not before get_now(); an earlier one is an own bug.

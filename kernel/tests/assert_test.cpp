@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a failed check reaches the application's handler with its place and never comes back.
+// Method: death tests, since the program must not go on.
+#include "mamori/kernel/assert.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+void report_and_exit(const AssertionRecord& record) noexcept {
+    const char* name = std::strrchr(record.file, '/');
+    std::fprintf(stderr, "handler: %s id %u line %s", name == nullptr ? record.file : name + 1,
+                 static_cast<unsigned>(record.id), record.line > 0U ? "known" : "unknown");
+    std::_Exit(3);
+}
+
+void report_and_return(const AssertionRecord& record) noexcept {
+    std::fprintf(stderr, "handler %u returned;", static_cast<unsigned>(record.id));
+}
+
+void fail_again(const AssertionRecord& record) noexcept {
+    std::fprintf(stderr, "handler %u;", static_cast<unsigned>(record.id));
+    MAMORI_REQUIRE(record.id + 1U, false);
+}
+
+constexpr int calc_half(int even) {
+    MAMORI_REQUIRE(1, even % 2 == 0);
+    return even / 2;
+}
+
+TEST(AssertTest, ACheckThatHoldsDoesNothing) {
+    verifies("SWR-KRN-003");
+    int evaluations = 0;
+
+    MAMORI_REQUIRE(1, ++evaluations > 0);
+    MAMORI_ENSURE(2, ++evaluations > 0);
+    MAMORI_INVARIANT(3, ++evaluations > 0);
+
+    EXPECT_EQ(evaluations, 3);
+}
+
+TEST(AssertTest, AChecksConditionIsEvaluatedAtCompileTimeInAConstant) {
+    verifies("SWR-KRN-003", Technique::kInterface);
+    constexpr int kHalf = calc_half(8);
+
+    EXPECT_EQ(kHalf, 4);
+}
+
+TEST(AssertDeathTest, AFailedCheckHandsFileAndIdToTheHandler) {
+    verifies("SWR-KRN-003", Technique::kFaultInjection, Polarity::kViolation);
+
+    EXPECT_EXIT(
+        {
+            set_assertion_handler(&report_and_exit);
+            MAMORI_REQUIRE(42, false);
+        },
+        ::testing::ExitedWithCode(3), "handler: assert_test.cpp id 42 line known");
+}
+
+TEST(AssertDeathTest, AFailedCheckHaltsWithoutAHandler) {
+    verifies("SWR-KRN-003", Technique::kFaultInjection, Polarity::kViolation);
+
+    EXPECT_DEATH(MAMORI_ENSURE(1, false), "");
+}
+
+TEST(AssertDeathTest, TheDefaultComesBackWithANullHandler) {
+    verifies("SWR-KRN-003", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_DEATH(
+        {
+            set_assertion_handler(&report_and_exit);
+            set_assertion_handler(nullptr);
+            MAMORI_INVARIANT(1, false);
+        },
+        "");
+}
+
+TEST(AssertDeathTest, AHandlerThatReturnsDoesNotLetTheProgramGoOn) {
+    verifies("SWR-KRN-003", Technique::kFaultInjection, Polarity::kViolation);
+
+    EXPECT_DEATH(
+        {
+            set_assertion_handler(&report_and_return);
+            MAMORI_REQUIRE(5, false);
+            std::fprintf(stderr, "went on");
+            std::_Exit(0);
+        },
+        "^handler 5 returned;$");
+}
+
+TEST(AssertDeathTest, ACheckThatFailsInTheHandlerHaltsInsteadOfCallingItAgain) {
+    verifies("SWR-KRN-003", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_DEATH(
+        {
+            set_assertion_handler(&fail_again);
+            MAMORI_REQUIRE(1, false);
+        },
+        "^handler 1;$");
+}
+
+}  // namespace
+}  // namespace mamori

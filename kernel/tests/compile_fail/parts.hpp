@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Components for the compile-must-fail cases. Each case compiles without MAMORI_BREAK and must not with it.
+#ifndef MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARTS_HPP
+#define MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARTS_HPP
+
+#include "mamori/kernel/system.hpp"
+
+class Producer final : public mamori::Component {
+  public:
+    constexpr Producer() noexcept : Component("producer") {}
+    mamori::OutPort<double> real{"real"};
+    mamori::OutPort<int> whole{"whole"};
+    using Ports = mamori::Ports<&Producer::real, &Producer::whole>;
+};
+class Consumer final : public mamori::Component {
+  public:
+    constexpr Consumer() noexcept : Component("consumer") {}
+    mamori::InPort<double> in{"in"};
+    using Ports = mamori::Ports<&Consumer::in>;
+};
+
+using namespace mamori::literals;
+inline Producer g_producer;
+inline Producer g_second_producer;
+inline Consumer g_consumer;
+
+#endif  // MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARTS_HPP

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a written value is seen by others only when it was published or handed on, once, with its age.
+// Method: one output and one input, moved by hand as the executive does it.
+#include "mamori/kernel/data_port.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+class DataPortTest : public ::testing::Test {
+  protected:
+    std::uint64_t calc_hash() const {
+        TraceHash hash;
+        out_.hash_into(hash);
+        return hash.get_value();
+    }
+
+    OutPort<std::int32_t> out_{"out"};
+    InPort<std::int32_t> in_{"in"};
+};
+
+TEST_F(DataPortTest, AWrittenValueIsPublishedAtItsInstant) {
+    verifies("SWR-KRN-015");
+
+    out_.write(5);
+    EXPECT_TRUE(out_.is_staged());
+    EXPECT_TRUE(out_.publish(Instant{100}));
+
+    EXPECT_EQ(out_.get_published(), 5);
+    EXPECT_EQ(out_.get_sequence(), 1U);
+    EXPECT_FALSE(out_.is_staged());
+    EXPECT_STREQ(out_.get_name(), "out");
+}
+
+TEST_F(DataPortTest, TheLastOfSeveralWritesCounts) {
+    verifies("SWR-KRN-015", Technique::kEquivalenceClasses);
+
+    out_.write(5);
+    out_.write(6);
+    EXPECT_TRUE(out_.publish(Instant{100}));
+
+    EXPECT_EQ(out_.get_published(), 6);
+    EXPECT_EQ(out_.get_sequence(), 1U) << "one publication";
+}
+
+TEST_F(DataPortTest, AValueThatIsNotPublishedYetIsNotSeen) {
+    verifies("SWR-KRN-015", Technique::kErrorGuessing, Polarity::kViolation);
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    out_.write(6);
+
+    in_.latch(out_);
+
+    EXPECT_EQ(in_.read(), 5);
+    EXPECT_EQ(out_.get_published(), 5);
+}
+
+TEST_F(DataPortTest, ADiscardedValueIsNeverPublished) {
+    verifies("SWR-KRN-015", Technique::kFaultInjection, Polarity::kViolation);
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    out_.write(6);
+    const std::uint64_t before = calc_hash();
+
+    out_.discard();
+
+    EXPECT_FALSE(out_.publish(Instant{200}));
+    EXPECT_EQ(out_.get_published(), 5);
+    EXPECT_EQ(out_.get_sequence(), 1U);
+    EXPECT_EQ(calc_hash(), before);
+}
+
+TEST_F(DataPortTest, TheHashCoversValueSequenceAndInstant) {
+    verifies("SWR-KRN-015", Technique::kErrorGuessing);
+    OutPort<std::int32_t> other{"other"};
+    const auto hash_other = [&other] {
+        TraceHash hash;
+        other.hash_into(hash);
+        return hash.get_value();
+    };
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+
+    other.write(5);
+    ASSERT_TRUE(other.publish(Instant{101}));
+    EXPECT_NE(hash_other(), calc_hash()) << "instant";
+    other.write(5);
+    ASSERT_TRUE(other.publish(Instant{100}));
+    EXPECT_NE(hash_other(), calc_hash()) << "sequence";
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    EXPECT_EQ(hash_other(), calc_hash());
+    out_.write(6);
+    other.write(7);
+    ASSERT_TRUE(out_.publish(Instant{100}) && other.publish(Instant{100}));
+    EXPECT_NE(hash_other(), calc_hash()) << "value";
+}
+
+TEST_F(DataPortTest, AnInputHasNoValueUntilOneArrives) {
+    verifies("SWR-KRN-016");
+
+    in_.latch(out_);
+
+    EXPECT_FALSE(in_.has_value());
+    EXPECT_FALSE(in_.is_new());
+    EXPECT_EQ(in_.read(), 0) << "value-initialised";
+    EXPECT_STREQ(in_.get_name(), "in");
+}
+
+TEST_F(DataPortTest, ALatchedValueIsNewOnceAndGrowsOld) {
+    verifies("SWR-KRN-016");
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+
+    in_.latch(out_);
+    EXPECT_TRUE(in_.has_value() && in_.is_new());
+    EXPECT_EQ(in_.read(), 5);
+    EXPECT_EQ(in_.calc_age(Instant{100}), 0_ns);
+    in_.mark_read();
+    in_.latch(out_);
+
+    EXPECT_FALSE(in_.is_new()) << "the same publication is not new again";
+    EXPECT_TRUE(in_.has_value());
+    EXPECT_EQ(in_.calc_age(Instant{350}), 250_ns);
+}
+
+TEST_F(DataPortTest, AnEqualValueThatIsPublishedAgainIsNew) {
+    verifies("SWR-KRN-016", Technique::kEquivalenceClasses);
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    in_.latch(out_);
+    in_.mark_read();
+
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{200}));
+    in_.latch(out_);
+
+    EXPECT_TRUE(in_.is_new());
+    EXPECT_EQ(in_.calc_age(Instant{200}), 0_ns);
+}
+
+TEST_F(DataPortTest, AHandedOnValueIsTakenAheadOfItsPublicationAndNotTwice) {
+    verifies("SWR-KRN-016");
+    out_.write(5);
+
+    in_.hand_on(out_, Instant{50});
+    EXPECT_TRUE(in_.is_new());
+    EXPECT_EQ(in_.read(), 5);
+    EXPECT_EQ(in_.calc_age(Instant{50}), 0_ns);
+    in_.mark_read();
+    in_.hand_on(out_, Instant{60});
+    EXPECT_FALSE(in_.is_new()) << "handed on again without a write";
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    in_.latch(out_);
+
+    EXPECT_FALSE(in_.is_new()) << "its publication is nothing new";
+}
+
+TEST_F(DataPortTest, AWriteAfterTheHandOnArrivesWithThePublication) {
+    verifies("SWR-KRN-016", Technique::kErrorGuessing);
+    out_.write(5);
+    in_.hand_on(out_, Instant{50});
+    in_.mark_read();
+
+    out_.write(6);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    in_.latch(out_);
+
+    EXPECT_TRUE(in_.is_new());
+    EXPECT_EQ(in_.read(), 6);
+}
+
+TEST_F(DataPortTest, AnOlderPublicationDoesNotReplaceAHandedOnValueThatWasDiscardedAtItsSource) {
+    verifies("SWR-KRN-016", Technique::kErrorGuessing);
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    out_.write(6);
+    in_.hand_on(out_, Instant{150});
+    in_.mark_read();
+    out_.discard();
+
+    in_.latch(out_);
+
+    EXPECT_EQ(in_.read(), 6);
+    EXPECT_FALSE(in_.is_new());
+}
+
+TEST_F(DataPortTest, NothingIsHandedOnWhenNothingWasWritten) {
+    verifies("SWR-KRN-016", Technique::kBoundaryValues);
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+
+    in_.hand_on(out_, Instant{150});
+
+    EXPECT_FALSE(in_.has_value());
+}
+
+TEST(PortNeedTest, AnInputIsMandatoryUnlessItSaysOtherwise) {
+    verifies("SWR-KRN-016", Technique::kInterface);
+
+    static_assert(InPort<double>::kIsMandatory);
+    static_assert(!InPort<double, Need::kOptional>::kIsMandatory);
+    static_assert(std::is_same_v<OutPort<double>::Payload, double>);
+    SUCCEED();
+}
+
+}  // namespace
+}  // namespace mamori

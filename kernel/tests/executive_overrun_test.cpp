@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a window whose budget is used up publishes nothing, its guilty component is named, and the others
+// run. Method: a fake host that cuts work off in either pass, on both sides of the budget; a host that
+// abandons work on a thread of its own, as a port with a guard does.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <thread>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/verification/verifies.hpp"
+#include "support/fake_host.hpp"
+#include "support/flow_components.hpp"
+
+namespace mamori {
+namespace {
+
+using testing_support::Counter;
+using testing_support::FakeHost;
+using testing_support::Relay;
+using testing_support::Sink;
+using testing_support::SpyObserver;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+using Heard = std::vector<std::string>;
+using Values = std::vector<std::int64_t>;
+using Pass = WindowHost::Pass;
+
+/// Counter and relay in window 0 with a budget of 300 ns of 400 ns; a second counter and a sink in window 1.
+class ExecutiveOverrunTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_EQ(sut_.initialize(), Status::kOk);
+        ASSERT_EQ(sut_.start(), Status::kOk);
+        sut_.set_observer(&observer_);
+    }
+    WindowOutcome run(std::size_t window, std::int64_t frame) {
+        const Instant release{frame * 1000 + table_.windows[window].offset.ns};
+        host_.now = release;
+        return sut_.run_window(window, release, host_);
+    }
+
+    Counter counter_;
+    Relay relay_;
+    Counter other_{"other"};
+    Sink sink_;
+    SystemTable<2U, 4U, 5U, 2U> table_ =
+        system(frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), mamori::run(counter_, relay_)),
+               window("second", 400_ns, 600_ns, budget(500_ns), mamori::run(other_, sink_)),
+               connect(counter_.out, relay_.in), connect(relay_.out, sink_.in));
+    FakeHost host_;
+    SpyObserver observer_;
+    ExecutiveFor<decltype(table_)> sut_{table_};
+};
+
+TEST_F(ExecutiveOverrunTest, AWindowThatUsesItsWholeBudgetCompletes) {
+    verifies("SWR-KRN-022", Technique::kBoundaryValues);
+    host_.durations[{0U, Pass::kExecute}] = 100_ns;
+    host_.durations[{1U, Pass::kExecute}] = 150_ns;
+    host_.durations[{1U, Pass::kStateUpdate}] = 50_ns;
+
+    EXPECT_EQ(run(0U, 0), WindowOutcome::kCompleted);
+
+    EXPECT_EQ(host_.now, Instant{300});
+    EXPECT_EQ(relay_.out.get_published(), 11);
+}
+
+TEST_F(ExecutiveOverrunTest, OneNanosecondMorePublishesNothingAndNamesTheComponent) {
+    verifies("SWR-KRN-022", Technique::kBoundaryValues, Polarity::kViolation);
+    host_.durations[{0U, Pass::kExecute}] = 100_ns;
+    host_.durations[{1U, Pass::kExecute}] = 201_ns;
+
+    EXPECT_EQ(run(0U, 0), WindowOutcome::kOverrun);
+
+    EXPECT_EQ(counter_.out.get_sequence(), 0U) << "not even the one that was in time";
+    EXPECT_EQ(relay_.out.get_sequence(), 0U);
+    EXPECT_EQ(sut_.get_trace_hash(), TraceHash{}.get_value());
+    EXPECT_EQ(observer_.heard,
+              (Heard{"start 0 @0", "finish 0 @100", "start 1 @100", "overrun window 0 component 1 @300"}));
+}
+
+TEST_F(ExecutiveOverrunTest, AHangInTheFirstComponentKeepsTheRestOfItsWindowFromRunning) {
+    verifies("SWR-KRN-022", Technique::kFaultInjection, Polarity::kViolation);
+    host_.hangs[{0U, Pass::kExecute}] = true;
+
+    EXPECT_EQ(run(0U, 0), WindowOutcome::kOverrun);
+
+    EXPECT_EQ(observer_.heard, (Heard{"start 0 @0", "overrun window 0 component 0 @300"}));
+    EXPECT_FALSE(relay_.out.is_staged());
+}
+
+TEST_F(ExecutiveOverrunTest, TheSecondPassIsUnderTheBudgetToo) {
+    verifies("SWR-KRN-022", Technique::kFaultInjection, Polarity::kViolation);
+    host_.hangs[{0U, Pass::kStateUpdate}] = true;
+
+    EXPECT_EQ(run(0U, 0), WindowOutcome::kOverrun);
+
+    EXPECT_EQ(observer_.heard.back(), "overrun window 0 component 0 @300");
+    EXPECT_EQ(relay_.out.get_sequence(), 0U);
+}
+
+TEST_F(ExecutiveOverrunTest, AnOverrunDoesNotStopTheOtherWindowsWhichSeeTheLastPublication) {
+    verifies("SWR-KRN-022", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(run(0U, 0), WindowOutcome::kCompleted);
+    ASSERT_EQ(run(1U, 0), WindowOutcome::kCompleted);
+    host_.hangs[{1U, Pass::kExecute}] = true;
+
+    EXPECT_EQ(run(0U, 1), WindowOutcome::kOverrun);
+    EXPECT_EQ(run(1U, 1), WindowOutcome::kCompleted);
+
+    EXPECT_EQ(sink_.get_values(), (Values{11, 11}));
+    EXPECT_FALSE(sink_.notes[1].is_new);
+    EXPECT_EQ(sink_.notes[1].age, 1000_ns);
+    EXPECT_EQ(other_.out.get_sequence(), 2U);
+}
+
+TEST_F(ExecutiveOverrunTest, AfterAnOverrunTheNextCycleIsComplete) {
+    verifies("SWR-KRN-022", Technique::kFaultInjection);
+    host_.durations[{0U, Pass::kExecute}] = 301_ns;
+    ASSERT_EQ(run(0U, 0), WindowOutcome::kOverrun);
+    host_.durations.clear();
+
+    EXPECT_EQ(run(0U, 1), WindowOutcome::kCompleted);
+
+    EXPECT_EQ(counter_.out.get_sequence(), 1U);
+    EXPECT_EQ(counter_.out.get_published(), 20) << "the late run counted on, its output did not leave";
+}
+
+TEST_F(ExecutiveOverrunTest, ALateReleaseKeepsTheBudgetButNotBeyondTheClose) {
+    verifies("SWR-KRN-022", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto release_at = [this](std::int64_t lateness) {
+        host_.now = Instant{lateness};
+        host_.deadlines.clear();
+        EXPECT_EQ(sut_.run_window(0U, Instant{0}, host_), WindowOutcome::kCompleted);
+        return host_.deadlines.front();
+    };
+
+    EXPECT_EQ(release_at(0), Instant{300});
+    EXPECT_EQ(release_at(99), Instant{399});
+    EXPECT_EQ(release_at(100), Instant{400});
+    EXPECT_EQ(release_at(101), Instant{400});
+}
+
+TEST_F(ExecutiveOverrunTest, AnInputIsNewAgainForAComponentThatHadNoCycle) {
+    verifies("SWR-KRN-016", Technique::kFaultInjection);
+    ASSERT_EQ(run(0U, 0), WindowOutcome::kCompleted);
+    host_.hangs[{2U, Pass::kExecute}] = true;  // the counter before the sink
+    ASSERT_EQ(run(1U, 0), WindowOutcome::kOverrun);
+    host_.hangs.clear();
+
+    ASSERT_EQ(run(1U, 1), WindowOutcome::kCompleted);
+
+    ASSERT_EQ(sink_.notes.size(), 1U);
+    EXPECT_TRUE(sink_.notes[0].is_new);
+}
+
+/// Writes and then waits for its release, once, when told to.
+class HangingComponent final : public Component {
+  public:
+    explicit HangingComponent() noexcept : Component("hanging") {}
+    OutPort<std::int64_t> out{"out"};
+    using Ports = mamori::Ports<&HangingComponent::out>;
+
+    std::promise<void> entered;
+    std::promise<void> released;
+    std::atomic<bool> is_to_hang{false};
+
+    Status on_execute(ContextHandle) noexcept override {
+        if (is_to_hang.exchange(false)) {
+            entered.set_value();
+            released.get_future().wait();
+            out.write(666);
+        }
+        return Status::kOk;
+    }
+};
+
+/// Runs the work of component 0 on a thread and abandons it when it hangs, as a port's guard does.
+class AbandoningHost final : public WindowHost {
+  public:
+    explicit AbandoningHost(HangingComponent& component) : component_(component) {}
+    ~AbandoningHost() {
+        if (thread_.joinable()) {
+            thread_.join();
+        }
+    }
+    Instant now{};
+
+    Instant get_now() const noexcept override { return now; }
+    bool run_within(std::size_t component, Work work, Instant deadline) noexcept override {
+        if (component != 0U || !component_.is_to_hang) {
+            work.function(work.argument);
+            return true;
+        }
+        thread_ = std::thread([work] { work.function(work.argument); });
+        component_.entered.get_future().wait();
+        now = deadline;
+        return false;
+    }
+    void let_it_return() {
+        component_.released.set_value();
+        thread_.join();
+    }
+
+  private:
+    HangingComponent& component_;
+    std::thread thread_;
+};
+
+TEST(ExecutiveAbandonedWorkTest, WorkThatHangsIsNamedEachFrameAndNeverPublishesWhatItWroteLate) {
+    verifies("SWR-KRN-022", Technique::kFaultInjection, Polarity::kViolation);
+    HangingComponent hanging;
+    Counter other;
+    const auto table = system(frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), run(hanging)),
+                              window("second", 400_ns, 600_ns, budget(500_ns), run(other)));
+    ExecutiveFor sut{table};
+    SpyObserver observer;
+    AbandoningHost host{hanging};
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    sut.set_observer(&observer);
+
+    hanging.is_to_hang = true;
+    EXPECT_EQ(sut.run_window(0U, Instant{0}, host), WindowOutcome::kOverrun);
+    host.now = Instant{400};
+    EXPECT_EQ(sut.run_window(1U, Instant{400}, host), WindowOutcome::kCompleted);
+    host.now = Instant{1000};
+    EXPECT_EQ(sut.run_window(0U, Instant{1000}, host), WindowOutcome::kOverrun);
+    EXPECT_EQ(sut.get_context(0U).deactivate_component(hanging, host.now), Status::kPreconditionNotMet);
+
+    host.let_it_return();
+    ASSERT_TRUE(hanging.out.is_staged());
+    host.now = Instant{2000};
+    EXPECT_EQ(sut.run_window(0U, Instant{2000}, host), WindowOutcome::kCompleted);
+
+    EXPECT_EQ(hanging.out.get_sequence(), 0U);
+    EXPECT_EQ(observer.heard,
+              (Heard{"start 0 @0", "overrun window 0 component 0 @300", "start 1 @400", "finish 1 @400",
+                     "overrun window 0 component 0 @1000", "start 0 @2000", "finish 0 @2000"}));
+    EXPECT_EQ(other.out.get_sequence(), 1U);
+}
+
+}  // namespace
+}  // namespace mamori

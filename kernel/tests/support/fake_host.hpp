@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A window host whose clock a test sets and whose work takes as long as the test says, and an observer that
+/// writes down what it hears.
+#ifndef MAMORI_KERNEL_TESTS_FAKE_HOST_HPP
+#define MAMORI_KERNEL_TESTS_FAKE_HOST_HPP
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mamori/kernel/execution_observer.hpp"
+#include "mamori/kernel/window_host.hpp"
+
+namespace mamori::testing_support {
+
+class FakeHost final : public WindowHost {
+  public:
+    Instant now{};
+    /// Modelled time of (component, pass); nothing for those that are not named.
+    std::map<std::pair<std::size_t, Pass>, Duration> durations;
+    /// Work of these is not called and runs out of budget.
+    std::map<std::pair<std::size_t, Pass>, bool> hangs;
+    std::vector<Instant> deadlines;
+
+    Instant get_now() const noexcept override { return now; }
+
+    bool run_within(std::size_t component, Work work, Instant deadline) noexcept override {
+        deadlines.push_back(deadline);
+        const auto key = std::make_pair(component, work.pass);
+        if (!hangs[key]) {
+            work.function(work.argument);
+        }
+        const Instant end = now + durations[key];
+        const bool is_in_time = !hangs[key] && end <= deadline;
+        now = is_in_time ? end : deadline;
+        return is_in_time;
+    }
+};
+
+class SpyObserver final : public ExecutionObserver {
+  public:
+    std::vector<std::string> heard;
+
+    void on_component_started(std::size_t component, Instant now) noexcept override {
+        heard.push_back("start " + std::to_string(component) + " @" + std::to_string(now.ns));
+    }
+    void on_component_finished(std::size_t component, Instant now) noexcept override {
+        heard.push_back("finish " + std::to_string(component) + " @" + std::to_string(now.ns));
+    }
+    void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override {
+        heard.push_back("overrun window " + std::to_string(window) + " component " +
+                        std::to_string(component) + " @" + std::to_string(now.ns));
+    }
+    void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override {
+        heard.push_back("late window " + std::to_string(window) + " by " + std::to_string(lateness.ns) +
+                        " @" + std::to_string(now.ns));
+    }
+};
+
+}  // namespace mamori::testing_support
+
+#endif  // MAMORI_KERNEL_TESTS_FAKE_HOST_HPP
