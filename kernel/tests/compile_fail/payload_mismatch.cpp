@@ -3,7 +3,7 @@
 #include "parts.hpp"
 
 #ifdef MAMORI_BREAK
-constexpr auto kConnection = mamori::connect(g_producer.whole, g_consumer.in);
+[[maybe_unused]] constexpr auto kConnection = mamori::connect(g_producer.whole, g_consumer.in);
 #else
-constexpr auto kConnection = mamori::connect(g_producer.real, g_consumer.in);
+[[maybe_unused]] constexpr auto kConnection = mamori::connect(g_producer.real, g_consumer.in);
 #endif

@@ -14,4 +14,4 @@ class Odd final : public mamori::Component {
 #endif
 };
 Odd g_odd;
-constexpr auto kRunList = mamori::run(g_odd);
+[[maybe_unused]] constexpr auto kRunList = mamori::run(g_odd);
