@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes evidence/environment.json: where, when and with what the evidence was made (docs/design/evidence.md).
+
+@satisfies SWR-CLI-009      Design: docs/design/launcher.md#environment-record
+"""
+
+from __future__ import annotations
+
+import datetime
+import json
+import os
+import platform
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from mamori.verification.command.project import Project
+
+COMPILERS = ("g++", "clang++-19", "arm-none-eabi-g++")
+
+
+def write_environment(project: Project, command: Sequence[str]) -> Path:
+    """Writes the record for a run of `command`, whole or not at all. @return its path."""
+    record = collect_environment(project, command)
+    project.evidence.mkdir(parents=True, exist_ok=True)
+    path = project.evidence / "environment.json"
+    part = path.with_name(f".{path.name}.part")
+    part.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    os.replace(part, path)
+    return path
+
+
+def collect_environment(project: Project, command: Sequence[str]) -> dict[str, object]:
+    """The record as a dictionary. What the machine cannot tell is "unknown" or left out."""
+    names = os.environ.get("MAMORI_PACKAGES", "").split()
+    return {
+        "schema": "mamori.environment/1",
+        "commit": _ask(["git", "rev-parse", "HEAD"], project.root) or "unknown",
+        "dirty": bool(_ask(["git", "status", "--porcelain"], project.root)),
+        "date_utc": datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
+        "command": " ".join(command),
+        "os": _get_os(),
+        "cpu": _get_cpu(),
+        "cores": os.cpu_count() or 1,
+        "compilers": {name: line for name in COMPILERS if (line := _ask([name, "--version"]).partition("\n")[0])},
+        "packages": _get_packages(names),
+        "python": platform.python_version(),
+    }
+
+
+def _ask(argv: list[str], cwd: Path | None = None) -> str:
+    """What a program says; nothing when it is missing or fails."""
+    try:
+        done = subprocess.run(argv, cwd=cwd, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    except OSError:
+        return ""
+    return done.stdout.strip() if done.returncode == 0 else ""
+
+
+def _get_os() -> str:
+    try:
+        return platform.freedesktop_os_release()["PRETTY_NAME"]
+    except (OSError, KeyError):
+        return platform.platform()
+
+
+def _get_cpu() -> str:
+    for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+        if line.startswith("model name"):
+            return line.partition(":")[2].strip()
+    return platform.machine()
+
+
+def _get_packages(names: list[str]) -> dict[str, str]:
+    if not names:
+        return {}
+    lines = _ask(["dpkg-query", "-W", "-f", "${Package} ${Version}\n", *names]).splitlines()
+    return dict(line.split(" ", 1) for line in lines)

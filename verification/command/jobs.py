@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the commands do: check the input, run a table of steps, end with one screen that says how it went.
+
+@satisfies SWR-CLI-006, SWR-CLI-009      Design: docs/design/launcher.md#steps
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from mamori.verification.command import plans
+from mamori.verification.command.campaign_step import CampaignRequest, CampaignStep
+from mamori.verification.command.campaign_table import summarise_campaign
+from mamori.verification.command.environment import write_environment
+from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
+from mamori.verification.command.names import nearest
+from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
+from mamori.verification.command.steps import Context, Outcome, all_passed, run_steps, total
+
+
+def demo(jobs: int, motion: Path | None, scenarios: tuple[str, ...], instants: int | None) -> int:
+    """The main job. @return exit status."""
+    project = Project(ROOT)
+    request = CampaignRequest(motion or project.motion, scenarios, instants)
+    request.check(project)
+    context = begin(project, jobs, (RELEASE,))
+    outcomes = run_steps(plans.demo_plan(CampaignStep(request)), context)
+    show_campaign(context)
+    return finish(outcomes, context)
+
+
+def test(jobs: int, quick: bool) -> int:
+    """Everything that CI runs. @return exit status."""
+    project = Project(ROOT)
+    request = CampaignRequest(project.motion)
+    request.check(project)
+    context = begin(project, jobs, (RELEASE, SANITIZED))
+    outcomes = run_steps(plans.test_plan(project, CampaignStep(request), quick), context)
+    show_steps(outcomes, context)
+    return finish(outcomes, context)
+
+
+def build(jobs: int, folder: Path | None, preset: str) -> int:
+    """Builds the shipped project, and then the one in `folder` against its package. @return exit status."""
+    check_preset(preset)
+    project = Project(check_folder(folder) if folder else ROOT, preset)
+    outcomes = run_steps(plans.build_plan(project), Context(project, jobs))
+    if not all_passed(outcomes):
+        return EXIT_FAILED
+    print(f"built: {project.build}")
+    return EXIT_OK
+
+
+def verify(jobs: int, folder: Path | None) -> int:
+    """Tests, campaign, trace check and report of the shipped project or of the one in `folder`. @return exit status."""
+    if folder is None:
+        return demo(jobs, None, (), None)
+    project = Project(check_folder(folder))
+    context = begin(project, jobs, (RELEASE,))
+    outcomes = run_steps(plans.verify_plan(project), context)
+    show_steps(outcomes, context)
+    return finish(outcomes, context)
+
+
+def begin(project: Project, jobs: int, presets: Sequence[str]) -> Context:
+    """Throws the evidence of earlier runs away, so that none of it can count for this one, and records the environment."""
+    for preset in presets:
+        evidence = Project(project.root, preset).evidence
+        if evidence.exists():
+            shutil.rmtree(evidence)
+    project.junit.mkdir(parents=True)
+    write_environment(project, ["./mamori", *sys.argv[1:]])
+    return Context(project, jobs)
+
+
+def check_folder(folder: Path) -> Path:
+    """@return the absolute path of a project folder. @raise UsageError when it is none."""
+    if not (folder / "CMakeLists.txt").is_file():
+        raise UsageError(f"'{folder}' has no CMakeLists.txt; give the folder of a project that calls find_package(mamori)")
+    return folder.resolve()
+
+
+def check_preset(preset: str) -> None:
+    """@raise UsageError when CMakePresets.json has no such configuration."""
+    presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
+    names = [entry["name"] for entry in presets if not entry.get("hidden")]
+    if preset not in names:
+        raise UsageError(f"there is no preset '{preset}'; nearest: {nearest(preset, names)}")
+
+
+def show_steps(outcomes: Sequence[Outcome], context: Context) -> None:
+    """The table of all steps."""
+    context.screen.say()
+    context.screen.print_table(
+        ("step", "result", "time", "results", "log"),
+        [
+            (one.name, one.verdict, f"{one.seconds:.1f} s", str(one.counts), str(one.log.relative_to(context.project.root)))
+            for one in outcomes
+        ],
+    )
+
+
+def show_campaign(context: Context) -> None:
+    """The table of all scenarios; nothing when no campaign was run."""
+    path = context.project.evidence / "campaign" / "campaign.json"
+    if not path.exists():
+        return
+    context.screen.say()
+    context.screen.print_table(*summarise_campaign(json.loads(path.read_text(encoding="utf-8"))))
+
+
+def finish(outcomes: Sequence[Outcome], context: Context) -> int:
+    """The closing lines. @return the exit status."""
+    context.screen.say()
+    if any(one.name == plans.REPORT and one.verdict == "passed" for one in outcomes):
+        context.screen.say(f"report: {context.project.report}")
+    failed = [one.name for one in outcomes if one.verdict == "failed"]
+    if failed:
+        context.screen.say(f"failed: {', '.join(failed)}", style="bold red")
+    context.screen.say(str(total(outcomes)))
+    return EXIT_OK if all_passed(outcomes) else EXIT_FAILED

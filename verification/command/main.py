@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Entry of the command: arguments, exit status, orderly stop.
+
+The help texts are those of the launcher script, which answers --help before anything is installed.
+
+@satisfies SWR-CLI-005, SWR-CLI-008      Design: docs/design/launcher.md#launcher
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+from mamori.verification.command import jobs
+from mamori.verification.command.errors import EXIT_INTERRUPTED, EXIT_USAGE, UsageError
+from mamori.verification.command.names import nearest
+from mamori.verification.command.project import RELEASE
+from mamori.verification.command.process import end_children, raise_on_signals
+
+PROGRAM = "mamori"
+
+
+class Parser(argparse.ArgumentParser):
+    """Answers a wrong word with one line that names the nearest right ones."""
+
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"{self.prog.removeprefix(PROGRAM).strip() or PROGRAM}: {message}")
+
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
+        known, rest = super().parse_known_args(args, namespace)
+        if rest:
+            raise UsageError(self._describe_unknown(rest[0]))
+        return known, rest
+
+    def _describe_unknown(self, word: str) -> str:
+        command = self.prog.removeprefix(PROGRAM).strip()
+        if not word.startswith("-"):
+            return f"{command} does not take '{word}'; see ./mamori {command} --help"
+        options = [text for action in self._actions for text in action.option_strings]
+        return f"{command} has no option '{word}'; nearest: {nearest(word.partition('=')[0], options)}"
+
+
+def at_least_one(text: str) -> int:
+    """Type of an option that counts something."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is no whole number from 1 on")
+    return int(text)
+
+
+def make_parser() -> Parser:
+    parser = Parser(prog=PROGRAM, allow_abbrev=False)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=Parser)
+
+    def add(name: str, with_project: bool = False) -> argparse.ArgumentParser:
+        command = commands.add_parser(name, allow_abbrev=False)
+        command.add_argument("--jobs", type=at_least_one, default=os.cpu_count() or 1, metavar="N")
+        if with_project:
+            command.add_argument("project", nargs="?", type=Path, metavar="PROJECT")
+        return command
+
+    demo = add("demo")
+    demo.add_argument("--motion", type=Path, metavar="FILE")
+    demo.add_argument("--scenario", nargs="+", default=[], metavar="NAME", action="extend")
+    demo.add_argument("--instants", type=at_least_one, metavar="N")
+    add("test").add_argument("--quick", action="store_true")
+    add("build", with_project=True).add_argument("--preset", default=RELEASE, metavar="NAME")
+    add("verify", with_project=True)
+    return parser
+
+
+def run(argv: Sequence[str]) -> int:
+    """Runs the command. @return the exit status."""
+    if argv and argv[0] == "trace":
+        # Imported here only: no other command needs its libraries.
+        return importlib.import_module("mamori.trace.command").main(list(argv[1:]))
+    arguments = make_parser().parse_args(argv)
+    match arguments.command:
+        case "demo":
+            return jobs.demo(arguments.jobs, arguments.motion, tuple(arguments.scenario), arguments.instants)
+        case "test":
+            return jobs.test(arguments.jobs, arguments.quick)
+        case "build":
+            return jobs.build(arguments.jobs, arguments.project, arguments.preset)
+        case _:
+            return jobs.verify(arguments.jobs, arguments.project)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input) or 130 (stopped)."""
+    raise_on_signals()
+    try:
+        return run(sys.argv[1:] if argv is None else argv)
+    except UsageError as error:
+        print(f"{PROGRAM}: {error}", file=sys.stderr)
+        return EXIT_USAGE
+    except KeyboardInterrupt:
+        end_children()
+        print(f"\n{PROGRAM}: stopped; no report was written", file=sys.stderr)
+        return EXIT_INTERRUPTED

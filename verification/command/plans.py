@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The tables of steps behind `demo`, `test` and `verify`. A new check is a new row.
+
+@satisfies SWR-CLI-006      Design: docs/design/launcher.md#steps
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from mamori.verification.command.process import Tick
+from mamori.verification.command.project import CHECKED_LAYERS, RELEASE, ROOT, SANITIZED, Project
+from mamori.verification.command.steps import Context, Step
+
+PYTHON = ("{python}", "-P", "-m")
+PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
+COMMAND = (*PYTHON, "mamori.verification.command")
+
+BUILD = f"build {RELEASE}"
+INSTALL = "install the package"
+BUILD_USER = "build the project"
+REPORT = "report"
+
+Action = Callable[[Context, Tick], None]
+
+
+def build_step(preset: str, slow: bool = False) -> Step:
+    """Mamori itself."""
+    return Step(
+        name=f"build {preset}",
+        commands=(
+            ("cmake", "-S", str(ROOT), "--preset", preset),
+            ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}"),
+        ),
+        slow=slow,
+    )
+
+
+def ctest_step(preset: str, slow: bool = False) -> Step:
+    return Step(
+        name=f"tests {preset}",
+        commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error"),),
+        needs=(f"build {preset}",),
+        junit=f"build/{preset}/evidence/junit",
+        slow=slow,
+    )
+
+
+def proof_step(name: str, file: str, needs: tuple[str, ...] = (BUILD,), slow: bool = False) -> Step:
+    """One proof: a pytest file of verification/proofs."""
+    return Step(
+        name=name,
+        commands=((*PYTEST, f"verification/proofs/test_{file}.py"),),
+        needs=needs,
+        result=f"proof-{file}.xml",
+        slow=slow,
+    )
+
+
+HOST_TOOLS = Step(name="tests of the host tools", commands=(PYTEST,), result="python-tools.xml")
+LAYERS = Step(name="layer check", commands=((*PYTHON, "mamori.verification.tools.check_layers"),))
+
+
+def format_step(project: Project) -> Step:
+    return Step(
+        name="format check",
+        commands=(("clang-format-19", "--dry-run", "--Werror", "{files}"),),
+        lists={"{files}": project.cpp_sources()},
+    )
+
+
+def tidy_step() -> Step:
+    layers = "|".join(CHECKED_LAYERS)
+    return Step(
+        name="clang-tidy",
+        commands=(
+            (
+                "run-clang-tidy-19", "-quiet", "-use-color=0", "-j", "{jobs}", "-p", "{build}",
+                f"-header-filter=.*/({layers})/(.*/)?include/.*", f".*/({layers})/(.*/)?src/.*",
+            ),
+        ),
+        needs=(BUILD,),
+        slow=True,
+    )  # fmt: skip
+
+
+def cppcheck_step(project: Project) -> Step:
+    sources = [name for name in project.cpp_sources(CHECKED_LAYERS) if "/src/" in name]
+    includes = [f"-I{path.relative_to(project.root)}" for layer in CHECKED_LAYERS
+                for path in sorted((project.root / layer).rglob("include")) if path.is_dir()]
+    return Step(
+        name="cppcheck",
+        commands=(
+            (
+                "cppcheck", "--quiet", "--language=c++", "--std=c++17", "--enable=warning,performance,portability",
+                "--suppress=missingIncludeSystem", "--inline-suppr", "--error-exitcode=1", "{includes}", "{files}",
+            ),
+        ),
+        lists={"{includes}": includes, "{files}": sources},
+    )  # fmt: skip
+
+
+def trace_steps(*options: str) -> tuple[Step, ...]:
+    """Trace check and report: the end of every plan. The report is written also when something failed before."""
+    return (
+        Step(name="trace check", commands=((*COMMAND, "trace", "check", "--root", "{root}", *options),)),
+        Step(name=REPORT, commands=((*COMMAND, "trace", "report", "--root", "{root}", *options),)),
+    )
+
+
+def campaign_step(campaign: Action) -> Step:
+    return Step(name="fault campaign", function=campaign, needs=(BUILD,))
+
+
+def demo_plan(campaign: Action) -> tuple[Step, ...]:
+    return (
+        build_step(RELEASE),
+        ctest_step(RELEASE),
+        HOST_TOOLS,
+        # What only `./mamori test` runs may be missing here; what ran and failed may not.
+        campaign_step(campaign),
+        *trace_steps("--allow-missing"),
+    )
+
+
+def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ...]:
+    steps = (
+        build_step(RELEASE),
+        ctest_step(RELEASE),
+        HOST_TOOLS,
+        LAYERS,
+        format_step(project),
+        tidy_step(),
+        cppcheck_step(project),
+        proof_step("symbol proof", "symbols"),
+        proof_step("bare-metal proof", "bare_metal", needs=()),
+        proof_step("consumer proof", "consumer"),
+        build_step(SANITIZED, slow=True),
+        ctest_step(SANITIZED, slow=True),
+        proof_step("determinism proof", "determinism", slow=True),
+        campaign_step(campaign),
+        *trace_steps(*(("--allow-missing",) if quick else ())),
+    )
+    return tuple(step for step in steps if not (quick and step.slow))
+
+
+def build_plan(project: Project) -> tuple[Step, ...]:
+    """`project` is Mamori itself, or one of the user's, which is built against the installed package."""
+    shipped = build_step(project.preset)
+    if project.root == ROOT:
+        return (shipped,)
+    prefix = str(ROOT / "build" / "install")
+    return (
+        shipped,
+        Step(
+            name=INSTALL,
+            commands=(("cmake", "--install", str(Project(ROOT, project.preset).build), "--prefix", prefix),),
+            needs=(shipped.name,),
+        ),
+        Step(
+            name=BUILD_USER,
+            commands=(
+                ("cmake", "-S", "{root}", "-B", "{build}", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
+                 "-DCMAKE_BUILD_TYPE=Release"),
+                ("cmake", "--build", "{build}", "--parallel", "{jobs}"),
+            ),
+            needs=(INSTALL,),
+        ),
+    )  # fmt: skip
+
+
+def verify_plan(project: Project) -> tuple[Step, ...]:
+    """A project of the user's. Its GoogleTest programs write their results because the environment tells them to."""
+    tests = Step(
+        name="tests of the project",
+        commands=(("env", "GTEST_OUTPUT=xml:{junit}/", "ctest", "--test-dir", "{build}", "--output-on-failure",
+                   "--parallel", "{jobs}", "--no-tests=error"),),
+        needs=(BUILD_USER,),
+    )  # fmt: skip
+    return (*build_plan(project), tests, *trace_steps())

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Child processes: output to a log, progress while they run, none left behind when the command is stopped.
+
+@satisfies SWR-CLI-008      Design: docs/design/launcher.md#interrupt
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import NoReturn
+
+Tick = Callable[[str], None]
+
+POLL_S = 0.1
+GRACE_S = 5.0
+LOG_TAIL_BYTES = 4096
+
+
+def run_logged(argv: Sequence[str], log: Path, cwd: Path, tick: Tick, env: Mapping[str, str] | None = None) -> int:
+    """Runs `argv` in `cwd` with its output appended to `log`; calls `tick` with the newest log line. @return exit status;
+    127 when the program does not exist."""
+    with log.open("a", encoding="utf-8") as out:
+        print("$", *argv, file=out, flush=True)
+        try:
+            child = subprocess.Popen(
+                argv, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT
+            )
+        except OSError as error:
+            print(f"{argv[0]}: {error.strerror}", file=out)
+            return 127
+        while True:
+            try:
+                return child.wait(POLL_S)
+            except subprocess.TimeoutExpired:
+                tick(read_last_line(log))
+
+
+def read_tail(log: Path, lines: int) -> list[str]:
+    """The last non-empty `lines` of `log`; nothing when there is no log."""
+    if not log.exists():
+        return []
+    text = log.read_text(encoding="utf-8", errors="replace")
+    return [line for line in text.splitlines() if line.strip()][-lines:]
+
+
+def read_last_line(log: Path) -> str:
+    """The newest line of a log that may be long and still grows."""
+    with log.open("rb") as file:
+        file.seek(max(0, file.seek(0, os.SEEK_END) - LOG_TAIL_BYTES))
+        lines = file.read().decode("utf-8", errors="replace").split("\n")
+    return next((line.strip() for line in reversed(lines) if line.strip()), "")
+
+
+def raise_on_signals() -> None:
+    """SIGINT and SIGTERM both stop the command in order, also where a parent shell had told it to ignore SIGINT."""
+
+    def stop(number: int, _frame: object) -> NoReturn:
+        raise KeyboardInterrupt(signal.Signals(number).name)
+
+    signal.signal(signal.SIGINT, stop)
+    signal.signal(signal.SIGTERM, stop)
+
+
+def end_children() -> None:
+    """Ends every descendant of this process: asks first, then, after GRACE_S, does not ask."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    deadline = time.monotonic() + GRACE_S
+    asked: set[int] = set()
+    while children := _get_descendants(os.getpid()):
+        number = signal.SIGTERM if time.monotonic() < deadline else signal.SIGKILL
+        for pid in children:
+            if number is signal.SIGKILL or pid not in asked:
+                asked.add(pid)
+                _send(pid, number)
+        time.sleep(POLL_S)
+
+
+def _send(pid: int, number: signal.Signals) -> None:
+    try:
+        os.kill(pid, number)
+    except ProcessLookupError:
+        pass  # it ended by itself in the meantime
+
+
+def _get_descendants(ancestor: int) -> set[int]:
+    """Living processes below `ancestor`; ended ones whose parent has not looked yet do not count."""
+    children: dict[int, list[int]] = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            pid_text, rest = stat.read_text(encoding="utf-8", errors="replace").split(" (", 1)
+        except (OSError, ValueError):
+            continue  # ended while we looked
+        state, parent = rest.rsplit(") ", 1)[1].split()[:2]
+        if state != "Z":
+            children.setdefault(int(parent), []).append(int(pid_text))
+    found: set[int] = set()
+    pending = [ancestor]
+    while pending:
+        below = children.get(pending.pop(), [])
+        found.update(below)
+        pending.extend(below)
+    return found

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs a table of steps: each one timed, logged and judged; one that fails stops only those that need it.
+
+@satisfies SWR-CLI-006, SWR-CLI-007      Design: docs/design/launcher.md#steps
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mamori.verification.command.console import Screen
+from mamori.verification.command.errors import StepError
+from mamori.verification.command.junit import Counts, count_results
+from mamori.verification.command.process import Tick, read_tail, run_logged
+from mamori.verification.command.project import Project
+
+TAIL_LINES = 20
+
+
+@dataclass(frozen=True)
+class Context:
+    """What a step may know about the run it is part of."""
+
+    project: Project
+    jobs: int
+    screen: Screen = field(default_factory=Screen)
+
+
+@dataclass(frozen=True)
+class Step:
+    """One row of a table of steps: `commands` run in order in the project folder, then `function`.
+
+    In a command `{root}`, `{build}`, `{evidence}`, `{junit}`, `{python}`, `{jobs}` stand for their values, and `{result}` for
+    a temporary name that becomes `<evidence>/junit/<result>` when the command has ended. A word that is a key of `lists`
+    (`{files}`) is replaced by many words.
+    """
+
+    name: str
+    commands: tuple[tuple[str, ...], ...] = ()
+    function: Callable[[Context, Tick], None] | None = None
+    needs: tuple[str, ...] = ()
+    lists: dict[str, list[str]] = field(default_factory=dict)
+    result: str = ""
+    junit: str = ""  # folder, relative to the root, whose new JUnit files hold the results; default: that of the evidence
+    slow: bool = False  # left out by --quick
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of one step."""
+
+    name: str
+    verdict: str  # passed, failed or skipped
+    seconds: float
+    counts: Counts
+    log: Path
+    reason: str = ""
+
+
+def run_steps(steps: Sequence[Step], context: Context) -> list[Outcome]:
+    """Runs all `steps` in order. @return one outcome per step."""
+    context.project.logs.mkdir(parents=True, exist_ok=True)
+    outcomes: dict[str, Outcome] = {}
+    for number, step in enumerate(steps, start=1):
+        missing = [name for name in step.needs if name in outcomes and outcomes[name].verdict != "passed"]
+        if missing:
+            reason = f"needs: {', '.join(missing)}"
+            outcome = Outcome(step.name, "skipped", 0.0, Counts(skipped=1), _get_log(step, context), reason)
+        else:
+            with context.screen.show_work(f"[{number}/{len(steps)}] {step.name}") as tick:
+                outcome = _run_step(step, context, tick)
+        outcomes[step.name] = outcome
+        _show(outcome, number, len(steps), context)
+    return list(outcomes.values())
+
+
+def total(outcomes: Sequence[Outcome]) -> Counts:
+    """All results of all steps."""
+    counts = Counts()
+    for outcome in outcomes:
+        counts += outcome.counts
+    return counts
+
+
+def all_passed(outcomes: Sequence[Outcome]) -> bool:
+    """True when every step ran and passed; a skipped step proves nothing."""
+    return all(outcome.verdict == "passed" for outcome in outcomes)
+
+
+def _get_log(step: Step, context: Context) -> Path:
+    return context.project.logs / f"{step.name.replace(' ', '-').replace('+', 'x')}.log"
+
+
+def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
+    log = _get_log(step, context)
+    log.write_text("", encoding="utf-8")
+    begin_ns = log.stat().st_mtime_ns  # the clock of the file system, which also stamps the results
+    start = time.monotonic()
+    reason = _do_work(step, context, log, tick)
+    folder = context.project.root / step.junit if step.junit else context.project.junit
+    files = [path for path in sorted(folder.glob("*.xml")) if path.stat().st_mtime_ns >= begin_ns]
+    counts = count_results(files)
+    if not reason and counts.failed:
+        reason = f"{counts.failed} results failed"
+    if reason and not counts.failed:
+        counts += Counts(failed=1)  # it failed without a result that says so
+    elif counts.total == 0:
+        counts = Counts(passed=1)  # a step without results of its own is one result
+    verdict = "failed" if reason else "passed"
+    return Outcome(step.name, verdict, time.monotonic() - start, counts, log, reason)
+
+
+def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:
+    """@return why the step failed, or nothing."""
+    project = context.project
+    part = project.junit / f".{step.result}.part"
+    values = {"root": str(project.root), "build": str(project.build), "evidence": str(project.evidence),
+              "junit": str(project.junit), "python": sys.executable, "jobs": str(context.jobs), "result": str(part)}
+    for command in step.commands:
+        argv = [word for template in command for word in _expand(template, step.lists, values)]
+        status = run_logged(argv, log, project.root, tick)
+        if step.result and part.exists():
+            os.replace(part, project.junit / step.result)
+        if status != 0:
+            return f"{Path(argv[0]).name} ended with status {status}"
+    if step.function is not None:
+        try:
+            step.function(context, tick)
+        except (StepError, OSError, ImportError) as error:
+            with log.open("a", encoding="utf-8") as out:
+                print(error, file=out)
+            return str(error)
+    return ""
+
+
+def _expand(template: str, lists: dict[str, list[str]], values: dict[str, str]) -> list[str]:
+    return lists[template] if template in lists else [template.format(**values)]
+
+
+def _show(outcome: Outcome, number: int, count: int, context: Context) -> None:
+    line = f"[{number}/{count}] {outcome.name}  {outcome.seconds:.1f} s"
+    if outcome.counts.total > 1:
+        line += f"  ({outcome.counts})"
+    context.screen.say_verdict(outcome.verdict, f"{line}  {outcome.reason}".rstrip())
+    if outcome.verdict == "failed":
+        for text in read_tail(outcome.log, TAIL_LINES):
+            context.screen.say(f"           | {text}")
+        context.screen.say(f"           log: {outcome.log}")

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the safe arm again and again, as several compilers made it, and compares the port-trace hashes.
+
+@satisfies SWR-PRF-005      Design: docs/design/launcher.md#determinism-proof
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+HASH = re.compile(r"[0-9a-f]{16}")
+RUN_TIMEOUT_S = 120
+
+
+class ProofError(Exception):
+    """A build or run did not give a hash. The message names it."""
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A way to compile the project."""
+
+    name: str
+    compiler: str
+    flags: str
+
+
+VARIANTS = (
+    Variant("gcc-O0", "g++", "-O0"),
+    Variant("clang-O0", "clang++-19", "-O0"),
+    Variant("clang-O2", "clang++-19", "-O2"),
+)
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """All that may decide the trace hash, but for the commit."""
+
+    model: Path
+    motion: Path
+    fault: str
+    seed: int
+    frames: int
+
+    def arguments(self) -> list[str]:
+        return ["--model", str(self.model), "--motion", str(self.motion), "--fault", self.fault,
+                "--seed", str(self.seed), "--frames", str(self.frames)]  # fmt: skip
+
+
+def build_variant(root: Path, build: Path, variant: Variant, target: str, jobs: int) -> None:
+    """Configures and builds only `target`, without tests."""
+    configure = ["cmake", "-S", str(root), "-B", str(build), "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={variant.compiler}",
+                 f"-DCMAKE_CXX_FLAGS={variant.flags}", "-DMAMORI_BUILD_TESTS=OFF"]  # fmt: skip
+    for argv in (configure, ["cmake", "--build", str(build), "--parallel", str(jobs), "--target", target]):
+        done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+        if done.returncode != 0:
+            raise ProofError(f"{variant.name}: {' '.join(argv)} failed:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+
+
+def get_trace_hash(binary: Path, inputs: Inputs, out: Path) -> str:
+    """One run. @return the hash of its run.json, which must be new, whole, and of as many frames as asked."""
+    argv = [str(binary), "run", *inputs.arguments(), "--out", str(out)]
+    done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
+                          timeout=RUN_TIMEOUT_S)  # fmt: skip
+    if done.returncode != 0:
+        raise ProofError(f"{' '.join(argv)} ended with status {done.returncode}: {done.stderr.strip()}")
+    try:
+        record = json.loads((out / "run.json").read_text(encoding="utf-8"))
+        trace_hash, frames = record["trace_hash"], record["frames"]
+    except (OSError, ValueError, KeyError) as error:
+        raise ProofError(f"{out / 'run.json'}: no whole record: {error!r}") from error
+    if not HASH.fullmatch(str(trace_hash)):
+        raise ProofError(f"{out / 'run.json'}: '{trace_hash}' is no trace hash of 16 hexadecimal digits")
+    if frames != inputs.frames:
+        raise ProofError(f"{out / 'run.json'}: {frames} frames were run, {inputs.frames} were asked for")
+    return str(trace_hash)
+
+
+def find_differences(wanted: str, hashes: Mapping[str, str] | Sequence[str]) -> list[str]:
+    """One line for each hash that is not `wanted`, with its name or number."""
+    named = hashes.items() if isinstance(hashes, Mapping) else enumerate(hashes, start=1)
+    return [f"{name}: {found} instead of {wanted}" for name, found in named if found != wanted]

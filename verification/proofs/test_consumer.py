@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: a project in a foreign folder builds against the installed package alone, and runs. The installed tree is moved before
+# it is used, so a path into the build or source tree that slipped into the package would show.
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from mamori.verification.command.project import Project
+
+BUILD_TIMEOUT_S = 300
+
+
+def run(*argv: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([str(word) for word in argv], capture_output=True, text=True, check=False,
+                          stdin=subprocess.DEVNULL, timeout=BUILD_TIMEOUT_S)  # fmt: skip
+
+
+@pytest.fixture
+def prefix(project: Project, tmp_path: Path) -> Path:
+    installed = run("cmake", "--install", project.build, "--prefix", tmp_path / "first")
+    assert installed.returncode == 0, installed.stderr
+    return (tmp_path / "first").rename(tmp_path / "prefix")
+
+
+def configure(project: Project, prefix: Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    shutil.copytree(project.root / "verification" / "consumer", folder)
+    return run("cmake", "-S", folder, "-B", folder / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
+               "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF")  # fmt: skip
+
+
+@pytest.mark.verifies("SWR-PRF-004")
+def test_consumer_outside_the_tree_builds_and_runs(project: Project, prefix: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "consumer"
+
+    configured = configure(project, prefix, folder)
+    assert configured.returncode == 0, configured.stderr
+    built = run("cmake", "--build", folder / "build")
+    assert built.returncode == 0, built.stdout
+    ran = run(folder / "build" / "consumer")
+    assert ran.returncode == 0, ran.stdout
+    assert "BAD_PARAMETER" in ran.stdout
+
+
+@pytest.mark.verifies("SWR-PRF-004", technique="error_guessing", polarity="violation")
+def test_consumer_without_the_package_is_told_so(project: Project, tmp_path: Path) -> None:
+    refused = configure(project, tmp_path / "empty", tmp_path / "consumer")
+
+    assert refused.returncode != 0
+    assert "mamori" in refused.stderr
