@@ -10,11 +10,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
 
 from mamori.verification.command.errors import StepError, UsageError
 from mamori.verification.command.process import Tick
 from mamori.verification.command.project import Project
 from mamori.verification.command.steps import Context
+
+if TYPE_CHECKING:
+    from mamori.profiles.motion import Motion
+    from mamori.verification.campaign import Selection
 
 
 @dataclass(frozen=True)
@@ -26,25 +31,42 @@ class CampaignRequest:
     instants: int | None = None
 
     def check(self, project: Project) -> None:
-        """@raise UsageError for a motion that cannot be followed or a scenario that the plan does not have."""
+        """@raise UsageError for a motion that cannot be followed, or scenarios and instants that it or the plan lacks."""
         from mamori.profiles.input_error import InputError
-        from mamori.profiles.motion import load_limits, read_motion
-        from mamori.verification.campaign import load_plan
+        from mamori.verification.campaign import resolve
 
         try:
-            read_motion(self.motion, load_limits(project.model))
-            load_plan(project.campaign_plan).select(self.scenarios)
+            resolve(self._select(project), self._read_motion(project))
         except InputError as error:
             raise UsageError(str(error)) from error
 
-
-@dataclass(frozen=True)
-class CampaignStep:
-    """Writes the motion as a table and runs the campaign on it."""
-
-    request: CampaignRequest
-
-    def __call__(self, context: Context, tick: Tick) -> None:
+    def run(self, context: Context, tick: Tick, log: TextIO) -> None:
+        """Runs the campaign as a step, with a line per case in `log`. @raise StepError when a case failed."""
         from mamori.profiles.input_error import InputError
-        from mamori.profiles.motion import load_limits, read_motion, write_canonical
-        from mamori.verification.campaign import run_campaign
+        from mamori.verification.campaign import CaseResult, run_campaign
+
+        def show(result: CaseResult, done: int, count: int) -> None:
+            line = f"{result.case.id}: {'pass' if result.passed else f'FAIL: {result.failure}; {result.reproduction}'}"
+            print(f"[{done}/{count}] {line}", file=log, flush=True)
+            tick(f"{done} of {count} cases")
+
+        project = context.project
+        try:
+            result = run_campaign(self._select(project), program=project.safe_arm, model=project.model,
+                                  motion=self._read_motion(project), evidence=project.evidence, jobs=context.jobs,
+                                  progress=show)  # fmt: skip
+        except InputError as error:
+            raise StepError(str(error)) from error
+        if not result.passed:
+            names = ", ".join(each.case.id for each in result.failed_cases)
+            raise StepError(f"{len(result.failed_cases)} of {len(result.cases)} cases failed: {names}")
+
+    def _select(self, project: Project) -> Selection:
+        from mamori.verification.campaign import load_plan, select
+
+        return select(load_plan(project.campaign_plan), self.scenarios, self.instants)
+
+    def _read_motion(self, project: Project) -> Motion:
+        from mamori.profiles.motion import load_limits, read_motion
+
+        return read_motion(self.motion, load_limits(project.model))

@@ -20,7 +20,7 @@ def summarise_campaign(campaign: dict[str, Any]) -> tuple[Row, list[Row]]:
 
 def _make_row(name: str, cases: list[dict[str, Any]]) -> Row:
     passed = sum(case["verdict"] == "pass" for case in cases)
-    runs = [case["run"] for case in cases]
+    runs = [case["run"] for case in cases if case["run"]]  # a program that crashed left none
     reactions = [run["reacted_at_s"] - run["fault"]["at_s"] for run in runs
                  if run["fault"] is not None and run["reacted_at_s"] is not None]
     travels = [max(run["physics"]["stop_travel_rad"]) for run in runs if run["fault"] is not None]
@@ -29,7 +29,7 @@ def _make_row(name: str, cases: list[dict[str, Any]]) -> Row:
         name,
         "passed" if passed == len(cases) else "failed",
         f"{passed}/{len(cases)}",
-        " ".join(sorted({run["final_state"] for run in runs})),
+        " ".join(sorted({run["final_state"] for run in runs})) or "-",
         _worst((1000.0 * value for value in reactions), "ms", 1),
         _worst(travels, "rad", 3),
         _worst(errors, "rad", 4),

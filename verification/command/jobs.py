@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the commands do: check the input, run a table of steps, end with one screen that says how it went.
 
-@satisfies SWR-CLI-006, SWR-CLI-009      Design: docs/design/launcher.md#steps
+@satisfies SWR-CLI-006, SWR-CLI-011      Design: docs/design/launcher.md#steps
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mamori.verification.command import plans
-from mamori.verification.command.campaign_step import CampaignRequest, CampaignStep
+from mamori.verification.command.campaign_step import CampaignRequest
 from mamori.verification.command.campaign_table import summarise_campaign
 from mamori.verification.command.environment import write_environment
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
@@ -28,7 +28,7 @@ def demo(jobs: int, motion: Path | None, scenarios: tuple[str, ...], instants: i
     request = CampaignRequest(motion or project.motion, scenarios, instants)
     request.check(project)
     context = begin(project, jobs, (RELEASE,))
-    outcomes = run_steps(plans.demo_plan(CampaignStep(request)), context)
+    outcomes = run_steps(plans.demo_plan(request.run), context)
     show_campaign(context)
     return finish(outcomes, context)
 
@@ -39,7 +39,7 @@ def test(jobs: int, quick: bool) -> int:
     request = CampaignRequest(project.motion)
     request.check(project)
     context = begin(project, jobs, (RELEASE, SANITIZED))
-    outcomes = run_steps(plans.test_plan(project, CampaignStep(request), quick), context)
+    outcomes = run_steps(plans.test_plan(project, request.run, quick), context)
     show_steps(outcomes, context)
     return finish(outcomes, context)
 

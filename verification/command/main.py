@@ -9,7 +9,6 @@ The help texts are those of the launcher script, which answers --help before any
 from __future__ import annotations
 
 import argparse
-import importlib
 import os
 import sys
 from collections.abc import Sequence
@@ -30,6 +29,11 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{self.prog.removeprefix(PROGRAM).strip() or PROGRAM}: {message}")
+
+    def _check_value(self, action: argparse.Action, value: object) -> None:
+        if action.choices is not None and value not in action.choices:
+            where = self.prog.removeprefix(PROGRAM).strip() or "the command line"
+            raise UsageError(f"{where}: there is no '{value}'; nearest: {nearest(str(value), [*map(str, action.choices)])}")
 
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         known, rest = super().parse_known_args(args, namespace)
@@ -52,7 +56,8 @@ def at_least_one(text: str) -> int:
     return int(text)
 
 
-def make_parser() -> Parser:
+def make_parser(with_trace: bool = False) -> Parser:
+    """@param with_trace mount the trace tool, whose libraries no other command needs."""
     parser = Parser(prog=PROGRAM, allow_abbrev=False)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=Parser)
 
@@ -70,15 +75,16 @@ def make_parser() -> Parser:
     add("test").add_argument("--quick", action="store_true")
     add("build", with_project=True).add_argument("--preset", default=RELEASE, metavar="NAME")
     add("verify", with_project=True)
+    if with_trace:
+        from mamori.trace.command import add_arguments
+
+        add_arguments(commands)
     return parser
 
 
-def run(argv: Sequence[str]) -> int:
+def run(argv: list[str]) -> int:
     """Runs the command. @return the exit status."""
-    if argv and argv[0] == "trace":
-        # Imported here only: no other command needs its libraries.
-        return importlib.import_module("mamori.trace.command").main(list(argv[1:]))
-    arguments = make_parser().parse_args(argv)
+    arguments = make_parser(with_trace=argv[:1] == ["trace"]).parse_args(argv)
     match arguments.command:
         case "demo":
             return jobs.demo(arguments.jobs, arguments.motion, tuple(arguments.scenario), arguments.instants)
@@ -86,15 +92,19 @@ def run(argv: Sequence[str]) -> int:
             return jobs.test(arguments.jobs, arguments.quick)
         case "build":
             return jobs.build(arguments.jobs, arguments.project, arguments.preset)
-        case _:
+        case "verify":
             return jobs.verify(arguments.jobs, arguments.project)
+        case _:
+            from mamori.trace.command import run as run_trace
+
+            return run_trace(arguments)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input) or 130 (stopped)."""
     raise_on_signals()
     try:
-        return run(sys.argv[1:] if argv is None else argv)
+        return run(list(sys.argv[1:] if argv is None else argv))
     except UsageError as error:
         print(f"{PROGRAM}: {error}", file=sys.stderr)
         return EXIT_USAGE

@@ -60,7 +60,7 @@ class Project:
     @property
     def campaign_plan(self) -> Path:
         """Which faults are injected, and what is expected of them."""
-        return self.root / "verification" / "campaign" / "plan.yaml"
+        return self.root / "examples" / "safe_arm" / "faults.yaml"
 
     def cpp_sources(self, layers: tuple[str, ...] = CPP_LAYERS) -> list[str]:
         """C++ files of `layers`, relative to the root, sorted."""

@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TextIO
 
 from mamori.verification.command.console import Screen
 from mamori.verification.command.errors import StepError
@@ -31,6 +32,10 @@ class Context:
     screen: Screen = field(default_factory=Screen)
 
 
+Action = Callable[[Context, Tick, TextIO], None]
+"""The work of a step that is no program: gets the run, news for the screen, and the open log. @raise StepError to fail."""
+
+
 @dataclass(frozen=True)
 class Step:
     """One row of a table of steps: `commands` run in order in the project folder, then `function`.
@@ -42,11 +47,12 @@ class Step:
 
     name: str
     commands: tuple[tuple[str, ...], ...] = ()
-    function: Callable[[Context, Tick], None] | None = None
+    function: Action | None = None
     needs: tuple[str, ...] = ()
     lists: dict[str, list[str]] = field(default_factory=dict)
     result: str = ""
     junit: str = ""  # folder, relative to the root, whose new JUnit files hold the results; default: that of the evidence
+    accepted: tuple[int, ...] = (0,)  # exit statuses of a command that did its work
     slow: bool = False  # left out by --quick
 
 
@@ -126,15 +132,15 @@ def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:
         status = run_logged(argv, log, project.root, tick)
         if step.result and part.exists():
             os.replace(part, project.junit / step.result)
-        if status != 0:
+        if status not in step.accepted:
             return f"{Path(argv[0]).name} ended with status {status}"
     if step.function is not None:
-        try:
-            step.function(context, tick)
-        except (StepError, OSError, ImportError) as error:
-            with log.open("a", encoding="utf-8") as out:
+        with log.open("a", encoding="utf-8") as out:
+            try:
+                step.function(context, tick, out)
+            except (StepError, OSError) as error:
                 print(error, file=out)
-            return str(error)
+                return str(error)
     return ""
 
 

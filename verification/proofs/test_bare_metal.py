@@ -22,6 +22,7 @@ def get_id(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
 
+@pytest.mark.verifies("SWR-PRF-003", technique="error_guessing")
 def test_both_layers_have_sources_and_headers() -> None:
     for name in ("kernel", "safety"):
         assert any(get_id(path).startswith(name) for path in SOURCES)

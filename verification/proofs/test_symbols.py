@@ -22,6 +22,7 @@ def get_library(project: Project, layer: TargetLayer) -> Path:
     return library
 
 
+@pytest.mark.verifies("SWR-PRF-001", technique="error_guessing")
 def test_kernel_and_safety_are_among_the_layers_looked_at() -> None:
     assert {"kernel", "safety"} <= {layer.name for layer in LAYERS}
 

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: the shipped tree keeps the layer table, and each kind of breach is found with its place.
+# Method: a small tree with one seeded file per case.
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mamori.verification.command.project import ROOT
+from mamori.verification.tools.check_layers import check_tree, main
+
+
+def seed(root: Path, name: str, text: str) -> list[str]:
+    """@return findings in a tree with two ports and the seeded file."""
+    for port in ("posix_rt", "virtual_time"):
+        (root / "ports" / port).mkdir(parents=True)
+    (root / "safety" / "src").mkdir(parents=True)
+    (root / "safety" / "src" / "inner.hpp").touch()
+    path = root / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return [str(finding) for finding in check_tree(root)]
+
+
+@pytest.mark.verifies("SWR-PRF-006")
+def test_shipped_tree_keeps_the_table() -> None:
+    assert [finding for finding in check_tree(ROOT) if finding.rule in ("include", "link", "import")] == []
+
+
+@pytest.mark.verifies("SWR-PRF-007")
+def test_shipped_target_code_keeps_the_limits() -> None:
+    assert [finding for finding in check_tree(ROOT) if finding.rule in ("word", "size")] == []
+
+
+ALLOWED = {
+    "kernel/include/mamori/kernel/a.hpp": "#include <array>\n#include <cstdint>\n#include \"mamori/kernel/span.hpp\"\n",
+    "kernel/tests/a_test.cpp": "#include <string>\n#include <gtest/gtest.h>\n#include \"mamori/verification/verifies.hpp\"\n",
+    "safety/src/arm/a.cpp": "#include <Eigen/Core>\n#include \"mamori/kernel/span.hpp\"\n",
+    "safety/src/a.cpp": "#include \"inner.hpp\"\n",
+    "ports/virtual_time/src/a.cpp": "#include <vector>\n#include <time.h>\n#include \"mamori/virtual_time/clock.hpp\"\n",
+    "simbody_sim/src/a.cpp": "#include <Simbody.h>\n#include <kdl/chain.hpp>\n#include \"mamori/virtual_time/clock.hpp\"\n",
+    "examples/a/main.cpp": "#include <iostream>\n#include \"mamori/simbody_sim/arm.hpp\"\n",
+    "trace/a.py": "import mamori.trace.model\nfrom pathlib import Path\n",
+    "verification/a.py": "from mamori.profiles.motion import read_motion\n",
+    "safety/CMakeLists.txt": "mamori_library(safety DEPENDS mamori::kernel)\nmamori_test(t DEPENDS mamori::virtual_time)\n",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ALLOWED)
+@pytest.mark.verifies("SWR-PRF-006", technique="equivalence_classes")
+def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
+    assert seed(tmp_path, name, ALLOWED[name]) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "line", "message"),
+    [
+        ("kernel/src/a.cpp", "#include <vector>", "include: kernel may not include 'vector'"),
+        ("kernel/src/a.cpp", "#  include <stdint.h>", "include: kernel may not include 'stdint.h'"),
+        ("kernel/src/a.cpp", '#include "mamori/safety/arm.hpp"', "include: kernel may not include 'mamori/safety/arm.hpp'"),
+        ("kernel/src/a.cpp", '#include "mamori/verification/verifies.hpp"', "include: kernel may not include"),
+        ("kernel/tests/a.cpp", '#include "mamori/safety/arm.hpp"', "include: kernel may not include"),
+        ("safety/src/a.cpp", "#include <Eigen/Core>", "include: safety may not include 'Eigen/Core'"),
+        ("safety/src/a.cpp", '#include "mamori/virtual_time/clock.hpp"', "include: safety may not include"),
+        ("ports/posix_rt/src/a.cpp", '#include "mamori/virtual_time/clock.hpp"', "include: ports/posix_rt may not include"),
+        ("simbody_sim/src/a.cpp", '#include "mamori/posix_rt/clock.hpp"', "include: simbody_sim may not include"),
+        ("simbody_sim/src/a.cpp", "#include <boost/any.hpp>", "include: simbody_sim may not include 'boost/any.hpp'"),
+        ("examples/a/main.cpp", '#include "../../safety/src/inner.hpp"', "include: '../../safety/src/inner.hpp' reaches into"),
+        ("examples/a/main.cpp", '#include "safety/src/inner.hpp"', "include: 'safety/src/inner.hpp' reaches into"),
+        ("trace/a.cpp", "", "include: this layer has no C++"),
+        ("kernel/CMakeLists.txt", "mamori_library(kernel DEPENDS mamori::safety)", "link: kernel may not link mamori::safety"),
+        ("ports/posix_rt/CMakeLists.txt", "mamori_library(posix_rt DEPENDS mamori::virtual_time)", "link: ports/posix_rt may"),
+        ("trace/a.py", "import mamori.verification.command", "import: trace may not import mamori.verification.command"),
+        ("trace/a.py", "from mamori import profiles", "import: trace may not import mamori.profiles"),
+        ("profiles/a.py", "from mamori.trace.model import item", "import: profiles may not import mamori.trace.model.item"),
+    ],
+)
+@pytest.mark.verifies("SWR-PRF-006", technique="fault_injection", polarity="violation")
+def test_seeded_breach_of_the_table_is_found_with_its_line(tmp_path: Path, name: str, line: str, message: str) -> None:
+    findings = seed(tmp_path, name, f"\n{line}\n")
+
+    assert len(findings) == 1
+    assert findings[0].startswith(f"{name}:{2 if line else 1}: {message}")
+
+
+def make_function(lines: int) -> str:
+    return "int f() {\n" + "  g();\n" * (lines - 2) + "}\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("// FIXME: finish\n", "a.cpp:1: word: 'FIXME'"),
+        ("// TODO: finish\n", "a.cpp:1: word: 'TODO'"),
+        ("\nvoid f() { usleep(1); }\n", "a.cpp:2: word: 'usleep'"),
+        ("int f() { return std::rand(); }\n", "a.cpp:1: word: 'rand'"),
+        ('void f() { printf("x"); }\n', "a.cpp:1: word: 'printf'"),
+        ("Eigen::MatrixXd m;\n", "a.cpp:1: word: 'MatrixXd'"),
+        (f"\n{make_function(71)}", "a.cpp:2: size: f has 71 lines, 70 are the limit"),
+        ("\n" * 501, "a.cpp:1: size: file has 501 lines, 500 are the limit"),
+    ],
+)
+@pytest.mark.verifies("SWR-PRF-007", technique="boundary_values", polarity="violation")
+def test_seeded_breach_of_the_limits_is_found(tmp_path: Path, text: str, message: str) -> None:
+    findings = seed(tmp_path, "safety/src/a.cpp", text)
+
+    assert len(findings) == 1
+    assert message in findings[0]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["// TODO(#12): finish\n", "// a task that may sleep or call printf\n", 'const char* t = "rand";\n', "int sleepless;\n",
+     make_function(70), "\n" * 500],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-PRF-007", technique="boundary_values")
+def test_what_keeps_the_limits_is_no_finding(tmp_path: Path, text: str) -> None:
+    assert seed(tmp_path, "safety/src/a.cpp", text) == []
+
+
+@pytest.mark.verifies("SWR-PRF-006", technique="interface")
+def test_exit_status_tells_whether_there_were_findings(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "kernel").mkdir()
+    assert main(["--root", str(tmp_path)]) == 0
+
+    seed(tmp_path, "kernel/src/a.cpp", "#include <map>\n")
+    assert main(["--root", str(tmp_path)]) == 1
+    assert capsys.readouterr().out.endswith("layer check: 1 findings\n")

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: wrong arguments and input end with status 2 and one line that helps, before anything is built or thrown away.
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mamori.verification.command import jobs, plans
+from mamori.verification.command.main import main, make_parser
+from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("biuld",), "build"),
+        (("build", "--preste", "x"), "build has no option '--preste'; nearest: --preset"),
+        (("build", "--preset", "host-relase"), "there is no preset 'host-relase'; nearest: host-release"),
+        (("build", "/nowhere"), "'/nowhere' has no CMakeLists.txt"),
+        (("build", "a", "b"), "build does not take 'b'"),
+        (("demo", "--jobs", "0"), "'0' is no whole number from 1 on"),
+        (("demo", "--instants", "-1"), "--instants"),
+        (("demo", "--instants", "1.5"), "'1.5' is no whole number from 1 on"),
+        (("demo", "--motion"), "expected one argument"),
+    ],
+)
+@pytest.mark.verifies("SWR-CLI-005", technique="boundary_values", polarity="violation")
+def test_wrong_word_gives_status_2_and_one_line(
+    words: tuple[str, ...], sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(words) == 2
+
+    said = capsys.readouterr().err
+    assert sentence in said
+    assert said.count("\n") == 1
+
+
+@pytest.mark.verifies("SWR-CLI-005")
+def test_scenarios_may_be_given_in_one_go_or_one_by_one() -> None:
+    arguments = make_parser().parse_args(["demo", "--scenario", "a", "b", "--scenario", "c", "--instants", "1"])
+
+    assert (arguments.scenario, arguments.instants) == (["a", "b", "c"], 1)
+
+
+@pytest.mark.verifies("SWR-CLI-011", polarity="violation")
+def test_results_of_an_earlier_run_are_thrown_away(tmp_path: Path) -> None:
+    project = Project(tmp_path)
+    old = [Project(tmp_path, preset).junit / "old.xml" for preset in (RELEASE, SANITIZED)]
+    for path in old:
+        path.parent.mkdir(parents=True)
+        path.write_text("<testsuite/>", encoding="utf-8")
+
+    jobs.begin(project, 1, (RELEASE, SANITIZED))
+
+    assert not any(path.exists() for path in old)
+    assert project.junit.is_dir()
+
+
+@pytest.mark.verifies("SWR-CLI-011")
+def test_a_run_begins_with_the_record_of_its_environment(tmp_path: Path) -> None:
+    jobs.begin(Project(tmp_path), 1, (RELEASE,))
+
+    assert [path.name for path in Project(tmp_path).evidence.iterdir() if path.is_file()] == ["environment.json"]
+
+
+@pytest.mark.verifies("SWR-CLI-006", technique="interface")
+@pytest.mark.parametrize("quick", [False, True])
+def test_each_step_of_the_plans_is_named_once_and_needs_earlier_ones_only(quick: bool) -> None:
+    nothing = lambda context, tick, log: None  # noqa: E731
+    project = Project(ROOT)
+    for plan in (plans.demo_plan(nothing), plans.test_plan(project, nothing, quick), plans.verify_plan(Project(Path("/x")))):
+        seen: list[str] = []
+        for step in plan:
+            assert step.name not in seen
+            assert set(step.needs) <= set(seen)
+            seen.append(step.name)
