@@ -95,13 +95,12 @@ def check_preset(preset: str) -> None:
 def show_steps(outcomes: Sequence[Outcome], context: Context) -> None:
     """The table of all steps."""
     context.screen.say()
-    context.screen.print_table(
-        ("step", "result", "time", "results", "log"),
-        [
-            (one.name, one.verdict, f"{one.seconds:.1f} s", str(one.counts), str(one.log.relative_to(context.project.root)))
-            for one in outcomes
-        ],
-    )
+    rows = []
+    for one in outcomes:
+        numbers = (str(number) for number in (one.counts.passed, one.counts.failed, one.counts.skipped))
+        rows.append((one.name, one.verdict, f"{one.seconds:.1f} s", *numbers))
+    context.screen.print_table(("step", "result", "time", "passed", "failed", "skipped"), rows)
+    context.screen.say(f"logs: {context.project.logs}")
 
 
 def show_campaign(context: Context) -> None:

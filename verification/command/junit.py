@@ -42,6 +42,23 @@ def count_results(files: Iterable[Path]) -> Counts:
     return counts
 
 
+def list_failures(files: Iterable[Path]) -> list[str]:
+    """One line per failed case: its name and the first line of the reason."""
+    failures = []
+    for path in files:
+        try:
+            cases = list(ElementTree.parse(path).iter("testcase"))
+        except (OSError, ElementTree.ParseError):
+            failures.append(f"{path.name}: is no whole result file")
+            continue
+        for case in cases:
+            cause = next((found for kind in ("failure", "error") if (found := case.find(kind)) is not None), None)
+            if cause is not None:
+                reason = " ".join((cause.get("message") or cause.text or "").split())
+                failures.append(f"{case.get('classname', '')}.{case.get('name', '')}: {reason}")
+    return failures
+
+
 def _count_case(case: ElementTree.Element) -> Counts:
     if case.find("failure") is not None or case.find("error") is not None:
         return Counts(failed=1)

@@ -16,11 +16,13 @@ from typing import TextIO
 
 from mamori.verification.command.console import Screen
 from mamori.verification.command.errors import StepError
-from mamori.verification.command.junit import Counts, count_results
+from mamori.verification.command.junit import Counts, count_results, list_failures
 from mamori.verification.command.process import Tick, read_tail, run_logged
 from mamori.verification.command.project import Project
 
 TAIL_LINES = 20
+FAILURES_SHOWN = 10
+FAILURE_LENGTH = 200
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,7 @@ class Outcome:
     counts: Counts
     log: Path
     reason: str = ""
+    failures: tuple[str, ...] = ()
 
 
 def run_steps(steps: Sequence[Step], context: Context) -> list[Outcome]:
@@ -118,7 +121,8 @@ def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
     elif counts.total == 0:
         counts = Counts(passed=1)  # a step without results of its own is one result
     verdict = "failed" if reason else "passed"
-    return Outcome(step.name, verdict, time.monotonic() - start, counts, log, reason)
+    failures = tuple(list_failures(files)) if counts.failed else ()
+    return Outcome(step.name, verdict, time.monotonic() - start, counts, log, reason, failures)
 
 
 def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:
@@ -154,6 +158,8 @@ def _show(outcome: Outcome, number: int, count: int, context: Context) -> None:
         line += f"  ({outcome.counts})"
     context.screen.say_verdict(outcome.verdict, f"{line}  {outcome.reason}".rstrip())
     if outcome.verdict == "failed":
+        for text in outcome.failures[:FAILURES_SHOWN]:
+            context.screen.say(f"           * {text[:FAILURE_LENGTH]}")
         for text in read_tail(outcome.log, TAIL_LINES):
             context.screen.say(f"           | {text}")
         context.screen.say(f"           log: {outcome.log}")

@@ -64,6 +64,8 @@ def build_variant(root: Path, build: Path, variant: Variant, target: str, jobs: 
 
 def get_trace_hash(binary: Path, inputs: Inputs, out: Path) -> str:
     """One run. @return the hash of its run.json, which must be new, whole, and of as many frames as asked."""
+    if not binary.is_file():
+        raise ProofError(f"{binary} is missing; run ./mamori build")
     argv = [str(binary), "run", *inputs.arguments(), "--out", str(out)]
     done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
                           timeout=RUN_TIMEOUT_S)  # fmt: skip

@@ -111,6 +111,13 @@ def test_result_appears_under_its_name_when_the_program_has_ended(context: Conte
     assert [path.name for path in context.project.junit.iterdir()] == ["tools.xml"]
 
 
+@pytest.mark.verifies("SWR-CLI-007", polarity="violation")
+def test_failed_results_are_named_with_their_reason(context: Context, capsys: pytest.CaptureFixture[str]) -> None:
+    run_steps([Step("tests", (write_result(TWO_PASS_ONE_FAILS),))], context)
+
+    assert "* .c: no\n" in capsys.readouterr().out
+
+
 @pytest.mark.verifies("SWR-CLI-007")
 def test_log_of_a_passed_step_is_kept(context: Context) -> None:
     outcome = run_steps([Step("lint", (("echo", "all well"),))], context)[0]
