@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from mamori.verification.command.process import Tick
 
@@ -54,8 +55,8 @@ class Screen:
             with self._console.status(escape(title)) as status:
 
                 def spin(news: str) -> None:
-                    seconds = time.monotonic() - start
-                    status.update(escape(f"{title}, {seconds:.0f} s  {news[:NEWS_LENGTH]}"))
+                    line = f"{title}, {time.monotonic() - start:.0f} s  {news}"
+                    status.update(Text(line, no_wrap=True, overflow="ellipsis"))
 
                 yield spin
             return
