@@ -132,7 +132,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         proof_step("consumer proof", "consumer"),
         build_step(SANITIZED, slow=True),
         ctest_step(SANITIZED, slow=True),
-        proof_step("determinism proof", "determinism", slow=True),
+        proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}"), slow=True),
         campaign_step(campaign),
         *trace_steps(*(("--allow-missing",) if quick else ())),
     )

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from mamori.profiles.motion import load_limits, read_motion, write_canonical
-from mamori.verification.command.project import Project
+from mamori.verification.command.project import SANITIZED, Project
 from mamori.verification.proofs.determinism import (
     VARIANTS, Inputs, Variant, build_variant, find_differences, get_trace_hash)
 
@@ -47,6 +47,15 @@ def test_compilers_and_levels_give_one_hash(
     build_variant(project.root, other.build, variant, project.safe_arm.name, os.cpu_count() or 1)
 
     assert find_differences(wanted, {variant.name: get_trace_hash(other.safe_arm, inputs, tmp_path)}) == []
+
+
+@pytest.mark.verifies("SWR-PRF-005")
+def test_sanitized_build_runs_clean_and_gives_the_same_hash(
+    project: Project, inputs: Inputs, wanted: str, tmp_path: Path
+) -> None:
+    sanitized = dataclasses.replace(project, preset=SANITIZED)
+
+    assert find_differences(wanted, {SANITIZED: get_trace_hash(sanitized.safe_arm, inputs, tmp_path)}) == []
 
 
 @pytest.mark.parametrize("change", [{"fault": FAULT.replace("at=1.5", "at=1.501")}, {"frames": FRAMES - 1}], ids=str)
