@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exit statuses of the command and the errors that lead to them."""
+"""The exit statuses of the command and the errors that lead to them. Status 3, cannot install, is the launcher script's."""
 
 EXIT_OK = 0
 EXIT_FAILED = 1
 EXIT_USAGE = 2
-EXIT_CANNOT_INSTALL = 3  # used by the launcher script
 EXIT_INTERRUPTED = 130
 
 

@@ -18,8 +18,8 @@ from typing import NoReturn
 from mamori.verification.command import jobs
 from mamori.verification.command.errors import EXIT_INTERRUPTED, EXIT_USAGE, UsageError
 from mamori.verification.command.names import nearest
-from mamori.verification.command.project import RELEASE
 from mamori.verification.command.process import end_children, raise_on_signals
+from mamori.verification.command.project import RELEASE
 
 PROGRAM = "mamori"
 

@@ -18,6 +18,7 @@ INSTALL = "install the package"
 BUILD_USER = "build the project"
 REPORT = "report"
 
+
 def build_step(preset: str, slow: bool = False) -> Step:
     """Mamori itself."""
     return Step(

@@ -3,12 +3,14 @@
 # Method: a small tree with one seeded file per case.
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
 from mamori.verification.command.project import ROOT
 from mamori.verification.tools.check_layers import check_tree, main
+from mamori.verification.tools.layer_table import LISTED_STD
 
 
 def seed(root: Path, name: str, text: str) -> list[str]:
@@ -31,6 +33,14 @@ def test_shipped_tree_keeps_the_table() -> None:
 @pytest.mark.verifies("SWR-PRF-007")
 def test_shipped_target_code_keeps_the_limits() -> None:
     assert [finding for finding in check_tree(ROOT) if finding.rule in ("word", "size")] == []
+
+
+@pytest.mark.verifies("SWR-PRF-006", technique="back_to_back")
+def test_listed_headers_are_those_of_the_written_table() -> None:
+    written = re.search(r"^\| kernel \|.*std: `([a-z_ ]+)`", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"), re.MULTILINE)
+
+    assert written is not None
+    assert set(written[1].split()) == LISTED_STD
 
 
 ALLOWED = {
