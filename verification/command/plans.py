@@ -99,8 +99,12 @@ def trace_steps(*options: str) -> tuple[Step, ...]:
     """Trace check and report: the end of every plan. The report is written also when something failed before."""
     return (
         Step(name="trace check", commands=((*COMMAND, "trace", "check", "--root", "{root}", *options),)),
-        # Status 1 tells of findings; the check above has judged those.
-        Step(name=REPORT, commands=((*COMMAND, "trace", "report", "--root", "{root}", *options),), accepted=(0, 1)),
+        Step(
+            name=REPORT,
+            commands=((*COMMAND, "trace", "report", "--root", "{root}", *options),),
+            produces="report/index.html",
+            accepted=(0, 1),  # 1 tells of findings; the check above has judged those
+        ),
     )
 
 

@@ -54,6 +54,7 @@ class Step:
     lists: dict[str, list[str]] = field(default_factory=dict)
     result: str = ""
     junit: str = ""  # folder, relative to the root, whose new JUnit files hold the results; default: that of the evidence
+    produces: str = ""  # file, relative to the root, that the step must have written
     accepted: tuple[int, ...] = (0,)  # exit statuses of a command that did its work
     slow: bool = False  # left out by --quick
 
@@ -111,8 +112,10 @@ def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
     begin_ns = log.stat().st_mtime_ns  # the clock of the file system, which also stamps the results
     start = time.monotonic()
     reason = _do_work(step, context, log, tick)
+    if not reason and step.produces and not _is_new(context.project.root / step.produces, begin_ns):
+        reason = f"{step.produces} was not written"
     folder = context.project.root / step.junit if step.junit else context.project.junit
-    files = [path for path in sorted(folder.glob("*.xml")) if path.stat().st_mtime_ns >= begin_ns]
+    files = [path for path in sorted(folder.glob("*.xml")) if _is_new(path, begin_ns)]
     counts = count_results(files)
     if not reason and counts.failed:
         reason = f"{counts.failed} results failed"
@@ -123,6 +126,10 @@ def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
     verdict = "failed" if reason else "passed"
     failures = tuple(list_failures(files)) if counts.failed else ()
     return Outcome(step.name, verdict, time.monotonic() - start, counts, log, reason, failures)
+
+
+def _is_new(path: Path, begin_ns: int) -> bool:
+    return path.is_file() and path.stat().st_mtime_ns >= begin_ns
 
 
 def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:

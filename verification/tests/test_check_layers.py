@@ -18,7 +18,8 @@ def seed(root: Path, name: str, text: str) -> list[str]:
     for port in ("posix_rt", "virtual_time"):
         (root / "ports" / port).mkdir(parents=True)
     (root / "safety" / "src").mkdir(parents=True)
-    (root / "safety" / "src" / "inner.hpp").touch()
+    for hidden in ("src/inner.hpp", "hidden.hpp"):
+        (root / "safety" / hidden).touch()
     path = root / name
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -46,6 +47,7 @@ def test_listed_headers_are_those_of_the_written_table() -> None:
 ALLOWED = {
     "kernel/include/mamori/kernel/a.hpp": "#include <array>\n#include <cstdint>\n#include \"mamori/kernel/span.hpp\"\n",
     "kernel/tests/a_test.cpp": "#include <string>\n#include <gtest/gtest.h>\n#include \"mamori/verification/verifies.hpp\"\n",
+    "kernel/tests/support/a.hpp": "#include <sys/wait.h>\n#include \"support/a.hpp\"\n",
     "safety/src/arm/a.cpp": "#include <Eigen/Core>\n#include \"mamori/kernel/span.hpp\"\n",
     "safety/src/a.cpp": "#include \"inner.hpp\"\n",
     "ports/virtual_time/src/a.cpp": "#include <vector>\n#include <time.h>\n#include \"mamori/virtual_time/clock.hpp\"\n",
@@ -71,6 +73,9 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
         ("kernel/src/a.cpp", '#include "mamori/safety/arm.hpp"', "include: kernel may not include 'mamori/safety/arm.hpp'"),
         ("kernel/src/a.cpp", '#include "mamori/verification/verifies.hpp"', "include: kernel may not include"),
         ("kernel/tests/a.cpp", '#include "mamori/safety/arm.hpp"', "include: kernel may not include"),
+        ("kernel/tests/a.cpp", "#include <Eigen/Core>", "include: kernel may not include 'Eigen/Core'"),
+        ("kernel/src/a.cpp", "#include <unistd.h>", "include: kernel may not include 'unistd.h'"),
+        ("kernel/src/a.cpp", '#include "safety/hidden.hpp"', "include: 'safety/hidden.hpp' belongs to another layer"),
         ("safety/src/a.cpp", "#include <Eigen/Core>", "include: safety may not include 'Eigen/Core'"),
         ("safety/src/a.cpp", '#include "mamori/virtual_time/clock.hpp"', "include: safety may not include"),
         ("ports/posix_rt/src/a.cpp", '#include "mamori/virtual_time/clock.hpp"', "include: ports/posix_rt may not include"),

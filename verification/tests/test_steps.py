@@ -2,6 +2,7 @@
 # Goal: a table of steps runs to its end whatever fails, skips only what needs a failed step, and counts every result once.
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TextIO
 
@@ -98,6 +99,17 @@ def test_missing_program_and_refusing_function_fail_their_steps(context: Context
     outcomes = run_steps([Step("lint", (("no-such-program",),)), Step("campaign", function=refuse)], context)
 
     assert [outcome.reason for outcome in outcomes] == ["no-such-program ended with status 127", "the plan is empty"]
+
+
+@pytest.mark.verifies("SWR-CLI-006", technique="error_guessing", polarity="violation")
+def test_step_that_did_not_write_its_file_fails(context: Context) -> None:
+    report = context.project.root / "report.html"
+    report.write_text("of yesterday", encoding="utf-8")
+    os.utime(report, ns=(0, 0))
+    steps = [Step("stale", (FAIL,), produces="report.html", accepted=(3,)),
+             Step("written", (("sh", "-c", "echo new >report.html; exit 3"),), produces="report.html", accepted=(3,))]  # fmt: skip
+
+    assert verdicts(run_steps(steps, context)) == {"stale": "failed", "written": "passed"}
 
 
 @pytest.mark.verifies("SWR-CLI-006", technique="interface")

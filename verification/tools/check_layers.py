@@ -24,6 +24,7 @@ from mamori.verification.tools.target_limits import check_size, check_words
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("kernel", "safety", "ports", "simbody_sim", "examples", "verification", "trace", "profiles")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?P<open>[<"])(?P<path>[^>"]+)[>"]', re.MULTILINE)
+POSIX = re.compile(r"(?:sys/)?[a-z]+\.h")
 CMAKE_LIBRARY = re.compile(r"mamori_library\s*\((?P<body>[^)]*)\)")
 CMAKE_TARGET = re.compile(r"\bmamori(?:::|_)(?P<layer>\w+)")
 
@@ -86,17 +87,27 @@ def _check_includes(root: Path, path: Path, layer: Layer, text: str, is_test: bo
         elif include.startswith("mamori/"):
             if not include.startswith(layer.headers) and not (is_test and include in TEST_INCLUDES):
                 yield line, f"{layer.name} may not include '{include}'"
-        elif match["open"] == '"' and (path.parent / include).exists():
-            if get_layer((path.parent / include).resolve().relative_to(root.resolve()).parts) != layer:
+        elif match["open"] == '"' and (found := _find_beside(root, path, include)):
+            if get_layer(found) != layer:
                 yield line, f"'{include}' belongs to another layer"
         elif not _is_outside_header_allowed(layer, include, is_test):
             yield line, f"{layer.name} may not include '{include}'"
 
 
+def _find_beside(root: Path, path: Path, include: str) -> tuple[str, ...]:
+    """Parts of the file that a quoted include without layer names: beside `path`, or in a folder above it. Else nothing."""
+    for folder in path.parents:
+        if (folder / include).is_file():
+            return (folder / include).resolve().relative_to(root.resolve()).parts
+        if folder == root:
+            break
+    return ()
+
+
 def _is_outside_header_allowed(layer: Layer, include: str, is_test: bool) -> bool:
     if layer.any_library or include.startswith(layer.headers):
         return True
-    if is_test and include.startswith(TEST_INCLUDES):
+    if is_test and (include.startswith(TEST_INCLUDES) or POSIX.fullmatch(include)):
         return True
     is_std = re.fullmatch(r"[a-z_]+", include) is not None
     return is_std and (layer.any_std or is_test or include in LISTED_STD)
