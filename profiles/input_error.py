@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The one error for bad input: which file, which line, what is wrong and how to mend it, in one line of text."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from pathlib import Path
+
+
+class InputError(Exception):
+    """A file or an argument cannot be used. `str()` is the whole message, one line, ready for standard error.
+
+    `path` and `line` (counted from 1) are None where the fault has no place, as with a wrong argument.
+    """
+
+    def __init__(self, text: str, path: Path | str | None = None, line: int | None = None) -> None:
+        self.path = None if path is None else Path(path)
+        self.line = line
+        place = "" if path is None else f"{path}: " if line is None else f"{path}:{line}: "
+        super().__init__(" ".join((place + text).split()))
+
+
+def nearest_names(wrong: str, known: Iterable[str]) -> str:
+    """A closing sentence for an unknown name: the names most like it, or all known names where none is alike."""
+    names = list(known)
+    alike = difflib.get_close_matches(wrong, names, n=3, cutoff=0.5)
+    if alike:
+        return f"nearest: {', '.join(alike)}"
+    return f"known: {', '.join(names)}" if names else "none is known"

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The data that the readers hand on: samples as they stand in a file, and the checked motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+MAX_DURATION_S = 600.0
+"""Longest motion that is read [s]."""
+
+MAX_SAMPLES = 1_000_000
+"""Most samples that are read: the longest motion at more than 1.6 kHz."""
+
+
+@dataclass
+class Samples:
+    """What a file holds, not yet checked against an arm. One entry per sample in `lines`, `time_s`, `rows`."""
+
+    path: Path
+    sha256: str
+    lines: list[int] = field(default_factory=list)
+    time_s: list[float] = field(default_factory=list)
+    rows: list[list[float]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A joint motion that was checked against the limits of an arm; `read_motion` makes it.
+
+    `time_s` [s], shape (samples,), starts at 0 and rises. `position_rad` [rad], shape (samples, joints).
+    """
+
+    source_name: str
+    source_sha256: str
+    joint_names: tuple[str, ...]
+    time_s: np.ndarray
+    position_rad: np.ndarray
+    notes: tuple[str, ...] = ()
+
+    @property
+    def duration_s(self) -> float:
+        return float(self.time_s[-1])
+
+    def get_speeds(self) -> np.ndarray:
+        """Speed of each step [rad/s], never negative, shape (samples - 1, joints)."""
+        return calc_speeds(self.time_s, self.position_rad)
+
+    def calc_mean_speed(self, start_s: float, end_s: float) -> np.ndarray:
+        """Distance between the places at two instants over the time between them [rad/s], shape (joints,).
+
+        The places are interpolated; before the start and after the end the motion stands still.
+        """
+        ends = [np.interp([start_s, end_s], self.time_s, joint) for joint in self.position_rad.T]
+        return np.array([abs(late - early) / (end_s - start_s) for early, late in ends])
+
+
+def calc_speeds(time_s: np.ndarray, position_rad: np.ndarray) -> np.ndarray:
+    """Speed of each step [rad/s], shape (samples - 1, joints)."""
+    return np.abs(np.diff(position_rad, axis=0)) / np.diff(time_s)[:, np.newaxis]
