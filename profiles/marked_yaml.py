@@ -157,7 +157,7 @@ class _Builder:
         if isinstance(event, yaml.ScalarEvent):
             if event.anchor is not None:
                 self._anchors[event.anchor] = event
-            return Node(self._path, line, name, event.value, plain=event.style is None)
+            return Node(self._path, line, name, event.value, plain=event.implicit[0])
         if isinstance(event, yaml.SequenceStartEvent):
             items: list[Node] = []
             while not isinstance(inner := next(self._events), yaml.SequenceEndEvent):

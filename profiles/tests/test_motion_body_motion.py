@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import pytest
@@ -166,18 +165,15 @@ def make_wide_limits(tmp_path: Path, joints: int) -> ArmLimits:
     ("SR1WalkPattern1.seq", 6701, ()),
 ])
 @pytest.mark.verifies("SWR-MOT-001", technique="interface")
-def test_public_walks_are_read_in_seconds(tmp_path: Path, name: str, frames: int,
-                                             notes: tuple[str, ...]) -> None:
+def test_public_walks_are_read(tmp_path: Path, name: str, frames: int, notes: tuple[str, ...]) -> None:
     path = SHARED / name
     if not path.exists():
         pytest.skip(f"{path} is absent")
-    begin = time.process_time()
     motion = read_motion(path, make_wide_limits(tmp_path, 29))
 
     assert motion.position_rad.shape == (frames, 29)
     assert motion.duration_s == pytest.approx((frames - 1) / 500.0)
     assert motion.notes == notes
-    assert time.process_time() - begin < 20.0  # a guard against quadratic reading, not a timing claim
 
 
 @pytest.mark.parametrize("name", ["SR1WalkPattern2_v1.yaml", "SR1WalkPattern1.seq"])

@@ -65,7 +65,8 @@ def test_the_public_pick_up_motion_is_read(model: Path) -> None:
 
     assert motion.position_rad.shape == (9812, 7)
     assert motion.duration_s == 9.811
-    assert motion.position_rad[-1].tolist() == [0.000542015, 0.586349, -0.00090867, 1.09678, 0.000784518, 0.716872, 1.56959] # fmt: skip
+    assert motion.position_rad[-1].tolist() == [
+        0.000542015, 0.586349, -0.00090867, 1.09678, 0.000784518, 0.716872, 1.56959]  # fmt: skip
 
 
 FAULTS = [

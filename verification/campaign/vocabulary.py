@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The names that the program under test writes into run.json. A plan may use no others."""
+
+from __future__ import annotations
+
+STATES = ("SelfTest", "Standby", "Operational", "Degraded", "ProtectiveStopSs2", "ProtectiveStopSs1", "StandstillHold", "Safe",
+          "LockedOut")  # fmt: skip
+
+NOTHING = "None"
+"""Spelling of "no reaction" and "no fault detected" in plans and verdicts; run.json has null there."""
+
+REACTIONS = (NOTHING, "Degrade", "Ss2", "Ss1", "Sto")
+STOPS = frozenset({"Ss2", "Ss1", "Sto"})
+
+DETECTED_FAULTS = (NOTHING, "EncoderDiscrepancy", "EncoderImplausible", "FollowingError", "Overspeed", "PositionLimit",
+                   "TorqueDeviation", "ControllerSilent", "CommandStale", "PowerLost", "StopNotConfirmed", "BrakeFault",
+                   "SelfTestFailed", "WatchdogExpired")  # fmt: skip
