@@ -61,7 +61,7 @@ class FaultSpec:
 
 @dataclass(frozen=True)
 class Fault:
-    """A fault that is ready to be injected: joint and time are known."""
+    """A fault that is ready to be injected: joint and time are known. `at_s` counts from the start of the motion [s]."""
 
     kind: str
     at_s: float
@@ -80,7 +80,7 @@ class Fault:
         """What the fault in run.json has otherwise than this one; empty where they agree in all that was asked."""
         if written is None:
             return "no fault was injected"
-        wanted = {"kind": self.kind, "joint": self.joint, "channel": self.channel, "at_s": self.at_s,
+        wanted = {"kind": self.kind, "joint": self.joint, "channel": self.channel, "motion_at_s": self.at_s,
                   "duration_s": self.duration_s, "magnitude": self.magnitude}  # fmt: skip
         for key, value in wanted.items():
             if value is not None and not _agrees(value, written.get(key), key):
@@ -140,5 +140,5 @@ def _read_channel(node: Node) -> str:
 
 def _agrees(wanted: object, written: object, key: str) -> bool:
     if isinstance(wanted, float) and isinstance(written, (int, float)) and not isinstance(written, bool):
-        return abs(wanted - written) <= (_AGREE_S if key == "at_s" else 1e-9)
+        return abs(wanted - written) <= (_AGREE_S if key == "motion_at_s" else 1e-9)
     return wanted == written

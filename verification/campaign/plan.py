@@ -126,8 +126,11 @@ def _read_scenario(node: Node, usual_instants: tuple[float, ...]) -> Scenario:
         instants = _read_instants(entries["at_s"], None)
     else:
         instants = _read_fractions(entries["at"]) if "at" in entries else usual_instants
+    expected = _read_expected(node.get("expected"))
+    if fault.kind == "none" and expected.wants_reaction:
+        raise node.get("expected").error(f"a reaction without a fault is a false trip; write reaction: [{NOTHING}]")
     return Scenario(
-        name, node.get("title").as_text(), fault, instants, "at_s" in entries, _read_expected(node.get("expected")),
+        name, node.get("title").as_text(), fault, instants, "at_s" in entries, expected,
         _read_requirements(node.get("requirements")), node,
     )  # fmt: skip
 

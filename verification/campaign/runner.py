@@ -62,7 +62,8 @@ def run_campaign(
     """Runs and judges all cases, writes `campaign/` and `junit/campaign.xml` below `evidence`.
 
     Evidence of an earlier campaign is removed first, so a campaign that does not end leaves none. `jobs`: processes at a
-    time, None for one per usable core. `environment`: None for evidence/environment.json, or what this process knows.
+    time, None for one per usable core. `environment`: None for evidence/environment.json, or what this process knows; its
+    commit is handed on to the program as MAMORI_COMMIT, so that each run names it.
     A case whose program fails, hangs or writes no whole run.json is a failed case. On any exception, KeyboardInterrupt
     among them, the running processes are ended.
     Raises InputError: program or model missing, a bad number, an instant that the motion does not have, no room to write.
@@ -74,9 +75,13 @@ def run_campaign(
     table = folder / "motion.txt"
     write_canonical(motion, table)
     commands = [_make_command(case, program, model, table, folder / case.id) for case in cases]
-    queue = _Queue(cases, commands, folder, timeout_s, progress)
+    known = find_environment(evidence) if environment is None else environment
+    variables = dict(os.environ)
+    if isinstance(known.get("commit"), str):
+        variables["MAMORI_COMMIT"] = known["commit"]
+    queue = _Queue(cases, commands, folder, variables, timeout_s, progress)
     results = queue.run(jobs or len(os.sched_getaffinity(0)))
-    result = CampaignResult(tuple(results), find_environment(evidence) if environment is None else environment)
+    result = CampaignResult(tuple(results), known)
     result.write(evidence)
     return result
 
@@ -101,10 +106,11 @@ def find_environment(evidence: Path) -> dict[str, Any]:
 class _Queue:
     """Keeps up to `jobs` processes busy until every case is judged."""
 
-    def __init__(self, cases: Sequence[Case], commands: Sequence[tuple[str, ...]], folder: Path, timeout_s: float,
-                 progress: Progress | None) -> None:  # fmt: skip
+    def __init__(self, cases: Sequence[Case], commands: Sequence[tuple[str, ...]], folder: Path,
+                 variables: Mapping[str, str], timeout_s: float, progress: Progress | None) -> None:  # fmt: skip
         self._waiting = list(enumerate(zip(cases, commands, strict=True)))[::-1]
         self._folder = folder
+        self._variables = variables
         self._timeout_s = timeout_s
         self._progress = progress
         self._running: list[_Job] = []
@@ -116,7 +122,7 @@ class _Queue:
             while self._waiting or self._running:
                 while self._waiting and len(self._running) < jobs:
                     index, (case, command) = self._waiting.pop()
-                    self._running.append(_start(index, case, command, self._folder / case.id))
+                    self._running.append(_start(index, case, command, self._folder / case.id, self._variables))
                 self._collect()
                 time.sleep(_POLL_S)
         finally:
@@ -179,11 +185,11 @@ def _make_command(case: Case, program: Path, model: Path, table: Path, folder: P
     return (*command, "--out", str(folder))
 
 
-def _start(index: int, case: Case, command: tuple[str, ...], folder: Path) -> _Job:
+def _start(index: int, case: Case, command: tuple[str, ...], folder: Path, variables: Mapping[str, str]) -> _Job:
     try:
         with (folder / "program.log").open("wb") as log:
             # A session of its own: what the program starts ends with it, and Ctrl-C reaches this process only.
-            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
+            process = subprocess.Popen(command, env=variables, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
                                        start_new_session=True)  # fmt: skip
     except OSError as error:
         raise InputError(f"cannot be started: {error.strerror}; build it again", command[0]) from error

@@ -38,7 +38,7 @@ class Case:
     """One run: everything that decides it, and everything that it is judged by.
 
     `fault` is None for a fault-free run. `frames` is None where the program itself ends with the motion.
-    `watched_s` is the least simulated time that the run must cover [s].
+    `watch_s` is how long the run must go on after the injection; where there is none, how long it must be [s].
     """
 
     id: str
@@ -47,7 +47,7 @@ class Case:
     fault: Fault | None
     seed: int
     frames: int | None
-    watched_s: float
+    watch_s: float
     expected: Expected
     bounds: Bounds
     requirements: Mapping[str, str]
@@ -77,14 +77,14 @@ def resolve(selection: Selection, motion: Motion) -> tuple[Case, ...]:
         earliest_s = 0.0
         for number, instant in enumerate(scenario.instants[:selection.instants], start=1):
             asked_s = instant if scenario.in_seconds else instant * motion.duration_s
-            fault = _place_fault(selection.plan, scenario, motion, max(asked_s, earliest_s))
+            fault = _place_fault(scenario, motion, max(asked_s, earliest_s))
             cases.append(_make_case(selection.plan, scenario, number, fault, motion))
-            earliest_s = fault.at_s - selection.plan.motion_begins_at_s + SEARCH_STEP_S
+            earliest_s = fault.at_s + SEARCH_STEP_S
     return tuple(cases)
 
 
 def _make_case(plan: Plan, scenario: Scenario, number: int, fault: Fault | None, motion: Motion) -> Case:
-    frames = None if fault is None else math.ceil(round((fault.at_s + plan.observe_s) / FRAME_S, 6))
+    end_s = plan.motion_begins_at_s + (0.0 if fault is None else fault.at_s) + plan.observe_s
     joint = "" if fault is None or fault.joint is None else str(fault.joint)
     return Case(
         id=f"{scenario.name}-{number}",
@@ -92,16 +92,16 @@ def _make_case(plan: Plan, scenario: Scenario, number: int, fault: Fault | None,
         title=scenario.title.replace("{joint}", joint),
         fault=fault,
         seed=plan.seed,
-        frames=frames,
-        watched_s=motion.duration_s if frames is None else frames * FRAME_S,
+        frames=None if fault is None else math.ceil(round(end_s / FRAME_S, 6)),
+        watch_s=plan.motion_begins_at_s + motion.duration_s if fault is None else plan.observe_s,
         expected=scenario.expected,
         bounds=plan.bounds,
         requirements=scenario.requirements,
     )
 
 
-def _place_fault(plan: Plan, scenario: Scenario, motion: Motion, asked_s: float) -> Fault:
-    """Fixes time and joint of a fault. `asked_s` is motion time [s]."""
+def _place_fault(scenario: Scenario, motion: Motion, asked_s: float) -> Fault:
+    """Fixes time and joint of a fault; the time falls on a frame."""
     spec = scenario.fault
     place_s, joint = asked_s, None
     if asked_s >= motion.duration_s:
@@ -111,7 +111,7 @@ def _place_fault(plan: Plan, scenario: Scenario, motion: Motion, asked_s: float)
         if isinstance(spec.joint, int) and spec.joint > len(motion.joint_names):
             raise scenario.node.error(f"{scenario.name} names joint {spec.joint}, the arm has {len(motion.joint_names)}")
         place_s, joint = _find_moving_joint(scenario, motion, asked_s)
-    at_s = round(round((plan.motion_begins_at_s + place_s) / FRAME_S) * FRAME_S, 6)
+    at_s = round(round(place_s / FRAME_S) * FRAME_S, 6)
     return Fault(spec.kind, at_s, joint, spec.channel, spec.magnitude, spec.duration_s)
 
 

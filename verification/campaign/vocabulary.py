@@ -12,6 +12,6 @@ NOTHING = "None"
 REACTIONS = (NOTHING, "Degrade", "Ss2", "Ss1", "Sto")
 STOPS = frozenset({"Ss2", "Ss1", "Sto"})
 
-DETECTED_FAULTS = (NOTHING, "EncoderDiscrepancy", "EncoderImplausible", "FollowingError", "Overspeed", "PositionLimit",
-                   "TorqueDeviation", "ControllerSilent", "CommandStale", "PowerLost", "StopNotConfirmed", "BrakeFault",
+DETECTED_FAULTS = (NOTHING, "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck", "FollowingError", "Overspeed",
+                   "PositionLimit", "TorqueDeviation", "ControllerSilent", "CommandStale", "PowerLost", "BrakeFault",
                    "SelfTestFailed", "WatchdogExpired")  # fmt: skip

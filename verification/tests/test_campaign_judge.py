@@ -16,20 +16,21 @@ from mamori.verification.campaign.selection import Case
 BOUNDS = Bounds(hold_drift_rad=0.002, hold_observed_s=0.5, tracking_error_rad=0.02)
 
 STOP = Case(
-    id="encoder_freeze-1", scenario="encoder_freeze", title="freeze", fault=Fault("encoder_freeze", 2.0, 2, "a"), seed=3,
-    frames=4000, watched_s=4.0, expected=Expected("Safe", ("Ss1", "Sto"), ("EncoderDiscrepancy",), 0.1), bounds=BOUNDS,
+    id="encoder_freeze-1", scenario="encoder_freeze", title="freeze", fault=Fault("encoder_freeze", 1.5, 2, "a"), seed=3,
+    frames=4000, watch_s=2.0, expected=Expected("Safe", ("Ss1", "Sto"), ("EncoderDiscrepancy",), 0.1), bounds=BOUNDS,
     requirements={"SYS-020": "violation"},
 )  # fmt: skip
 
 QUIET = Case(
-    id="none-1", scenario="none", title="none", fault=None, seed=3, frames=None, watched_s=7.8,
+    id="none-1", scenario="none", title="none", fault=None, seed=3, frames=None, watch_s=7.8,
     expected=Expected("Operational", ("None",), ("None",), None, watchdog_bitten=False), bounds=BOUNDS,
     requirements={"SYS-027": "nominal"},
 )  # fmt: skip
 
 STOPPED: dict[str, Any] = {
     "schema": "mamori.run/1", "commit": "abc", "seed": 3, "frames": 4000, "period_s": 0.001,
-    "fault": {"kind": "encoder_freeze", "joint": 2, "channel": "a", "at_s": 2.0, "duration_s": None, "magnitude": 0.0},
+    "fault": {"kind": "encoder_freeze", "joint": 2, "channel": "a", "at_s": 2.0, "motion_at_s": 1.5, "duration_s": None,
+              "magnitude": None},
     "simulated_s": 4.0, "final_state": "Safe", "operational_at_s": 0.05, "detected_fault": "EncoderDiscrepancy",
     "detected_at_s": 2.013, "reaction": "Ss1", "reacted_at_s": 2.013, "standstill_at_s": 2.21, "watchdog_bitten": False,
     "physics": {"max_speed_rad_s": [0.5, 0.6], "speed_limit_rad_s": [1.0, 1.0], "min_position_margin_rad": 0.4,
@@ -79,8 +80,8 @@ def test_a_fault_free_run_without_a_trip_passes() -> None:
 INSIDE = [  # just inside a bound
     ("reacted_at_s", 2.1), ("reacted_at_s", 2.0), ("reaction", "Sto"),
     ("physics.max_speed_rad_s", [1.0, 1.0]), ("physics.min_position_margin_rad", 0.0), ("physics.hold_drift_rad", 0.002),
-    ("physics.hold_drift_rad", 0.0), ("standstill_at_s", 3.5), ("simulated_s", 3.999), ("operational_at_s", 1.999),
-    ("fault.at_s", 2.0004),
+    ("physics.hold_drift_rad", 0.0), ("standstill_at_s", 3.5), ("simulated_s", 4.0), ("operational_at_s", 1.999),
+    ("fault.motion_at_s", 1.5004),
 ]  # fmt: skip
 
 
@@ -99,10 +100,11 @@ OUTSIDE = [  # just outside a bound, and the check that must see it
     ("physics.min_position_margin_rad", -0.000001, "position range"), ("physics.hold_drift_rad", 0.002001, "hold drift"),
     ("physics.hold_drift_rad", None, "hold drift"), ("physics.hold_drift_rad", -0.1, "hold drift"),
     ("standstill_at_s", None, "standstill"), ("standstill_at_s", 1.9, "standstill"),
-    ("standstill_at_s", 3.501, "standstill watched"), ("simulated_s", 3.998, "time watched"),
+    ("standstill_at_s", 3.501, "standstill watched"), ("simulated_s", 3.999, "time watched"),
     ("operational_at_s", None, "operational first"), ("operational_at_s", 2.0, "operational first"), ("seed", 4, "seed"),
     ("fault", None, "fault injected"), ("fault.kind", "power_loss", "fault injected"), ("fault.joint", 1, "fault injected"),
-    ("fault.channel", "b", "fault injected"), ("fault.at_s", 2.001, "fault injected"),
+    ("fault.channel", "b", "fault injected"), ("fault.motion_at_s", 1.501, "fault injected"), ("fault.at_s", 2.001, "time watched"),
+    ("fault", None, "reaction time"),
 ]  # fmt: skip
 
 
@@ -117,9 +119,9 @@ def test_a_stop_just_outside_a_bound_fails(path: str, value: object, check: str)
 
 @pytest.mark.parametrize(("path", "value", "check"), [
     ("physics.max_tracking_error_rad", 0.02, "tracking error"), ("physics.max_tracking_error_rad", None, "tracking error"),
-    ("simulated_s", 7.798, "time watched"), ("final_state", "Safe", "final state"), ("reaction", "Ss2", "no false trip"),
+    ("simulated_s", 7.799, "time watched"), ("final_state", "Safe", "final state"), ("reaction", "Ss2", "no false trip"),
     ("detected_fault", "Overspeed", "no false trip"), ("watchdog_bitten", True, "watchdog"),
-    ("operational_at_s", None, "operational first"), ("fault", {"kind": "power_loss"}, "fault injected"),
+    ("operational_at_s", None, "operational first"), ("fault", {"kind": "power_loss", "at_s": 9.0}, "fault injected"),
     ("physics.max_speed_rad_s", [1.1, 0.0], "speed limit"),
 ])  # fmt: skip
 @pytest.mark.verifies("SWR-CMP-003", technique="boundary_values", polarity="violation")
@@ -127,7 +129,7 @@ def test_a_disturbed_fault_free_run_fails(path: str, value: object, check: str) 
     assert check in failed(judge(QUIET, change(FOLLOWED, path, value)))
 
 
-@pytest.mark.parametrize(("path", "value"), [("physics.max_tracking_error_rad", 0.019999), ("simulated_s", 7.799),
+@pytest.mark.parametrize(("path", "value"), [("physics.max_tracking_error_rad", 0.019999), ("simulated_s", 7.8),
                                              ("reaction", "None"), ("detected_fault", "None")])  # fmt: skip
 @pytest.mark.verifies("SWR-CMP-003", technique="boundary_values")
 def test_a_fault_free_run_just_inside_a_bound_passes(path: str, value: object) -> None:
@@ -153,7 +155,7 @@ def test_a_degraded_arm_need_not_stand_still() -> None:
 
 
 FIELDS = [
-    "schema", "commit", "seed", "fault", "simulated_s", "final_state", "operational_at_s", "detected_fault", "detected_at_s",
+    "schema", "commit", "seed", "fault", "fault.at_s", "simulated_s", "final_state", "operational_at_s", "detected_fault", "detected_at_s",
     "reaction", "reacted_at_s", "standstill_at_s", "watchdog_bitten", "physics", "physics.max_speed_rad_s",
     "physics.speed_limit_rad_s", "physics.min_position_margin_rad", "physics.hold_drift_rad", "physics.max_tracking_error_rad",
 ]  # fmt: skip

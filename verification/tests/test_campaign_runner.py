@@ -49,11 +49,11 @@ arguments = dict(zip(sys.argv[2::2], sys.argv[3::2]))
 assert sys.argv[1] == "run" and os.path.exists(arguments["--model"]) and os.path.exists(arguments["--motion"])
 pairs = dict(pair.split("=") for pair in arguments["--fault"].split(",")) if "--fault" in arguments else None
 mode = int(float(pairs["magnitude"])) if pairs else 0
-at = float(pairs["at"]) if pairs else None
+at = 0.1 + float(pairs["at"]) if pairs else None
 out = arguments["--out"]
 simulated = int(arguments["--frames"]) / 1000 if "--frames" in arguments else 4.2
-run = {{"schema": "mamori.run/1", "commit": "abc", "seed": int(arguments["--seed"]), "simulated_s": simulated,
-       "fault": pairs and {{"kind": pairs["kind"], "joint": None, "channel": None, "at_s": at, "magnitude": mode}},
+run = {{"schema": "mamori.run/1", "commit": os.environ.get("MAMORI_COMMIT", "none"), "seed": int(arguments["--seed"]), "simulated_s": simulated,
+       "fault": pairs and {{"kind": pairs["kind"], "joint": None, "channel": None, "at_s": at, "motion_at_s": float(pairs["at"]), "magnitude": mode}},
        "final_state": "Safe" if pairs else "Operational", "operational_at_s": 0.05,
        "detected_fault": "CommandStale" if pairs else None, "detected_at_s": at and at + 0.01,
        "reaction": "Sto" if pairs else None, "reacted_at_s": at and at + 0.01,
@@ -105,7 +105,8 @@ class Bench:
 
     def run(self, **options: object) -> CampaignResult:
         settings: dict[str, object] = {"program": self.program, "model": self.model, "motion": self.motion,
-                                       "evidence": self.evidence, "jobs": 2} | options  # fmt: skip
+                                       "evidence": self.evidence, "jobs": 2,
+                                       "environment": {"commit": "abc"}} | options  # fmt: skip
         return run_campaign(select(load_plan(self.plan)), **settings)  # type: ignore[arg-type]
 
     def read_json(self) -> dict[str, object]:
@@ -127,7 +128,7 @@ def test_every_case_is_run_and_written_in_the_order_of_the_plan(bench: Bench) ->
     def note(result: CaseResult, done: int, total: int) -> None:
         seen.append((result.case.id, done, total))
 
-    result = bench.run(progress=note, environment={"commit": "abc"})
+    result = bench.run(progress=note)
 
     assert result.passed
     content = bench.read_json()
@@ -217,7 +218,7 @@ def test_a_failed_case_names_the_command_that_runs_it_again(bench: Bench) -> Non
     head, _, again = failure.reproduction.partition(": ")
 
     assert head == "at commit abc"
-    assert "--seed 7" in again and "--fault kind=message_late,at=1.1,magnitude=8.0" in again
+    assert "--seed 7" in again and "--fault kind=message_late,at=1.0,magnitude=8.0" in again
     (bench.evidence / "campaign/message_late-1/run.json").unlink()
     assert subprocess.run(again, shell=True, check=False).returncode == 1
     assert (bench.evidence / "campaign/message_late-1/run.json").exists()
@@ -288,13 +289,16 @@ def test_a_program_that_cannot_be_started_is_refused(bench: Bench) -> None:
 def test_the_environment_record_beside_the_campaign_is_taken(bench: Bench) -> None:
     bench.evidence.mkdir()
     (bench.evidence / "environment.json").write_text('{"schema": "mamori.environment/1", "commit": "def"}')
-    bench.run()
+    result = bench.run(environment=None)
 
+    assert [case.run["commit"] for case in result.cases] == ["def", "def", "def"]
     assert bench.read_json()["environment"] == {"schema": "mamori.environment/1", "commit": "def"}
 
 
 @pytest.mark.verifies("SWR-CMP-006", technique="interface")
-def test_the_command_shows_verdicts_and_ends_with_their_status(bench: Bench, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_shows_verdicts_and_ends_with_their_status(bench: Bench, capsys: pytest.CaptureFixture[str],
+                                                               monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("MAMORI_COMMIT", raising=False)
     bench.run()
     table = bench.folder / "table.txt"
     table.write_text((bench.evidence / "campaign/motion.txt").read_text())
@@ -307,7 +311,7 @@ def test_the_command_shows_verdicts_and_ends_with_their_status(bench: Bench, cap
     assert command.main([*arguments, "--instants", "1"]) == 1
     shown = capsys.readouterr().out
     assert "1 passed, 1 failed" in shown
-    assert "at commit abc: " in shown and "--fault kind=message_late" in shown
+    assert "at commit none: " in shown and "--fault kind=message_late" in shown
 
 
 @pytest.mark.verifies("SWR-CMP-002", technique="interface", polarity="violation")
