@@ -156,6 +156,13 @@ def test_no_tag_constructs_an_object(tmp_path: Path, limits: ArmLimits) -> None:
     assert not marker.exists()
 
 
+def verifies_with(path: Path, requirement: str, **how: str) -> pytest.MarkDecorator:
+    """Where the public file is absent the test is skipped, and then it is no evidence, for or against the requirement."""
+    if path.exists():
+        return pytest.mark.verifies(requirement, **how)
+    return pytest.mark.skip(reason=f"{path} is absent")
+
+
 def make_wide_limits(tmp_path: Path, joints: int) -> ArmLimits:
     return ArmLimits(tmp_path, tuple(JointLimits(f"J{joint}", -10.0, 10.0, 100.0) for joint in range(joints)), 0)
 
@@ -164,12 +171,9 @@ def make_wide_limits(tmp_path: Path, joints: int) -> ArmLimits:
     ("SR1WalkPattern2_v1.yaml", 7146, ("components not used: LinkPosition, ZMP",)),
     ("SR1WalkPattern1.seq", 6701, ()),
 ])
-@pytest.mark.verifies("SWR-MOT-001", technique="interface")
+@verifies_with(SHARED, "SWR-MOT-001", technique="interface")
 def test_public_walks_are_read(tmp_path: Path, name: str, frames: int, notes: tuple[str, ...]) -> None:
-    path = SHARED / name
-    if not path.exists():
-        pytest.skip(f"{path} is absent")
-    motion = read_motion(path, make_wide_limits(tmp_path, 29))
+    motion = read_motion(SHARED / name, make_wide_limits(tmp_path, 29))
 
     assert motion.position_rad.shape == (frames, 29)
     assert motion.duration_s == pytest.approx((frames - 1) / 500.0)
@@ -177,10 +181,7 @@ def test_public_walks_are_read(tmp_path: Path, name: str, frames: int, notes: tu
 
 
 @pytest.mark.parametrize("name", ["SR1WalkPattern2_v1.yaml", "SR1WalkPattern1.seq"])
-@pytest.mark.verifies("SWR-MOT-003", technique="interface", polarity="violation")
+@verifies_with(SHARED, "SWR-MOT-003", technique="interface", polarity="violation")
 def test_public_walks_do_not_fit_the_arm(model: Path, name: str) -> None:
-    path = SHARED / name
-    if not path.exists():
-        pytest.skip(f"{path} is absent")
     with pytest.raises(InputError, match="numParts 29, the arm has 7 joints"):
-        read_motion(path, load_limits(model))
+        read_motion(SHARED / name, load_limits(model))
