@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Evidence of another commit, or of no known one."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from mamori.trace.model.finding import ERROR, Place, Rule
+from mamori.trace.model.project import Project
+
+RULE = Rule("evidence-stale", ERROR, "The evidence says where it comes from, and comes from the commit that is checked out.")
+
+_SHORT = 12
+_HASH = re.compile(r"[0-9a-f]{7,64}")
+
+
+def check(project: Project) -> Iterator[tuple[Place, str, str]]:
+    evidence = project.evidence
+    if not evidence.present:
+        return
+    if not evidence.environment:
+        if not project.allow_missing:
+            yield evidence.environment_place, "is missing: nothing tells on which commit the evidence was made", ""
+    else:
+        yield from _compare(project, evidence.environment, evidence.environment_place)
+    if evidence.has_campaign and evidence.campaign_environment:
+        yield from _compare(project, evidence.campaign_environment, evidence.campaign_place)
+
+
+def _compare(project: Project, environment: dict[str, Any], place: Place) -> Iterator[tuple[Place, str, str]]:
+    made = str(environment.get("commit") or "")
+    if project.head and not _HASH.fullmatch(made):
+        yield place, f"commit is '{made}', which is no commit: nothing tells what the evidence was made of", ""
+    elif project.head and not project.head.startswith(made) and not made.startswith(project.head):
+        message = f"evidence was made at commit {made[:_SHORT]}, the source is at {project.head[:_SHORT]}; run the tests again"
+        yield place, message, ""

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests that left no result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mamori.trace.model.finding import ERROR, Place, Rule
+from mamori.trace.model.project import Project
+
+RULE = Rule("result-missing", ERROR, "Every test that verifies a requirement was executed.")
+
+
+def check(project: Project) -> Iterator[tuple[Place, str, str]]:
+    if project.allow_missing:
+        return
+    for test in project.tests_without_result:
+        message = f"test {test.title} ({test.requirement}) has no result in {project.evidence.folder}/junit"
+        yield test.place, message, test.requirement

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Evidence: tags in code, tests in sources, executed results, campaign cases, and the environment they ran in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from mamori.trace.model.finding import Place
+
+PASSED = "passed"
+FAILED = "failed"
+ERRORED = "error"
+SKIPPED = "skipped"
+
+UNIT = "unit"
+INTEGRATION = "integration"
+CAMPAIGN = "campaign"
+
+
+@dataclass(frozen=True, slots=True)
+class CodeTag:
+    """`@satisfies`: the code at `place` realises `requirement`. `symbol` is the class or function, or `file`."""
+
+    requirement: str
+    place: Place
+    symbol: str
+
+
+@dataclass(frozen=True, slots=True)
+class SourceTest:
+    """A test as its source states it; `suite` and `name` find its results."""
+
+    requirement: str
+    suite: str
+    name: str
+    technique: str
+    polarity: str
+    place: Place
+
+    @property
+    def title(self) -> str:
+        return f"{self.suite}.{self.name}" if self.name else self.suite
+
+
+@dataclass(slots=True)
+class TestResult:
+    """One executed test case. `requirement` is empty when the test names none."""
+
+    suite: str
+    name: str
+    status: str
+    requirement: str
+    technique: str
+    polarity: str
+    message: str
+    time_s: float
+    place: Place
+    source: Place | None = None
+    kind: str = UNIT
+
+    @property
+    def title(self) -> str:
+        return f"{self.suite}.{self.name}"
+
+    @property
+    def failing(self) -> bool:
+        return self.status in (FAILED, ERRORED)
+
+
+@dataclass(slots=True)
+class CampaignCase:
+    """One fault-injection case. `passed` needs the written verdict and every single check."""
+
+    id: str
+    scenario: str
+    title: str
+    requirements: tuple[str, ...]
+    polarity: str
+    verdict: str
+    checks: list[dict[str, Any]]
+    expected: dict[str, Any]
+    run: dict[str, Any]
+    folder: str
+    place: Place
+
+    @property
+    def failed_checks(self) -> list[dict[str, Any]]:
+        return [check for check in self.checks if check.get("passed") is not True]
+
+    @property
+    def passed(self) -> bool:
+        return self.verdict == "pass" and not self.failed_checks
+
+
+@dataclass(slots=True)
+class Evidence:
+    """Everything below one evidence folder. `folder` is its path as given; `present` is False when there is none."""
+
+    folder: str = ""
+    present: bool = False
+    results: list[TestResult] = field(default_factory=list)
+    cases: list[CampaignCase] = field(default_factory=list)
+    has_campaign: bool = False
+    environment: dict[str, Any] = field(default_factory=dict)
+    environment_place: Place = Place("environment.json", 1)
+    campaign_environment: dict[str, Any] = field(default_factory=dict)
+    campaign_place: Place = Place("campaign/campaign.json", 1)

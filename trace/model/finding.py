@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Findings: what is wrong, where, how badly, and by which rule."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+ERROR = "error"
+WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Place:
+    """A line of a file. `file` is relative to the project root where it lies inside; `line` counts from 1."""
+
+    file: str
+    line: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}"
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Something a reader stumbled over. `rule` names the rule under which it is reported."""
+
+    rule: str
+    place: Place
+    message: str
+    item: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A rule: `id` never changes its meaning; `about` says in one sentence what it demands."""
+
+    id: str
+    severity: str
+    about: str
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One violation of one rule at one place; `item` is the id it is about, or empty."""
+
+    rule: str
+    severity: str
+    place: Place
+    message: str
+    item: str = ""
+
+    def sort_key(self) -> tuple[str, int, str, str]:
+        return (self.place.file, self.place.line, self.rule, self.message)

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The review lock: for each parent link the fingerprints of both ends when a person last looked at it.
+
+@satisfies SWR-TRC-008      Design: docs/design/trace.md#suspect-links
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from mamori.trace.model.item import Item
+
+
+@dataclass(frozen=True, slots=True)
+class Review:
+    """What one line of the lock says. `date` is ISO 8601; `reviewer` is a name."""
+
+    child: str
+    parent: str
+    child_fingerprint: str
+    parent_fingerprint: str
+    date: str
+    reviewer: str
+
+
+@dataclass(slots=True)
+class ReviewLock:
+    """Reviews by (child, parent). `lines` gives the line of each in the file it was read from."""
+
+    reviews: dict[tuple[str, str], Review] = field(default_factory=dict)
+    lines: dict[tuple[str, str], int] = field(default_factory=dict)
+
+    def describe_suspicion(self, child: Item, parent: Item) -> str:
+        """Why the link is suspect, or an empty text when both ends are as they were at the last review."""
+        review = self.reviews.get((child.id, parent.id))
+        if review is None:
+            return f"the link {child.id} -> {parent.id} was never reviewed"
+        changed = []
+        if review.child_fingerprint != child.calc_fingerprint():
+            changed.append(child.id)
+        if review.parent_fingerprint != parent.calc_fingerprint():
+            changed.append(parent.id)
+        if not changed:
+            return ""
+        return f"{' and '.join(changed)} changed since the link {child.id} -> {parent.id} was reviewed on {review.date}"
+
+    def record(self, child: Item, parent: Item, date: str, reviewer: str) -> None:
+        """Records a new look at one link."""
+        self.reviews[(child.id, parent.id)] = Review(
+            child.id, parent.id, child.calc_fingerprint(), parent.calc_fingerprint(), date, reviewer
+        )

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The project: items, code, tests and evidence joined by ids, with the look-ups that rules and reports need."""
+
+from __future__ import annotations
+
+import difflib
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from mamori.trace.model.evidence import CAMPAIGN, CampaignCase, CodeTag, Evidence, SourceTest, TestResult
+from mamori.trace.model.finding import Problem
+from mamori.trace.model.item import Item, Schema
+from mamori.trace.model.lock import ReviewLock
+
+
+@dataclass
+class Project:
+    """All that was read. `all_items` keeps every definition in file order; `items` the first one of each id."""
+
+    root: Path
+    schema: Schema
+    all_items: list[Item] = field(default_factory=list)
+    tags: list[CodeTag] = field(default_factory=list)
+    tests: list[SourceTest] = field(default_factory=list)
+    evidence: Evidence = field(default_factory=Evidence)
+    lock: ReviewLock | None = None
+    head: str = ""
+    problems: list[Problem] = field(default_factory=list)
+    allow_missing: bool = False
+
+    @cached_property
+    def items(self) -> dict[str, Item]:
+        first: dict[str, Item] = {}
+        for item in self.all_items:
+            first.setdefault(item.id, item)
+        return first
+
+    @cached_property
+    def live_items(self) -> list[Item]:
+        """Items that are not retired, in order of their ids."""
+        return [self.items[key] for key in sorted(self.items) if not self.items[key].retired]
+
+    @cached_property
+    def children_of(self) -> dict[str, list[Item]]:
+        children: dict[str, list[Item]] = defaultdict(list)
+        for item in self.live_items:
+            for parent in dict.fromkeys(item.parents):
+                children[parent].append(item)
+        return children
+
+    @cached_property
+    def tags_of(self) -> dict[str, list[CodeTag]]:
+        return _group(self.tags)
+
+    @cached_property
+    def tests_of(self) -> dict[str, list[SourceTest]]:
+        return _group(self.tests)
+
+    @cached_property
+    def results(self) -> list[TestResult]:
+        """Results that count. A campaign case told again by campaign.xml counts once, unless the two disagree."""
+        told = {case.id: case.passed for case in self.evidence.cases}
+        return [
+            result
+            for result in self.evidence.results
+            if result.kind != CAMPAIGN or told.get(_get_case_id(result.name)) is not (not result.failing)
+        ]
+
+    @cached_property
+    def results_of(self) -> dict[str, list[TestResult]]:
+        return _group(result for result in self.results if result.requirement)
+
+    @cached_property
+    def cases_of(self) -> dict[str, list[CampaignCase]]:
+        cases: dict[str, list[CampaignCase]] = defaultdict(list)
+        for case in self.evidence.cases:
+            for requirement in dict.fromkeys(case.requirements):
+                cases[requirement].append(case)
+        return cases
+
+    @cached_property
+    def tests_without_result(self) -> list[SourceTest]:
+        """Tests that the sources hold and no result tells about."""
+        executed: set[tuple[str, str, str]] = set()
+        for result in self.results:
+            executed.update(_list_result_keys(result))
+        return [test for test in self.tests if test.name and (test.suite, test.name, test.requirement) not in executed]
+
+    @cached_property
+    def unexecuted_of(self) -> dict[str, list[SourceTest]]:
+        return _group(self.tests_without_result)
+
+    @cached_property
+    def cycles(self) -> list[list[str]]:
+        """Parent cycles, each from its smallest id on, in order."""
+        return _find_cycles({item.id: item.parents for item in self.live_items})
+
+    def suggest(self, unknown: str, count: int = 3) -> list[str]:
+        """The nearest known ids, best first. Ids of the same area come first, so typing half an id helps."""
+        close = difflib.get_close_matches(unknown.upper(), self.items, n=count, cutoff=0.75)
+        prefixed = sorted(key for key in self.items if key.startswith(unknown.upper()))
+        return list(dict.fromkeys(close + prefixed))[:count]
+
+
+def attach_sources(project: Project) -> None:
+    """Gives each result the place of its test in the sources, which also tells unit tests from integration tests."""
+    places = {(test.suite, test.name): test.place for test in project.tests if test.name}
+    for result in project.evidence.results:
+        for suite, name, _ in _list_result_keys(result):
+            if (suite, name) in places:
+                result.source = places[(suite, name)]
+                break
+
+
+def _group(parts: Iterable) -> dict[str, list]:
+    groups: dict[str, list] = defaultdict(list)
+    for part in parts:
+        groups[part.requirement].append(part)
+    return groups
+
+
+def _get_case_id(name: str) -> str:
+    """`encoder_freeze-2[SYS-020]` -> `encoder_freeze-2`."""
+    return name.partition("[")[0]
+
+
+def _list_result_keys(result: TestResult) -> list[tuple[str, str, str]]:
+    """Keys under which a source test may look for this result.
+
+    GoogleTest adds instance names and numbers (`Instance/Suite/0`, `Name/3`), pytest adds packages (`a.b.test_c.TestD`)
+    and parameters (`name[value]`).
+    """
+    name = result.name.partition("[")[0].partition("/")[0]
+    dotted = result.suite.split(".")
+    suites = result.suite.split("/") if "/" in result.suite else [dotted[-1], ".".join(dotted[-2:])]
+    return [(suite, name, result.requirement) for suite in suites]
+
+
+def _find_cycles(parents_of: dict[str, tuple[str, ...]]) -> list[list[str]]:
+    """Walks up from each item once (iterative depth-first search); a parent that is still on the path closes a cycle."""
+    done: set[str] = set()
+    cycles: list[list[str]] = []
+    for start in sorted(parents_of):
+        path: list[str] = []
+        on_path: set[str] = set()
+        stack: list[tuple[str, bool]] = [(start, False)]
+        while stack:
+            node, leaving = stack.pop()
+            if leaving:
+                path.pop()
+                on_path.discard(node)
+                done.add(node)
+            elif node in on_path:
+                ring = path[path.index(node) :]
+                first = ring.index(min(ring))
+                cycles.append(ring[first:] + ring[:first])
+            elif node not in done:
+                path.append(node)
+                on_path.add(node)
+                stack.append((node, True))
+                stack.extend((parent, False) for parent in reversed(parents_of[node]) if parent in parents_of)
+    return sorted(cycles)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""File access shared by the readers: paths as findings show them, text that may be badly encoded, the source tree."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from mamori.trace.model.finding import Place, Problem
+
+UNREADABLE = "unreadable-input"
+_SKIPPED_FOLDERS = {"build", "report", "requirements", "docs", "node_modules", "__pycache__"}
+
+
+class InputError(Exception):
+    """Nothing can be judged without this input. The message is one line: what, where, how to mend."""
+
+
+def get_shown_path(path: Path, root: Path) -> str:
+    """`path` relative to the project root, or whole where it lies outside."""
+    try:
+        return path.resolve().relative_to(root.resolve()).as_posix()
+    except ValueError:
+        return path.as_posix()
+
+
+def read_text(path: Path, shown: str, problems: list[Problem]) -> str:
+    """Text of a UTF-8 file. Wrong bytes and an unreadable file become problems; wrong bytes are read as U+FFFD."""
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        problems.append(Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {error.strerror or error}"))
+        return ""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        problems.append(
+            Problem(UNREADABLE, Place(shown, line), f"byte 0x{data[error.start]:02x} is not UTF-8; save the file as UTF-8")
+        )
+        return data.decode("utf-8", errors="replace")
+
+
+def walk_sources(root: Path, suffixes: tuple[str, ...]) -> Iterator[tuple[Path, str]]:
+    """Source files below `root` with one of `suffixes`, and their shown paths, in order of their paths.
+
+    Hidden folders, build trees, requirements, documents and reports are left out.
+    """
+    for folder, folders, files in os.walk(root):
+        kept = (name for name in folders if name not in _SKIPPED_FOLDERS and not name.startswith((".", "build")))
+        folders[:] = sorted(name for name in kept if not name.endswith(".egg-info"))
+        relative = os.path.relpath(folder, root).replace(os.sep, "/")
+        prefix = "" if relative == "." else relative + "/"
+        for name in sorted(files):
+            if name.endswith(suffixes):
+                yield Path(folder) / name, prefix + name
+
+
+def is_test_file(shown: str) -> bool:
+    """Whether a source file holds tests: it lies in a `tests` folder or is named like a test."""
+    *folders, name = shown.split("/")
+    return "tests" in folders or name.startswith("test_") or name.rpartition(".")[0].endswith("_test")

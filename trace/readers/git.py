@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Asks git which commit is checked out and who reviews."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+
+def read_head(root: Path) -> str:
+    """Hash of the checked-out commit, or an empty text where there is no git repository."""
+    return _ask(root, "rev-parse", "HEAD")
+
+
+def read_user(root: Path) -> str:
+    """Name of the person at work as git knows it, or an empty text."""
+    return _ask(root, "config", "user.name")
+
+
+def _ask(root: Path, *arguments: str) -> str:
+    command = ["git", "-C", str(root), *arguments]
+    try:
+        answer = subprocess.run(command, capture_output=True, text=True, timeout=10, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return answer.stdout.strip() if answer.returncode == 0 else ""

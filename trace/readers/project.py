@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads a whole project: requirements, sources, evidence, review lock."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mamori.trace.model.evidence import INTEGRATION, UNIT, Evidence
+from mamori.trace.model.project import Project, attach_sources
+from mamori.trace.readers.campaign import read_campaign, read_environment
+from mamori.trace.readers.cpp_tags import read_cpp_tags
+from mamori.trace.readers.cpp_tests import read_cpp_tests
+from mamori.trace.readers.files import InputError, get_shown_path
+from mamori.trace.readers.git import read_head
+from mamori.trace.readers.junit import read_junit
+from mamori.trace.readers.lock import read_lock
+from mamori.trace.readers.markdown_items import read_items
+from mamori.trace.readers.python_sources import read_python
+from mamori.trace.readers.schema import read_schema
+from mamori.trace.readers.script_tags import read_script_tags
+
+
+def find_evidence(root: Path) -> Path:
+    """The evidence folder of the release build, or else the only one there is. Raises InputError when there is no such."""
+    folders = sorted(path for path in root.glob("build/*/evidence") if path.is_dir())
+    preferred = root / "build" / "host-release" / "evidence"
+    if preferred in folders:
+        return preferred
+    if len(folders) == 1:
+        return folders[0]
+    if folders:
+        names = ", ".join(get_shown_path(folder, root) for folder in folders)
+        raise InputError(f"several evidence folders: {names}; choose one with --evidence")
+    raise InputError(f"{root}: no evidence in build/*/evidence; run the tests first, or name the folder with --evidence")
+
+
+def read_requirements(root: Path) -> Project:
+    """Items and review lock alone, without code and evidence. Raises InputError where there is no requirements folder."""
+    if not (root / "requirements").is_dir():
+        raise InputError(f"{root}: no folder 'requirements' here; run in the project's folder, or name it with --root")
+    project = Project(root, read_schema(root))
+    project.all_items = read_items(root, project.schema, project.problems)
+    project.lock = read_lock(root, project.problems)
+    return project
+
+
+def read_project(root: Path, evidence: Path | None, allow_missing: bool = False) -> Project:
+    """Everything. `evidence` None looks for the folder; no folder at all is an InputError unless results may be missing."""
+    project = read_requirements(root)
+    project.allow_missing = allow_missing
+    project.head = read_head(root)
+    project.tags = read_cpp_tags(root, project.problems)
+    project.tags += read_script_tags(root, project.problems)
+    project.tests = read_cpp_tests(root, project.problems)
+    tags, tests = read_python(root, project.problems)
+    project.tags += tags
+    project.tests += tests
+    folder = _choose_evidence(root, evidence, allow_missing)
+    if folder is not None:
+        project.evidence = _read_evidence(folder, project)
+        attach_sources(project)
+        for result in project.evidence.results:
+            if result.kind == UNIT and result.source is not None and result.source.file.startswith("verification/"):
+                result.kind = INTEGRATION
+    return project
+
+
+def _choose_evidence(root: Path, evidence: Path | None, allow_missing: bool) -> Path | None:
+    if evidence is not None:
+        if not evidence.is_dir():
+            raise InputError(f"{evidence}: no such evidence folder; run the tests first")
+        return evidence
+    if allow_missing and not any(path.is_dir() for path in root.glob("build/*/evidence")):
+        return None
+    return find_evidence(root)
+
+
+def _read_evidence(folder: Path, project: Project) -> Evidence:
+    evidence = Evidence(folder=folder.as_posix(), present=True)
+    evidence.results = read_junit(folder / "junit", project.root, project.problems)
+    read_environment(folder, project.root, evidence, project.problems)
+    read_campaign(folder, project.root, evidence, project.problems)
+    return evidence

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads `@satisfies` tags and `@pytest.mark.verifies(...)` marks from Python sources.
+
+Only docstrings, comments and decorators count, so a test may hold tags in its texts.
+
+@satisfies SWR-TRC-002, SWR-TRC-003      Design: docs/design/trace.md#code-tags
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import tokenize
+from pathlib import Path
+
+from mamori.trace.model.evidence import CodeTag, SourceTest
+from mamori.trace.model.finding import Place, Problem
+from mamori.trace.readers.cpp_tags import FILE_SYMBOL, make_tags
+from mamori.trace.readers.files import UNREADABLE, is_test_file, read_text, walk_sources
+
+_Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
+
+
+def read_python(root: Path, problems: list[Problem]) -> tuple[list[CodeTag], list[SourceTest]]:
+    """Tags of all Python files that are no tests, and marks of those that are."""
+    tags: list[CodeTag] = []
+    tests: list[SourceTest] = []
+    for path, shown in walk_sources(root, (".py",)):
+        in_test = is_test_file(shown)
+        text = read_text(path, shown, problems)
+        if ("verifies" if in_test else "@satisfies") not in text:
+            continue
+        try:
+            tree = ast.parse(text)
+        except (SyntaxError, ValueError, RecursionError) as error:
+            line = getattr(error, "lineno", None) or 1
+            problems.append(Problem(UNREADABLE, Place(shown, line), f"is not valid Python: {error}"))
+            continue
+        if in_test:
+            tests.extend(_find_marks(tree, shown))
+        else:
+            tags.extend(_find_tags(tree, text, shown, problems))
+    return tags, tests
+
+
+def _find_tags(tree: ast.Module, text: str, shown: str, problems: list[Problem]) -> list[CodeTag]:
+    definitions = [node for node in ast.walk(tree) if isinstance(node, _Definition)]
+    tags: list[CodeTag] = []
+    for node in [tree, *definitions]:
+        first = node.body[0] if node.body else None
+        if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
+            symbol = FILE_SYMBOL if isinstance(node, ast.Module) else node.name
+            source = text.splitlines()[first.lineno - 1 : first.end_lineno]
+            for offset, line in enumerate(source):
+                tags.extend(make_tags(line, Place(shown, first.lineno + offset), symbol, problems))
+    starts = {_get_first_line(node): node.name for node in definitions}
+    comments = _list_comments(text)
+    for number, comment in comments.items():
+        if "@satisfies" in comment:
+            below = number + 1
+            while below in comments:
+                below += 1
+            tags.extend(make_tags(comment, Place(shown, number), starts.get(below, FILE_SYMBOL), problems))
+    return sorted(tags, key=lambda tag: (tag.place, tag.requirement))
+
+
+def _get_first_line(node: _Definition) -> int:
+    return min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+
+
+def _list_comments(text: str) -> dict[int, str]:
+    tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+    return {token.start[0]: token.string for token in tokens if token.type == tokenize.COMMENT}
+
+
+def _find_marks(tree: ast.Module, shown: str) -> list[SourceTest]:
+    """Marks of test functions, also inside one class; a mark on a class counts for each of its tests."""
+    module = shown.rpartition("/")[2].removesuffix(".py")
+    tests: list[SourceTest] = []
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef):
+            inherited = [mark for mark in map(_read_mark, node.decorator_list) if mark]
+            for inner in node.body:
+                tests.extend(_make_tests(inner, f"{module}.{node.name}", inherited, shown))
+        else:
+            tests.extend(_make_tests(node, module, [], shown))
+    return tests
+
+
+def _make_tests(node: ast.stmt, suite: str, inherited: list[tuple[str, str, str]], shown: str) -> list[SourceTest]:
+    if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) or not node.name.startswith("test"):
+        return []
+    marks = [mark for mark in map(_read_mark, node.decorator_list) if mark] or inherited
+    place = Place(shown, node.lineno)
+    return [SourceTest(requirement, suite, node.name, technique, polarity, place)
+            for requirement, technique, polarity in marks]  # fmt: skip
+
+
+def _read_mark(node: ast.expr) -> tuple[str, str, str] | None:
+    """(requirement, technique, polarity) of `@pytest.mark.verifies("ID", technique="...", polarity="...")`."""
+    if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "verifies"):
+        return None
+    values = {"requirement": "", "technique": "requirements_based", "polarity": "nominal"}
+    named = [*zip(values, node.args), *((keyword.arg, keyword.value) for keyword in node.keywords)]
+    for name, value in named:
+        if name in values and isinstance(value, ast.Constant):
+            values[name] = str(value.value)
+    return (values["requirement"], values["technique"], values["polarity"])

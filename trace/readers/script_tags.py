@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads `@satisfies` tags from comments of shell scripts and CMake files; they belong to the whole file.
+
+@satisfies SWR-TRC-002      Design: docs/design/trace.md#code-tags
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mamori.trace.model.evidence import CodeTag
+from mamori.trace.model.finding import Place, Problem
+from mamori.trace.readers.cpp_tags import FILE_SYMBOL, make_tags
+from mamori.trace.readers.files import is_test_file, read_text, walk_sources
+
+_SUFFIXES = (".sh", ".cmake", "CMakeLists.txt")
+
+
+def read_script_tags(root: Path, problems: list[Problem]) -> list[CodeTag]:
+    """Tags of scripts: files with a script's suffix anywhere, and files in the root that begin with `#!`."""
+    scripts = [(path, path.name) for path in sorted(root.iterdir()) if _is_plain_script(path)]
+    tags: list[CodeTag] = []
+    for path, shown in [*scripts, *walk_sources(root, _SUFFIXES)]:
+        if is_test_file(shown):
+            continue
+        for number, line in enumerate(read_text(path, shown, problems).splitlines(), start=1):
+            if "@satisfies" in line and line.lstrip().startswith("#"):
+                tags.extend(make_tags(line, Place(shown, number), FILE_SYMBOL, problems))
+    return tags
+
+
+def _is_plain_script(path: Path) -> bool:
+    if path.suffix or not path.is_file():
+        return False
+    with path.open("rb") as file:
+        return file.read(2) == b"#!"

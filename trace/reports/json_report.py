@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The same facts as the console output, for programs."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from typing import Any
+
+from mamori.trace.checks import list_rules
+from mamori.trace.model.finding import Finding
+from mamori.trace.model.item import Item
+from mamori.trace.model.project import Project
+from mamori.trace.model.verdict import Verdict
+
+SCHEMA = "mamori.trace/1"
+
+
+def format_json(project: Project, findings: list[Finding], verdicts: dict[str, Verdict]) -> str:
+    """Findings, rules and the verdict of every item."""
+    content = {
+        "schema": SCHEMA,
+        "summary": {
+            "items": len(verdicts),
+            "verdicts": dict(sorted(Counter(verdict.word for verdict in verdicts.values()).items())),
+            "severities": dict(sorted(Counter(finding.severity for finding in findings).items())),
+            "results": len(project.results),
+            "cases": len(project.evidence.cases),
+        },
+        "rules": [{"id": rule.id, "severity": rule.severity, "about": rule.about} for rule in list_rules()],
+        "findings": [
+            {
+                "rule": finding.rule,
+                "severity": finding.severity,
+                "file": finding.place.file,
+                "line": finding.place.line,
+                "item": finding.item,
+                "message": finding.message,
+            }
+            for finding in findings
+        ],
+        "items": [make_item(project, project.items[key], verdicts) for key in sorted(verdicts)],
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def make_item(project: Project, item: Item, verdicts: dict[str, Verdict]) -> dict[str, Any]:
+    """One item with its links and evidence, as plain values."""
+    verdict = verdicts.get(item.id, Verdict("retired"))
+    return {
+        "id": item.id,
+        "title": item.title,
+        "statement": item.statement,
+        "sil": item.sil,
+        "status": item.status,
+        "verify": list(item.verify),
+        "polarity": list(item.polarity),
+        "design": item.design,
+        "file": item.place.file,
+        "line": item.place.line,
+        "verdict": verdict.word,
+        "reasons": list(verdict.reasons),
+        "parents": list(item.parents),
+        "children": [child.id for child in project.children_of.get(item.id, [])],
+        "code": [str(tag.place) for tag in project.tags_of.get(item.id, [])],
+        "results": [
+            {"test": result.title, "status": result.status, "polarity": result.polarity}
+            for result in project.results_of.get(item.id, [])
+        ],
+        "cases": [{"case": case.id, "passed": case.passed} for case in project.cases_of.get(item.id, [])],
+    }
