@@ -15,5 +15,5 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     if project.allow_missing:
         return
     for test in project.tests_without_result:
-        message = f"test {test.title} ({test.requirement}) has no result in {project.evidence.folder}/junit"
+        message = f"test {test.title} ({test.requirement}) has no result in {project.evidence.shown}/junit"
         yield test.place, message, test.requirement

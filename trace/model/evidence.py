@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 from mamori.trace.model.finding import Place
 
@@ -46,6 +46,8 @@ class SourceTest:
 @dataclass(slots=True)
 class TestResult:
     """One executed test case. `requirement` is empty when the test names none."""
+
+    __test__: ClassVar[bool] = False  # pytest would take the class for a group of tests
 
     suite: str
     name: str
@@ -95,10 +97,10 @@ class CampaignCase:
 
 @dataclass(slots=True)
 class Evidence:
-    """Everything below one evidence folder. `folder` is its path as given; `present` is False when there is none."""
+    """Everything below one evidence folder. `folder` is its path as given, `shown` as findings name it."""
 
     folder: str = ""
-    present: bool = False
+    shown: str = ""
     results: list[TestResult] = field(default_factory=list)
     cases: list[CampaignCase] = field(default_factory=list)
     has_campaign: bool = False
@@ -106,3 +108,7 @@ class Evidence:
     environment_place: Place = Place("environment.json", 1)
     campaign_environment: dict[str, Any] = field(default_factory=dict)
     campaign_place: Place = Place("campaign/campaign.json", 1)
+
+    @property
+    def present(self) -> bool:
+        return bool(self.folder)

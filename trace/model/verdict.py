@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Judges each item by executed results, the worst first.
 
-@satisfies SWR-TRC-006, SWR-TRC-007      Design: docs/design/trace.md#verdict
+@satisfies SWR-TRC-006, SWR-TRC-007, SWR-TRC-014      Design: docs/design/trace.md#verdict
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from mamori.trace.readers.files import is_test_file, read_text, walk_sources
 
 SUFFIXES = (".hpp", ".h", ".cpp", ".cc", ".ipp")
 TAG = re.compile(r"@satisfies[ \t]+([A-Z]+-[\w-]+(?:[ \t]*,[ \t]*[A-Z]+-[\w-]+)*)")
-BARE_TAG = re.compile(r"@satisfies\b(?![ \t]+[A-Z]+-[\w-])")
+BARE_TAG = re.compile(r"^[\s/*#'\"]*@satisfies\b(?![ \t]+[A-Z]+-[\w-])")
 FILE_SYMBOL = "file"
 
 _LANGUAGE = tree_sitter.Language(tree_sitter_cpp.language())

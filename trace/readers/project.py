@@ -76,7 +76,7 @@ def _choose_evidence(root: Path, evidence: Path | None, allow_missing: bool) -> 
 
 
 def _read_evidence(folder: Path, project: Project) -> Evidence:
-    evidence = Evidence(folder=folder.as_posix(), present=True)
+    evidence = Evidence(folder=folder.as_posix(), shown=get_shown_path(folder, project.root))
     evidence.results = read_junit(folder / "junit", project.root, project.problems)
     read_environment(folder, project.root, evidence, project.problems)
     read_campaign(folder, project.root, evidence, project.problems)

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Turns campaign cases into table rows and figures.
+
+@satisfies SWR-TRC-012      Design: docs/design/trace.md#plots
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mamori.trace.model.evidence import CampaignCase
+from mamori.trace.model.finding import Place, Problem
+from mamori.trace.model.project import Project
+from mamori.trace.readers.files import UNREADABLE, get_shown_path
+from mamori.trace.readers.series import SeriesError, read_series
+from mamori.trace.reports.plots import draw_case
+
+ABSENT = "–"
+
+
+@dataclass(slots=True)
+class CaseView:
+    """One row of the campaign table and its figure. Texts are ready to show; `share` is reaction time over bound."""
+
+    case: CampaignCase
+    anchor: str
+    fault: str
+    where: str
+    when: str
+    reaction_time: str
+    share: float | None
+    standstill: str
+    travel: str
+    drift: str
+    peak_speed: str
+    plot: str = ""
+    plot_problem: str = ""
+
+
+@dataclass(slots=True)
+class ScenarioView:
+    """Cases of one scenario; all figures stand in one fold."""
+
+    name: str
+    title: str
+    cases: list[CaseView]
+
+    @property
+    def passed(self) -> int:
+        return sum(view.case.passed for view in self.cases)
+
+
+def make_scenario_views(project: Project, problems: list[Problem]) -> list[ScenarioView]:
+    """Scenarios and cases in order of their names. A series that cannot be drawn becomes a problem, told in its place, too."""
+    groups: dict[str, list[CaseView]] = defaultdict(list)
+    base = Path(project.evidence.folder) / "campaign"
+    for index, case in enumerate(sorted(project.evidence.cases, key=_sort_key)):
+        view = _make_case_view(case, index)
+        path = base / case.folder / "series.csv"
+        try:
+            if not path.resolve().is_relative_to(base.resolve()):
+                raise SeriesError(f"folder {case.folder!r} lies outside of the campaign")
+            view.plot = draw_case(read_series(path), case.run, f"p{index}", f"{case.id}: {case.title}")
+        except (SeriesError, KeyError, TypeError, ValueError, IndexError, ZeroDivisionError) as error:
+            view.plot_problem = str(error) if isinstance(error, SeriesError) else f"run of {case.id} lacks {error}"
+            problems.append(Problem(UNREADABLE, Place(get_shown_path(path, project.root), 1), f"{view.plot_problem}; run the campaign again"))
+        groups[case.scenario].append(view)
+    return [ScenarioView(name, _get_common_title(views), views) for name, views in sorted(groups.items())]
+
+
+def find_slowest(scenarios: list[ScenarioView]) -> CaseView | None:
+    """The case that came nearest to its bound."""
+    views = [view for scenario in scenarios for view in scenario.cases if view.share is not None]
+    return max(views, key=lambda view: (view.share, view.case.id), default=None)
+
+
+def _sort_key(case: CampaignCase) -> tuple[str, list[tuple[int, int, str]]]:
+    """Numbers inside an id sort as numbers."""
+    parts = re.split(r"(\d+)", case.id)
+    return case.scenario, [(1, int(part), "") if part.isdigit() else (0, 0, part) for part in parts]
+
+
+def _get_common_title(views: list[CaseView]) -> str:
+    titles = list(dict.fromkeys(view.case.title for view in views))
+    return titles[0] if len(titles) == 1 else f"{len(views)} cases"
+
+
+def _make_case_view(case: CampaignCase, index: int) -> CaseView:
+    run = case.run
+    fault = run.get("fault") if isinstance(run.get("fault"), dict) else None
+    at_s = _get_number(fault, "at_s")
+    physics = run.get("physics") if isinstance(run.get("physics"), dict) else {}
+    reaction_s = _subtract(_get_number(run, "reacted_at_s"), at_s)
+    bound_s = _get_number(case.expected, "within_s")
+    standstill_s = _subtract(_get_number(run, "standstill_at_s"), at_s)
+    return CaseView(
+        case=case,
+        anchor=f"case-{index}-{re.sub(r'[^A-Za-z0-9_-]+', '-', case.id)}",
+        fault=str(fault.get("kind", ABSENT)).replace("_", " ") if fault else "none",
+        where=_describe_where(fault),
+        when=ABSENT if at_s is None else f"{at_s:.3f} s",
+        reaction_time=_describe_reaction(reaction_s, bound_s, run),
+        share=reaction_s / bound_s if reaction_s is not None and bound_s else None,
+        standstill=ABSENT if standstill_s is None else f"{1e3 * standstill_s:.0f} ms",
+        travel=_format_milli(_get_largest(physics, "stop_travel_rad")) if fault else ABSENT,
+        drift=_format_milli(_get_number(physics, "hold_drift_rad")) if fault else ABSENT,
+        peak_speed=_describe_peak_speed(physics),
+    )
+
+
+def _describe_where(fault: dict[str, Any] | None) -> str:
+    """Joints count from 0 in run.json and from 1 for people."""
+    parts = []
+    if fault and isinstance(fault.get("joint"), int):
+        parts.append(f"joint {fault['joint'] + 1}")
+    if fault and fault.get("channel"):
+        parts.append(f"channel {str(fault['channel']).upper()}")
+    return ", ".join(parts) or ABSENT
+
+
+def _describe_reaction(reaction_s: float | None, bound_s: float | None, run: dict[str, Any]) -> str:
+    if reaction_s is None:
+        return "watchdog" if run.get("watchdog_bitten") else ABSENT
+    return f"{1e3 * reaction_s:.0f} of {1e3 * bound_s:.0f} ms" if bound_s else f"{1e3 * reaction_s:.0f} ms"
+
+
+def _describe_peak_speed(physics: dict[str, Any]) -> str:
+    speeds, limits = physics.get("max_speed_rad_s"), physics.get("speed_limit_rad_s")
+    if not (isinstance(speeds, list) and isinstance(limits, list) and speeds and len(speeds) == len(limits) and all(limits)):
+        return ABSENT
+    return f"{100 * max(speed / limit for speed, limit in zip(speeds, limits)):.0f} %"
+
+
+def _get_number(table: dict[str, Any] | None, key: str) -> float | None:
+    value = (table or {}).get(key)
+    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
+
+
+def _get_largest(table: dict[str, Any], key: str) -> float | None:
+    values = table.get(key)
+    return max(map(float, values)) if isinstance(values, list) and values else None
+
+
+def _subtract(later: float | None, earlier: float | None) -> float | None:
+    return None if later is None or earlier is None else later - earlier
+
+
+def _format_milli(value_rad: float | None) -> str:
+    if value_rad is None:
+        return ABSENT
+    return f"{1e3 * value_rad:.1f} mrad" if value_rad >= 1e-3 else f"{1e3 * value_rad:.3f} mrad"
