@@ -18,7 +18,8 @@ Status Component::initialize() noexcept {
 }
 
 Status Component::finalize() noexcept {
-    if (is_changing_ || is_participating_ || !is_alive()) {
+    // Also refuses a call from on_initialize or on_finalize: the component is not alive there.
+    if (is_participating_ || !is_alive()) {
         return Status::kPreconditionNotMet;
     }
     state_ = LifecycleState::kCreated;

@@ -128,6 +128,19 @@ TEST_F(ExecutiveOverrunTest, AfterAnOverrunTheNextCycleIsComplete) {
     EXPECT_EQ(counter_.out.get_published(), 20) << "the late run counted on, its output did not leave";
 }
 
+TEST_F(ExecutiveOverrunTest, WhatAnOverrunWindowWroteDoesNotLeaveInALaterCycleEither) {
+    verifies("SWR-KRN-022", Technique::kErrorGuessing, Polarity::kViolation);
+    host_.durations[{1U, Pass::kExecute}] = 301_ns;
+    ASSERT_EQ(run(0U, 0), WindowOutcome::kOverrun);
+    EXPECT_FALSE(counter_.out.is_staged());
+    host_.durations.clear();
+    counter_.is_writing = false;
+
+    ASSERT_EQ(run(0U, 1), WindowOutcome::kCompleted);
+
+    EXPECT_EQ(counter_.out.get_sequence(), 0U);
+}
+
 TEST_F(ExecutiveOverrunTest, ALateReleaseKeepsTheBudgetButNotBeyondTheClose) {
     verifies("SWR-KRN-022", Technique::kBoundaryValues, Polarity::kViolation);
     const auto release_at = [this](std::int64_t lateness) {
@@ -156,7 +169,22 @@ TEST_F(ExecutiveOverrunTest, AnInputIsNewAgainForAComponentThatHadNoCycle) {
     EXPECT_TRUE(sink_.notes[0].is_new);
 }
 
-/// Writes and then waits for its release, once, when told to.
+TEST_F(ExecutiveOverrunTest, AnInputIsNewAgainForTheComponentThatWasCutOff) {
+    verifies("SWR-KRN-016", Technique::kFaultInjection);
+    ASSERT_EQ(run(0U, 0), WindowOutcome::kCompleted);
+    host_.durations[{3U, Pass::kExecute}] = 501_ns;
+    ASSERT_EQ(run(1U, 0), WindowOutcome::kOverrun);
+    host_.durations.clear();
+
+    ASSERT_EQ(run(1U, 1), WindowOutcome::kCompleted);
+    ASSERT_EQ(run(1U, 2), WindowOutcome::kCompleted);
+
+    ASSERT_EQ(sink_.notes.size(), 3U);
+    EXPECT_TRUE(sink_.notes[1].is_new) << "its late run did not count as a cycle";
+    EXPECT_FALSE(sink_.notes[2].is_new);
+}
+
+/// Waits for its release once when told to, and writes then.
 class HangingComponent final : public Component {
   public:
     explicit HangingComponent() noexcept : Component("hanging") {}
@@ -236,9 +264,12 @@ TEST(ExecutiveAbandonedWorkTest, WorkThatHangsIsNamedEachFrameAndNeverPublishesW
     EXPECT_EQ(sut.run_window(0U, Instant{2000}, host), WindowOutcome::kCompleted);
 
     EXPECT_EQ(hanging.out.get_sequence(), 0U);
-    EXPECT_EQ(observer.heard,
-              (Heard{"start 0 @0", "overrun window 0 component 0 @300", "start 1 @400", "finish 1 @400",
-                     "overrun window 0 component 0 @1000", "start 0 @2000", "finish 0 @2000"}));
+    hanging.out.write(7);  // as an activation would
+    EXPECT_EQ(sut.run_window(0U, Instant{2000}, host), WindowOutcome::kCompleted);
+    EXPECT_EQ(hanging.out.get_published(), 7) << "only what was written late is thrown away";
+    EXPECT_EQ(observer.heard, (Heard{"start 0 @0", "overrun window 0 component 0 @300", "start 1 @400",
+                                     "finish 1 @400", "overrun window 0 component 0 @1000", "start 0 @2000",
+                                     "finish 0 @2000", "start 0 @2000", "finish 0 @2000"}));
     EXPECT_EQ(other.out.get_sequence(), 1U);
 }
 

@@ -144,12 +144,14 @@ TEST_F(ExecutiveTest, ALateReleaseIsReportedAndChangesNoData) {
     host_.now = Instant{7};
 
     EXPECT_EQ(sut_.run_window(0U, Instant{0}, host_), WindowOutcome::kCompleted);
-    host_.now = Instant{400};
+    host_.now = Instant{403};
     EXPECT_EQ(sut_.run_window(1U, Instant{400}, host_), WindowOutcome::kCompleted);
 
     EXPECT_EQ(observer.heard,
               (std::vector<std::string>{"late window 0 by 7 @7", "start 0 @7", "finish 0 @7", "start 1 @7",
-                                        "finish 1 @7", "start 2 @400", "finish 2 @400"}));
+                                        "finish 1 @7", "late window 1 by 3 @403", "start 2 @403",
+                                        "finish 2 @403"}));
+    EXPECT_EQ(sink_.notes[0].now, Instant{400}) << "the planned opening";
     EXPECT_EQ(sink_.notes[0].age, 0_ns) << "published at the planned close";
 }
 
@@ -232,6 +234,10 @@ TEST_F(ExecutiveTest, AChainInOneWindowNeedsNoExtraCycle) {
     EXPECT_EQ(sink.notes[2].age, 0_ns);
     EXPECT_TRUE(sink.notes[2].is_new);
     EXPECT_EQ(relay.out.get_sequence(), 3U);
+
+    host_.now = Instant{3005};
+    EXPECT_EQ(executive.run_window(0U, Instant{3000}, host_), WindowOutcome::kCompleted);
+    EXPECT_EQ(sink.notes[3].age, 0_ns) << "dated by the planned opening, also when it opens late";
 }
 
 TEST_F(ExecutiveTest, AConnectionAgainstTheOrderArrivesOneFrameLater) {
