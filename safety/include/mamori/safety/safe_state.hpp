@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// States of a guarded machine, the events that move it, and the one table of its transitions. The design
+/// note shows the same table as a diagram; a test compares the two.
+///
+/// @satisfies SWR-FSM-001, SWR-FSM-002, SWR-FSM-003      Design: docs/design/safe_state.md#states
+/// Source:   IEC 61800-5-2 (STO, SS1, SS2, SOS), IEC 60204-1 (stop categories 0, 1, 2)
+#ifndef MAMORI_SAFETY_SAFE_STATE_HPP
+#define MAMORI_SAFETY_SAFE_STATE_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace mamori::safety {
+
+/// Where the machine is. 0 is no state, so that cleared memory is not taken for one.
+enum class SafeState : std::uint8_t {
+    kSelfTest = 1U,           ///< torque off, brakes closed, tests run
+    kStandby = 2U,            ///< torque off, brakes closed, ready
+    kOperational = 3U,        ///< moves
+    kDegraded = 4U,           ///< moves with reduced limits
+    kProtectiveStopSs2 = 5U,  ///< controlled stop under way, will be held under torque
+    kProtectiveStopSs1 = 6U,  ///< controlled stop under way, torque will be cut
+    kStandstillHold = 7U,     ///< stands, held under torque (SOS)
+    kSafe = 8U,               ///< torque off, brakes closed, waits for a deliberate reset
+    kLockedOut = 9U,          ///< torque off, brakes closed, until power is cycled
+};
+inline constexpr std::size_t kSafeStateCount = 9U;
+
+/// What happens to it, the most urgent first: of several events at once the first that changes the state
+/// wins.
+enum class SafeStateEvent : std::uint8_t {
+    kLockOut,              ///< the machine cannot trust itself any more
+    kSelfTestFailed,       ///< a self test failed, at power-up or later
+    kDemandSto,            ///< torque off is demanded
+    kDemandSs1,            ///< controlled stop, then torque off, is demanded
+    kStopTimeout,          ///< a stop was not confirmed within its bound
+    kDemandSs2,            ///< controlled stop, then hold, is demanded
+    kStandstillConfirmed,  ///< the stop is confirmed
+    kDegrade,              ///< reduced limits are demanded
+    kReset,                ///< a person reset it, and its conditions hold
+    kRestore,              ///< a person lifted the reduced limits, and their reason is gone
+    kSelfTestPassed,       ///< the self test of this visit passed
+    kStart,                ///< a person started it, and its conditions hold
+};
+inline constexpr std::size_t kSafeStateEventCount = 12U;
+
+/// Transitions: row = state, column = event, value = next state.
+using SafeStateTable = std::array<std::array<SafeState, kSafeStateEventCount>, kSafeStateCount>;
+
+/// True for one of the nine states.
+constexpr bool is_valid(SafeState state) noexcept {
+    return state >= SafeState::kSelfTest && state <= SafeState::kLockedOut;
+}
+
+namespace detail {
+
+constexpr SafeStateTable make_safe_state_table() noexcept {
+    constexpr auto kTest = SafeState::kSelfTest;
+    constexpr auto kStby = SafeState::kStandby;
+    constexpr auto kOper = SafeState::kOperational;
+    constexpr auto kDegr = SafeState::kDegraded;
+    constexpr auto kStp2 = SafeState::kProtectiveStopSs2;
+    constexpr auto kStp1 = SafeState::kProtectiveStopSs1;
+    constexpr auto kHold = SafeState::kStandstillHold;
+    constexpr auto kSafe = SafeState::kSafe;
+    constexpr auto kLock = SafeState::kLockedOut;
+    // clang-format off
+    return {{
+    //           LockOut TestFail Sto    Ss1    Timeout Ss2    Stands Degrade Reset  Restore TestPass Start
+    /* kTest */ {{kLock, kLock,   kSafe, kSafe, kTest,  kSafe, kTest, kTest,  kTest, kTest,  kStby,   kTest}},
+    /* kStby */ {{kLock, kLock,   kSafe, kSafe, kStby,  kSafe, kStby, kStby,  kStby, kStby,  kStby,   kOper}},
+    /* kOper */ {{kLock, kLock,   kSafe, kStp1, kOper,  kStp2, kOper, kDegr,  kOper, kOper,  kOper,   kOper}},
+    /* kDegr */ {{kLock, kLock,   kSafe, kStp1, kDegr,  kStp2, kDegr, kDegr,  kDegr, kOper,  kDegr,   kDegr}},
+    /* kStp2 */ {{kLock, kLock,   kSafe, kStp1, kStp1,  kStp2, kHold, kStp2,  kStp2, kStp2,  kStp2,   kStp2}},
+    /* kStp1 */ {{kLock, kLock,   kSafe, kStp1, kSafe,  kStp1, kSafe, kStp1,  kStp1, kStp1,  kStp1,   kStp1}},
+    /* kHold */ {{kLock, kLock,   kSafe, kStp1, kHold,  kHold, kHold, kHold,  kStby, kHold,  kHold,   kHold}},
+    /* kSafe */ {{kLock, kLock,   kSafe, kSafe, kSafe,  kSafe, kSafe, kSafe,  kTest, kSafe,  kSafe,   kSafe}},
+    /* kLock */ {{kLock, kLock,   kLock, kLock, kLock,  kLock, kLock, kLock,  kLock, kLock,  kLock,   kLock}},
+    }};
+    // clang-format on
+}
+
+}  // namespace detail
+
+/// The table. Both the machine and the documentation are made from it.
+inline constexpr SafeStateTable kSafeStateTable = detail::make_safe_state_table();
+
+/// @return state after `event`; kLockedOut for a corrupted state or event.
+constexpr SafeState calc_next_state(SafeState state, SafeStateEvent event) noexcept {
+    const auto column = static_cast<std::size_t>(event);
+    if (!is_valid(state) || column >= kSafeStateEventCount) {
+        return SafeState::kLockedOut;
+    }
+    return kSafeStateTable[static_cast<std::size_t>(state) - 1U][column];
+}
+
+/// Spelling for logs, reports and the diagram; "Invalid" for a corrupted value, never nullptr.
+const char* get_name(SafeState state) noexcept;
+const char* get_name(SafeStateEvent event) noexcept;
+
+namespace detail {
+
+/// A forgotten entry of the table is 0, which is no state.
+constexpr bool is_complete(const SafeStateTable& table) noexcept {
+    for (const auto& row : table) {
+        for (const SafeState next : row) {
+            if (!is_valid(next)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static_assert(is_complete(kSafeStateTable), "every state needs an answer to every event");
+static_assert(static_cast<std::size_t>(SafeState::kLockedOut) == kSafeStateCount);
+static_assert(static_cast<std::size_t>(SafeStateEvent::kStart) + 1U == kSafeStateEventCount);
+
+}  // namespace detail
+
+}  // namespace mamori::safety
+
+#endif  // MAMORI_SAFETY_SAFE_STATE_HPP

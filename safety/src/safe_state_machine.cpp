@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/safety/safe_state_machine.hpp"
+
+#include "mamori/safety/elapsed.hpp"
+
+namespace mamori::safety {
+
+bool SafeStateMachine::is_consistent() const noexcept {
+    return is_valid(state_) && state_complement_ == complement(state_);
+}
+
+/// A stop is confirmed up to and including its bound; in the cycle of the bound it must be.
+bool SafeStateMachine::is_stop_overdue(const SafeStateInputs& inputs) const noexcept {
+    Duration bound{0};
+    if (state_ == SafeState::kProtectiveStopSs2) {
+        bound = bounds_.ss2_within;
+    } else if (state_ == SafeState::kProtectiveStopSs1) {
+        bound = bounds_.ss1_within;
+    } else {
+        return false;
+    }
+    const bool is_at_bound = calc_elapsed(entered_at_, inputs.now) == bound;
+    return is_over(entered_at_, inputs.now, bound) || (is_at_bound && !inputs.standstill);
+}
+
+bool SafeStateMachine::may_restart(const SafeStateInputs& inputs) const noexcept {
+    return inputs.demand == Reaction::kNone && inputs.faults_cleared;
+}
+
+bool SafeStateMachine::is_raised(SafeStateEvent event, const SafeStateInputs& inputs,
+                                 Edges edges) const noexcept {
+    switch (event) {
+        case SafeStateEvent::kLockOut:
+            return inputs.lock_out;
+        case SafeStateEvent::kSelfTestFailed:
+            return inputs.self_test >= SelfTestStatus::kFailed;  // so is a corrupted status
+        case SafeStateEvent::kDemandSto:
+            return inputs.demand >= Reaction::kSto;  // a corrupted demand is the severest
+        case SafeStateEvent::kDemandSs1:
+            // Whoever leaves the place that he should hold is stopped again, with more authority.
+            return inputs.demand == Reaction::kSs1 ||
+                   (state_ == SafeState::kStandstillHold && !inputs.standstill);
+        case SafeStateEvent::kStopTimeout:
+            return is_stop_overdue(inputs);
+        case SafeStateEvent::kDemandSs2:
+            return inputs.demand == Reaction::kSs2;
+        case SafeStateEvent::kStandstillConfirmed:
+            return inputs.standstill;
+        case SafeStateEvent::kDegrade:
+            return inputs.demand == Reaction::kDegrade;
+        case SafeStateEvent::kReset:
+            return edges.has_reset_risen && may_restart(inputs) && inputs.standstill;
+        case SafeStateEvent::kRestore:
+            return edges.has_reset_risen && may_restart(inputs);
+        case SafeStateEvent::kSelfTestPassed:
+            return has_test_run_ && inputs.self_test == SelfTestStatus::kPassed;
+        case SafeStateEvent::kStart:
+            return edges.has_start_risen && may_restart(inputs) && inputs.standstill &&
+                   inputs.start_permitted;
+    }
+    MAMORI_INVARIANT(2, false);
+    return true;
+}
+
+void SafeStateMachine::enter(SafeState state, Instant now) noexcept {
+    state_ = state;
+    state_complement_ = complement(state);
+    entered_at_ = now;
+    has_test_run_ = false;
+}
+
+SafeState SafeStateMachine::step(const SafeStateInputs& inputs) noexcept {
+    if (!has_stepped_) {
+        has_stepped_ = true;
+        entered_at_ = inputs.now;
+    }
+    // The levels are followed in every state, so that a push in the wrong state is not kept for a later one.
+    const Edges edges{start_edge_.step(inputs.start_button), reset_edge_.step(inputs.reset_button)};
+    has_test_run_ = has_test_run_ || inputs.self_test == SelfTestStatus::kRunning;
+    if (!is_consistent()) {
+        enter(SafeState::kLockedOut, inputs.now);
+        return SafeState::kLockedOut;
+    }
+    for (std::size_t i = 0U; i < kSafeStateEventCount; ++i) {
+        const auto event = static_cast<SafeStateEvent>(i);
+        const SafeState next = calc_next_state(state_, event);
+        if (next != state_ && is_raised(event, inputs, edges)) {
+            enter(next, inputs.now);
+            break;
+        }
+    }
+    MAMORI_ENSURE(3, is_consistent());
+    return state_;
+}
+
+}  // namespace mamori::safety

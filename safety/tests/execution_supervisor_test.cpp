@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: what an executive tells about its course becomes a status per component and one for the whole.
+// Method: the observer's calls are made as an executive makes them, with hangs, overruns and late windows put
+// in.
+#include "mamori/safety/execution_supervisor.hpp"
+
+#include <type_traits>
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::safety {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+using literals::operator""_us;
+using literals::operator""_ms;
+
+constexpr std::size_t kControl = 0U;
+constexpr std::size_t kMonitor = 1U;
+constexpr std::size_t kLogger = 2U;
+constexpr ComponentLimits kLimits{{2U, 3U}, {Duration{0}, 100_us}, SupervisionScope::kGlobal};
+constexpr ComponentLimits kLocalLimits{{2U, 3U}, {Duration{0}, 100_us}, SupervisionScope::kLocal};
+
+class ExecutionSupervisorTest : public ::testing::Test {
+  protected:
+    void run(std::size_t component, Duration duration = 50_us) {
+        sut_.on_component_started(component, now_);
+        sut_.on_component_finished(component, now_ + duration);
+    }
+    GlobalStatus end_cycle() {
+        now_ = now_ + 1_ms;
+        return sut_.step(now_);
+    }
+
+    Instant now_{};
+    ExecutionStorage<3U> storage_{};
+    ExecutionSupervisor sut_{storage_, 10_us};
+};
+
+// A supervisor of static storage needs no code before main().
+ExecutionStorage<1U> g_storage{};
+ExecutionSupervisor g_supervisor{g_storage, 10_us};
+
+TEST_F(ExecutionSupervisorTest, HealthyComponentsGiveOkLocallyAndGlobally) {
+    verifies("SWR-SUP-007");
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    ASSERT_EQ(sut_.watch(kMonitor, kLimits), Status::kOk);
+
+    for (int cycle = 0; cycle < 100; ++cycle) {
+        run(kControl);
+        run(kMonitor, 100_us);
+        ASSERT_EQ(end_cycle(), GlobalStatus::kOk);
+    }
+    EXPECT_EQ(sut_.get_local_status(kControl), LocalStatus::kOk);
+    EXPECT_EQ(sut_.get_first_expired(), ExecutionSupervisor::kNoComponent);
+}
+
+TEST_F(ExecutionSupervisorTest, SilentComponentFailsThenExpires) {
+    verifies("SWR-SUP-007", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kFailed);
+    EXPECT_EQ(sut_.get_local_status(kControl), LocalStatus::kFailed);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+    EXPECT_EQ(sut_.get_local_status(kControl), LocalStatus::kExpired);
+    EXPECT_EQ(sut_.get_cause(kControl), ExpiryCause::kSilent);
+}
+
+TEST_F(ExecutionSupervisorTest, LateComponentRecovers) {
+    verifies("SWR-SUP-007", Technique::kStateTransition);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    static_cast<void>(end_cycle());
+    ASSERT_EQ(end_cycle(), GlobalStatus::kFailed);
+
+    run(kControl);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+    EXPECT_EQ(sut_.get_local_status(kControl), LocalStatus::kOk);
+}
+
+TEST_F(ExecutionSupervisorTest, SlowComponentExpiresAndStaysExpired) {
+    verifies("SWR-SUP-007", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    run(kControl, 101_us);
+    run(kControl);
+    ASSERT_EQ(end_cycle(), GlobalStatus::kExpired);
+    EXPECT_EQ(sut_.get_cause(kControl), ExpiryCause::kDeadline);
+
+    for (int cycle = 0; cycle < 100; ++cycle) {
+        run(kControl);
+        ASSERT_EQ(end_cycle(), GlobalStatus::kExpired);
+    }
+}
+
+TEST_F(ExecutionSupervisorTest, HangIsFoundWithoutTheHelpOfTheHangingComponent) {
+    verifies("SWR-SUP-007", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, {{100U, 100U}, {Duration{0}, 100_us}, SupervisionScope::kGlobal}),
+              Status::kOk);
+    sut_.on_component_started(kControl, now_);
+
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+    EXPECT_EQ(sut_.get_first_expired(), kControl);
+}
+
+TEST_F(ExecutionSupervisorTest, AcknowledgedComponentIsHealthyAndSupervisedAgain) {
+    verifies("SWR-SUP-007", Technique::kStateTransition);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    EXPECT_EQ(sut_.acknowledge(kControl), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut_.acknowledge(3U), Status::kBadParameter);
+    sut_.on_component_started(kControl, now_);
+    for (int cycle = 0; cycle < 5; ++cycle) {
+        static_cast<void>(end_cycle());
+    }
+
+    ASSERT_EQ(sut_.acknowledge(kControl), Status::kOk);
+    run(kControl);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+    EXPECT_EQ(sut_.get_cause(kControl), ExpiryCause::kNone);
+    run(kControl, 101_us);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+}
+
+TEST_F(ExecutionSupervisorTest, RefusesComponentsAndLimitsOutOfRangeWithoutHalfWatching) {
+    verifies("SWR-SUP-007", Technique::kInterface, Polarity::kViolation);
+
+    EXPECT_EQ(sut_.watch(3U, kLimits), Status::kBadParameter);
+    EXPECT_EQ(sut_.watch(kControl, {{0U, 3U}, {Duration{0}, 100_us}, {}}), Status::kBadParameter);
+    EXPECT_EQ(sut_.watch(kControl, {{2U, 3U}, {Duration{0}, Duration{0}}, {}}), Status::kBadParameter);
+    EXPECT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    EXPECT_EQ(sut_.watch(kControl, kLimits), Status::kPreconditionNotMet);
+}
+
+TEST_F(ExecutionSupervisorTest, NoOverrunNamesNobody) {
+    verifies("SWR-SUP-008");
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    run(kControl);
+
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+    EXPECT_EQ(sut_.get_first_expired(), ExecutionSupervisor::kNoComponent);
+    EXPECT_EQ(sut_.get_cause(kControl), ExpiryCause::kNone);
+}
+
+TEST_F(ExecutionSupervisorTest, BudgetOverrunExpiresTheComponentThatWasRunning) {
+    verifies("SWR-SUP-008", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    ASSERT_EQ(sut_.watch(kMonitor, kLimits), Status::kOk);
+    run(kControl);
+    sut_.on_component_started(kMonitor, now_);
+    sut_.on_budget_overrun(0U, kMonitor, now_ + 150_us);
+
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+    EXPECT_EQ(sut_.get_first_expired(), kMonitor);
+    EXPECT_EQ(sut_.get_cause(kMonitor), ExpiryCause::kBudgetOverrun);
+    EXPECT_EQ(sut_.get_local_status(kControl), LocalStatus::kOk);
+}
+
+TEST_F(ExecutionSupervisorTest, OverrunOfAComponentThatNobodyWatchesIsNotLost) {
+    verifies("SWR-SUP-008", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    run(kControl);
+    run(kLogger, 5_ms);
+    sut_.on_budget_overrun(1U, kLogger, now_);
+
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+    EXPECT_EQ(sut_.get_first_expired(), kLogger);
+}
+
+TEST_F(ExecutionSupervisorTest, OverrunAfterTheLastStepSurvivesAnAcknowledgement) {
+    verifies("SWR-SUP-008", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    sut_.on_budget_overrun(0U, kControl, now_);
+    ASSERT_EQ(end_cycle(), GlobalStatus::kExpired);
+    sut_.on_budget_overrun(0U, kControl, now_);
+
+    ASSERT_EQ(sut_.acknowledge(kControl), Status::kOk);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+}
+
+TEST_F(ExecutionSupervisorTest, ComponentThatExpiredFirstIsNamedUntilItIsAcknowledged) {
+    verifies("SWR-SUP-008", Technique::kRequirementsBased, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    ASSERT_EQ(sut_.watch(kMonitor, kLimits), Status::kOk);
+    sut_.on_budget_overrun(0U, kMonitor, now_);
+    static_cast<void>(end_cycle());
+    sut_.on_budget_overrun(0U, kControl, now_);
+    static_cast<void>(end_cycle());
+
+    EXPECT_EQ(sut_.get_first_expired(), kMonitor);
+    ASSERT_EQ(sut_.acknowledge(kMonitor), Status::kOk);
+    EXPECT_EQ(sut_.get_first_expired(), kControl);
+}
+
+TEST_F(ExecutionSupervisorTest, ComponentIndexBeyondTheStorageGoesToTheAssertionHandler) {
+    verifies("SWR-SUP-008", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_DEATH(sut_.on_component_started(3U, now_), "");
+    EXPECT_DEATH(sut_.on_component_finished(3U, now_), "");
+    EXPECT_DEATH(sut_.on_budget_overrun(0U, 3U, now_), "");
+}
+
+TEST_F(ExecutionSupervisorTest, LocalScopeKeepsItsFailureOutOfTheGlobalStatus) {
+    verifies("SWR-SUP-009", Technique::kEquivalenceClasses);
+    ASSERT_EQ(sut_.watch(kControl, kLocalLimits), Status::kOk);
+    ASSERT_EQ(sut_.watch(kMonitor, kLimits), Status::kOk);
+    run(kMonitor);
+    sut_.on_budget_overrun(0U, kControl, now_);
+
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+    EXPECT_EQ(sut_.get_local_status(kControl), LocalStatus::kExpired);
+    EXPECT_EQ(sut_.get_first_expired(), kControl);
+}
+
+TEST_F(ExecutionSupervisorTest, WorstComponentOfGlobalScopeDecides) {
+    verifies("SWR-SUP-009", Technique::kEquivalenceClasses, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, {{1U, 9U}, {Duration{0}, 100_us}, {}}), Status::kOk);
+    ASSERT_EQ(sut_.watch(kMonitor, {{9U, 9U}, {Duration{0}, 100_us}, {}}), Status::kOk);
+    run(kMonitor);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kFailed);
+
+    run(kMonitor, 101_us);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+    EXPECT_EQ(sut_.get_global_status(), GlobalStatus::kExpired);
+}
+
+TEST_F(ExecutionSupervisorTest, WhereNothingIsSupervisedNothingIsProven) {
+    verifies("SWR-SUP-009", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_EQ(sut_.get_global_status(), GlobalStatus::kFailed) << "before the first step";
+    EXPECT_EQ(end_cycle(), GlobalStatus::kFailed) << "nothing is watched";
+    ASSERT_EQ(sut_.watch(kControl, kLocalLimits), Status::kOk);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kFailed) << "only a component of local scope";
+    ASSERT_EQ(sut_.watch(kMonitor, kLimits), Status::kOk);
+    run(kMonitor);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+    ASSERT_EQ(sut_.deactivate(kMonitor), Status::kOk);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kFailed) << "the only one is switched off";
+    ASSERT_EQ(sut_.activate(kMonitor), Status::kOk);
+    run(kMonitor);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+}
+
+TEST_F(ExecutionSupervisorTest, SupervisorOfStaticStorageIsReadyBeforeMain) {
+    verifies("SWR-SUP-009", Technique::kInterface);
+
+    EXPECT_EQ(g_supervisor.get_global_status(), GlobalStatus::kFailed);
+    EXPECT_TRUE(std::is_trivially_destructible_v<ExecutionSupervisor>);
+}
+
+TEST_F(ExecutionSupervisorTest, LatenessWithinItsLimitIsTolerated) {
+    verifies("SWR-SUP-010", Technique::kBoundaryValues);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    run(kControl);
+    sut_.on_late_release(1U, 10_us, now_);
+
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+    EXPECT_EQ(sut_.get_late_release().count, 0U);
+}
+
+TEST_F(ExecutionSupervisorTest, LateReleaseFailsItsCycleAndIsKeptWithItsWindow) {
+    verifies("SWR-SUP-010", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    run(kControl);
+    sut_.on_late_release(1U, 10_us + Duration{1}, Instant{77});
+    sut_.on_late_release(0U, 500_us, Instant{88});
+
+    EXPECT_EQ(end_cycle(), GlobalStatus::kFailed);
+    run(kControl);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+    EXPECT_EQ(sut_.get_late_release().count, 2U);
+    EXPECT_EQ(sut_.get_late_release().window, 1U);
+    EXPECT_EQ(sut_.get_late_release().lateness, 10_us + Duration{1});
+    EXPECT_EQ(sut_.get_late_release().at, Instant{77});
+    sut_.acknowledge_late_release();
+    EXPECT_EQ(sut_.get_late_release().count, 0U);
+}
+
+TEST_F(ExecutionSupervisorTest, NegativeLatenessIsNoBetterThanALateWindow) {
+    verifies("SWR-SUP-010", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    run(kControl);
+    sut_.on_late_release(2U, Duration{-1}, now_);
+
+    EXPECT_EQ(end_cycle(), GlobalStatus::kFailed);
+    EXPECT_EQ(sut_.get_late_release().count, 1U);
+}
+
+}  // namespace
+}  // namespace mamori::safety

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a fault is confirmed over its cycles, latched with its first occurrence, and cleared only by a
+// deliberate acknowledgement after it is gone. Method: both sides of each limit, each status, full storage.
+#include "mamori/safety/fault_register.hpp"
+
+#include <array>
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::safety {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+class FaultRegisterTest : public ::testing::Test {
+  protected:
+    void report(FaultIndex fault, bool is_present) {
+        now_ = now_ + Duration{10};
+        sut_.report(fault, is_present, now_);
+    }
+
+    Instant now_{};
+    std::array<FaultRecord, 4U> records_{};
+    FaultRegister sut_{records_};
+};
+
+TEST_F(FaultRegisterTest, FaultIsLatchedInTheCycleInWhichItIsConfirmed) {
+    verifies("SWR-FLT-001", Technique::kBoundaryValues);
+    ASSERT_EQ(sut_.set_confirmation(1U, 3U), Status::kOk);
+    report(1U, true);
+    report(1U, true);
+    EXPECT_FALSE(sut_.is_latched(1U));
+
+    report(1U, true);
+    EXPECT_TRUE(sut_.is_latched(1U));
+    EXPECT_EQ(sut_.get_first(), 1U);
+}
+
+TEST_F(FaultRegisterTest, FaultThatIsGoneBeforeItsConfirmationIsNotLatched) {
+    verifies("SWR-FLT-001", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(1U, 3U), Status::kOk);
+
+    for (int i = 0; i < 100; ++i) {
+        report(1U, true);
+        report(1U, true);
+        report(1U, false);
+    }
+    EXPECT_FALSE(sut_.is_latched(1U));
+    EXPECT_EQ(sut_.get_first(), kNoFault);
+    EXPECT_EQ(sut_.get_latched_count(), 0U);
+}
+
+TEST_F(FaultRegisterTest, FaultWithoutASetConfirmationIsLatchedAtOnce) {
+    verifies("SWR-FLT-001", Technique::kEquivalenceClasses, Polarity::kViolation);
+
+    report(3U, true);
+    EXPECT_TRUE(sut_.is_latched(3U));
+}
+
+TEST_F(FaultRegisterTest, ConfirmationIsRefusedOutOfRangeAndWhileTheFaultIsPresentOrLatched) {
+    verifies("SWR-FLT-001", Technique::kInterface, Polarity::kViolation);
+
+    EXPECT_EQ(sut_.set_confirmation(4U, 1U), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_confirmation(0U, 0U), Status::kBadParameter);
+    ASSERT_EQ(sut_.set_confirmation(0U, 2U), Status::kOk);
+    report(0U, true);
+    EXPECT_EQ(sut_.set_confirmation(0U, 9U), Status::kPreconditionNotMet) << "present";
+    report(0U, true);
+    report(0U, false);
+    EXPECT_EQ(sut_.set_confirmation(0U, 9U), Status::kPreconditionNotMet) << "latched";
+}
+
+TEST_F(FaultRegisterTest, FaultBeyondTheRegisterGoesToTheAssertionHandler) {
+    verifies("SWR-FLT-001", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_DEATH(sut_.report(4U, true, Instant{}), "");
+}
+
+TEST_F(FaultRegisterTest, LatchedFaultKeepsTheInstantsOfItsFirstOccurrence) {
+    verifies("SWR-FLT-002");
+    ASSERT_EQ(sut_.set_confirmation(0U, 2U), Status::kOk);
+    report(0U, false);
+    report(0U, true);
+    report(0U, true);
+    EXPECT_EQ(sut_.get_record(0U).seen_at, Instant{20});
+    EXPECT_EQ(sut_.get_record(0U).latched_at, Instant{30});
+
+    report(0U, false);
+    report(0U, true);
+    report(0U, true);
+    report(0U, true);
+    EXPECT_EQ(sut_.get_record(0U).seen_at, Instant{20});
+    EXPECT_EQ(sut_.get_record(0U).latched_at, Instant{30});
+    EXPECT_EQ(sut_.get_record(0U).occurrences, 2U) << "a fault that stays is one occurrence";
+    EXPECT_EQ(sut_.get_latched_count(), 1U);
+}
+
+TEST_F(FaultRegisterTest, LatchedFaultDoesNotHealByItself) {
+    verifies("SWR-FLT-002", Technique::kFaultInjection, Polarity::kViolation);
+    report(2U, true);
+
+    for (int i = 0; i < 1000; ++i) {
+        report(2U, false);
+        ASSERT_TRUE(sut_.is_latched(2U));
+    }
+    EXPECT_FALSE(sut_.is_present(2U));
+}
+
+TEST_F(FaultRegisterTest, FirstFaultIsTheOneLatchedFirstWhateverItsNumber) {
+    verifies("SWR-FLT-002", Technique::kStateTransition, Polarity::kViolation);
+    report(3U, true);
+    report(0U, true);
+    report(1U, true);
+    report(2U, true);
+    EXPECT_EQ(sut_.get_latched_count(), sut_.get_capacity());
+    EXPECT_EQ(sut_.get_first(), 3U);
+
+    report(3U, false);
+    ASSERT_EQ(sut_.acknowledge(3U), Status::kOk);
+    EXPECT_EQ(sut_.get_first(), 0U);
+    report(3U, true);
+    EXPECT_EQ(sut_.get_first(), 0U) << "a fault that comes back is the last one";
+}
+
+TEST_F(FaultRegisterTest, AcknowledgedFaultIsClearedOnceItIsGone) {
+    verifies("SWR-FLT-003");
+    report(0U, true);
+    report(0U, false);
+
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kOk);
+    EXPECT_FALSE(sut_.is_latched(0U));
+    EXPECT_EQ(sut_.get_first(), kNoFault);
+    report(0U, true);
+    EXPECT_TRUE(sut_.is_latched(0U)) << "it is latched again when it comes back";
+    EXPECT_EQ(sut_.get_record(0U).latched_at, now_);
+}
+
+TEST_F(FaultRegisterTest, FaultThatIsStillPresentCannotBeAcknowledged) {
+    verifies("SWR-FLT-003", Technique::kFaultInjection, Polarity::kViolation);
+    report(0U, true);
+
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut_.acknowledge_all(), Status::kPreconditionNotMet);
+    EXPECT_TRUE(sut_.is_latched(0U));
+    EXPECT_EQ(sut_.acknowledge(1U), Status::kPreconditionNotMet) << "not latched";
+    EXPECT_EQ(sut_.acknowledge(4U), Status::kBadParameter);
+}
+
+TEST_F(FaultRegisterTest, FaultThatReappearsUnconfirmedStillBlocksItsAcknowledgement) {
+    verifies("SWR-FLT-003", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(0U, 3U), Status::kOk);
+    report(0U, true);
+    report(0U, true);
+    report(0U, true);
+    report(0U, false);
+    report(0U, true);
+
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kPreconditionNotMet);
+}
+
+TEST_F(FaultRegisterTest, AcknowledgingAllLeavesOnlyThoseThatArePresent) {
+    verifies("SWR-FLT-003", Technique::kEquivalenceClasses);
+    EXPECT_EQ(sut_.acknowledge_all(), Status::kOk) << "nothing to do";
+    report(0U, true);
+    report(1U, true);
+    report(0U, false);
+
+    EXPECT_EQ(sut_.acknowledge_all(), Status::kPreconditionNotMet);
+    EXPECT_FALSE(sut_.is_latched(0U));
+    EXPECT_TRUE(sut_.is_latched(1U));
+    report(1U, false);
+    EXPECT_EQ(sut_.acknowledge_all(), Status::kOk);
+    EXPECT_EQ(sut_.get_latched_count(), 0U);
+}
+
+}  // namespace
+}  // namespace mamori::safety

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the worst latched fault decides, and a fault that the table forgot gets the severest reaction.
+// Method: all subsets of a set of faults with each reaction, against the plain definition of "worst".
+#include "mamori/safety/reaction_table.hpp"
+
+#include <string>
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::safety {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+using literals::operator""_ms;
+
+enum class Fault : FaultIndex { kNoise, kWarm, kSlip, kFast, kTorn, kFastAndUrgent, kCount };
+
+constexpr std::array<ReactionRow, 6U> kTable{{
+    react(Fault::kSlip, Reaction::kSs2, 30_ms),
+    react(Fault::kNoise, Reaction::kNone, 100_ms),
+    react(Fault::kTorn, Reaction::kSto, 2_ms),
+    react(Fault::kWarm, Reaction::kDegrade, 50_ms),
+    react(Fault::kFast, Reaction::kSs1, 20_ms),
+    react(Fault::kFastAndUrgent, Reaction::kSs1, 5_ms),
+}};
+static_assert(covers_all<kTable, Fault::kCount>());
+
+constexpr FaultIndex kFaultCount = static_cast<FaultIndex>(Fault::kCount);
+
+class ReactionTableTest : public ::testing::Test {
+  protected:
+    void latch(Fault fault) { faults_.report(static_cast<FaultIndex>(fault), true, Instant{1}); }
+
+    std::array<FaultRecord, kFaultCount> records_{};
+    FaultRegister faults_{records_};
+};
+
+TEST_F(ReactionTableTest, NoFaultDemandsNothing) {
+    verifies("SWR-FLT-005");
+
+    EXPECT_EQ(calc_reaction(kTable, faults_).reaction, Reaction::kNone);
+    EXPECT_EQ(calc_reaction(kTable, faults_).fault, kNoFault);
+}
+
+TEST_F(ReactionTableTest, SingleFaultGetsItsRow) {
+    verifies("SWR-FLT-005");
+    latch(Fault::kWarm);
+
+    const ReactionDemand demand = calc_reaction(kTable, faults_);
+    EXPECT_EQ(demand.reaction, Reaction::kDegrade);
+    EXPECT_EQ(demand.fault, static_cast<FaultIndex>(Fault::kWarm));
+    EXPECT_EQ(demand.within, 50_ms);
+}
+
+TEST_F(ReactionTableTest, WorstOfEverySubsetOfFaultsDecides) {
+    verifies("SWR-FLT-005", Technique::kEquivalenceClasses, Polarity::kViolation);
+    // By fault number, written down again: what each fault asks for.
+    constexpr std::array<Reaction, kFaultCount> kWanted{Reaction::kNone, Reaction::kDegrade, Reaction::kSs2,
+                                                        Reaction::kSs1,  Reaction::kSto,     Reaction::kSs1};
+
+    for (unsigned subset = 0U; subset < (1U << kFaultCount); ++subset) {
+        std::array<FaultRecord, kFaultCount> records{};
+        FaultRegister faults{records};
+        Reaction worst = Reaction::kNone;
+        for (FaultIndex fault = 0U; fault < kFaultCount; ++fault) {
+            const bool is_present = ((subset >> fault) & 1U) != 0U;
+            faults.report(fault, is_present, Instant{1});
+            worst = is_present && kWanted[fault] > worst ? kWanted[fault] : worst;
+        }
+        ASSERT_EQ(calc_reaction(kTable, faults).reaction, worst) << "subset " << subset;
+    }
+}
+
+TEST_F(ReactionTableTest, ShortestTimeDecidesAmongEquallySevereFaults) {
+    verifies("SWR-FLT-005", Technique::kBoundaryValues, Polarity::kViolation);
+    latch(Fault::kFast);
+    ASSERT_EQ(calc_reaction(kTable, faults_).within, 20_ms);
+
+    latch(Fault::kFastAndUrgent);
+    EXPECT_EQ(calc_reaction(kTable, faults_).within, 5_ms);
+    EXPECT_EQ(calc_reaction(kTable, faults_).fault, static_cast<FaultIndex>(Fault::kFastAndUrgent));
+}
+
+TEST_F(ReactionTableTest, ReactionStaysUntilTheFaultIsAcknowledged) {
+    verifies("SWR-FLT-005", Technique::kFaultInjection, Polarity::kViolation);
+    latch(Fault::kTorn);
+    faults_.report(static_cast<FaultIndex>(Fault::kTorn), false, Instant{2});
+
+    EXPECT_EQ(calc_reaction(kTable, faults_).reaction, Reaction::kSto);
+    ASSERT_EQ(faults_.acknowledge_all(), Status::kOk);
+    EXPECT_EQ(calc_reaction(kTable, faults_).reaction, Reaction::kNone);
+}
+
+TEST_F(ReactionTableTest, FaultInTheTableIsNotAnsweredMoreSeverelyThanDeclared) {
+    verifies("SWR-FLT-006");
+    latch(Fault::kSlip);
+
+    EXPECT_EQ(calc_reaction(kTable, faults_).reaction, Reaction::kSs2);
+}
+
+TEST_F(ReactionTableTest, LatchedFaultWithoutARowCutsTheTorqueAtOnce) {
+    verifies("SWR-FLT-006", Technique::kFaultInjection, Polarity::kViolation);
+    latch(Fault::kNoise);
+    const Span<const ReactionRow> table_of_others{kTable.data(), 1U};
+
+    const ReactionDemand demand = calc_reaction(table_of_others, faults_);
+    EXPECT_EQ(demand.reaction, Reaction::kSto);
+    EXPECT_EQ(demand.fault, static_cast<FaultIndex>(Fault::kNoise));
+    EXPECT_EQ(demand.within, Duration{0});
+}
+
+TEST_F(ReactionTableTest, SeverityRisesFromNoneToSto) {
+    verifies("SWR-FLT-005", Technique::kInterface);
+
+    EXPECT_LT(Reaction::kNone, Reaction::kDegrade);
+    EXPECT_LT(Reaction::kDegrade, Reaction::kSs2);
+    EXPECT_LT(Reaction::kSs2, Reaction::kSs1);
+    EXPECT_LT(Reaction::kSs1, Reaction::kSto);
+    EXPECT_EQ(std::string(get_name(Reaction::kNone)), "None");
+    EXPECT_EQ(std::string(get_name(Reaction::kDegrade)), "Degrade");
+    EXPECT_EQ(std::string(get_name(Reaction::kSs2)), "Ss2");
+    EXPECT_EQ(std::string(get_name(Reaction::kSs1)), "Ss1");
+    EXPECT_EQ(std::string(get_name(Reaction::kSto)), "Sto");
+    EXPECT_EQ(std::string(get_name(static_cast<Reaction>(99))), "Invalid");
+}
+
+}  // namespace
+}  // namespace mamori::safety

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: torque is on, and brakes are open, in the five moving or holding states and in no other.
+// Method: every value that fits into the state's byte.
+#include "mamori/safety/stop_outputs.hpp"
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::safety {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+constexpr StopOutputs kTorqueOff{false, false, false, false};
+constexpr StopOutputs kMoving{true, true, false, false};
+constexpr StopOutputs kStopping{true, true, true, false};
+constexpr StopOutputs kHolding{true, true, false, true};
+
+TEST(StopOutputsTest, MovingStatesHaveTorqueAndTellTheControllerWhatIsWanted) {
+    verifies("SWR-FSM-009");
+
+    EXPECT_TRUE(calc_stop_outputs(SafeState::kOperational) == kMoving);
+    EXPECT_TRUE(calc_stop_outputs(SafeState::kDegraded) == kMoving);
+    EXPECT_TRUE(calc_stop_outputs(SafeState::kProtectiveStopSs2) == kStopping);
+    EXPECT_TRUE(calc_stop_outputs(SafeState::kProtectiveStopSs1) == kStopping);
+    EXPECT_TRUE(calc_stop_outputs(SafeState::kStandstillHold) == kHolding);
+}
+
+TEST(StopOutputsTest, EveryOtherValueOfTheByteCutsTorqueAndClosesBrakes) {
+    verifies("SWR-FSM-009", Technique::kFaultInjection, Polarity::kViolation);
+
+    int safe_values = 0;
+    for (unsigned value = 0U; value <= 255U; ++value) {
+        const bool is_moving = value >= 3U && value <= 7U;  // kOperational .. kStandstillHold
+        if (!is_moving) {
+            EXPECT_TRUE(calc_stop_outputs(static_cast<SafeState>(value)) == kTorqueOff) << value;
+            ++safe_values;
+        }
+    }
+    EXPECT_EQ(safe_values, 251);
+}
+
+TEST(StopOutputsTest, DefaultIsTheSafeState) {
+    verifies("SWR-FSM-009", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_TRUE(StopOutputs{} == kTorqueOff);
+}
+
+}  // namespace
+}  // namespace mamori::safety
