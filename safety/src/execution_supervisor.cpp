@@ -70,7 +70,8 @@ void ExecutionSupervisor::judge(std::size_t component, Instant now) noexcept {
 
 GlobalStatus ExecutionSupervisor::step(Instant now) noexcept {
     static_cast<void>(alive_.step());
-    static_cast<void>(deadline_.step(now));
+    // The cycle's own run began after the cycle did: it is judged at the latest instant that was observed.
+    static_cast<void>(deadline_.step(now < observed_at_ ? observed_at_ : now));
     bool is_anything_proven = false;
     GlobalStatus worst = is_release_late_ ? GlobalStatus::kFailed : GlobalStatus::kOk;
     is_release_late_ = false;
@@ -104,11 +105,13 @@ std::size_t ExecutionSupervisor::get_first_expired() const noexcept {
 
 void ExecutionSupervisor::on_component_started(std::size_t component, Instant now) noexcept {
     MAMORI_REQUIRE(1, component < components_.size());
+    observed_at_ = now;
     static_cast<void>(deadline_.start(component, now));  // refused for a component that is not watched
 }
 
 void ExecutionSupervisor::on_component_finished(std::size_t component, Instant now) noexcept {
     MAMORI_REQUIRE(2, component < components_.size());
+    observed_at_ = now;
     static_cast<void>(deadline_.finish(component, now));
     static_cast<void>(alive_.report_alive(component));
 }

@@ -105,6 +105,21 @@ TEST_F(ExecutionSupervisorTest, HangIsFoundWithoutTheHelpOfTheHangingComponent) 
     EXPECT_EQ(sut_.get_first_expired(), kControl);
 }
 
+TEST_F(ExecutionSupervisorTest, RunUnderWayIsJudgedWhenTheCycleBeganBeforeIt) {
+    verifies("SWR-SUP-007", Technique::kErrorGuessing);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    ASSERT_EQ(sut_.watch(kMonitor, kLimits), Status::kOk);
+
+    // The supervisor is itself a component: its window opened at now_, its own run began 60 us later.
+    for (int cycle = 0; cycle < 10; ++cycle) {
+        run(kControl);
+        sut_.on_component_started(kMonitor, now_ + 60_us);
+        ASSERT_EQ(sut_.step(now_), GlobalStatus::kOk) << cycle;
+        sut_.on_component_finished(kMonitor, now_ + 90_us);
+        now_ = now_ + 1_ms;
+    }
+}
+
 TEST_F(ExecutionSupervisorTest, AcknowledgedComponentIsHealthyAndSupervisedAgain) {
     verifies("SWR-SUP-007", Technique::kStateTransition);
     ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
