@@ -127,9 +127,9 @@ def _review(arguments: argparse.Namespace) -> int:
 
 
 def review_links(project: Project, chosen: set[str], date: str, reviewer: str) -> int:
-    """Records a look at each suspect link with an end in `chosen`, and forgets links that are no more. @return their count.
+    """Records a look at each suspect link with an end in `chosen`; forgets links that are no more.
 
-    A link that is as it was keeps its date and its reviewer.
+    A link that is as it was keeps its date and its reviewer. @return how many were recorded.
     """
     lock = project.lock = project.lock or ReviewLock()
     live = {

@@ -8,7 +8,9 @@ from collections.abc import Iterator
 from mamori.trace.model.finding import ERROR, Place, Rule
 from mamori.trace.model.project import Project
 
-RULE = Rule("campaign-missing", ERROR, "Every approved item with Verify: campaign is named by a campaign case of each demanded polarity.")
+RULE = Rule(
+    "campaign-missing", ERROR, "Every approved item with Verify: campaign is named by a campaign case of each demanded polarity."
+)
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:

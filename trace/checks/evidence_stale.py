@@ -10,7 +10,9 @@ from typing import Any
 from mamori.trace.model.finding import ERROR, Place, Rule
 from mamori.trace.model.project import Project
 
-RULE = Rule("evidence-stale", ERROR, "The evidence says where it comes from, and comes from the commit that is checked out.")
+RULE = Rule(
+    "evidence-stale", ERROR, "The evidence says where it comes from, and comes from the commit that is checked out."
+)
 
 _SHORT = 12
 _HASH = re.compile(r"[0-9a-f]{7,64}")
@@ -34,5 +36,5 @@ def _compare(project: Project, environment: dict[str, Any], place: Place) -> Ite
     if project.head and not _HASH.fullmatch(made):
         yield place, f"commit is '{made}', which is no commit: nothing tells what the evidence was made of", ""
     elif project.head and not project.head.startswith(made) and not made.startswith(project.head):
-        message = f"evidence was made at commit {made[:_SHORT]}, the source is at {project.head[:_SHORT]}; run the tests again"
-        yield place, message, ""
+        made_at, now_at = made[:_SHORT], project.head[:_SHORT]
+        yield place, f"evidence was made at commit {made_at}, the source is at {now_at}; run the tests again", ""

@@ -15,4 +15,5 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     for item in project.live_items:
         wanted = project.schema.levels[item.level].parents
         if wanted and item.whole and not item.parents:
-            yield item.find_place("Parents"), f"{item.id} has no parent; it needs one of level {' or '.join(wanted)}", item.id
+            levels = " or ".join(wanted)
+            yield item.find_place("Parents"), f"{item.id} has no parent; it needs one of level {levels}", item.id

@@ -10,7 +10,9 @@ from mamori.trace.model.item import Item
 from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import list_uncovered_polarities
 
-RULE = Rule("polarity-missing", ERROR, "Each demanded polarity is shown by a test; a protective requirement has a violation test.")
+RULE = Rule(
+    "polarity-missing", ERROR, "Each demanded polarity is shown by a test; a protective requirement has a violation test."
+)
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:

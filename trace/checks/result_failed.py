@@ -21,10 +21,12 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
             yield result.source or result.place, f"test {result.title}{about} {word}: {message}", result.requirement
     for case in project.evidence.cases:
         if not case.passed:
-            yield case.place, f"campaign case {case.id} failed: {_describe(case)}", case.requirements[0] if case.requirements else ""
+            yield case.place, f"campaign case {case.id} failed: {_describe(case)}", next(iter(case.requirements), "")
 
 
 def _describe(case: CampaignCase) -> str:
     """What was wanted and what was measured; the written verdict alone where every check passed."""
-    parts = [f"{check.get('name')}: wanted {check.get('wanted')}, measured {check.get('measured')}" for check in case.failed_checks]
+    parts = [
+        f"{check.get('name')}: wanted {check.get('wanted')}, measured {check.get('measured')}" for check in case.failed_checks
+    ]
     return "; ".join(parts) or f"its verdict is {case.verdict!r} though every check passed"

@@ -8,7 +8,9 @@ from collections.abc import Iterator
 from mamori.trace.model.finding import WARNING, Place, Rule
 from mamori.trace.model.project import Project
 
-RULE = Rule("sil-lower", WARNING, "An item has at least the highest safety level of its parents, or its rationale says why not.")
+RULE = Rule(
+    "sil-lower", WARNING, "An item has at least the highest safety level of its parents, or its rationale says why not."
+)
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:

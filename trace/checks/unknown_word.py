@@ -13,16 +13,22 @@ RULE = Rule("unknown-word", ERROR, "Technique and polarity of tests and cases ar
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     schema = project.schema
-    named = [(test.place, f"test {test.title}", test.technique, test.polarity, test.requirement) for test in project.tests]
-    told = {(test.technique, test.polarity) for test in project.tests}
-    for result in project.results:
-        if result.requirement and (result.technique, result.polarity) not in told:
-            technique = result.technique or "requirements_based"
-            row = (result.place, f"result of {result.title}", technique, result.polarity or "nominal", result.requirement)
-            named.append(row)
-    named += [(case.place, f"campaign case {case.id}", "fault_injection", case.polarity, "") for case in project.evidence.cases]
-    for place, who, technique, polarity, requirement in named:
+    for place, who, technique, polarity, requirement in _list_words(project):
         if technique not in schema.technique:
             yield place, f"{who}: technique '{technique}' is not one of {', '.join(schema.technique)}", requirement
         if polarity not in schema.polarity:
             yield place, f"{who}: polarity '{polarity}' is not one of {', '.join(schema.polarity)}", requirement
+
+
+def _list_words(project: Project) -> Iterator[tuple[Place, str, str, str, str]]:
+    """(place, who, technique, polarity, item) of tests, results and cases; what a source test said is not said again."""
+    told = set()
+    for test in project.tests:
+        told.add((test.technique, test.polarity))
+        yield test.place, f"test {test.title}", test.technique, test.polarity, test.requirement
+    for result in project.results:
+        words = (result.technique or "requirements_based", result.polarity or "nominal")
+        if result.requirement and words not in told:
+            yield result.place, f"result of {result.title}", *words, result.requirement
+    for case in project.evidence.cases:
+        yield case.place, f"campaign case {case.id}", "fault_injection", case.polarity, ""

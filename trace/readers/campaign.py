@@ -46,8 +46,8 @@ def read_campaign(folder: Path, root: Path, evidence: Evidence, problems: list[P
         try:
             evidence.cases.append(_make_case(row, evidence.campaign_place.file, lines))
         except (KeyError, TypeError, ValueError) as error:
-            place = Place(evidence.campaign_place.file, 1)
-            problems.append(Problem(UNREADABLE, place, f"case {index}: {type(error).__name__} {error}; run the campaign again"))
+            message = f"case {index}: {type(error).__name__} {error}; run the campaign again"
+            problems.append(Problem(UNREADABLE, evidence.campaign_place, message))
     if not isinstance(rows, list):
         problems.append(Problem(UNREADABLE, evidence.campaign_place, "holds no list 'cases'; run the campaign again"))
 

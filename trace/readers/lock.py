@@ -42,7 +42,7 @@ def read_lock(root: Path, problems: list[Problem]) -> ReviewLock | None:
 def write_lock(root: Path, lock: ReviewLock) -> None:
     """Writes the lock whole or not at all."""
     rows = [
-        f"{review.child} {review.child_fingerprint} {review.parent} {review.parent_fingerprint} {review.date} {review.reviewer}\n"
-        for _, review in sorted(lock.reviews.items())
+        f"{each.child} {each.child_fingerprint} {each.parent} {each.parent_fingerprint} {each.date} {each.reviewer}\n"
+        for _, each in sorted(lock.reviews.items())
     ]
     write_whole(root / LOCK_PATH, _HEAD + "".join(rows))

@@ -55,7 +55,7 @@ class ScenarioView:
 
 
 def make_scenario_views(project: Project, problems: list[Problem]) -> list[ScenarioView]:
-    """Scenarios and cases in order of their names. A series that cannot be drawn becomes a problem, told in its place, too."""
+    """Scenarios and cases in order of their names. A series that cannot be drawn becomes a problem."""
     groups: dict[str, list[CaseView]] = defaultdict(list)
     base = Path(project.evidence.folder) / "campaign"
     for index, case in enumerate(sorted(project.evidence.cases, key=_sort_key)):
@@ -67,7 +67,8 @@ def make_scenario_views(project: Project, problems: list[Problem]) -> list[Scena
             view.plot = draw_case(read_series(path), case.run, f"p{index}", f"{case.id}: {case.title}")
         except (SeriesError, KeyError, TypeError, ValueError, IndexError, ZeroDivisionError) as error:
             view.plot_problem = str(error) if isinstance(error, SeriesError) else f"run of {case.id} lacks {error}"
-            problems.append(Problem(UNREADABLE, Place(get_shown_path(path, project.root), 1), f"{view.plot_problem}; run the campaign again"))
+            place = Place(get_shown_path(path, project.root), 1)
+            problems.append(Problem(UNREADABLE, place, f"{view.plot_problem}; run the campaign again"))
         groups[case.scenario].append(view)
     return [ScenarioView(name, _get_common_title(views), views) for name, views in sorted(groups.items())]
 

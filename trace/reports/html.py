@@ -13,6 +13,7 @@ import jinja2
 
 from mamori.trace.checks import list_rules, run_checks
 from mamori.trace.model.finding import ERROR, Finding, Rule
+from mamori.trace.model.item import Level
 from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import VERIFIED, WORST_FIRST, Verdict, calc_verdicts
 from mamori.trace.reports import v_overview
@@ -23,7 +24,7 @@ from mamori.trace.write import write_whole
 _TEMPLATES = Path(__file__).parent / "templates"
 
 GLOSSARY = (
-    ("verified", "Every demanded test and campaign case was executed and passed, from each demanded side, and code names the item where it must."),
+    ("verified", "Every demanded test and campaign case was executed and passed, from each demanded side."),
     ("failed", "A test or campaign case that names the item failed or ended in an error, or an item below it failed."),
     ("incomplete", "Nothing failed, but something that is demanded is absent or was skipped."),
     ("not run", "The demanded tests exist and this run left them out, which was allowed for it."),
@@ -53,13 +54,13 @@ def write_report(project: Project, out: Path) -> list[Finding]:
         requirements=_count_requirements(project, verdicts),
         results=Counter("failed" if result.failing else result.status for result in project.results),
         items=make_item_views(project, verdicts, findings),
-        levels=[level for level in project.schema.levels.values() if any(project.items[key].level == level.key for key in verdicts)],
+        levels=_list_levels(project),
         suites=make_suite_views(project.results),
         files=group_tags(project.tags),
         scenarios=scenarios,
         anchors={view.case.id: view.anchor for scenario in scenarios for view in scenario.cases},
         slowest=find_slowest(scenarios),
-        drawings=[(layout, v_overview.make_boxes(project, verdicts, layout)) for layout in (v_overview.WIDE, v_overview.NARROW)],
+        drawings=[(layout, v_overview.make_boxes(project, verdicts, layout)) for layout in v_overview.LAYOUTS],
         v=v_overview,
         glossary=GLOSSARY,
     )
@@ -79,6 +80,12 @@ def _make_environment() -> jinja2.Environment:
     environment.globals["style"] = (_TEMPLATES / "style.css").read_text(encoding="utf-8")
     environment.globals["script"] = (_TEMPLATES / "script.js").read_text(encoding="utf-8")
     return environment
+
+
+def _list_levels(project: Project) -> list[Level]:
+    """Levels that have items."""
+    present = {item.level for item in project.live_items}
+    return [level for level in project.schema.levels.values() if level.key in present]
 
 
 def _group_by_rule(findings: list[Finding]) -> list[tuple[Rule, list[Finding]]]:

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 from html import escape
 from typing import Any
 
@@ -89,7 +90,7 @@ def _draw_states(axes: Axes, series: Series) -> None:
     length_s = max(series.time_s[-1] - series.time_s[0], 1e-9)
     colours = dict(_STATE_COLOURS)
     unknown = sorted({state for state, _, _ in bands} - set(colours))
-    colours.update({state: _OTHER_STATE_COLOURS[index % len(_OTHER_STATE_COLOURS)] for index, state in enumerate(unknown)})
+    colours.update(zip(unknown, itertools.cycle(_OTHER_STATE_COLOURS)))
     narrow: dict[str, str] = {}
     for state, begin_s, end_s in bands:
         axes.axvspan(begin_s, end_s, color=colours[state], linewidth=0)

@@ -34,8 +34,7 @@ class Layout:
         return self.box_width - 28
 
 
-WIDE = Layout("wide", 960, 250, 58)
-NARROW = Layout("narrow", 372, 180, 0)
+LAYOUTS = (Layout("wide", 960, 250, 58), Layout("narrow", 372, 180, 0))
 
 
 @dataclass(frozen=True, slots=True)
