@@ -19,7 +19,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     for item in project.live_items:
         if not item.approved or "campaign" not in item.verify or project.schema.levels[item.level].from_children:
             continue
-        shown = {case.polarity for case in project.cases_of.get(item.id, [])}
+        shown = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, [])}
         missing = [polarity for polarity in item.polarity if polarity not in shown]
         if missing and not shown:
             yield item.find_place("Verify"), f"{item.id} demands a campaign case and none names it", item.id

@@ -31,4 +31,5 @@ def _list_words(project: Project) -> Iterator[tuple[Place, str, str, str, str]]:
         if result.requirement and words not in told:
             yield result.place, f"result of {result.title}", *words, result.requirement
     for case in project.evidence.cases:
-        yield case.place, f"campaign case {case.id}", "fault_injection", case.polarity, ""
+        for polarity in sorted({case.polarity, *case.requirement_polarity.values()}):
+            yield case.place, f"campaign case {case.id}", "fault_injection", polarity, ""

@@ -72,7 +72,10 @@ class TestResult:
 
 @dataclass(slots=True)
 class CampaignCase:
-    """One fault-injection case. `passed` needs the written verdict and every single check."""
+    """One fault-injection case. `passed` needs the written verdict and every single check.
+
+    `requirement_polarity` says which side of each requirement the case shows, where that is not `polarity` for all.
+    """
 
     id: str
     scenario: str
@@ -85,6 +88,11 @@ class CampaignCase:
     run: dict[str, Any]
     folder: str
     place: Place
+    requirement_polarity: dict[str, str] = field(default_factory=dict)
+
+    def get_polarity(self, requirement: str) -> str:
+        """Which side of `requirement` the case shows."""
+        return self.requirement_polarity.get(requirement, self.polarity)
 
     @property
     def failed_checks(self) -> list[dict[str, Any]]:

@@ -95,7 +95,7 @@ def _judge_method(
     project: Project, item: Item, method: str, children: list[Item], verdicts: dict[str, Verdict]
 ) -> list[_Objection]:
     if method == "campaign":
-        passed = {case.polarity for case in project.cases_of.get(item.id, []) if case.passed}
+        passed = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, []) if case.passed}
         absent = NOT_RUN if project.allow_missing else INCOMPLETE
         return [(absent, f"no passed {polarity} campaign case") for polarity in item.polarity if polarity not in passed]
     if method == "test":

@@ -104,4 +104,5 @@ def _make_case(row: dict[str, Any], shown: str, lines: dict[str, int]) -> Campai
         run=run,
         folder=str(row["folder"]),
         place=Place(shown, lines.get(case_id, 1)),
+        requirement_polarity={str(key): str(value) for key, value in dict(row.get("requirement_polarity") or {}).items()},
     )

@@ -52,7 +52,9 @@ def read_series(path: Path) -> Series:
             states.append(row[columns[-1]].strip())
         except (IndexError, ValueError) as error:
             raise SeriesError(f"{path.name} line {number}: {error}") from None
-        if not math.isfinite(samples[-1][0]) or (len(samples) > 1 and samples[-1][0] < samples[-2][0]):
+        if not all(map(math.isfinite, samples[-1])):
+            raise SeriesError(f"{path.name} line {number}: holds a value that is no finite number")
+        if len(samples) > 1 and samples[-1][0] < samples[-2][0]:
             raise SeriesError(f"{path.name} line {number}: time {samples[-1][0]} does not follow the line before")
     table = list(map(list, zip(*samples)))
     return Series(table[0], table[1 : 1 + JOINTS], table[1 + JOINTS :], states)

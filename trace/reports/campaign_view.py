@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import defaultdict
 from dataclasses import dataclass
@@ -16,10 +17,11 @@ from mamori.trace.model.evidence import CampaignCase
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.project import Project
 from mamori.trace.readers.files import UNREADABLE, get_shown_path
-from mamori.trace.readers.series import SeriesError, read_series
-from mamori.trace.reports.plots import draw_case
+from mamori.trace.readers.series import JOINTS, SeriesError, read_series
+from mamori.trace.reports.plots import Marks, draw_case
 
 ABSENT = "–"
+_ORIGIN = (("trace hash", "trace_hash"), ("seed", "seed"), ("motion", "motion"), ("model", "model"), ("built by", "compiler"))
 
 
 @dataclass(slots=True)
@@ -37,6 +39,11 @@ class CaseView:
     travel: str
     drift: str
     peak_speed: str
+    detected: str
+    reaction: str
+    final_state: str
+    origin: str
+    checks: list[tuple[str, str, str, bool]]
     plot: str = ""
     plot_problem: str = ""
 
@@ -64,9 +71,9 @@ def make_scenario_views(project: Project, problems: list[Problem]) -> list[Scena
         try:
             if not path.resolve().is_relative_to(base.resolve()):
                 raise SeriesError(f"folder {case.folder!r} lies outside of the campaign")
-            view.plot = draw_case(read_series(path), case.run, f"p{index}", f"{case.id}: {case.title}")
-        except (SeriesError, KeyError, TypeError, ValueError, IndexError, ZeroDivisionError) as error:
-            view.plot_problem = str(error) if isinstance(error, SeriesError) else f"run of {case.id} lacks {error}"
+            view.plot = draw_case(read_series(path), _find_marks(case), f"p{index}", f"{case.id}: {case.title}")
+        except SeriesError as error:
+            view.plot_problem = str(error)
             place = Place(get_shown_path(path, project.root), 1)
             problems.append(Problem(UNREADABLE, place, f"{view.plot_problem}; run the campaign again"))
         groups[case.scenario].append(view)
@@ -77,6 +84,15 @@ def find_slowest(scenarios: list[ScenarioView]) -> CaseView | None:
     """The case that came nearest to its bound."""
     views = [view for scenario in scenarios for view in scenario.cases if view.share is not None]
     return max(views, key=lambda view: (view.share, view.case.id), default=None)
+
+
+def _find_marks(case: CampaignCase) -> Marks:
+    """Raises SeriesError where the run does not tell its speed limits."""
+    limits = _get_numbers(_get_table(case.run, "physics"), "speed_limit_rad_s")
+    if len(limits) != JOINTS or min(limits) <= 0:
+        raise SeriesError(f"the run of {case.id} tells no speed limits of {JOINTS} joints")
+    fault_s = _get_number(_get_table(case.run, "fault"), "at_s")
+    return Marks(fault_s, _get_number(case.run, "reacted_at_s"), _get_number(case.run, "standstill_at_s"), limits)
 
 
 def _sort_key(case: CampaignCase) -> tuple[str, list[tuple[int, int, str]]]:
@@ -92,9 +108,9 @@ def _get_common_title(views: list[CaseView]) -> str:
 
 def _make_case_view(case: CampaignCase, index: int) -> CaseView:
     run = case.run
-    fault = run.get("fault") if isinstance(run.get("fault"), dict) else None
+    fault = _get_table(run, "fault") or None
     at_s = _get_number(fault, "at_s")
-    physics = run.get("physics") if isinstance(run.get("physics"), dict) else {}
+    physics = _get_table(run, "physics")
     reaction_s = _subtract(_get_number(run, "reacted_at_s"), at_s)
     bound_s = _get_number(case.expected, "within_s")
     standstill_s = _subtract(_get_number(run, "standstill_at_s"), at_s)
@@ -107,9 +123,17 @@ def _make_case_view(case: CampaignCase, index: int) -> CaseView:
         reaction_time=_describe_reaction(reaction_s, bound_s, run),
         share=reaction_s / bound_s if reaction_s is not None and bound_s else None,
         standstill=ABSENT if standstill_s is None else f"{1e3 * standstill_s:.0f} ms",
-        travel=_format_milli(_get_largest(physics, "stop_travel_rad")) if fault else ABSENT,
+        travel=_format_milli(max(_get_numbers(physics, "stop_travel_rad"), default=None)) if fault else ABSENT,
         drift=_format_milli(_get_number(physics, "hold_drift_rad")) if fault else ABSENT,
         peak_speed=_describe_peak_speed(physics),
+        detected=str(run.get("detected_fault") or ABSENT),
+        reaction=str(run.get("reaction") or ""),
+        final_state=str(run.get("final_state") or ABSENT),
+        origin=", ".join(f"{name} {run[key]}" for name, key in _ORIGIN if run.get(key) is not None),
+        checks=[
+            (*(str(check.get(key, ABSENT)) for key in ("name", "wanted", "measured")), check.get("passed") is True)
+            for check in case.checks
+        ],
     )
 
 
@@ -130,20 +154,30 @@ def _describe_reaction(reaction_s: float | None, bound_s: float | None, run: dic
 
 
 def _describe_peak_speed(physics: dict[str, Any]) -> str:
-    speeds, limits = physics.get("max_speed_rad_s"), physics.get("speed_limit_rad_s")
-    if not (isinstance(speeds, list) and isinstance(limits, list) and speeds and len(speeds) == len(limits) and all(limits)):
+    speeds, limits = _get_numbers(physics, "max_speed_rad_s"), _get_numbers(physics, "speed_limit_rad_s")
+    if not speeds or len(speeds) != len(limits) or not all(limits):
         return ABSENT
     return f"{100 * max(speed / limit for speed, limit in zip(speeds, limits)):.0f} %"
 
 
 def _get_number(table: dict[str, Any] | None, key: str) -> float | None:
     value = (table or {}).get(key)
-    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
+    return float(value) if _is_number(value) else None
 
 
-def _get_largest(table: dict[str, Any], key: str) -> float | None:
+def _get_numbers(table: dict[str, Any], key: str) -> list[float]:
+    """The list of numbers under `key`, or an empty one where anything else stands there."""
     values = table.get(key)
-    return max(map(float, values)) if isinstance(values, list) and values else None
+    return list(map(float, values)) if isinstance(values, list) and all(map(_is_number, values)) else []
+
+
+def _get_table(table: dict[str, Any], key: str) -> dict[str, Any]:
+    value = table.get(key)
+    return value if isinstance(value, dict) else {}
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def _subtract(later: float | None, earlier: float | None) -> float | None:

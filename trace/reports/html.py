@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import jinja2
 
@@ -44,7 +45,7 @@ def write_report(project: Project, out: Path) -> list[Finding]:
     words = Counter(verdict.word for verdict in verdicts.values())
     page = _make_environment().get_template("report.html.j2").render(
         project=project,
-        environment=project.evidence.environment,
+        environment=_describe_environment(project.evidence.environment),
         findings=findings,
         findings_of_rule=_group_by_rule(findings),
         errors=sum(finding.severity == ERROR for finding in findings),
@@ -80,6 +81,19 @@ def _make_environment() -> jinja2.Environment:
     environment.globals["style"] = (_TEMPLATES / "style.css").read_text(encoding="utf-8")
     environment.globals["script"] = (_TEMPLATES / "script.js").read_text(encoding="utf-8")
     return environment
+
+
+def _describe_environment(environment: dict[str, Any]) -> dict[str, Any]:
+    """The record with every entry present, as text or as a table of texts; empty where there is no record."""
+    if not environment:
+        return {}
+    texts = ("commit", "date_utc", "command", "os", "cpu", "cores", "python")
+    shown: dict[str, Any] = {name: str(environment.get(name) or "unknown") for name in texts}
+    for name in ("compilers", "packages"):
+        table = environment.get(name)
+        shown[name] = {str(key): str(value) for key, value in table.items()} if isinstance(table, dict) else {}
+    shown["dirty"] = environment.get("dirty") is True
+    return shown
 
 
 def _list_levels(project: Project) -> list[Level]:

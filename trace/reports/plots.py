@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import io
 import itertools
+from dataclasses import dataclass
 from html import escape
-from typing import Any
 
 import matplotlib
 
@@ -27,7 +27,8 @@ POINTS_MAX = 400
 _JOINT_COLOURS = ("#3b6fb6", "#d07a2d", "#3f8f5b", "#b8474b", "#7a5fa8", "#8a6a4f", "#4a9ea8")
 _STATE_COLOURS = {
     "SelfTest": "#d5d9df", "Standby": "#c3d3ea", "Operational": "#bfe0c8", "Degraded": "#f2e2a6",
-    "ProtectiveStop": "#f4c99b", "Safe": "#a9c4ee", "LockedOut": "#c9b6dd",
+    "ProtectiveStopSs2": "#f7d9a8", "ProtectiveStopSs1": "#f4c99b", "StandstillHold": "#cfdcc0", "Safe": "#a9c4ee",
+    "LockedOut": "#c9b6dd",
 }  # fmt: skip
 _OTHER_STATE_COLOURS = ("#e3c9d4", "#cfe3df", "#e0dcc8", "#d9d0e6")
 _INK = "#333a44"
@@ -43,7 +44,17 @@ _STYLE = {
 _NAMED_BAND_SHARE = 0.09  # a band narrower than this share of the time axis has no room for its name
 
 
-def draw_case(series: Series, run: dict[str, Any], prefix: str, title: str) -> str:
+@dataclass(frozen=True, slots=True)
+class Marks:
+    """What is marked in a figure: instants [s] (None: did not happen) and the speed limit of each joint [rad/s]."""
+
+    fault_s: float | None
+    reaction_s: float | None
+    standstill_s: float | None
+    speed_limit_rad_s: list[float]
+
+
+def draw_case(series: Series, marks: Marks, prefix: str, title: str) -> str:
     """An inline SVG of one run. `prefix` makes its ids unique in the page."""
     with matplotlib.rc_context(_STYLE):
         figure = Figure(figsize=(9.0, 5.6), dpi=72)
@@ -51,8 +62,8 @@ def draw_case(series: Series, run: dict[str, Any], prefix: str, title: str) -> s
         figure.subplots_adjust(left=0.075, right=0.985, top=0.885, bottom=0.085, hspace=0.16)
         _draw_states(bands, series)
         _draw_positions(positions, series)
-        _draw_speeds(speeds, series, run["physics"]["speed_limit_rad_s"])
-        _mark_instants(bands, (positions, speeds), run)
+        _draw_speeds(speeds, series, marks.speed_limit_rad_s)
+        _mark_instants(bands, (positions, speeds), marks)
         speeds.set_xlim(series.time_s[0], max(series.time_s[-1], series.time_s[0] + 1e-3))
         text = io.StringIO()
         FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
@@ -141,13 +152,12 @@ def _draw_line(axes: Axes, series: Series, values: list[float], joint: int) -> N
               color=_JOINT_COLOURS[joint], linewidth=1.15, label=f"J{joint + 1}")  # fmt: skip
 
 
-def _mark_instants(bands: Axes, panels: tuple[Axes, Axes], run: dict[str, Any]) -> None:
+def _mark_instants(bands: Axes, panels: tuple[Axes, Axes], marks: Marks) -> None:
     """Vertical lines through all panels. Labels: the fault to the left of its line, what follows to the right, stacked."""
-    fault = run.get("fault")
     instants = (
-        ("fault", fault["at_s"] if fault else None, _FAULT, "-", "right", 1.08),
-        ("reaction", run.get("reacted_at_s"), _REACTION, "-", "left", 1.08),
-        ("standstill", run.get("standstill_at_s"), _STANDSTILL, (0, (2, 2)), "left", 1.62),
+        ("fault", marks.fault_s, _FAULT, "-", "right", 1.08),
+        ("reaction", marks.reaction_s, _REACTION, "-", "left", 1.08),
+        ("standstill", marks.standstill_s, _STANDSTILL, (0, (2, 2)), "left", 1.62),
     )
     for name, time_s, colour, dashes, side, height in instants:
         if time_s is None:

@@ -73,7 +73,7 @@ def format_item(project: Project, item: Item, verdicts: dict[str, Verdict], pain
     unexecuted = project.unexecuted_of.get(item.id, [])
     lines += _section("tests without result", [f"{test.title} ({test.place})" for test in unexecuted])
     cases = project.cases_of.get(item.id, [])
-    lines += _section("campaign", [f"{'passed' if case.passed else 'failed'}  {case.id} ({case.polarity})" for case in cases])
+    lines += _section("campaign", [f"{'passed' if case.passed else 'failed'}  {case.id} ({case.get_polarity(item.id)})" for case in cases])
     return "\n".join(lines) + "\n"
 
 

@@ -2,6 +2,7 @@
 # Goal: one offline file that leads from hazard to result and back, draws each case, and is the same for the same inputs.
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from html.parser import HTMLParser
@@ -119,7 +120,7 @@ def test_a_campaign_of_thirty_cases_fits_in_the_page(sample: Sample, write: Call
 
 @pytest.mark.parametrize(
     ("old", "new", "message"),
-    [("t_s,", "time,", "'t_s'"), ("\n0.01,", "\nzero,", "line 3"), ("\n0.02,", "\n0.005,", "line 4")],
+    [("t_s,", "time,", "'t_s'"), ("\n0.01,", "\nzero,", "line 3"), ("\n0.02,", "\n0.005,", "line 4"), ("\n0.01,", "\nnan,", "line 3")],
 )
 @pytest.mark.verifies("SWR-TRC-012", technique="error_guessing", polarity="nominal")
 def test_a_series_that_cannot_be_drawn_is_told_and_the_page_is_written(
@@ -133,6 +134,24 @@ def test_a_series_that_cannot_be_drawn_is_told_and_the_page_is_written(
     assert (outcome.status, outcome.rules) == (2, {"unreadable-input"})
     assert message in outcome.content["findings"][0]["message"]
     assert "No plot" in (sample.root / "report" / "index.html").read_text()
+
+
+@pytest.mark.parametrize(
+    "run",
+    [{}, {"fault": "x", "physics": [1]}, {"fault": {"at_s": "now"}, "reacted_at_s": [1], "physics": {"stop_travel_rad": ["z"]}}],
+)
+@pytest.mark.verifies("SWR-TRC-012", technique="error_guessing", polarity="nominal")
+def test_a_run_that_lacks_its_facts_is_shown_without_them(sample: Sample, trace: Callable, run: dict) -> None:
+    path = sample.evidence / "campaign" / "campaign.json"
+    content = json.loads(path.read_text())
+    content["cases"][1]["run"] = run
+    path.write_text(json.dumps(content))
+    (sample.evidence / "environment.json").write_text(json.dumps({"schema": "mamori.environment/1", "commit": "0123456789ab"}))
+
+    outcome = trace("report", "--root", sample.root, "--format", "json")
+
+    assert (outcome.status, outcome.rules) == (2, {"unreadable-input"})
+    assert "tells no speed limits" in outcome.content["findings"][0]["message"]
 
 
 @pytest.mark.verifies("SWR-TRC-012", technique="boundary_values", polarity="nominal")
@@ -154,7 +173,7 @@ def test_states_become_bands_without_gaps(sample: Sample) -> None:
 
     bands = list_bands(series)
 
-    assert [band[0] for band in bands] == ["SelfTest", "Operational", "ProtectiveStop", "Safe"]
+    assert [band[0] for band in bands] == ["SelfTest", "Operational", "ProtectiveStopSs1", "Safe"]
     assert [band[1] for band in bands[1:]] == [band[2] for band in bands[:-1]]
 
 

@@ -109,6 +109,18 @@ def test_a_campaign_case_counts_for_each_item_that_it_names(sample: Sample, trac
 
 
 @pytest.mark.verifies("SWR-TRC-005", technique="fault_injection", polarity="violation")
+def test_a_case_may_show_another_side_of_one_item(sample: Sample, trace: Callable) -> None:
+    path = sample.evidence / "campaign" / "campaign.json"
+    content = json.loads(path.read_text())
+    content["cases"][1]["requirement_polarity"] = {"SYS-002": "nominal"}
+    path.write_text(json.dumps(content, indent=1))
+
+    outcome = trace("check", "--root", sample.root, "--format", "json")
+
+    assert (outcome.rules, outcome.get_verdict("SYS-002")) == ({"campaign-missing"}, "incomplete")
+
+
+@pytest.mark.verifies("SWR-TRC-005", technique="fault_injection", polarity="violation")
 def test_a_written_pass_does_not_count_when_a_check_failed(sample: Sample, trace: Callable) -> None:
     path = sample.evidence / "campaign" / "campaign.json"
     content = json.loads(path.read_text())

@@ -202,7 +202,7 @@ def _format_series(run: dict[str, Any], end_s: float) -> str:
         speeds = [0.45 * SPEED_LIMIT_RAD_S[j] * math.sin(time_s * (0.6 + 0.15 * j) + j) * factor for j in range(7)]
         angles = [angle + speed * (time_s - previous_s) for angle, speed in zip(angles, speeds)]
         previous_s = time_s
-        state = "SelfTest" if time_s < 0.05 else "Operational" if since_s < 0.02 else "ProtectiveStop" if since_s < 0.31 else "Safe"
+        state = "SelfTest" if time_s < 0.05 else "Operational" if since_s < 0.02 else "ProtectiveStopSs1" if since_s < 0.31 else "Safe"
         torques = [12.0 * speed for speed in speeds]
         values = [time_s, *angles, *speeds, *angles, *torques]
         enabled = int(since_s < 0.31)
