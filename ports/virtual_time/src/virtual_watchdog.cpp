@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/ports/virtual_time/virtual_watchdog.hpp"
+
+namespace mamori::ports::virtual_time {
+
+Status VirtualWatchdog::service(Instant now) noexcept {
+    check(now);
+    if (has_expired_) {
+        return Status::kError;
+    }
+    is_started_ = true;
+    serviced_at_ = now;
+    return Status::kOk;
+}
+
+void VirtualWatchdog::check(Instant now) noexcept {
+    if (is_started_ && now - serviced_at_ > timeout_) {
+        has_expired_ = true;
+    }
+}
+
+}  // namespace mamori::ports::virtual_time

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the relay opens when the service fails to come, and never closes again. Method: services at chosen
+// instants.
+#include "mamori/ports/virtual_time/virtual_watchdog.hpp"
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::ports::virtual_time {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+TEST(VirtualWatchdogTest, RelayStaysClosedWhileTheServiceComesInTime) {
+    verifies("SWR-VTM-005", Technique::kBoundaryValues);
+    VirtualWatchdog sut{5_ms};
+    sut.check(Instant{} + 100_ms);
+    EXPECT_FALSE(sut.has_expired()) << "not started yet";
+
+    ASSERT_EQ(sut.service(Instant{} + 100_ms), Status::kOk);
+    sut.check(Instant{} + 105_ms);
+    EXPECT_FALSE(sut.has_expired());
+    EXPECT_EQ(sut.service(Instant{} + 105_ms), Status::kOk);
+}
+
+TEST(VirtualWatchdogTest, RelayOpensForGoodAfterTheTimeout) {
+    verifies("SWR-VTM-005", Technique::kFaultInjection, Polarity::kViolation);
+    VirtualWatchdog sut{5_ms};
+    ASSERT_EQ(sut.service(Instant{}), Status::kOk);
+
+    sut.check(Instant{} + 5_ms + 1_ns);
+    EXPECT_TRUE(sut.has_expired());
+    EXPECT_EQ(sut.service(Instant{} + 6_ms), Status::kError);
+    EXPECT_TRUE(sut.has_expired());
+}
+
+TEST(VirtualWatchdogTest, LateServiceDoesNotHideTheTimeout) {
+    verifies("SWR-VTM-005", Technique::kErrorGuessing, Polarity::kViolation);
+    VirtualWatchdog sut{5_ms};
+    ASSERT_EQ(sut.service(Instant{}), Status::kOk);
+
+    EXPECT_EQ(sut.service(Instant{} + 6_ms), Status::kError);
+    EXPECT_TRUE(sut.has_expired());
+}
+
+}  // namespace
+}  // namespace mamori::ports::virtual_time
