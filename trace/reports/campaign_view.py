@@ -138,10 +138,10 @@ def _make_case_view(case: CampaignCase, index: int) -> CaseView:
 
 
 def _describe_where(fault: dict[str, Any] | None) -> str:
-    """Joints count from 0 in run.json and from 1 for people."""
+    """Joints count from 1, in run.json too."""
     parts = []
     if fault and isinstance(fault.get("joint"), int):
-        parts.append(f"joint {fault['joint'] + 1}")
+        parts.append(f"joint {fault['joint']}")
     if fault and fault.get("channel"):
         parts.append(f"channel {str(fault['channel']).upper()}")
     return ", ".join(parts) or ABSENT

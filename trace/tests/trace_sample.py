@@ -168,7 +168,7 @@ def _make_case(scenario: tuple, number: int, at_s: float, end_s: float, requirem
     run = {
         "schema": "mamori.run/1", "commit": COMMIT, "compiler": "g++ 12.2", "seed": number,
         "frames": round(end_s * 1000), "period_s": 0.001, "motion": "reach.yaml", "model": "pa10_like.yaml",
-        "fault": {"kind": name, "joint": 1, "channel": "a", "at_s": at_s, "duration_s": None, "magnitude": 0.0} if faulty else None,
+        "fault": {"kind": name, "joint": 2, "channel": "a", "at_s": at_s, "duration_s": None, "magnitude": 0.0} if faulty else None,
         "trace_hash": f"{0x9E3779B97F4A7C15 * number % 2**64:016x}", "simulated_s": end_s, "wall_s": 0.41,
         "initial_state": "SelfTest", "final_state": final, "operational_at_s": 0.05,
         "detected_fault": fault, "detected_at_s": reacted_s, "reaction": reaction, "reacted_at_s": reacted_s,

@@ -230,7 +230,7 @@ def test_a_plan_may_name_the_faults_that_the_program_detects_and_no_others() -> 
     names = re.search(r"kArmFaultNames\{(.*?)\}", header.read_text(encoding="utf-8"), re.DOTALL)
 
     assert names is not None
-    assert {NOTHING, "WatchdogExpired", *re.findall(r'"(\w+)"', names[1])} == set(DETECTED_FAULTS)
+    assert {NOTHING, "SupervisorSilent", "WatchdogExpired", *re.findall(r'"(\w+)"', names[1])} == set(DETECTED_FAULTS)
 
 
 @pytest.mark.verifies("SWR-CMP-001", technique="interface")

@@ -111,7 +111,8 @@ class ExecutionSupervisor final : public ExecutionObserver {
     Status acknowledge(std::size_t component) noexcept;
 
     /// Ends one supervision cycle and judges all components, worst condition first.
-    /// @param[in] now start of the cycle, as in ContextHandle::now; runs that began later are judged at the latest
+    /// @param[in] now start of the cycle, as in ContextHandle::now; runs that began later are judged at the
+    /// latest
     ///                instant that the executive told.
     /// @return kExpired: a component of global scope is expired. kFailed: one is late, a window was released
     ///         too late in this cycle, or no component of global scope is active, so that nothing is proven.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Process image of a seven-joint arm: what its devices give and take in each frame. A machine and a simulated
-/// plant fill the same image, so the safety code cannot tell them apart.
+/// Process image of a seven-joint arm: what its devices give and take in each frame. A machine and a
+/// simulated plant fill the same image, so the safety code cannot tell them apart.
 ///
 /// @satisfies SWR-ARM-001      Design: docs/design/safe_arm.md#process-image
 #ifndef MAMORI_SAFETY_ARM_ARM_DEVICE_HPP

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Safe limits of the example arm: decisions of the safety concept, not properties of the machine. The runner
+/// refuses a model that does not lie around them. All per-joint values are ordered from the base to the
+/// flange.
+///
+/// @satisfies SWR-SAF-003      Design: docs/design/safe_arm.md#limits
+#ifndef EXAMPLES_SAFE_ARM_ARM_LIMITS_HPP
+#define EXAMPLES_SAFE_ARM_ARM_LIMITS_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/time.hpp"
+#include "mamori/safety/arm/guards.hpp"
+#include "mamori/safety/execution_supervisor.hpp"
+#include "mamori/safety/safe_state_machine.hpp"
+#include "mamori/safety/watchdog_gate.hpp"
+
+namespace safe_arm {
+
+using namespace mamori::literals;  // NOLINT: units of the constants below
+
+/// The same limit for each joint.
+constexpr mamori::safety::JointVector make_uniform(double limit) noexcept {
+    return {limit, limit, limit, limit, limit, limit, limit};
+}
+/// Element-wise a * factor + offset.
+constexpr mamori::safety::JointVector scale(const mamori::safety::JointVector& a, double factor,
+                                            double offset) noexcept {
+    mamori::safety::JointVector result{};
+    for (std::size_t j = 0U; j < mamori::safety::kArmJointCount; ++j) {
+        result[j] = a[j] * factor + offset;
+    }
+    return result;
+}
+/// -limit .. limit for each joint.
+constexpr mamori::safety::JointRanges make_ranges(const mamori::safety::JointVector& limits) noexcept {
+    mamori::safety::JointRanges ranges{};
+    for (std::size_t j = 0U; j < mamori::safety::kArmJointCount; ++j) {
+        ranges[j] = {-limits[j], limits[j]};
+    }
+    return ranges;
+}
+
+/// Frame of the system table; every cycle count below is in frames.
+inline constexpr mamori::Duration kFrame = 1_ms;
+inline constexpr double kFrameS = 0.001;
+
+/// Safely limited speed (SLS): 90 % of the mechanical speed limit [rad/s]. Motions are planned below 80 %.
+inline constexpr mamori::safety::JointVector kSafeSpeedRadS{0.9, 0.9, 1.8, 1.8, 5.65, 5.65, 5.65};
+/// Safely limited position (SLP): 2 degrees inside the mechanical range, symmetric [rad].
+inline constexpr mamori::safety::JointVector kSafePositionRad{3.05, 1.60, 3.00, 2.35, 4.41, 2.84, 4.41};
+/// Farthest that a joint can move within one frame: mechanical speed limit plus 20 % and both channels' steps
+/// [rad].
+inline constexpr mamori::safety::JointVector kMaxStepRad{0.0016, 0.0016, 0.0028, 0.0028,
+                                                         0.0080, 0.0080, 0.0080};
+/// Torque limit of the drives [N m]; the gate saturates at it so that the deviation check compares like with
+/// like.
+inline constexpr mamori::safety::JointVector kTorqueLimitNm{232.0, 232.0, 100.0, 100.0, 14.5, 14.5, 14.5};
+
+/// Channels A and B may differ by this much [rad]: mounting error plus the step of the coarser one.
+inline constexpr double kDiscrepancyRad = 0.004;
+/// Distance between setpoint and measured position [rad]; the fault-free motion stays below 0.02 rad.
+inline constexpr double kFollowingErrorRad = 0.03;
+/// Travel of the setpoint without any count of movement on either channel [rad].
+inline constexpr double kStuckTravelRad = 0.004;
+/// Share of the torque limit by which measured and commanded torque may differ [-].
+inline constexpr double kTorqueDeviationShare = 0.15;
+inline constexpr mamori::safety::JointRanges kSafeRange = make_ranges(kSafePositionRad);
+/// The coarse channel is judged against a position of the fine one.
+inline constexpr mamori::safety::JointVector kMaxStepBRad = scale(kMaxStepRad, 1.0, kDiscrepancyRad);
+inline constexpr mamori::safety::JointVector kTorqueDeviationNm =
+    scale(kTorqueLimitNm, kTorqueDeviationShare, 0.0);
+static_assert(mamori::safety::are_valid(kSafeRange) && mamori::safety::are_valid(kSafeSpeedRadS) &&
+              mamori::safety::are_valid(kMaxStepRad) && mamori::safety::are_valid(kTorqueDeviationNm));
+/// Distance of setpoint and measured position at which operation may begin [rad]: the start is bumpless.
+inline constexpr double kBumplessRad = 0.002;
+/// A joint below this speed stands [rad/s]; the confirmation time hides the step of the coarser encoder.
+inline constexpr double kStandstillRadS = 0.02;
+
+/// Age at which a controller message is stale; two lost messages in a row are tolerated.
+inline constexpr mamori::Duration kCommandAgeMax = 3_ms;
+/// Standing for this long is standstill.
+inline constexpr mamori::Duration kStandstillTime = 50_ms;
+/// Bounds of a controlled stop: then SS2 becomes SS1, and SS1 becomes STO.
+inline constexpr mamori::safety::StopBounds kStopBounds{400_ms, 400_ms};
+/// Torque feedback may outlast safe torque off for this long; then the machine locks out and the watchdog is
+/// left to switch the drives off.
+inline constexpr mamori::Duration kStoFeedbackTime = 20_ms;
+/// Brake feedback may contradict the command for this long: opening and closing delay with margin.
+inline constexpr mamori::Duration kBrakeFeedbackTime = 100_ms;
+/// The power-up self test must see this many good frames in a row, and within this time.
+inline constexpr std::uint32_t kSelfTestFrames = 20U;
+inline constexpr mamori::Duration kSelfTestTime = 500_ms;
+/// Silent frames of a component: two are late, three are the end.
+inline constexpr mamori::safety::AliveLimits kAliveLimits{2U, 3U};
+/// Longest run of a component of the safety partition, and of the controller.
+inline constexpr mamori::Duration kSafetyComponentMax = 100_us;
+inline constexpr mamori::Duration kControllerMax = 350_us;
+/// Latest release of a window that is tolerated.
+inline constexpr mamori::Duration kLatenessMax = 50_us;
+/// The watchdog takes torque and brake current away when it is not served for this long.
+inline constexpr mamori::Duration kWatchdogTimeout = 5_ms;
+/// Distance between two services as the gate keeps it: one frame, with room for a second try.
+inline constexpr mamori::safety::WatchdogWindow kWatchdogWindow{500_us, 4_ms};
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_ARM_LIMITS_HPP

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arm_reader.hpp"
+
+namespace safe_arm {
+
+using mamori::ContextHandle;
+using mamori::Status;
+
+Status ArmReader::configure(const EncoderScale& scale) noexcept {
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        if (!(scale.a_counts_per_rad[j] > 0.0) || !(scale.b_counts_per_rad[j] > 0.0)) {
+            return Status::kBadParameter;
+        }
+    }
+    scale_ = scale;
+    is_configured_ = true;
+    return Status::kOk;
+}
+
+Status ArmReader::on_activated(ContextHandle) noexcept {
+    return is_configured_ ? Status::kOk : Status::kPreconditionNotMet;
+}
+
+Status ArmReader::on_execute(ContextHandle) noexcept {
+    JointReading result{};
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        result.position_a_rad[j] =
+            static_cast<double>(inputs_.encoder_a_counts[j]) / scale_.a_counts_per_rad[j];
+        result.position_b_rad[j] =
+            static_cast<double>(inputs_.encoder_b_counts[j]) / scale_.b_counts_per_rad[j];
+        result.brakes_closed = result.brakes_closed && inputs_.brake_closed[j];
+    }
+    result.measured_torque_nm = inputs_.measured_torque_nm;
+    result.torque_enabled = inputs_.torque_enabled;
+    result.power_good = inputs_.power_good;
+    result.start_button = inputs_.start_button;
+    result.reset_button = inputs_.reset_button;
+    reading.write(result);
+    return Status::kOk;
+}
+
+}  // namespace safe_arm

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Turns the process image of the arm into physical units. First component of the protecting window.
+///
+/// @satisfies SWR-SAF-004      Design: docs/design/safe_arm.md#components
+#ifndef EXAMPLES_SAFE_ARM_ARM_READER_HPP
+#define EXAMPLES_SAFE_ARM_ARM_READER_HPP
+
+#include "mamori/kernel/system.hpp"
+#include "mamori/safety/arm/arm_device.hpp"
+#include "messages.hpp"
+
+namespace safe_arm {
+
+/// Resolution of the encoders [counts per rad of the joint].
+struct EncoderScale {
+    JointVector a_counts_per_rad{};
+    JointVector b_counts_per_rad{};
+};
+
+class ArmReader final : public mamori::Component {
+  public:
+    /// @param[in] inputs image that the device layer fills before each frame; static storage.
+    constexpr explicit ArmReader(const mamori::safety::ArmInputs& inputs) noexcept
+        : Component("arm_reader"), inputs_(inputs) {}
+
+    mamori::OutPort<JointReading> reading{"reading"};
+    using Ports = mamori::Ports<&ArmReader::reading>;
+
+    /// @return kOk; kBadParameter (a resolution that is not positive: nothing is taken over).
+    mamori::Status configure(const EncoderScale& scale) noexcept;
+
+    /// @return kOk; kPreconditionNotMet (not configured), which keeps the system from starting.
+    mamori::Status on_activated(mamori::ContextHandle context) noexcept override;
+    mamori::Status on_execute(mamori::ContextHandle context) noexcept override;
+
+  private:
+    const mamori::safety::ArmInputs& inputs_;
+    EncoderScale scale_{};
+    bool is_configured_{false};
+};
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_ARM_READER_HPP

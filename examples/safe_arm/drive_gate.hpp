@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Last component before the drives: passes the controller's torque on only while the supervisor allows it,
+/// and falls back to the safe outputs by itself when the supervisor falls silent.
+///
+/// @satisfies SWR-SAF-009, SWR-SAF-010      Design: docs/design/safe_arm.md#components
+#ifndef EXAMPLES_SAFE_ARM_DRIVE_GATE_HPP
+#define EXAMPLES_SAFE_ARM_DRIVE_GATE_HPP
+
+#include "mamori/kernel/system.hpp"
+#include "mamori/safety/arm/arm_device.hpp"
+#include "messages.hpp"
+
+namespace safe_arm {
+
+class DriveGate final : public mamori::Component {
+  public:
+    /// @param[in] outputs image that the device layer takes after each frame; static storage.
+    constexpr explicit DriveGate(mamori::safety::ArmOutputs& outputs) noexcept
+        : Component("drive_gate"), outputs_(outputs) {}
+
+    mamori::InPort<StopCommand> stop{"stop"};
+    mamori::InPort<TorqueCommand> command{"command"};
+    mamori::OutPort<DriveCommand> drive{"drive"};
+    using Ports = mamori::Ports<&DriveGate::stop, &DriveGate::command, &DriveGate::drive>;
+
+    mamori::Status on_execute(mamori::ContextHandle context) noexcept override;
+    /// The outputs are safe whenever this component does not run.
+    mamori::Status on_deactivated(mamori::ContextHandle context) noexcept override;
+    mamori::Status on_aborting(mamori::ContextHandle context) noexcept override;
+
+  private:
+    mamori::safety::ArmOutputs& outputs_;
+};
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_DRIVE_GATE_HPP

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "joint_monitor.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::safety::JointSet;
+
+/// The fault, when any joint is in the set.
+std::uint32_t flag(const JointSet& joints, ArmFault fault) noexcept {
+    return joints.is_empty() ? 0U : to_bit(fault);
+}
+
+JointSet unite(JointSet a, const JointSet& b) noexcept {
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        if (b.contains(j)) {
+            a.insert(j);
+        }
+    }
+    return a;
+}
+
+}  // namespace
+
+using mamori::ContextHandle;
+using mamori::Duration;
+using mamori::Instant;
+using mamori::Status;
+using namespace mamori::safety;  // NOLINT: the guards
+
+Status JointMonitor::on_activated(ContextHandle) noexcept {
+    distrusted_a_ = {};
+    distrusted_b_ = {};
+    standstill_ = StandstillDetector{make_uniform(kStandstillRadS), kStandstillTime};
+    brake_contradiction_for_ = {};
+    has_history_ = false;
+    return Status::kOk;
+}
+
+Status JointMonitor::on_execute(ContextHandle context) noexcept {
+    const JointReading& now = reading.read();
+    if (!has_history_) {
+        begin_history(now);
+    }
+    JointState result{};
+    result.faults = judge_channels(now, result.position_rad);
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        result.velocity_rad_s[j] =
+            (result.position_rad[j] - past_rad_[oldest_][j]) / (static_cast<double>(kSpeedCycles) * kFrameS);
+    }
+    result.faults |= judge_stuck(now) | judge_motion(result) | judge_torque(now) | judge_brakes(now);
+    const bool is_fresh = is_command_fresh(context.now);
+    if (is_torque_on() && !is_fresh) {
+        result.faults |= to_bit(ArmFault::kCommandStale);
+    }
+    if (!now.power_good) {
+        result.faults |= to_bit(ArmFault::kPowerLost);
+    }
+    result.is_standing = standstill_.step(result.velocity_rad_s, context.now);
+    result.is_setpoint_near =
+        is_fresh &&
+        calc_following_errors(command.read().setpoint_rad, result.position_rad, make_uniform(kBumplessRad))
+            .is_empty();
+    past_rad_[oldest_] = result.position_rad;
+    oldest_ = (oldest_ + 1U) % kSpeedCycles;
+    last_rad_ = result.position_rad;
+    last_ = now;
+    state.write(result);
+    return Status::kOk;
+}
+
+void JointMonitor::begin_history(const JointReading& now) noexcept {
+    past_rad_.fill(now.position_a_rad);
+    oldest_ = 0U;
+    last_rad_ = now.position_a_rad;
+    last_ = now;
+    stuck_since_rad_ = command.read().setpoint_rad;
+    has_history_ = true;
+}
+
+/// Compares each channel with the last trusted position: farther than the joint can move is implausible. A
+/// distrusted channel stays distrusted until the component is activated anew.
+std::uint32_t JointMonitor::judge_channels(const JointReading& now, JointVector& position_rad) noexcept {
+    distrusted_a_ = unite(distrusted_a_, calc_jumps(now.position_a_rad, last_rad_, kMaxStepRad));
+    distrusted_b_ = unite(distrusted_b_, calc_jumps(now.position_b_rad, last_rad_, kMaxStepBRad));
+    const JointSet differing =
+        calc_discrepancies(now.position_a_rad, now.position_b_rad, make_uniform(kDiscrepancyRad));
+    std::uint32_t faults = 0U;
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        const bool is_a_bad = distrusted_a_.contains(j);
+        const bool is_b_bad = distrusted_b_.contains(j);
+        if (is_a_bad && is_b_bad) {
+            position_rad[j] = last_rad_[j];
+            faults |= to_bit(ArmFault::kEncoderDiscrepancy);
+        } else if (is_a_bad || is_b_bad) {
+            position_rad[j] = is_a_bad ? now.position_b_rad[j] : now.position_a_rad[j];
+            faults |= to_bit(ArmFault::kEncoderImplausible);
+        } else {
+            position_rad[j] = now.position_a_rad[j];
+            faults |= differing.contains(j) ? to_bit(ArmFault::kEncoderDiscrepancy) : 0U;
+        }
+    }
+    return faults;
+}
+
+/// A turning joint always shows counts. When the setpoint travels and neither channel moves, both are stuck.
+std::uint32_t JointMonitor::judge_stuck(const JointReading& now) noexcept {
+    const JointVector& setpoint_rad = command.read().setpoint_rad;
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        const bool has_moved = now.position_a_rad[j] != last_.position_a_rad[j] ||
+                               now.position_b_rad[j] != last_.position_b_rad[j];
+        if (has_moved || !is_torque_on()) {
+            stuck_since_rad_[j] = setpoint_rad[j];
+        }
+    }
+    return flag(calc_following_errors(setpoint_rad, stuck_since_rad_, make_uniform(kStuckTravelRad)),
+                ArmFault::kEncoderStuck);
+}
+
+std::uint32_t JointMonitor::judge_motion(const JointState& now) const noexcept {
+    std::uint32_t faults =
+        flag(calc_speed_violations(now.velocity_rad_s, kSafeSpeedRadS), ArmFault::kOverspeed) |
+        flag(calc_position_violations(now.position_rad, kSafeRange), ArmFault::kPositionLimit);
+    if (is_torque_on()) {
+        faults |= flag(calc_following_errors(command.read().setpoint_rad, now.position_rad,
+                                             make_uniform(kFollowingErrorRad)),
+                       ArmFault::kFollowingError);
+    }
+    return faults;
+}
+
+/// Compares only while both command and feedback say that torque is on: switching takes a few milliseconds.
+std::uint32_t JointMonitor::judge_torque(const JointReading& now) const noexcept {
+    if (!is_torque_on() || !now.torque_enabled) {
+        return 0U;
+    }
+    return flag(calc_torque_deviations(drive.read().torque_nm, now.measured_torque_nm, kTorqueDeviationNm),
+                ArmFault::kTorqueDeviation);
+}
+
+std::uint32_t JointMonitor::judge_brakes(const JointReading& now) noexcept {
+    const bool is_contradicted = drive.has_value() && drive.read().brake_release == now.brakes_closed;
+    brake_contradiction_for_ = is_contradicted ? brake_contradiction_for_ + kFrame : Duration{0};
+    return brake_contradiction_for_ > kBrakeFeedbackTime ? to_bit(ArmFault::kBrakeFault) : 0U;
+}
+
+bool JointMonitor::is_command_fresh(Instant now) const noexcept {
+    return command.has_value() &&
+           !is_message_too_old(Instant{command.read().sent_at_ns}, now, kCommandAgeMax);
+}
+
+}  // namespace safe_arm

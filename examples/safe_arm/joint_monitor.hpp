@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Judges the measured arm: which encoder channel can be trusted, whether speed, position, torque and
+/// controller messages are inside their limits. It reports what it sees in this cycle; debouncing and
+/// latching are the fault register's work.
+///
+/// @satisfies SWR-SAF-005, SWR-SAF-006, SWR-SAF-007, SWR-SAF-008      Design: docs/design/safe_arm.md#monitor
+#ifndef EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP
+#define EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP
+
+#include <array>
+#include <cstddef>
+
+#include "arm_faults.hpp"
+#include "arm_limits.hpp"
+#include "mamori/kernel/system.hpp"
+#include "messages.hpp"
+
+namespace safe_arm {
+
+class JointMonitor final : public mamori::Component {
+  public:
+    constexpr JointMonitor() noexcept : Component("joint_monitor") {}
+
+    mamori::InPort<JointReading> reading{"reading"};
+    mamori::InPort<TorqueCommand> command{"command"};
+    mamori::InPort<DriveCommand> drive{"drive"};
+    mamori::OutPort<JointState> state{"state"};
+    using Ports = mamori::Ports<&JointMonitor::reading, &JointMonitor::command, &JointMonitor::drive,
+                                &JointMonitor::state>;
+
+    /// Forgets everything: positions, distrust, times.
+    mamori::Status on_activated(mamori::ContextHandle context) noexcept override;
+    mamori::Status on_execute(mamori::ContextHandle context) noexcept override;
+
+  private:
+    /// Cycles over which the speed is averaged.
+    static constexpr std::size_t kSpeedCycles = 4U;
+    using StandstillDetector = mamori::safety::StandstillDetector;
+
+    void begin_history(const JointReading& now) noexcept;
+    std::uint32_t judge_channels(const JointReading& now, JointVector& position_rad) noexcept;
+    std::uint32_t judge_stuck(const JointReading& now) noexcept;
+    std::uint32_t judge_motion(const JointState& now) const noexcept;
+    std::uint32_t judge_torque(const JointReading& now) const noexcept;
+    std::uint32_t judge_brakes(const JointReading& now) noexcept;
+    bool is_command_fresh(mamori::Instant now) const noexcept;
+    bool is_torque_on() const noexcept { return drive.has_value() && drive.read().torque_enable; }
+
+    std::array<JointVector, kSpeedCycles> past_rad_{};  ///< trusted positions; the oldest at `oldest_`
+    std::size_t oldest_{0U};
+    JointVector last_rad_{};  ///< trusted positions of the cycle before
+    JointReading last_{};
+    JointVector stuck_since_rad_{};  ///< setpoint when a count of the joint last changed
+    mamori::safety::JointSet distrusted_a_{};
+    mamori::safety::JointSet distrusted_b_{};
+    StandstillDetector standstill_{make_uniform(kStandstillRadS), kStandstillTime};
+    mamori::Duration brake_contradiction_for_{};
+    bool has_history_{false};
+};
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "machine.hpp"
+
+#include "safe_arm_system.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::Duration;
+using mamori::Instant;
+using mamori::sim::FaultKind;
+
+/// The operator presses start once, long after the self test can have passed.
+constexpr Instant kStartPressed{100000000};
+constexpr Instant kStartReleased{200000000};
+
+}  // namespace
+
+void Machine::begin_frame(std::uint64_t, Instant now) noexcept {
+    mamori::sim::apply_plant_faults(fault_, now, plant_.faults());
+    apply_software_faults(now);
+    plant_.set_buttons(now >= kStartPressed && now < kStartReleased, false);
+    inputs = plant_.sample();
+}
+
+void Machine::apply_software_faults(Instant now) noexcept {
+    const bool is_active = mamori::sim::is_active(fault_, now);
+    mamori::ports::virtual_time::ChannelFault channel_fault{};
+    Duration controller_time = kControllerTime;
+    Duration supervisor_time = kSafetyComponentTime;
+    switch (fault_.kind) {
+        case FaultKind::kControllerHang:
+            controller_time = is_active ? mamori::ports::virtual_time::kNever : kControllerTime;
+            break;
+        case FaultKind::kSupervisorHang:
+            supervisor_time = is_active ? mamori::ports::virtual_time::kNever : kSafetyComponentTime;
+            break;
+        case FaultKind::kMessageLost:
+            channel_fault.is_losing = is_active;
+            break;
+        case FaultKind::kMessageLate:
+            if (is_active) {
+                channel_fault.delay = Duration{static_cast<std::int64_t>(fault_.magnitude * 1.0e9)};
+            }
+            break;
+        case FaultKind::kNone:
+        case FaultKind::kEncoderFreeze:
+        case FaultKind::kEncoderBitFlip:
+        case FaultKind::kEncoderBias:
+        case FaultKind::kTorqueRunaway:
+        case FaultKind::kPowerLoss:
+        case FaultKind::kBrakeFade:
+            break;  // faults of the plant
+    }
+    channel.set_fault(channel_fault);
+    // Both are in the model's table, so neither call can be refused.
+    static_cast<void>(host_.set_duration(kControllerIndex, controller_time));
+    static_cast<void>(host_.set_duration(kSupervisorIndex, supervisor_time));
+}
+
+void Machine::end_frame(std::uint64_t, Instant now, Duration length) noexcept {
+    watchdog.check(now + length);
+    plant_.set_watchdog_expired(watchdog.has_expired());
+    is_plant_sound_ = plant_.step(outputs, length) == mamori::Status::kOk && is_plant_sound_;
+    FrameFacts facts{};
+    facts.start = now;
+    facts.end = now + length;
+    facts.state = supervisor.get_state();
+    facts.first_fault = supervisor.get_first_fault();
+    facts.reaction = supervisor.get_reaction();
+    facts.is_watchdog_expired = watchdog.has_expired();
+    facts.setpoint_rad = controller.command.get_published().setpoint_rad;
+    facts.torque_enable = outputs.torque_enable;
+    facts.brake_release = outputs.brake_release;
+    facts.is_stopping = !outputs.torque_enable || supervisor.stop.get_published().stop_requested;
+    record_.add_frame(facts, plant_);
+}
+
+}  // namespace safe_arm

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// One process runs one scenario: every component starts from the constants of the program.
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+#include "machine.hpp"
+#include "mamori/simbody_sim/computed_torque_controller.hpp"
+#include "model_check.hpp"
+#include "safe_arm_system.hpp"
+
+namespace {
+
+using mamori::Duration;
+using mamori::Instant;
+using mamori::Status;
+using namespace mamori::literals;  // NOLINT: units of the constants below
+
+constexpr int kExitOk = 0;
+constexpr int kExitFailed = 1;
+constexpr int kExitUsage = 2;
+/// The path begins here: operational since 0.1 s, brakes open, hold settled.
+constexpr Duration kMotionStart = 500_ms;
+/// Time after the path: long enough for a stop late in the motion and for the drift after it.
+constexpr Duration kSettling = 2000_ms;
+
+int fail(int exit_code, const std::string& message) {
+    std::cerr << "safe_arm: " << message << '\n';
+    return exit_code;
+}
+
+int run_scenario(const safe_arm::RunOptions& options) {
+    const mamori::sim::LoadedModel loaded = mamori::sim::load_arm_model(options.model);
+    if (!loaded.model.has_value()) {
+        return fail(kExitUsage, loaded.error);
+    }
+    const std::string refusal = safe_arm::check_model(*loaded.model);
+    if (!refusal.empty()) {
+        return fail(kExitUsage, options.model + ": " + refusal);
+    }
+    safe_arm::MotionTrack track;
+    std::string error;
+    if (!track.read(options.motion, safe_arm::kFrameS, error)) {
+        return fail(kExitUsage, error);
+    }
+    const auto motion_ns = static_cast<std::int64_t>(std::llround(track.get_duration_s() * 1.0e9));
+    const Instant motion_end = Instant{} + kMotionStart + Duration{motion_ns};
+    mamori::sim::FaultPlan fault = options.fault;
+    fault.at = fault.at + kMotionStart;
+
+    mamori::sim::ArmPlant plant{*loaded.model};
+    plant.reset(track.calc_point(0.0).position_rad);
+    mamori::sim::ComputedTorqueController law{*loaded.model};
+    safe_arm::RunRecord record{options, *loaded.model, fault, Instant{} + kMotionStart, motion_end};
+    plant.set_observer(&record.get_verdict());
+    safe_arm::controller.configure(track, law, Instant{} + kMotionStart);
+    if (safe_arm::reader.configure(safe_arm::get_encoder_scale(*loaded.model)) != Status::kOk ||
+        safe_arm::watch_components() != Status::kOk || safe_arm::executive.initialize() != Status::kOk ||
+        safe_arm::executive.start() != Status::kOk) {
+        return fail(kExitFailed, "the system refuses to start: component " +
+                                     std::to_string(safe_arm::executive.get_failed_component()));
+    }
+    safe_arm::executive.set_observer(&safe_arm::supervision);
+
+    std::array<Duration, decltype(safe_arm::kSafeArm)::kComponentCount> times{};
+    times.fill(safe_arm::kSafetyComponentTime);
+    times[safe_arm::kControllerIndex] = safe_arm::kControllerTime;
+    mamori::ports::virtual_time::VirtualHost host{times};
+    safe_arm::Machine machine{plant, host, fault, record};
+    mamori::ports::virtual_time::FrameRunner runner{safe_arm::executive, host, machine};
+
+    const auto wall_start = std::chrono::steady_clock::now();
+    const auto settled =
+        static_cast<std::uint64_t>((motion_end + kSettling - Instant{}).ns / safe_arm::kFrame.ns);
+    const std::uint64_t frames = options.frames == 0U ? settled : options.frames;
+    while (runner.get_frame_count() < frames && machine.is_plant_sound()) {
+        runner.run_frame();
+    }
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
+    if (!machine.is_plant_sound()) {
+        return fail(kExitFailed,
+                    "the simulated plant diverged in frame " + std::to_string(runner.get_frame_count()));
+    }
+    const std::string reason = record.write(
+        safe_arm::event_log, {runner.get_frame_count(), safe_arm::executive.get_trace_hash(), wall.count()});
+    return reason.empty() ? kExitOk : fail(kExitFailed, reason);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const safe_arm::ParsedCommand command = safe_arm::parse_command(argc, argv);
+    return command.exit_code >= 0 ? command.exit_code : run_scenario(command.options);
+}

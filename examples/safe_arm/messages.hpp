@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What the components of the safe arm tell each other. Each message crosses a window or a partition as
+/// bytes.
+///
+/// @satisfies SWR-SAF-001      Design: docs/design/safe_arm.md#messages
+#ifndef EXAMPLES_SAFE_ARM_MESSAGES_HPP
+#define EXAMPLES_SAFE_ARM_MESSAGES_HPP
+
+#include <array>
+#include <cstdint>
+
+#include "mamori/kernel/fields.hpp"
+#include "mamori/safety/arm/arm_device.hpp"
+#include "mamori/safety/safe_state.hpp"
+
+namespace safe_arm {
+
+using mamori::safety::JointVector;
+using mamori::safety::kArmJointCount;
+
+/// Device image in physical units; nothing is judged yet.
+struct JointReading {
+    JointVector position_a_rad{};
+    JointVector position_b_rad{};
+    JointVector measured_torque_nm{};
+    bool brakes_closed{true};    ///< feedback of all seven
+    bool torque_enabled{false};  ///< feedback
+    bool power_good{false};
+    bool start_button{false};
+    bool reset_button{false};
+};
+
+/// What the monitor vouches for, and the faults it sees in this cycle (bit n = ArmFault n).
+struct JointState {
+    JointVector position_rad{};    ///< from a channel that is not distrusted
+    JointVector velocity_rad_s{};  ///< mean over the last 4 cycles
+    std::uint32_t faults{0U};
+    bool is_standing{false};       ///< below the standstill speed for the confirmation time
+    bool is_setpoint_near{false};  ///< setpoint within the bumpless tolerance of the measured position
+};
+
+/// From the non-safety controller, over the grey channel.
+struct TorqueCommand {
+    std::uint32_t sequence{0U};
+    std::int64_t sent_at_ns{0};
+    JointVector setpoint_rad{};
+    JointVector torque_nm{};
+};
+
+/// The supervisor's decision for this cycle.
+struct StopCommand {
+    mamori::safety::SafeState state{mamori::safety::SafeState::kSelfTest};
+    bool torque_enable{false};
+    bool brake_release{false};
+    bool stop_requested{false};  ///< controlled stop along the path (SS1, SS2)
+};
+
+/// What the drive gate gave to the drives.
+struct DriveCommand {
+    JointVector torque_nm{};
+    bool torque_enable{false};
+    bool brake_release{false};
+};
+
+}  // namespace safe_arm
+
+MAMORI_FIELDS(safe_arm::JointReading, position_a_rad, position_b_rad, measured_torque_nm, brakes_closed,
+              torque_enabled, power_good, start_button, reset_button)
+MAMORI_FIELDS(safe_arm::JointState, position_rad, velocity_rad_s, faults, is_standing, is_setpoint_near)
+MAMORI_FIELDS(safe_arm::TorqueCommand, sequence, sent_at_ns, setpoint_rad, torque_nm)
+MAMORI_FIELDS(safe_arm::StopCommand, state, torque_enable, brake_release, stop_requested)
+MAMORI_FIELDS(safe_arm::DriveCommand, torque_nm, torque_enable, brake_release)
+
+#endif  // EXAMPLES_SAFE_ARM_MESSAGES_HPP

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+namespace safe_arm {
+namespace {
+
+constexpr int kExitUsage = 2;
+
+}  // namespace
+
+ParsedCommand parse_command(int argc, const char* const* argv) {
+    ParsedCommand result;
+    RunOptions& options = result.options;
+    CLI::App app{"Safe arm: a safety module of RT components guards a simulated arm that follows a motion."};
+    app.require_subcommand(1);
+    CLI::App* run = app.add_subcommand("run", "Run one scenario in virtual time and write its record.");
+    run->add_option("--model", options.model, "Arm model file (YAML)")->required();
+    run->add_option("--motion", options.motion, "Motion table: lines of time and 7 joint angles [s, rad]")
+        ->required();
+    run->add_option("--out", options.out, "Folder for run.json, series.csv and events.csv")->required();
+    run->add_option("--fault", options.fault_text,
+                    "Fault plan, e.g. kind=encoder_freeze,joint=2,channel=a,at=2.0 (at: seconds of motion)");
+    run->add_option("--seed", options.seed, "Seed that the record names")->capture_default_str();
+    run->add_option("--frames", options.frames, "Frames of 1 ms to run; 0: the motion plus 2 s");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp& help) {
+        result.exit_code = app.exit(help);
+        return result;
+    } catch (const CLI::ParseError& error) {
+        std::cerr << "safe_arm: " << error.what() << "; see 'safe_arm run --help'\n";
+        result.exit_code = kExitUsage;
+        return result;
+    }
+    if (!options.fault_text.empty()) {
+        const mamori::sim::ParsedFaultPlan parsed = mamori::sim::parse_fault_plan(options.fault_text);
+        if (!parsed.plan.has_value()) {
+            std::cerr << "safe_arm: --fault: " << parsed.error << '\n';
+            result.exit_code = kExitUsage;
+            return result;
+        }
+        options.fault = *parsed.plan;
+    }
+    return result;
+}
+
+}  // namespace safe_arm

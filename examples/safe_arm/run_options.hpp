@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Command line of `safe_arm`: what to run, with which fault, and where the record goes.
+#ifndef EXAMPLES_SAFE_ARM_RUN_OPTIONS_HPP
+#define EXAMPLES_SAFE_ARM_RUN_OPTIONS_HPP
+
+#include <cstdint>
+#include <string>
+
+#include "mamori/simbody_sim/fault_plan.hpp"
+
+namespace safe_arm {
+
+struct RunOptions {
+    std::string model;
+    std::string motion;
+    std::string out;
+    mamori::sim::FaultPlan fault{};  ///< `at` counts from the start of the motion
+    std::string fault_text;          ///< as the user wrote it; empty: fault-free
+    std::uint64_t seed{1U};
+    std::uint64_t frames{0U};  ///< 0: motion plus settling time
+};
+
+/// What the command line asks for. exit_code < 0: go on with the options; else end with it (help was printed,
+/// or one line with the error).
+struct ParsedCommand {
+    RunOptions options;
+    int exit_code{-1};
+};
+
+ParsedCommand parse_command(int argc, const char* const* argv);
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_RUN_OPTIONS_HPP

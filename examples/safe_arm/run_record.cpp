@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_record.hpp"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "arm_faults.hpp"
+#include "arm_limits.hpp"
+#include "safety_supervisor.hpp"
+
+namespace safe_arm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using mamori::Duration;
+using mamori::Instant;
+using mamori::safety::SafeState;
+
+/// The tracking error is judged from here on: the brakes have opened and the hold has settled.
+constexpr Duration kTransient = 500_ms;
+constexpr Duration kDenseBefore = 50_ms;
+constexpr Duration kDenseAfter = 400_ms;
+constexpr std::int64_t kSparseFrames = 10;
+
+Json to_json(const std::optional<Instant>& instant) {
+    return instant.has_value() ? Json(to_seconds(*instant - Instant{})) : Json(nullptr);
+}
+
+void append(std::string& text, double value) {
+    std::array<char, 32> buffer{};
+    const int length = std::snprintf(buffer.data(), buffer.size(), ",%.9g", value);
+    text.append(buffer.data(), static_cast<std::size_t>(length));
+}
+
+std::string make_series_header() {
+    std::string header = "t_s";
+    for (const char* group : {"q", "qd", "qref", "tau"}) {
+        for (std::size_t j = 1U; j <= kArmJointCount; ++j) {
+            header += "," + std::string(group) + std::to_string(j);
+        }
+    }
+    return header + ",state,torque_enable,brake_release\n";
+}
+
+/// What happened, with the name of its argument.
+std::string describe_event(const mamori::Event& event) {
+    switch (static_cast<ArmEvent>(event.code)) {
+        case ArmEvent::kStateEntered:
+            return std::string("state_entered,") + get_name(static_cast<SafeState>(event.argument));
+        case ArmEvent::kFaultLatched:
+            return std::string("fault_latched,") + kArmFaultNames[static_cast<std::size_t>(event.argument)];
+        case ArmEvent::kReactionBegun:
+            return std::string("reaction_begun,") + get_name(static_cast<Reaction>(event.argument));
+        case ArmEvent::kWatchdogRefused:
+            return "watchdog_refused," + std::to_string(event.argument);
+    }
+    return "unknown," + std::to_string(event.argument);
+}
+
+std::string make_events_text(const mamori::EventLog& events) {
+    std::string text = "sequence,time_s,severity,source,event,argument\n";
+    constexpr std::array<const char*, 3U> kSeverities{"info", "warning", "fault"};
+    for (std::size_t i = 0U; i < events.size(); ++i) {
+        const mamori::Event& event = events.get(i);
+        text += std::to_string(event.sequence);
+        append(text, to_seconds(event.time - Instant{}));
+        text += std::string(",") + kSeverities[static_cast<std::size_t>(event.severity)] + ",supervisor," +
+                describe_event(event) + "\n";
+    }
+    return text;
+}
+
+/// Writes beside the wanted file and renames, so that no reader sees a part of it.
+bool replace_file(const std::filesystem::path& path, const std::string& text) {
+    const std::filesystem::path partial{path.string() + ".partial"};
+    std::ofstream file{partial, std::ios::binary};
+    file << text;
+    file.close();
+    std::error_code error;
+    if (!file.fail()) {
+        std::filesystem::rename(partial, path, error);
+        return !error;
+    }
+    std::filesystem::remove(partial, error);
+    return false;
+}
+
+/// Who noticed first: the supervisor's fault register, the gate that got no fresh permission, or the
+/// watchdog.
+const char* find_detector(const FrameFacts& facts, bool has_begun_stop) {
+    if (facts.first_fault != mamori::safety::kNoFault) {
+        return kArmFaultNames[facts.first_fault];
+    }
+    if (facts.is_watchdog_expired) {
+        return "WatchdogExpired";
+    }
+    return has_begun_stop ? "SupervisorSilent" : nullptr;
+}
+
+const char* get_environment(const char* name, const char* fallback) {
+    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): the program has one thread
+    return value == nullptr ? fallback : value;
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const RunOptions& options, const mamori::sim::ArmModel& model,
+                     const mamori::sim::FaultPlan& fault, Instant motion_start, Instant motion_end)
+    : options_(options),
+      model_(model),
+      fault_(fault),
+      motion_start_(motion_start),
+      motion_end_(motion_end),
+      verdict_(model),
+      series_(make_series_header()) {}
+
+void RunRecord::add_frame(const FrameFacts& facts, const mamori::sim::ArmPlant& plant) {
+    note_instants(facts, plant);
+    add_series_line(facts, plant);
+    last_ = facts;
+}
+
+void RunRecord::note_instants(const FrameFacts& facts, const mamori::sim::ArmPlant& plant) {
+    if (!operational_at_.has_value() && facts.state == SafeState::kOperational) {
+        operational_at_ = facts.start;
+    }
+    // The frame that begins at the injection already runs with the fault; its travel starts where it began.
+    if (has_fault() && !is_injected_ && facts.end >= Instant{} + fault_.at) {
+        is_injected_ = true;
+        verdict_.mark_injection(plant.positions());
+    }
+    const bool is_stop = facts.is_stopping || facts.is_watchdog_expired;
+    const bool has_begun_stop = operational_at_.has_value() && !reacted_at_.has_value() && is_stop;
+    if (!detected_at_.has_value()) {
+        detector_ = find_detector(facts, has_begun_stop);
+        if (detector_ != nullptr) {
+            detected_at_ = facts.start;
+        }
+    }
+    if (has_begun_stop) {
+        reacted_at_ = facts.end;
+        verdict_.mark_stop();
+    }
+    const bool is_judged = operational_at_.has_value() && facts.start >= *operational_at_ + kTransient &&
+                           !is_injected_ && !reacted_at_.has_value();
+    if (is_judged) {
+        verdict_.judge_tracking(plant.positions(), facts.setpoint_rad);
+    }
+}
+
+void RunRecord::add_series_line(const FrameFacts& facts, const mamori::sim::ArmPlant& plant) {
+    const Duration since_fault = facts.start - (Instant{} + fault_.at);
+    const bool is_dense =
+        has_fault() && since_fault >= Duration{-kDenseBefore.ns} && since_fault <= kDenseAfter;
+    const bool is_on_grid = (facts.start.ns / 1000000) % kSparseFrames == 0;
+    if (!is_dense && !is_on_grid) {
+        return;
+    }
+    std::array<char, 32> time{};
+    const int length = std::snprintf(time.data(), time.size(), "%.6f", to_seconds(facts.end - Instant{}));
+    series_.append(time.data(), static_cast<std::size_t>(length));
+    for (const JointVector* group :
+         {&plant.positions(), &plant.velocities(), &facts.setpoint_rad, &plant.torques()}) {
+        for (const double value : *group) {
+            append(series_, value);
+        }
+    }
+    series_ += std::string(",") + get_name(facts.state) + (facts.torque_enable ? ",1" : ",0") +
+               (facts.brake_release ? ",1\n" : ",0\n");
+}
+
+std::string RunRecord::make_summary(const Closing& closing) const {
+    Json speed_limit = Json::array();
+    for (const mamori::sim::JointModel& joint : model_.joints) {
+        speed_limit.push_back(joint.speed_limit_rad_s);
+    }
+    Json fault = nullptr;
+    if (has_fault()) {
+        const bool is_for_time = fault_.span == mamori::sim::FaultSpan::kForTime;
+        const bool is_once = fault_.span == mamori::sim::FaultSpan::kOnce;
+        const double at_s = to_seconds(fault_.at);
+        fault = {{"kind", get_name(fault_.kind)},
+                 {"text", options_.fault_text},
+                 {"at_s", at_s},
+                 {"motion_at_s", at_s - to_seconds(motion_start_ - Instant{})}};
+        fault["joint"] = uses_joint(fault_.kind) ? Json(fault_.joint + 1U) : Json(nullptr);
+        fault["channel"] = uses_channel(fault_.kind) ? Json(get_name(fault_.channel)) : Json(nullptr);
+        fault["duration_s"] = is_for_time
+                                  ? Json(to_seconds(fault_.duration))
+                                  : (is_once ? Json(to_seconds(mamori::sim::kOnceLength)) : Json(nullptr));
+        fault["magnitude"] = uses_magnitude(fault_.kind) ? Json(fault_.magnitude) : Json(nullptr);
+    }
+    std::array<char, 17> hash{};
+    std::snprintf(hash.data(), hash.size(), "%016llx", static_cast<unsigned long long>(closing.trace_hash));
+    const bool is_safe_by_relay = last_.is_watchdog_expired;
+    const Json detected = detector_ == nullptr ? Json(nullptr) : Json(detector_);
+    Json reaction = nullptr;
+    if (reacted_at_.has_value()) {
+        // Without a reaction of the supervisor it was the gate or the relay, and both switch torque off.
+        const bool is_by_supervisor = last_.reaction != Reaction::kNone;
+        reaction = get_name(is_by_supervisor ? last_.reaction : Reaction::kSto);
+    }
+    const Json summary = {
+        {"schema", "mamori.run/1"},
+        {"commit", get_environment("MAMORI_COMMIT", "unknown")},
+        {"compiler", __VERSION__},
+        {"seed", options_.seed},
+        {"frames", closing.frames},
+        {"period_s", to_seconds(kFrame)},
+        {"motion", options_.motion},
+        {"model", options_.model},
+        {"fault", fault},
+        {"trace_hash", hash.data()},
+        {"simulated_s", static_cast<double>(closing.frames) * to_seconds(kFrame)},
+        {"wall_s", closing.wall_s},
+        {"motion_start_s", to_seconds(motion_start_ - Instant{})},
+        {"motion_end_s", to_seconds(motion_end_ - Instant{})},
+        {"initial_state", get_name(SafeState::kSelfTest)},
+        {"final_state", is_safe_by_relay ? get_name(SafeState::kSafe) : get_name(last_.state)},
+        {"operational_at_s", to_json(operational_at_)},
+        {"detected_fault", detected},
+        {"detected_at_s", to_json(detected_at_)},
+        {"reaction", reaction},
+        {"reacted_at_s", to_json(reacted_at_)},
+        {"standstill_at_s", to_json(verdict_.get_standstill())},
+        {"watchdog_bitten", last_.is_watchdog_expired},
+        {"physics",
+         {{"max_speed_rad_s", verdict_.get_max_speed_rad_s()},
+          {"speed_limit_rad_s", speed_limit},
+          {"min_position_margin_rad", verdict_.get_min_position_margin_rad()},
+          {"stop_travel_rad", verdict_.get_stop_travel_rad()},
+          {"hold_drift_rad", verdict_.get_hold_drift_rad()},
+          {"max_tracking_error_rad", verdict_.get_max_tracking_error_rad()}}}};
+    return summary.dump(2) + "\n";
+}
+
+std::string RunRecord::write(const mamori::EventLog& events, const Closing& closing) const {
+    namespace fs = std::filesystem;
+    const fs::path folder{options_.out};
+    std::error_code error;
+    fs::create_directories(folder, error);
+    // The summary goes first and comes last: whoever finds one finds the whole record of one run.
+    const bool is_clear = !error && (fs::remove(folder / "run.json", error) || !error);
+    if (is_clear && replace_file(folder / "series.csv", series_) &&
+        replace_file(folder / "events.csv", make_events_text(events)) &&
+        replace_file(folder / "run.json", make_summary(closing))) {
+        return {};
+    }
+    const std::string reason = error ? error.message() : "the disk may be full, or the folder read-only";
+    return options_.out + ": the record cannot be written (" + reason +
+           "): name a folder that you may write to";
+}
+
+}  // namespace safe_arm

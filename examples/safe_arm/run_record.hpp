@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Record of one run: the facts of docs/design/evidence.md, gathered frame by frame and written when the run
+/// is over.
+///
+/// @satisfies SWR-SAF-016      Design: docs/design/safe_arm.md#record
+#ifndef EXAMPLES_SAFE_ARM_RUN_RECORD_HPP
+#define EXAMPLES_SAFE_ARM_RUN_RECORD_HPP
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "mamori/kernel/event_log.hpp"
+#include "mamori/safety/fault_register.hpp"
+#include "mamori/safety/reaction_table.hpp"
+#include "mamori/simbody_sim/arm_plant.hpp"
+#include "mamori/simbody_sim/fault_plan.hpp"
+#include "mamori/simbody_sim/physical_verdict.hpp"
+#include "messages.hpp"
+#include "run_options.hpp"
+
+namespace safe_arm {
+
+/// What the software believed and did in one frame.
+struct FrameFacts {
+    mamori::Instant start{};
+    mamori::Instant end{};
+    mamori::safety::SafeState state{};
+    mamori::safety::FaultIndex first_fault{mamori::safety::kNoFault};
+    mamori::safety::Reaction reaction{};  ///< severest demanded so far
+    bool is_stopping{false};              ///< torque off, or a controlled stop requested
+    bool is_watchdog_expired{false};
+    JointVector setpoint_rad{};
+    bool torque_enable{false};
+    bool brake_release{false};
+};
+
+/// Gathers one run. Host only; owns heap memory. Thread safety: none.
+class RunRecord final {
+  public:
+    /// @param[in] fault with `at` in simulated time. @param[in] motion_start instant at which the path
+    /// begins.
+    RunRecord(const RunOptions& options, const mamori::sim::ArmModel& model,
+              const mamori::sim::FaultPlan& fault, mamori::Instant motion_start, mamori::Instant motion_end);
+
+    /// To be installed in the plant: judges the true motion in every integration step.
+    mamori::sim::PhysicalVerdict& get_verdict() noexcept { return verdict_; }
+
+    /// Call once per frame, after the plant has moved.
+    void add_frame(const FrameFacts& facts, const mamori::sim::ArmPlant& plant);
+
+    /// Closing facts of a run.
+    struct Closing {
+        std::uint64_t frames{0U};
+        std::uint64_t trace_hash{0U};
+        double wall_s{0.0};
+    };
+    /// Writes series.csv, events.csv and, last, run.json into the folder; each is whole or not there.
+    /// @return empty on success, else one line with the reason; there is no run.json then.
+    std::string write(const mamori::EventLog& events, const Closing& closing) const;
+
+  private:
+    void add_series_line(const FrameFacts& facts, const mamori::sim::ArmPlant& plant);
+    void note_instants(const FrameFacts& facts, const mamori::sim::ArmPlant& plant);
+    std::string make_summary(const Closing& closing) const;
+    bool has_fault() const noexcept { return fault_.kind != mamori::sim::FaultKind::kNone; }
+
+    RunOptions options_;
+    mamori::sim::ArmModel model_;
+    mamori::sim::FaultPlan fault_;
+    mamori::Instant motion_start_;
+    mamori::Instant motion_end_;
+    mamori::sim::PhysicalVerdict verdict_;
+    std::string series_;
+    FrameFacts last_{};
+    std::optional<mamori::Instant> operational_at_{};
+    std::optional<mamori::Instant> detected_at_{};
+    std::optional<mamori::Instant> reacted_at_{};
+    bool is_injected_{false};
+    const char* detector_{nullptr};  ///< name of the fault, or of who noticed it; nullptr: nobody yet
+};
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_RUN_RECORD_HPP

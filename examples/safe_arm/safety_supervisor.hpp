@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The place of decision: latches faults, chooses the severest reaction, steps the safe-state machine,
+/// commands its outputs and serves the watchdog on proven health.
+///
+/// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015      Design: docs/design/safe_arm.md#reactions
+#ifndef EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
+#define EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
+
+#include <array>
+#include <cstdint>
+
+#include "arm_faults.hpp"
+#include "arm_limits.hpp"
+#include "mamori/kernel/event_log.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/safety/elapsed.hpp"
+#include "mamori/safety/execution_supervisor.hpp"
+#include "mamori/safety/fault_register.hpp"
+#include "mamori/safety/rising_edge.hpp"
+#include "mamori/safety/safe_state_machine.hpp"
+#include "mamori/safety/stop_outputs.hpp"
+#include "mamori/safety/watchdog_gate.hpp"
+#include "messages.hpp"
+
+namespace safe_arm {
+
+/// Codes of the events that the supervisor writes; arguments in brackets.
+enum class ArmEvent : std::uint16_t {
+    kStateEntered,     ///< [SafeState]
+    kFaultLatched,     ///< [ArmFault]
+    kReactionBegun,    ///< [Reaction]
+    kWatchdogRefused,  ///< [GlobalStatus]
+};
+
+class SafetySupervisor final : public mamori::Component {
+  public:
+    /// @param[in] supervision judges the components of this executive; must have static storage.
+    /// @param[in] controller  place of the controller in the system table.
+    /// @param[in] watchdog    serviced through the gate; static storage.
+    /// @param[in] log         takes the events; static storage.
+    constexpr SafetySupervisor(mamori::safety::ExecutionSupervisor& supervision, std::size_t controller,
+                               mamori::safety::Watchdog& watchdog, mamori::EventLog& log) noexcept
+        : Component("safety_supervisor"),
+          supervision_(supervision),
+          controller_(controller),
+          gate_(watchdog, kWatchdogWindow),
+          log_(log) {}
+
+    mamori::InPort<JointReading> reading{"reading"};
+    mamori::InPort<JointState> arm_state{"arm_state"};
+    mamori::OutPort<StopCommand> stop{"stop"};
+    using Ports =
+        mamori::Ports<&SafetySupervisor::reading, &SafetySupervisor::arm_state, &SafetySupervisor::stop>;
+
+    /// Sets the debouncing of the faults. @return kOk; else what the fault register refused.
+    mamori::Status on_initialize() noexcept override;
+    mamori::Status on_execute(mamori::ContextHandle context) noexcept override;
+
+    mamori::safety::SafeState get_state() const noexcept { return machine_.get_state(); }
+    /// Fault latched first since the start, also after it was acknowledged; kNoFault when there was none.
+    mamori::safety::FaultIndex get_first_fault() const noexcept { return first_fault_; }
+    /// Severest reaction begun since the start.
+    Reaction get_reaction() const noexcept { return worst_reaction_; }
+
+  private:
+    mamori::safety::SelfTestStatus step_self_test(const JointReading& now, mamori::Instant instant) noexcept;
+    void report_faults(mamori::safety::SelfTestStatus self_test, mamori::Instant instant) noexcept;
+    void follow_reset(const JointReading& now) noexcept;
+    bool is_sto_unconfirmed(const JointReading& now) noexcept;
+    void note_reaction(Reaction reaction, mamori::Instant instant) noexcept;
+    void serve_watchdog(mamori::safety::GlobalStatus health, bool is_trustworthy,
+                        mamori::Instant instant) noexcept;
+    void write_event(mamori::Instant instant, mamori::Severity severity, ArmEvent event,
+                     std::int64_t argument) noexcept;
+
+    mamori::safety::ExecutionSupervisor& supervision_;
+    std::size_t controller_;
+    std::array<mamori::safety::FaultRecord, kArmFaultCount> fault_storage_{};
+    mamori::safety::FaultRegister faults_{fault_storage_};
+    mamori::safety::SafeStateMachine machine_{kStopBounds};
+    mamori::safety::WatchdogGate gate_;
+    mamori::EventLog& log_;
+    mamori::safety::RisingEdge reset_edge_{};
+    mamori::Duration torque_despite_sto_for_{};
+    std::uint32_t good_frames_{0U};
+    mamori::Instant self_test_began_{};
+    mamori::safety::FaultIndex first_fault_{mamori::safety::kNoFault};
+    Reaction worst_reaction_{Reaction::kNone};
+    bool is_self_testing_{false};
+    bool is_watchdog_refused_{false};
+};
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP

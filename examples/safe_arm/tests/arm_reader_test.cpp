@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: counts become radians, feedback is passed on. Method: a process image filled here.
+#include "arm_reader.hpp"
+
+#include "feed.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::Status;
+using mamori::verification::Polarity;
+using mamori::verification::Technique;
+using mamori::verification::verifies;
+
+class ArmReaderTest : public ::testing::Test {
+  protected:
+    static EncoderScale make_scale() {
+        EncoderScale scale{};
+        scale.a_counts_per_rad.fill(1000.0);
+        scale.b_counts_per_rad.fill(100.0);
+        return scale;
+    }
+    mamori::safety::ArmInputs inputs_{};
+    ArmReader sut_{inputs_};
+};
+
+TEST_F(ArmReaderTest, CountsBecomeRadiansAndFeedbackIsPassedOn) {
+    verifies("SWR-SAF-004");
+    ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
+    inputs_.encoder_a_counts[2] = -1500;
+    inputs_.encoder_b_counts[6] = 25;
+    inputs_.brake_closed.fill(true);
+    inputs_.power_good = true;
+    inputs_.measured_torque_nm[1] = 4.5;
+
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    const JointReading reading = take(sut_.reading);
+    EXPECT_EQ(reading.position_a_rad[2], -1.5);
+    EXPECT_EQ(reading.position_b_rad[6], 0.25);
+    EXPECT_TRUE(reading.brakes_closed);
+    EXPECT_TRUE(reading.power_good);
+    EXPECT_EQ(reading.measured_torque_nm[1], 4.5);
+}
+
+TEST_F(ArmReaderTest, OneOpenBrakeIsNotClosedBrakes) {
+    verifies("SWR-SAF-004", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
+    inputs_.brake_closed.fill(true);
+    inputs_.brake_closed[5] = false;
+
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    EXPECT_FALSE(take(sut_.reading).brakes_closed);
+}
+
+TEST_F(ArmReaderTest, ReaderWithoutAUsableResolutionRefusesToStart) {
+    verifies("SWR-SAF-004", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(sut_.on_activated({}), Status::kPreconditionNotMet);
+    EncoderScale scale = make_scale();
+    scale.b_counts_per_rad[3] = 0.0;
+    EXPECT_EQ(sut_.configure(scale), Status::kBadParameter);
+    EXPECT_EQ(sut_.on_activated({}), Status::kPreconditionNotMet);
+
+    ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
+    EXPECT_EQ(sut_.on_activated({}), Status::kOk);
+}
+
+}  // namespace
+}  // namespace safe_arm

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: torque reaches the drives only in a frame in which the supervisor allows it. Method: one frame after
+// the other.
+#include "drive_gate.hpp"
+
+#include <limits>
+
+#include "arm_limits.hpp"
+#include "feed.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::Status;
+using mamori::verification::Polarity;
+using mamori::verification::Technique;
+using mamori::verification::verifies;
+
+class DriveGateTest : public ::testing::Test {
+  protected:
+    void allow(bool torque_enable) {
+        StopCommand stop{};
+        stop.torque_enable = torque_enable;
+        stop.brake_release = true;
+        feed(sut_.stop, stop);
+    }
+    void command(double torque_nm) {
+        TorqueCommand command{};
+        command.torque_nm.fill(torque_nm);
+        feed(sut_.command, command);
+    }
+    void expect_safe_outputs() const {
+        EXPECT_FALSE(outputs_.torque_enable);
+        EXPECT_FALSE(outputs_.brake_release);
+        EXPECT_EQ(outputs_.torque_nm, JointVector{});
+    }
+
+    mamori::safety::ArmOutputs outputs_{};
+    DriveGate sut_{outputs_};
+};
+
+TEST_F(DriveGateTest, AllowedTorqueReachesTheDrives) {
+    verifies("SWR-SAF-009");
+    allow(true);
+    command(3.0);
+
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    EXPECT_TRUE(outputs_.torque_enable);
+    EXPECT_TRUE(outputs_.brake_release);
+    EXPECT_EQ(outputs_.torque_nm[6], 3.0);
+    EXPECT_EQ(take(sut_.drive).torque_nm[6], 3.0);
+}
+
+TEST_F(DriveGateTest, PermissionOfAnEarlierFrameCountsForNothing) {
+    verifies("SWR-SAF-009", Technique::kFaultInjection, Polarity::kViolation);
+    allow(true);
+    command(3.0);
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+
+    sut_.stop.mark_read();
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    expect_safe_outputs();
+    EXPECT_FALSE(take(sut_.drive).torque_enable);
+}
+
+TEST_F(DriveGateTest, NoPermissionMeansSafeOutputsWhateverIsCommanded) {
+    verifies("SWR-SAF-009", Technique::kFaultInjection, Polarity::kViolation);
+    command(3.0);
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    expect_safe_outputs();
+
+    allow(false);
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    expect_safe_outputs();
+}
+
+TEST_F(DriveGateTest, TorqueIsSaturatedOnBothSidesAndNoNumberIsNoTorque) {
+    verifies("SWR-SAF-009", Technique::kBoundaryValues, Polarity::kViolation);
+    TorqueCommand command{};
+    command.torque_nm = {232.0,
+                         232.1,
+                         -232.0,
+                         -100.1,
+                         std::numeric_limits<double>::quiet_NaN(),
+                         std::numeric_limits<double>::infinity(),
+                         -std::numeric_limits<double>::infinity()};
+    command.torque_nm[2] = -100.0;
+    feed(sut_.command, command);
+    allow(true);
+
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    const JointVector expected{232.0, 232.0, -100.0, -100.0, 0.0, 14.5, -14.5};
+    EXPECT_EQ(outputs_.torque_nm, expected);
+}
+
+TEST_F(DriveGateTest, RunningGateKeepsWritingWhatIsAllowed) {
+    verifies("SWR-SAF-010");
+    for (int i = 0; i < 3; ++i) {
+        allow(true);
+        command(1.0 + i);
+        ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+        EXPECT_EQ(outputs_.torque_nm[0], 1.0 + i);
+    }
+}
+
+TEST_F(DriveGateTest, DeactivatedOrAbortedGateLeavesSafeOutputs) {
+    verifies("SWR-SAF-010", Technique::kStateTransition, Polarity::kViolation);
+    for (const bool is_aborted : {false, true}) {
+        allow(true);
+        command(3.0);
+        ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+        ASSERT_TRUE(outputs_.torque_enable);
+
+        ASSERT_EQ(is_aborted ? sut_.on_aborting({}) : sut_.on_deactivated({}), Status::kOk);
+        expect_safe_outputs();
+    }
+}
+
+}  // namespace
+}  // namespace safe_arm

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: each physical deviation is reported, and nothing is reported of a sound arm. Method: one frame after
+// the other with readings, messages and drive commands made here; both sides of each limit.
+#include "joint_monitor.hpp"
+
+#include <limits>
+
+#include "arm_limits.hpp"
+#include "feed.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::Duration;
+using mamori::Instant;
+using mamori::Status;
+using mamori::verification::Polarity;
+using mamori::verification::Technique;
+using mamori::verification::verifies;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+/// Just inside and just outside of a limit.
+constexpr double kInside = 0.999;
+constexpr double kOutside = 1.001;
+
+class JointMonitorTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        reading_.power_good = true;
+        reading_.brakes_closed = false;
+        reading_.torque_enabled = true;
+        drive_.torque_enable = true;
+        drive_.brake_release = true;
+        ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+    }
+
+    /// One frame with the fixture's reading, command and drive values.
+    JointState step() {
+        feed(sut_.reading, reading_);
+        if (is_command_sent_) {
+            command_.sent_at_ns = (now_ - Duration{700000}).ns;
+        }
+        feed(sut_.command, command_);
+        feed(sut_.drive, drive_);
+        EXPECT_EQ(sut_.on_execute({0, now_}), Status::kOk);
+        now_ = now_ + kFrame;
+        return take(sut_.state);
+    }
+    void place(std::size_t joint, double position_rad) {
+        reading_.position_a_rad[joint] = position_rad;
+        reading_.position_b_rad[joint] = position_rad;
+        command_.setpoint_rad[joint] = position_rad;
+    }
+    /// Moves a joint at constant speed for `frames` frames; returns the last state.
+    JointState move(std::size_t joint, double speed_rad_s, int frames) {
+        JointState last{};
+        for (int i = 0; i < frames; ++i) {
+            place(joint, reading_.position_a_rad[joint] + speed_rad_s * kFrameS);
+            last = step();
+        }
+        return last;
+    }
+
+    JointMonitor sut_;
+    JointReading reading_{};
+    TorqueCommand command_{};
+    DriveCommand drive_{};
+    Instant now_{1000000000};
+    bool is_command_sent_{true};
+};
+
+TEST_F(JointMonitorTest, SoundArmGivesNoFaultAndItsPosition) {
+    verifies("SWR-SAF-007");
+
+    step();
+    const JointState state = move(1U, 0.5, 20);
+
+    EXPECT_EQ(state.faults, 0U);
+    EXPECT_NEAR(state.position_rad[1], 0.01, 1e-12);
+    EXPECT_NEAR(state.velocity_rad_s[1], 0.5, 1e-9);
+    EXPECT_FALSE(state.is_standing);
+}
+
+TEST_F(JointMonitorTest, ChannelThatJumpsIsDistrustedAndTheOtherOneCounts) {
+    verifies("SWR-SAF-005", Technique::kFaultInjection, Polarity::kViolation);
+    step();
+
+    reading_.position_a_rad[3] = 0.7;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kEncoderImplausible));
+    reading_.position_b_rad[3] = 0.001;
+    const JointState state = step();
+    EXPECT_DOUBLE_EQ(state.position_rad[3], 0.001);
+    EXPECT_EQ(state.faults, to_bit(ArmFault::kEncoderImplausible));
+}
+
+TEST_F(JointMonitorTest, DistrustLastsUntilActivationEvenIfTheChannelComesBack) {
+    verifies("SWR-SAF-005", Technique::kFaultInjection, Polarity::kViolation);
+    step();
+    reading_.position_a_rad[3] = 0.7;
+    step();
+
+    reading_.position_a_rad[3] = 0.0;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kEncoderImplausible));
+    ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+    EXPECT_EQ(step().faults, 0U);
+}
+
+TEST_F(JointMonitorTest, StepThatTheJointCanMakeIsTrusted) {
+    verifies("SWR-SAF-005", Technique::kBoundaryValues);
+    step();
+
+    place(0U, kMaxStepRad[0] * kInside);
+    EXPECT_EQ(step().faults & to_bit(ArmFault::kEncoderImplausible), 0U);
+    reading_.position_a_rad[0] += kMaxStepRad[0] * kOutside;
+    EXPECT_NE(step().faults & to_bit(ArmFault::kEncoderImplausible), 0U);
+}
+
+TEST_F(JointMonitorTest, NumberThatIsNoneIsImplausible) {
+    verifies("SWR-SAF-005", Technique::kErrorGuessing, Polarity::kViolation);
+    step();
+
+    reading_.position_a_rad[2] = kNan;
+    reading_.position_b_rad[2] = kNan;
+    const JointState state = step();
+    EXPECT_EQ(state.faults, to_bit(ArmFault::kEncoderDiscrepancy));
+    EXPECT_EQ(state.position_rad[2], 0.0);
+}
+
+TEST_F(JointMonitorTest, ChannelsThatDisagreeAreReportedBeyondTheTolerance) {
+    verifies("SWR-SAF-006", Technique::kBoundaryValues, Polarity::kViolation);
+    reading_.position_b_rad[4] = kDiscrepancyRad * kInside;
+    EXPECT_EQ(step().faults, 0U);
+
+    reading_.position_b_rad[4] = kDiscrepancyRad * kOutside;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kEncoderDiscrepancy));
+    reading_.position_b_rad[4] = -kDiscrepancyRad * kOutside;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kEncoderDiscrepancy));
+}
+
+TEST_F(JointMonitorTest, BothChannelsStuckAreReportedWhenTheSetpointTravels) {
+    verifies("SWR-SAF-006", Technique::kFaultInjection, Polarity::kViolation);
+    step();
+
+    command_.setpoint_rad[5] = kStuckTravelRad * kInside;
+    EXPECT_EQ(step().faults, 0U);
+    command_.setpoint_rad[5] = kStuckTravelRad * kOutside;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kEncoderStuck));
+}
+
+TEST_F(JointMonitorTest, OneMovingCountEndsTheSuspicionOfBeingStuck) {
+    verifies("SWR-SAF-006");
+    step();
+
+    for (int i = 0; i < 20; ++i) {
+        command_.setpoint_rad[5] += 0.5 * kStuckTravelRad;
+        reading_.position_b_rad[5] += 1.0e-5;
+        EXPECT_EQ(step().faults & to_bit(ArmFault::kEncoderStuck), 0U);
+    }
+}
+
+TEST_F(JointMonitorTest, SpeedBeyondTheLimitIsReportedInBothDirections) {
+    verifies("SWR-SAF-007", Technique::kBoundaryValues, Polarity::kViolation);
+    step();
+
+    EXPECT_EQ(move(0U, kSafeSpeedRadS[0] * kInside, 8).faults, 0U);
+    EXPECT_EQ(move(0U, kSafeSpeedRadS[0] * kOutside, 8).faults, to_bit(ArmFault::kOverspeed));
+    EXPECT_EQ(move(0U, -kSafeSpeedRadS[0] * kOutside, 8).faults, to_bit(ArmFault::kOverspeed));
+}
+
+TEST_F(JointMonitorTest, PositionOutsideTheSafeRangeIsReportedOnBothSides) {
+    verifies("SWR-SAF-007", Technique::kBoundaryValues, Polarity::kViolation);
+    place(1U, kSafePositionRad[1] * kInside);
+    EXPECT_EQ(step().faults, 0U);
+
+    for (const double side : {1.0, -1.0}) {
+        ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+        place(1U, side * kSafePositionRad[1] * kOutside);
+        EXPECT_EQ(step().faults, to_bit(ArmFault::kPositionLimit));
+    }
+}
+
+TEST_F(JointMonitorTest, FollowingErrorCountsOnlyWhileTorqueIsOn) {
+    verifies("SWR-SAF-007", Technique::kBoundaryValues, Polarity::kViolation);
+    reading_.position_a_rad[0] = 1.0e-5;
+    step();
+    command_.setpoint_rad[0] = kFollowingErrorRad * kOutside + 1.0e-5;
+    reading_.position_a_rad[0] = 0.0;
+    EXPECT_NE(step().faults & to_bit(ArmFault::kFollowingError), 0U);
+
+    drive_.torque_enable = false;
+    drive_.brake_release = false;
+    reading_.brakes_closed = true;
+    EXPECT_EQ(step().faults, 0U);
+}
+
+TEST_F(JointMonitorTest, TorqueThatWasNotCommandedIsReported) {
+    verifies("SWR-SAF-007", Technique::kBoundaryValues, Polarity::kViolation);
+    drive_.torque_nm[6] = 5.0;
+    reading_.measured_torque_nm[6] = 5.0 + kTorqueDeviationShare * kTorqueLimitNm[6] * kInside;
+    EXPECT_EQ(step().faults, 0U);
+
+    reading_.measured_torque_nm[6] = 5.0 + kTorqueDeviationShare * kTorqueLimitNm[6] * kOutside;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kTorqueDeviation));
+    reading_.measured_torque_nm[6] = kNan;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kTorqueDeviation));
+}
+
+TEST_F(JointMonitorTest, MessageOlderThanItsLimitIsStale) {
+    verifies("SWR-SAF-008", Technique::kBoundaryValues, Polarity::kViolation);
+    is_command_sent_ = false;
+    command_.sent_at_ns = (now_ - kCommandAgeMax).ns;
+    EXPECT_EQ(step().faults, 0U);
+
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kCommandStale));
+    command_.sent_at_ns = now_.ns + 1;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kCommandStale)) << "a message from the future";
+}
+
+TEST_F(JointMonitorTest, FreshMessagesSoundSupplyAndObedientBrakesGiveNoFault) {
+    verifies("SWR-SAF-008");
+
+    for (int i = 0; i < 200; ++i) {
+        EXPECT_EQ(step().faults, 0U);
+    }
+}
+
+TEST_F(JointMonitorTest, LostSupplyIsReportedAtOnce) {
+    verifies("SWR-SAF-008", Technique::kFaultInjection, Polarity::kViolation);
+    step();
+
+    reading_.power_good = false;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kPowerLost));
+}
+
+TEST_F(JointMonitorTest, BrakeFeedbackMayContradictOnlyForItsTime) {
+    verifies("SWR-SAF-008", Technique::kBoundaryValues, Polarity::kViolation);
+    reading_.brakes_closed = true;
+    const auto tolerated = kBrakeFeedbackTime.ns / kFrame.ns;
+    for (std::int64_t i = 0; i < tolerated; ++i) {
+        ASSERT_EQ(step().faults, 0U) << i;
+    }
+
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kBrakeFault));
+    reading_.brakes_closed = false;
+    EXPECT_EQ(step().faults, 0U);
+}
+
+TEST_F(JointMonitorTest, StandstillNeedsTheWholeConfirmationTime) {
+    verifies("SWR-SAF-007", Technique::kBoundaryValues);
+    step();
+    move(2U, 0.5, 5);
+    const auto needed = kStandstillTime.ns / kFrame.ns;
+
+    // Four frames pass until the mean speed has forgotten the movement.
+    for (std::int64_t i = 0; i < needed + 2; ++i) {
+        ASSERT_FALSE(step().is_standing) << i;
+    }
+    step();
+    EXPECT_TRUE(step().is_standing);
+}
+
+}  // namespace
+}  // namespace safe_arm

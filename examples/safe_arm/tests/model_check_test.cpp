@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: no machine is run whose limits do not enclose the safe limits. Method: the shipped model, changed one
+// figure at a time.
+#include "model_check.hpp"
+
+#include "arm_limits.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::verification::Polarity;
+using mamori::verification::Technique;
+using mamori::verification::verifies;
+
+class ModelCheckTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        const mamori::sim::LoadedModel loaded = mamori::sim::load_arm_model(SAFE_ARM_MODEL_FILE);
+        ASSERT_TRUE(loaded.model.has_value()) << loaded.error;
+        model_ = *loaded.model;
+    }
+    void expect_refused(const std::string& joint, const std::string& figure) const {
+        const std::string refusal = check_model(model_);
+        EXPECT_NE(refusal.find("joint " + joint), std::string::npos) << refusal;
+        EXPECT_NE(refusal.find(figure), std::string::npos) << refusal;
+    }
+
+    mamori::sim::ArmModel model_;
+};
+
+TEST_F(ModelCheckTest, ShippedModelEnclosesTheSafeLimits) {
+    verifies("SWR-SAF-003");
+    EXPECT_EQ(check_model(model_), "");
+}
+
+TEST_F(ModelCheckTest, MachineSlowerThanTheSafeSpeedIsRefused) {
+    verifies("SWR-SAF-003", Technique::kBoundaryValues, Polarity::kViolation);
+    model_.joints[1].speed_limit_rad_s = kSafeSpeedRadS[1] + 1.0e-9;
+    EXPECT_EQ(check_model(model_), "");
+
+    model_.joints[1].speed_limit_rad_s = kSafeSpeedRadS[1];
+    expect_refused("J2", "speed_limit_rad_s");
+}
+
+TEST_F(ModelCheckTest, MachineFasterThanThePlausibleStepIsRefused) {
+    verifies("SWR-SAF-003", Technique::kBoundaryValues, Polarity::kViolation);
+    model_.joints[6].speed_limit_rad_s = kMaxStepRad[6] / kFrameS;
+    expect_refused("J7", "speed_limit_rad_s");
+}
+
+TEST_F(ModelCheckTest, RangeOnEitherSideTorqueAndCoarseEncoderAreJudged) {
+    verifies("SWR-SAF-003", Technique::kBoundaryValues, Polarity::kViolation);
+    const mamori::sim::ArmModel sound = model_;
+    model_.joints[2].position_min_rad = -kSafePositionRad[2];
+    expect_refused("J3", "position range");
+    model_ = sound;
+    model_.joints[2].position_max_rad = kSafePositionRad[2];
+    expect_refused("J3", "position range");
+    model_ = sound;
+    model_.joints[3].torque_limit_nm = 100.5;
+    expect_refused("J4", "torque_limit_nm");
+    model_ = sound;
+    model_.joints[4].encoder_b_counts_per_rad = 4.0 / kDiscrepancyRad;
+    expect_refused("J5", "encoder step");
+}
+
+}  // namespace
+}  // namespace safe_arm

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the controller follows its path, stops along it, and holds the measured position without torque.
+// Method: a short table, frame after frame, with the arm assumed to be where the setpoint was.
+#include "motion_controller.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include "arm_limits.hpp"
+#include "feed.hpp"
+#include "mamori/simbody_sim/computed_torque_controller.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::Instant;
+using mamori::Status;
+using mamori::safety::SafeState;
+using mamori::verification::Technique;
+using mamori::verification::verifies;
+
+constexpr Instant kBegin{10000000};
+
+class MotionControllerTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        const std::string path = ::testing::TempDir() + "motion_controller_test.dat";
+        std::ofstream{path} << "0 0 0 0 0 0 0 0\n1 0.5 0.5 0.5 0.5 0.5 0.5 0.5\n2 1 1 1 1 1 1 1\n";
+        std::string error;
+        ASSERT_TRUE(track_.read(path, kFrameS, error)) << error;
+        const mamori::sim::LoadedModel loaded = mamori::sim::load_arm_model(SAFE_ARM_MODEL_FILE);
+        ASSERT_TRUE(loaded.model.has_value()) << loaded.error;
+        law_ = std::make_unique<mamori::sim::ComputedTorqueController>(*loaded.model);
+        EXPECT_EQ(sut_.on_activated({1, now_}), Status::kPreconditionNotMet) << "not configured";
+        sut_.configure(track_, *law_, kBegin);
+        ASSERT_EQ(sut_.on_activated({1, now_}), Status::kOk);
+    }
+    TorqueCommand step(SafeState state, bool torque_enable, bool stop_requested = false) {
+        feed(sut_.state, measured_);
+        feed(sut_.stop, StopCommand{state, torque_enable, torque_enable, stop_requested});
+        EXPECT_EQ(sut_.on_execute({1, now_}), Status::kOk);
+        now_ = now_ + kFrame;
+        const TorqueCommand command = take(sut_.command);
+        measured_.position_rad = command.setpoint_rad;
+        return command;
+    }
+    TorqueCommand play(int frames) {
+        TorqueCommand command{};
+        for (int i = 0; i < frames; ++i) {
+            command = step(SafeState::kOperational, true);
+        }
+        return command;
+    }
+
+    MotionTrack track_;
+    std::unique_ptr<mamori::sim::ComputedTorqueController> law_;
+    MotionController sut_;
+    JointState measured_{};
+    Instant now_{};
+};
+
+TEST_F(MotionControllerTest, EachMessageCarriesItsNumberAndInstant) {
+    verifies("SWR-SAF-001");
+    const TorqueCommand first = step(SafeState::kStandby, false);
+    const TorqueCommand second = step(SafeState::kStandby, false);
+
+    EXPECT_EQ(second.sequence, first.sequence + 1U);
+    EXPECT_EQ(first.sent_at_ns, 0);
+    EXPECT_EQ(second.sent_at_ns, kFrame.ns);
+}
+
+TEST_F(MotionControllerTest, WithoutTorqueTheSetpointIsTheMeasuredPosition) {
+    verifies("SWR-SAF-012");
+    measured_.position_rad.fill(0.3);
+
+    EXPECT_EQ(step(SafeState::kStandby, false).setpoint_rad, measured_.position_rad);
+    EXPECT_NEAR(step(SafeState::kOperational, true).setpoint_rad[6], 0.3, 1e-12)
+        << "holds before the motion begins";
+}
+
+TEST_F(MotionControllerTest, PathIsFollowedFromItsInstantOn) {
+    verifies("SWR-SAF-012");
+    step(SafeState::kStandby, false);
+    play(9);
+    EXPECT_NEAR(step(SafeState::kOperational, true).setpoint_rad[0],
+                track_.calc_point(kFrameS).position_rad[0], 1e-12);
+
+    EXPECT_NEAR(play(499).setpoint_rad[0], track_.calc_point(500 * kFrameS).position_rad[0], 1e-9);
+}
+
+TEST_F(MotionControllerTest, PathIsNotBegunAwayFromItsFirstPoint) {
+    verifies("SWR-SAF-012", Technique::kErrorGuessing);
+    measured_.position_rad.fill(0.3);
+    step(SafeState::kStandby, false);
+
+    EXPECT_NEAR(play(100).setpoint_rad[0], 0.3, 1e-12);
+}
+
+TEST_F(MotionControllerTest, ControlledStopEndsAtRestOnThePath) {
+    verifies("SWR-SAF-012", Technique::kStateTransition);
+    step(SafeState::kStandby, false);
+    const double before = play(500).setpoint_rad[0];
+    double last = before;
+    double step_max = 0.0;
+    double last_step = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        const TorqueCommand command = step(SafeState::kProtectiveStopSs1, true, true);
+        last_step = command.setpoint_rad[0] - last;
+        step_max = std::fmax(step_max, last_step);
+        last = command.setpoint_rad[0];
+        for (const double position : command.setpoint_rad) {
+            ASSERT_NEAR(position, command.setpoint_rad[0], 1e-12) << "all joints of this path move alike";
+        }
+    }
+
+    EXPECT_EQ(last_step, 0.0);
+    EXPECT_LE(step_max, 0.5 * kFrameS + 1e-9) << "never faster than the path was";
+    EXPECT_NEAR(last - before, 0.5 * 0.5 * 0.15, 2e-3) << "uniform deceleration over 0.15 s from 0.5 rad/s";
+}
+
+}  // namespace
+}  // namespace safe_arm

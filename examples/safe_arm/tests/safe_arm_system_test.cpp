@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the tables of the example say what its design says. Method: the compiled tables are read row by row.
+#include "safe_arm_system.hpp"
+
+#include "mamori/verification/verifies.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::safety::calc_reaction;
+using mamori::safety::FaultIndex;
+using mamori::safety::FaultRecord;
+using mamori::safety::FaultRegister;
+using mamori::verification::Polarity;
+using mamori::verification::Technique;
+using mamori::verification::verifies;
+
+bool is_forward(const mamori::OutPortBase& source, const mamori::InPortBase& sink) {
+    for (const mamori::ConnectionRow& row : kSafeArm.connections) {
+        if (row.source == &source && row.sink == &sink) {
+            return row.is_forward_in_window;
+        }
+    }
+    ADD_FAILURE() << "no such connection";
+    return false;
+}
+
+TEST(SafeArmSystemTest, MeasurementIsJudgedAndAnsweredInItsFrame) {
+    verifies("SWR-SAF-017");
+
+    EXPECT_TRUE(is_forward(reader.reading, monitor.reading));
+    EXPECT_TRUE(is_forward(monitor.state, supervisor.arm_state));
+    EXPECT_LT(kSafeArm.windows[0].offset, kSafeArm.windows[3].offset) << "the gate runs after the supervisor";
+    EXPECT_EQ(kSafeArm.components[kSafeArm.windows[3].first_component], &gate);
+}
+
+TEST(SafeArmSystemTest, ControllerReachesTheDrivesThroughChannelAndGateOnly) {
+    verifies("SWR-SAF-017", Technique::kErrorGuessing, Polarity::kViolation);
+
+    for (const mamori::ConnectionRow& row : kSafeArm.connections) {
+        if (row.source == &controller.command) {
+            EXPECT_EQ(row.sink, &channel.in);
+        }
+    }
+}
+
+TEST(ArmReactionsTest, EachFaultAloneLeadsToItsRow) {
+    verifies("SWR-SAF-002", Technique::kFaultInjection, Polarity::kViolation);
+    for (std::size_t i = 0U; i < kArmFaultCount; ++i) {
+        std::array<FaultRecord, kArmFaultCount> storage{};
+        FaultRegister faults{storage};
+        faults.report(static_cast<FaultIndex>(i), true, mamori::Instant{});
+
+        const mamori::safety::ReactionDemand demand = calc_reaction(kArmReactions, faults);
+        EXPECT_EQ(demand.fault, i);
+        EXPECT_GE(demand.reaction, Reaction::kSs1) << kArmFaultNames[i];
+        EXPECT_EQ(demand.within, 2_ms);
+    }
+}
+
+TEST(ArmReactionsTest, NoFaultDemandsNothing) {
+    verifies("SWR-SAF-002");
+    std::array<FaultRecord, kArmFaultCount> storage{};
+    const FaultRegister faults{storage};
+
+    EXPECT_EQ(calc_reaction(kArmReactions, faults).reaction, Reaction::kNone);
+}
+
+}  // namespace
+}  // namespace safe_arm

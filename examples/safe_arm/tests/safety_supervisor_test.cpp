@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: one place turns observations into the declared reaction, starts only on purpose, and serves the
+// watchdog on proven health only. Method: frame after frame with readings, monitor results and component runs
+// made here.
+#include "safety_supervisor.hpp"
+
+#include "feed.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::Duration;
+using mamori::Instant;
+using mamori::Status;
+using mamori::safety::SafeState;
+using mamori::verification::Polarity;
+using mamori::verification::Technique;
+using mamori::verification::verifies;
+
+constexpr std::size_t kOther = 0U;
+constexpr std::size_t kController = 1U;
+
+class SpyWatchdog final : public mamori::safety::Watchdog {
+  public:
+    Status service(Instant) noexcept override {
+        ++services;
+        return Status::kOk;
+    }
+    int services{0};
+};
+
+class SafetySupervisorTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        using mamori::safety::SupervisionScope;
+        const mamori::safety::DeadlineLimits deadline{Duration{0}, kSafetyComponentMax};
+        ASSERT_EQ(supervision_.watch(kOther, {kAliveLimits, deadline, SupervisionScope::kGlobal}),
+                  Status::kOk);
+        ASSERT_EQ(supervision_.watch(kController, {kAliveLimits, deadline, SupervisionScope::kLocal}),
+                  Status::kOk);
+        ASSERT_EQ(sut_.initialize(), Status::kOk);
+        reading_.power_good = true;
+        reading_.brakes_closed = true;
+        state_.is_standing = true;
+        state_.is_setpoint_near = true;
+    }
+
+    /// One frame: the components run as `is_other_running_` and `is_controller_running_` say, then the
+    /// supervisor decides.
+    StopCommand step() {
+        if (is_other_running_) {
+            supervision_.on_component_started(kOther, now_);
+            supervision_.on_component_finished(kOther, now_ + 10_us);
+        }
+        if (is_controller_running_) {
+            supervision_.on_component_started(kController, now_);
+            supervision_.on_component_finished(kController, now_ + 10_us);
+        }
+        feed(sut_.reading, reading_);
+        feed(sut_.arm_state, state_);
+        EXPECT_EQ(sut_.on_execute({0, now_}), Status::kOk);
+        now_ = now_ + kFrame;
+        return take(sut_.stop);
+    }
+    StopCommand step_until(SafeState wanted, int frames_max) {
+        StopCommand command{};
+        for (int i = 0; i < frames_max && sut_.get_state() != wanted; ++i) {
+            command = step();
+        }
+        return command;
+    }
+    StopCommand operate() {
+        step_until(SafeState::kStandby, 100);
+        reading_.start_button = true;
+        StopCommand command = step();
+        reading_.start_button = false;
+        reading_.brakes_closed = false;
+        reading_.torque_enabled = true;
+        return command;
+    }
+
+    mamori::safety::ExecutionStorage<2U> storage_;
+    mamori::safety::ExecutionSupervisor supervision_{storage_, kLatenessMax};
+    std::array<mamori::Event, 32U> events_{};
+    mamori::EventLog log_{events_};
+    SpyWatchdog watchdog_;
+    SafetySupervisor sut_{supervision_, kController, watchdog_, log_};
+    JointReading reading_{};
+    JointState state_{};
+    Instant now_{};
+    bool is_other_running_{true};
+    bool is_controller_running_{true};
+};
+
+TEST_F(SafetySupervisorTest, PassedSelfTestAndDeliberateStartLeadToOperation) {
+    verifies("SWR-SAF-014", Technique::kStateTransition);
+
+    const StopCommand command = operate();
+    EXPECT_EQ(command.state, SafeState::kOperational);
+    EXPECT_TRUE(command.torque_enable);
+    EXPECT_TRUE(command.brake_release);
+}
+
+TEST_F(SafetySupervisorTest, SelfTestNeedsItsGoodFramesInARow) {
+    verifies("SWR-SAF-014", Technique::kBoundaryValues, Polarity::kViolation);
+    for (std::uint32_t i = 0U; i < kSelfTestFrames; ++i) {
+        ASSERT_EQ(step().state, SafeState::kSelfTest);
+    }
+    reading_.brakes_closed = false;
+    EXPECT_EQ(step().state, SafeState::kSelfTest);
+    reading_.brakes_closed = true;
+    for (std::uint32_t i = 0U; i < kSelfTestFrames; ++i) {
+        ASSERT_EQ(step().state, SafeState::kSelfTest) << i;
+    }
+    EXPECT_EQ(step().state, SafeState::kStandby);
+}
+
+TEST_F(SafetySupervisorTest, SelfTestThatNeverPassesLocksOut) {
+    verifies("SWR-SAF-014", Technique::kFaultInjection, Polarity::kViolation);
+    reading_.brakes_closed = false;
+
+    step_until(SafeState::kLockedOut, 600);
+    EXPECT_EQ(sut_.get_state(), SafeState::kLockedOut);
+    EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kSelfTestFailed));
+}
+
+TEST_F(SafetySupervisorTest, StartIsRefusedWithoutItsPreconditions) {
+    verifies("SWR-SAF-014", Technique::kErrorGuessing, Polarity::kViolation);
+    reading_.start_button = true;
+    step_until(SafeState::kStandby, 100);
+    EXPECT_EQ(step().state, SafeState::kStandby) << "held since power-up: no edge";
+    reading_.start_button = false;
+    step();
+    state_.is_setpoint_near = false;
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kStandby) << "setpoint away from the measured position";
+    state_.is_setpoint_near = true;
+    EXPECT_EQ(step().state, SafeState::kStandby) << "the push of the frame before counts for nothing";
+}
+
+TEST_F(SafetySupervisorTest, FaultStopsTorqueInTheSameFrameAndStaysLatched) {
+    verifies("SWR-SAF-013", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+
+    state_.faults = to_bit(ArmFault::kPowerLost);
+    EXPECT_FALSE(step().torque_enable);
+    EXPECT_EQ(sut_.get_state(), SafeState::kSafe);
+    state_.faults = 0U;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kPowerLost));
+    EXPECT_EQ(sut_.get_reaction(), Reaction::kSto);
+}
+
+TEST_F(SafetySupervisorTest, FaultFreeOperationGoesOn) {
+    verifies("SWR-SAF-013");
+    operate();
+
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(step().state, SafeState::kOperational);
+    }
+    EXPECT_EQ(sut_.get_reaction(), Reaction::kNone);
+}
+
+TEST_F(SafetySupervisorTest, FaultIsLatchedAfterItsConfirmationAndNotBefore) {
+    verifies("SWR-SAF-013", Technique::kBoundaryValues, Polarity::kViolation);
+    operate();
+    state_.faults = to_bit(ArmFault::kTorqueDeviation);
+    step();
+    ASSERT_EQ(step().state, SafeState::kOperational);
+    state_.faults = 0U;
+    step();
+    state_.faults = to_bit(ArmFault::kTorqueDeviation);
+    step();
+    ASSERT_EQ(step().state, SafeState::kOperational);
+
+    EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
+TEST_F(SafetySupervisorTest, ControlledStopEndsSafeWhenItIsConfirmed) {
+    verifies("SWR-SAF-013", Technique::kStateTransition);
+    operate();
+    state_.is_standing = false;
+    state_.faults = to_bit(ArmFault::kEncoderImplausible);
+    const StopCommand command = step();
+    EXPECT_EQ(command.state, SafeState::kProtectiveStopSs1);
+    EXPECT_TRUE(command.torque_enable);
+    EXPECT_TRUE(command.stop_requested);
+
+    state_.is_standing = true;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
+TEST_F(SafetySupervisorTest, ControlledStopThatIsIgnoredBecomesTorqueOff) {
+    verifies("SWR-SAF-013", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    state_.is_standing = false;
+    state_.faults = to_bit(ArmFault::kEncoderImplausible);
+    const auto bound = kStopBounds.ss1_within.ns / kFrame.ns;
+    for (std::int64_t i = 0; i < bound; ++i) {
+        ASSERT_EQ(step().state, SafeState::kProtectiveStopSs1) << i;
+    }
+
+    EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
+TEST_F(SafetySupervisorTest, SeverestOfSeveralFaultsDecides) {
+    verifies("SWR-SAF-013", Technique::kEquivalenceClasses, Polarity::kViolation);
+    operate();
+    state_.is_standing = false;
+
+    state_.faults = to_bit(ArmFault::kEncoderImplausible) | to_bit(ArmFault::kFollowingError);
+    EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
+TEST_F(SafetySupervisorTest, SilentControllerIsAFaultAndLeavesTheWatchdogServed) {
+    verifies("SWR-SAF-013", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    is_controller_running_ = false;
+    supervision_.on_budget_overrun(1U, kController, now_);
+    const int before = watchdog_.services;
+
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kControllerSilent));
+    EXPECT_EQ(watchdog_.services, before + 1);
+}
+
+TEST_F(SafetySupervisorTest, ResetBringsTheMachineBackOnlyWhenTheFaultIsGone) {
+    verifies("SWR-SAF-013", Technique::kStateTransition, Polarity::kViolation);
+    operate();
+    state_.faults = to_bit(ArmFault::kOverspeed);
+    step_until(SafeState::kSafe, 10);
+    reading_.torque_enabled = false;
+    reading_.brakes_closed = true;
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe) << "still present";
+    state_.faults = 0U;
+    EXPECT_EQ(step().state, SafeState::kSafe) << "no new push";
+
+    reading_.reset_button = false;
+    step();
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSelfTest);
+}
+
+TEST_F(SafetySupervisorTest, WatchdogIsServedWhileTheSafetyPartitionIsHealthy) {
+    verifies("SWR-SAF-015");
+    for (int i = 1; i <= 50; ++i) {
+        step();
+        EXPECT_EQ(watchdog_.services, i);
+    }
+}
+
+TEST_F(SafetySupervisorTest, WatchdogIsNotServedOnceASafetyComponentFailed) {
+    verifies("SWR-SAF-015", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    supervision_.on_budget_overrun(0U, kOther, now_);
+    const int before = watchdog_.services;
+    step();
+    EXPECT_EQ(watchdog_.services, before);
+    step();
+    EXPECT_EQ(watchdog_.services, before) << "running again does not help";
+}
+
+TEST_F(SafetySupervisorTest, TorqueThatCannotBeSwitchedOffIsLeftToTheWatchdog) {
+    verifies("SWR-SAF-015", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    state_.faults = to_bit(ArmFault::kPowerLost);
+    step();
+    const auto tolerated = kStoFeedbackTime.ns / kFrame.ns;
+    for (std::int64_t i = 0; i < tolerated; ++i) {
+        ASSERT_EQ(step().state, SafeState::kSafe) << i;
+    }
+    const int before = watchdog_.services;
+
+    EXPECT_EQ(step().state, SafeState::kLockedOut);
+    EXPECT_EQ(watchdog_.services, before);
+}
+
+}  // namespace
+}  // namespace safe_arm
