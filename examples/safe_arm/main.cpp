@@ -62,7 +62,7 @@ int run_scenario(const safe_arm::RunOptions& options) {
     }
     safe_arm::executive.set_observer(&safe_arm::supervision);
 
-    std::array<Duration, decltype(safe_arm::kSafeArm)::kComponentCount> times{};
+    std::array<Duration, safe_arm::kComponentCount> times{};
     times.fill(safe_arm::kSafetyComponentTime);
     times[safe_arm::kControllerIndex] = safe_arm::kControllerTime;
     mamori::ports::virtual_time::VirtualHost host{times};

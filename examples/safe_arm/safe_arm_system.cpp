@@ -1,7 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
+// The static table of the example: read it as a drawing.
 #include "safe_arm_system.hpp"
 
 namespace safe_arm {
+
+// Components are defined beside their table: the compiler then compares their addresses under every
+// sanitizer.
+mamori::safety::ArmInputs inputs;
+mamori::safety::ArmOutputs outputs;
+static std::array<mamori::Event, 256U> event_storage;
+mamori::EventLog event_log{event_storage};
+mamori::ports::virtual_time::VirtualWatchdog watchdog{kWatchdogTimeout};
+static mamori::safety::ExecutionStorage<kComponentCount> supervision_storage;
+mamori::safety::ExecutionSupervisor supervision{supervision_storage, kLatenessMax};
+
+ArmReader reader{inputs};
+JointMonitor monitor;
+SafetySupervisor supervisor{supervision, kControllerIndex, watchdog, event_log};
+MotionController controller;
+mamori::ports::virtual_time::SimulatedChannel<TorqueCommand, kChannelCapacity> channel{"channel"};
+DriveGate gate{outputs};
+
+static constexpr auto kSafeArm = mamori::system(
+    mamori::frame(kFrame),
+    mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
+    mamori::window("control", 300_us, 400_us, mamori::budget(350_us), mamori::run(controller)),
+    mamori::window("transport", 700_us, 100_us, mamori::budget(80_us), mamori::run(channel)),
+    mamori::window("act", 800_us, 100_us, mamori::budget(80_us), mamori::run(gate)),
+    mamori::connect(reader.reading, monitor.reading), mamori::connect(channel.out, monitor.command),
+    mamori::connect(gate.drive, monitor.drive), mamori::connect(reader.reading, supervisor.reading),
+    mamori::connect(monitor.state, supervisor.arm_state), mamori::connect(monitor.state, controller.state),
+    mamori::connect(supervisor.stop, controller.stop), mamori::connect(controller.command, channel.in),
+    mamori::connect(supervisor.stop, gate.stop), mamori::connect(channel.out, gate.command));
+MAMORI_CHECK(kSafeArm);
+
+static_assert(kSafeArm.components.size() == kComponentCount && kSafeArm.components[kReaderIndex] == &reader &&
+              kSafeArm.components[kMonitorIndex] == &monitor &&
+              kSafeArm.components[kSupervisorIndex] == &supervisor &&
+              kSafeArm.components[kControllerIndex] == &controller &&
+              kSafeArm.components[kChannelIndex] == &channel && kSafeArm.components[kGateIndex] == &gate);
+
+static mamori::ExecutiveFor executive_of_table{kSafeArm};
+mamori::Executive& executive = executive_of_table;
 
 mamori::Status watch_components() noexcept {
     using mamori::safety::SupervisionScope;

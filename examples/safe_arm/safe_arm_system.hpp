@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The system of the example: its components and the static table that wires them. Read it as a drawing.
+/// The components of the example and the executive of the static table that wires them.
 ///
 /// @satisfies SWR-SAF-017      Design: docs/design/safe_arm.md#components
 #ifndef EXAMPLES_SAFE_ARM_SAFE_ARM_SYSTEM_HPP
@@ -32,45 +32,25 @@ inline constexpr std::size_t kComponentCount = 6U;
 /// Messages that the channel can hold back: a delay of 63 ms at one message per frame.
 inline constexpr std::size_t kChannelCapacity = 64U;
 
-inline mamori::safety::ArmInputs inputs;
-inline mamori::safety::ArmOutputs outputs;
-inline std::array<mamori::Event, 256U> event_storage;
-inline mamori::EventLog event_log{event_storage};
-inline mamori::ports::virtual_time::VirtualWatchdog watchdog{kWatchdogTimeout};
-inline mamori::safety::ExecutionStorage<kComponentCount> supervision_storage;
-inline mamori::safety::ExecutionSupervisor supervision{supervision_storage, kLatenessMax};
+extern mamori::safety::ArmInputs inputs;
+extern mamori::safety::ArmOutputs outputs;
+extern mamori::EventLog event_log;
+extern mamori::ports::virtual_time::VirtualWatchdog watchdog;
+extern mamori::safety::ExecutionSupervisor supervision;
 
-inline ArmReader reader{inputs};
-inline JointMonitor monitor;
-inline SafetySupervisor supervisor{supervision, kControllerIndex, watchdog, event_log};
-inline MotionController controller;
-inline mamori::ports::virtual_time::SimulatedChannel<TorqueCommand, kChannelCapacity> channel{"channel"};
-inline DriveGate gate{outputs};
+extern ArmReader reader;
+extern JointMonitor monitor;
+extern SafetySupervisor supervisor;
+extern MotionController controller;
+extern mamori::ports::virtual_time::SimulatedChannel<TorqueCommand, kChannelCapacity> channel;
+extern DriveGate gate;
 
-inline constexpr auto kSafeArm = mamori::system(
-    mamori::frame(kFrame),
-    mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
-    mamori::window("control", 300_us, 400_us, mamori::budget(350_us), mamori::run(controller)),
-    mamori::window("transport", 700_us, 100_us, mamori::budget(80_us), mamori::run(channel)),
-    mamori::window("act", 800_us, 100_us, mamori::budget(80_us), mamori::run(gate)),
-    mamori::connect(reader.reading, monitor.reading), mamori::connect(channel.out, monitor.command),
-    mamori::connect(gate.drive, monitor.drive), mamori::connect(reader.reading, supervisor.reading),
-    mamori::connect(monitor.state, supervisor.arm_state), mamori::connect(monitor.state, controller.state),
-    mamori::connect(supervisor.stop, controller.stop), mamori::connect(controller.command, channel.in),
-    mamori::connect(supervisor.stop, gate.stop), mamori::connect(channel.out, gate.command));
-MAMORI_CHECK(kSafeArm);
-
-static_assert(kSafeArm.components.size() == kComponentCount && kSafeArm.components[kReaderIndex] == &reader &&
-              kSafeArm.components[kChannelIndex] == &channel &&
-              kSafeArm.components[kSupervisorIndex] == &supervisor &&
-              kSafeArm.components[kControllerIndex] == &controller &&
-              kSafeArm.components[kGateIndex] == &gate && kSafeArm.components[kMonitorIndex] == &monitor);
+/// Runs the static table, which is in safe_arm_system.cpp.
+extern mamori::Executive& executive;
 
 /// Modelled execution times.
 inline constexpr mamori::Duration kSafetyComponentTime = 30_us;
 inline constexpr mamori::Duration kControllerTime = 120_us;
-
-inline mamori::ExecutiveFor executive{kSafeArm};
 
 /// Puts the components under supervision. The channel carries and does not decide; what it does wrong shows
 /// in its messages. The controller is not safety-related: its failure is a fault with a reaction and leaves

@@ -16,7 +16,7 @@ using mamori::verification::Technique;
 using mamori::verification::verifies;
 
 bool is_forward(const mamori::OutPortBase& source, const mamori::InPortBase& sink) {
-    for (const mamori::ConnectionRow& row : kSafeArm.connections) {
+    for (const mamori::ConnectionRow& row : executive.get_view().connections) {
         if (row.source == &source && row.sink == &sink) {
             return row.is_forward_in_window;
         }
@@ -30,14 +30,15 @@ TEST(SafeArmSystemTest, MeasurementIsJudgedAndAnsweredInItsFrame) {
 
     EXPECT_TRUE(is_forward(reader.reading, monitor.reading));
     EXPECT_TRUE(is_forward(monitor.state, supervisor.arm_state));
-    EXPECT_LT(kSafeArm.windows[0].offset, kSafeArm.windows[3].offset) << "the gate runs after the supervisor";
-    EXPECT_EQ(kSafeArm.components[kSafeArm.windows[3].first_component], &gate);
+    EXPECT_LT(executive.get_view().windows[0].offset, executive.get_view().windows[3].offset)
+        << "the gate runs after the supervisor";
+    EXPECT_EQ(executive.get_view().components[executive.get_view().windows[3].first_component], &gate);
 }
 
 TEST(SafeArmSystemTest, ControllerReachesTheDrivesThroughChannelAndGateOnly) {
     verifies("SWR-SAF-017", Technique::kErrorGuessing, Polarity::kViolation);
 
-    for (const mamori::ConnectionRow& row : kSafeArm.connections) {
+    for (const mamori::ConnectionRow& row : executive.get_view().connections) {
         if (row.source == &controller.command) {
             EXPECT_EQ(row.sink, &channel.in);
         }
