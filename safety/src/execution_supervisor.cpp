@@ -15,7 +15,7 @@ constexpr GlobalStatus to_global(LocalStatus status) noexcept {
 }  // namespace
 
 Status ExecutionSupervisor::watch(std::size_t component, const ComponentLimits& limits) noexcept {
-    if (component >= components_.size() || !is_valid(limits.alive) || !is_valid(limits.deadline)) {
+    if (!is_valid(limits.deadline)) {
         return Status::kBadParameter;
     }
     const Status result = alive_.watch(component, limits.alive);

@@ -111,6 +111,12 @@ TEST_F(AliveSupervisorTest, RefusesLimitsAndSlotsOutOfRange) {
     EXPECT_EQ(sut_.step(), AliveVerdict::kExpired) << "a refused watch() must not change the limits in use";
 }
 
+TEST_F(AliveSupervisorTest, MissingStorageGoesToTheAssertionHandler) {
+    verifies("SWR-SUP-001", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_DEATH(AliveSupervisor{Span<AliveSlot>{}}, "");
+}
+
 TEST_F(AliveSupervisorTest, ExpiredEntityStaysExpiredEvenIfItReportsAgain) {
     verifies("SWR-SUP-002", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(sut_.watch(0U, {1U, 2U}), Status::kOk);

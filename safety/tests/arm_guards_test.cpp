@@ -82,6 +82,17 @@ TEST(ArmGuardsTest, PositionInsideItsRangePassesBothEndsIncluded) {
     }
 }
 
+TEST(ArmGuardsTest, WidestRangePassesEveryFinitePosition) {
+    verifies("SWR-ARM-002", Technique::kBoundaryValues);
+    constexpr double kLargest = std::numeric_limits<double>::max();
+    JointRanges ranges;
+    ranges.fill({-kLargest, kLargest});
+
+    EXPECT_TRUE(are_valid(ranges));
+    EXPECT_TRUE(calc_position_violations(with(kZero, 1U, kLargest), ranges).is_empty());
+    EXPECT_TRUE(calc_position_violations(with(kZero, 1U, -kLargest), ranges).is_empty());
+}
+
 TEST(ArmGuardsTest, PositionOutsideItsRangeNamesTheJoint) {
     verifies("SWR-ARM-002", Technique::kBoundaryValues, Polarity::kViolation);
 
@@ -248,11 +259,20 @@ TEST(StandstillDetectorTest, SingleJointAboveItsLimitBeginsTheTimeAnew) {
     }
 }
 
+TEST(StandstillDetectorTest, LimitsThatCannotProtectGoToTheAssertionHandler) {
+    verifies("SWR-ARM-008", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_DEATH((StandstillDetector{kZero, Duration{0}}), "");
+    EXPECT_DEATH((StandstillDetector{with(kLimits, 2U, kNan), Duration{0}}), "");
+    EXPECT_DEATH((StandstillDetector{kLimits, Duration{-1}}), "");
+}
+
 TEST(StandstillDetectorTest, ClockThatRunsBackwardsBeginsTheTimeAnew) {
     verifies("SWR-ARM-008", Technique::kFaultInjection, Polarity::kViolation);
     StandstillDetector sut{kLimits, Duration{100}};
     ASSERT_FALSE(sut.step(kZero, Instant{0}));
     ASSERT_TRUE(sut.step(kZero, Instant{200}));
+    ASSERT_TRUE(sut.step(kZero, Instant{200})) << "a clock that stands does not";
 
     EXPECT_FALSE(sut.step(kZero, Instant{150}));
     EXPECT_TRUE(sut.step(kZero, Instant{250}));

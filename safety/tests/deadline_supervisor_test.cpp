@@ -77,10 +77,17 @@ TEST_F(DeadlineSupervisorTest, RefusesLimitsAndSlotsOutOfRange) {
     EXPECT_EQ(sut_.watch(1U, {0_ns, 0_ns}), Status::kBadParameter);
     EXPECT_EQ(sut_.watch(0U, {0_ns, 1_s}), Status::kPreconditionNotMet);
     EXPECT_EQ(sut_.start(1U, Instant{0}), Status::kBadParameter);
+    EXPECT_EQ(sut_.start(2U, Instant{0}), Status::kBadParameter);
     EXPECT_EQ(sut_.finish(1U, Instant{0}), Status::kBadParameter);
     EXPECT_EQ(sut_.acknowledge(1U), Status::kBadParameter);
     EXPECT_EQ(sut_.watch(1U, {1_ns, 1_ns}), Status::kOk);
     EXPECT_FALSE(sut_.step(Instant{0}));
+}
+
+TEST_F(DeadlineSupervisorTest, MissingStorageGoesToTheAssertionHandler) {
+    verifies("SWR-SUP-003", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_DEATH(DeadlineSupervisor{Span<DeadlineSlot>{}}, "");
 }
 
 TEST_F(DeadlineSupervisorTest, RunThatIsStillUnderWayAtItsLimitIsHealthy) {

@@ -208,6 +208,15 @@ TEST_F(ExecutionSupervisorTest, ComponentThatExpiredFirstIsNamedUntilItIsAcknowl
     EXPECT_EQ(sut_.get_first_expired(), kControl);
 }
 
+TEST_F(ExecutionSupervisorTest, LowestIndexIsNamedAmongThoseThatExpireInOneCycle) {
+    verifies("SWR-SUP-008", Technique::kBoundaryValues, Polarity::kViolation);
+    sut_.on_budget_overrun(0U, kLogger, now_);
+    sut_.on_budget_overrun(0U, kMonitor, now_);
+    static_cast<void>(end_cycle());
+
+    EXPECT_EQ(sut_.get_first_expired(), kMonitor);
+}
+
 TEST_F(ExecutionSupervisorTest, ComponentIndexBeyondTheStorageGoesToTheAssertionHandler) {
     verifies("SWR-SUP-008", Technique::kErrorGuessing, Polarity::kViolation);
     EXPECT_DEATH(sut_.on_component_started(3U, now_), "");
@@ -267,6 +276,7 @@ TEST_F(ExecutionSupervisorTest, LatenessWithinItsLimitIsTolerated) {
     verifies("SWR-SUP-010", Technique::kBoundaryValues);
     ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
     run(kControl);
+    sut_.on_late_release(0U, Duration{0}, now_);
     sut_.on_late_release(1U, 10_us, now_);
 
     EXPECT_EQ(end_cycle(), GlobalStatus::kOk);

@@ -76,6 +76,7 @@ TEST_F(FaultRegisterTest, FaultBeyondTheRegisterGoesToTheAssertionHandler) {
     verifies("SWR-FLT-001", Technique::kErrorGuessing, Polarity::kViolation);
 
     EXPECT_DEATH(sut_.report(4U, true, Instant{}), "");
+    EXPECT_DEATH(FaultRegister{Span<FaultRecord>{}}, "");
 }
 
 TEST_F(FaultRegisterTest, LatchedFaultKeepsTheInstantsOfItsFirstOccurrence) {
@@ -93,6 +94,7 @@ TEST_F(FaultRegisterTest, LatchedFaultKeepsTheInstantsOfItsFirstOccurrence) {
     report(0U, true);
     EXPECT_EQ(sut_.get_record(0U).seen_at, Instant{20});
     EXPECT_EQ(sut_.get_record(0U).latched_at, Instant{30});
+    EXPECT_EQ(sut_.get_record(0U).present_cycles, 2U) << "held at the number that confirms";
     EXPECT_EQ(sut_.get_record(0U).occurrences, 2U) << "a fault that stays is one occurrence";
     EXPECT_EQ(sut_.get_latched_count(), 1U);
 }
@@ -124,6 +126,17 @@ TEST_F(FaultRegisterTest, FirstFaultIsTheOneLatchedFirstWhateverItsNumber) {
     EXPECT_EQ(sut_.get_first(), 0U) << "a fault that comes back is the last one";
 }
 
+TEST_F(FaultRegisterTest, OrderSurvivesTheAcknowledgementOfAllButOne) {
+    verifies("SWR-FLT-002", Technique::kErrorGuessing, Polarity::kViolation);
+    report(3U, true);
+    report(2U, true);
+    report(3U, false);
+    ASSERT_EQ(sut_.acknowledge(3U), Status::kOk);
+
+    report(0U, true);
+    EXPECT_EQ(sut_.get_first(), 2U);
+}
+
 TEST_F(FaultRegisterTest, AcknowledgedFaultIsClearedOnceItIsGone) {
     verifies("SWR-FLT-003");
     report(0U, true);
@@ -131,6 +144,7 @@ TEST_F(FaultRegisterTest, AcknowledgedFaultIsClearedOnceItIsGone) {
 
     EXPECT_EQ(sut_.acknowledge(0U), Status::kOk);
     EXPECT_FALSE(sut_.is_latched(0U));
+    EXPECT_EQ(sut_.get_record(0U).order, 0U);
     EXPECT_EQ(sut_.get_first(), kNoFault);
     report(0U, true);
     EXPECT_TRUE(sut_.is_latched(0U)) << "it is latched again when it comes back";

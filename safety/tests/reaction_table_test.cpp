@@ -16,15 +16,16 @@ using verification::verifies;
 
 using literals::operator""_ms;
 
-enum class Fault : FaultIndex { kNoise, kWarm, kSlip, kFast, kTorn, kFastAndUrgent, kCount };
+enum class Fault : FaultIndex { kNoise, kWarm, kSlip, kFast, kTorn, kFastAndUrgent, kSlow, kCount };
 
-constexpr std::array<ReactionRow, 6U> kTable{{
+constexpr std::array<ReactionRow, 7U> kTable{{
     react(Fault::kSlip, Reaction::kSs2, 30_ms),
     react(Fault::kNoise, Reaction::kNone, 100_ms),
     react(Fault::kTorn, Reaction::kSto, 2_ms),
     react(Fault::kWarm, Reaction::kDegrade, 50_ms),
     react(Fault::kFast, Reaction::kSs1, 20_ms),
     react(Fault::kFastAndUrgent, Reaction::kSs1, 5_ms),
+    react(Fault::kSlow, Reaction::kSs1, 40_ms),
 }};
 static_assert(covers_all<kTable, Fault::kCount>());
 
@@ -59,7 +60,8 @@ TEST_F(ReactionTableTest, WorstOfEverySubsetOfFaultsDecides) {
     verifies("SWR-FLT-005", Technique::kEquivalenceClasses, Polarity::kViolation);
     // By fault number, written down again: what each fault asks for.
     constexpr std::array<Reaction, kFaultCount> kWanted{Reaction::kNone, Reaction::kDegrade, Reaction::kSs2,
-                                                        Reaction::kSs1,  Reaction::kSto,     Reaction::kSs1};
+                                                        Reaction::kSs1,  Reaction::kSto,     Reaction::kSs1,
+                                                        Reaction::kSs1};
 
     for (unsigned subset = 0U; subset < (1U << kFaultCount); ++subset) {
         std::array<FaultRecord, kFaultCount> records{};
@@ -81,7 +83,32 @@ TEST_F(ReactionTableTest, ShortestTimeDecidesAmongEquallySevereFaults) {
 
     latch(Fault::kFastAndUrgent);
     EXPECT_EQ(calc_reaction(kTable, faults_).within, 5_ms);
+    latch(Fault::kSlow);
+    latch(Fault::kWarm);
+    EXPECT_EQ(calc_reaction(kTable, faults_).within, 5_ms);
     EXPECT_EQ(calc_reaction(kTable, faults_).fault, static_cast<FaultIndex>(Fault::kFastAndUrgent));
+}
+
+TEST_F(ReactionTableTest, LesserReactionWithLessTimeDoesNotDecide) {
+    verifies("SWR-FLT-005", Technique::kErrorGuessing, Polarity::kViolation);
+    constexpr std::array<ReactionRow, 2U> kUrgentWarning{{
+        {0U, Reaction::kSs1, 50_ms},
+        {1U, Reaction::kDegrade, 1_ms},
+    }};
+    faults_.report(0U, true, Instant{1});
+    faults_.report(1U, true, Instant{1});
+
+    EXPECT_EQ(calc_reaction(kUrgentWarning, faults_).reaction, Reaction::kSs1);
+    EXPECT_EQ(calc_reaction(kUrgentWarning, faults_).within, 50_ms);
+}
+
+TEST_F(ReactionTableTest, LowestFaultNumberIsNamedAmongEquals) {
+    verifies("SWR-FLT-005", Technique::kBoundaryValues);
+    constexpr std::array<ReactionRow, 2U> kTwins{{{3U, Reaction::kSs1, 5_ms}, {2U, Reaction::kSs1, 5_ms}}};
+    faults_.report(3U, true, Instant{1});
+    faults_.report(2U, true, Instant{2});
+
+    EXPECT_EQ(calc_reaction(kTwins, faults_).fault, 2U);
 }
 
 TEST_F(ReactionTableTest, ReactionStaysUntilTheFaultIsAcknowledged) {

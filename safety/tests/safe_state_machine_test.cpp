@@ -151,6 +151,13 @@ TEST_F(SafeStateMachineTest, LeavingTheHeldPositionIsAStopSs1) {
     EXPECT_EQ(step(), SafeState::kProtectiveStopSs1);
 }
 
+TEST_F(SafeStateMachineTest, StopWithoutABoundGoesToTheAssertionHandler) {
+    verifies("SWR-FSM-004", Technique::kBoundaryValues, Polarity::kViolation);
+
+    EXPECT_DEATH((SafeStateMachine{{Duration{0}, Duration{1}}}), "");
+    EXPECT_DEATH((SafeStateMachine{{Duration{1}, Duration{0}}}), "");
+}
+
 TEST_F(SafeStateMachineTest, DegradedMachineMovesOnUntilAPersonRestoresIt) {
     verifies("SWR-FSM-005", Technique::kStateTransition);
     operate();

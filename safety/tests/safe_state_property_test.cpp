@@ -62,7 +62,7 @@ std::vector<SafeStateInputs> make_all_inputs() {
 
 /// All steps that the machine can make, found by breadth-first search.
 const std::vector<Step>& get_all_steps() {
-    static const std::vector<Step> kSteps = [] {
+    static const std::vector<Step> all_steps = [] {
         const std::vector<SafeStateInputs> all_inputs = make_all_inputs();
         SafeStateInputs held;  // before power-up nobody knows the buttons; the machine takes them as held
         held.start_button = true;
@@ -93,7 +93,7 @@ const std::vector<Step>& get_all_steps() {
         }
         return steps;
     }();
-    return kSteps;
+    return all_steps;
 }
 
 bool is_moving(SafeState state) {

@@ -66,9 +66,9 @@ std::map<Pair, State> make_expected_moves() {
 }
 
 State get_expected(State state, Event event) {
-    static const std::map<Pair, State> kMoves = make_expected_moves();
-    const auto move = kMoves.find({state, event});
-    return move == kMoves.end() || move->first.first == move->second ? state : move->second;
+    static const std::map<Pair, State> moves = make_expected_moves();
+    const auto move = moves.find({state, event});
+    return move == moves.end() || move->first.first == move->second ? state : move->second;
 }
 
 TEST(SafeStateTableTest, EveryStateAnswersEveryEventAsWanted) {

@@ -104,6 +104,13 @@ TEST_F(WatchdogGateTest, ServiceThatTheDeviceRefusesIsTriedAgain) {
     EXPECT_EQ(sut_.get_service_count(), 1U);
 }
 
+TEST_F(WatchdogGateTest, WindowThatIsEmptyGoesToTheAssertionHandler) {
+    verifies("SWR-WDG-002", Technique::kBoundaryValues, Polarity::kViolation);
+
+    EXPECT_DEATH((WatchdogGate{watchdog_, {Duration{100}, Duration{100}}}), "");
+    EXPECT_DEATH((WatchdogGate{watchdog_, {Duration{-1}, Duration{100}}}), "");
+}
+
 TEST_F(WatchdogGateTest, WindowThatIsKeptLeavesTheGateOpen) {
     verifies("SWR-WDG-003", Technique::kBoundaryValues);
     ASSERT_EQ(step(0), WatchdogOutcome::kServiced);

@@ -68,8 +68,8 @@ struct ReactionDemand {
     Duration within{0};
 };
 
-/// @return the severest reaction over all latched faults, the shortest time among equals; Reaction::kSto at
-///         once for a latched fault that has no row.
+/// @return the severest reaction over all latched faults, among equals the shortest time, then the lowest
+///         fault number; Reaction::kSto at once for a latched fault that has no row.
 /// Time: O(faults * rows).
 ReactionDemand calc_reaction(Span<const ReactionRow> table, const FaultRegister& faults) noexcept;
 
