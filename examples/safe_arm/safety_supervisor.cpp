@@ -32,7 +32,7 @@ Status SafetySupervisor::on_execute(ContextHandle context) noexcept {
     inputs.demand = demand.reaction;
     inputs.start_button = now.start_button;
     inputs.reset_button = now.reset_button;
-    inputs.standstill = arm_state.read().is_standing;
+    inputs.standstill = arm_state.read().is_standing && (!is_in_ss1() || now.brakes_closed);
     inputs.faults_cleared = faults_.get_latched_count() == 0U;
     inputs.start_permitted = arm_state.read().is_setpoint_near;
     inputs.lock_out = is_sto_unconfirmed(now);
@@ -43,7 +43,8 @@ Status SafetySupervisor::on_execute(ContextHandle context) noexcept {
     }
     note_reaction(demand.reaction, context.now);
     const StopOutputs outputs = calc_stop_outputs(state);
-    stop.write({state, outputs.torque_enable, outputs.brake_release, outputs.stop_requested});
+    stop.write(
+        {state, outputs.torque_enable, outputs.brake_release && !are_brakes_due(), outputs.stop_requested});
     serve_watchdog(health, machine_.is_consistent() && !inputs.lock_out, context.now);
     return Status::kOk;
 }
@@ -104,6 +105,14 @@ bool SafetySupervisor::is_sto_unconfirmed(const JointReading& now) noexcept {
     const bool is_contradicted = !calc_stop_outputs(machine_.get_state()).torque_enable && now.torque_enabled;
     torque_despite_sto_for_ = is_contradicted ? torque_despite_sto_for_ + kFrame : Duration{0};
     return torque_despite_sto_for_ > kStoFeedbackTime;
+}
+
+/// At the end of a controlled stop the brakes close while the torque still holds the arm, so it does not sag
+/// between the two. Once begun, the closing goes on; the bound of the stop ends it if the brakes never
+/// report.
+bool SafetySupervisor::are_brakes_due() noexcept {
+    has_stood_in_ss1_ = is_in_ss1() && (has_stood_in_ss1_ || arm_state.read().is_standing);
+    return has_stood_in_ss1_;
 }
 
 void SafetySupervisor::note_reaction(Reaction reaction, Instant instant) noexcept {

@@ -3,7 +3,8 @@
 /// The place of decision: latches faults, chooses the severest reaction, steps the safe-state machine,
 /// commands its outputs and serves the watchdog on proven health.
 ///
-/// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015      Design: docs/design/safe_arm.md#reactions
+/// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015, SWR-SAF-018      Design:
+/// docs/design/safe_arm.md#reactions
 #ifndef EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 #define EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 
@@ -68,6 +69,10 @@ class SafetySupervisor final : public mamori::Component {
     void report_faults(mamori::safety::SelfTestStatus self_test, mamori::Instant instant) noexcept;
     void follow_reset(const JointReading& now) noexcept;
     bool is_sto_unconfirmed(const JointReading& now) noexcept;
+    bool is_in_ss1() const noexcept {
+        return machine_.get_state() == mamori::safety::SafeState::kProtectiveStopSs1;
+    }
+    bool are_brakes_due() noexcept;
     void note_reaction(Reaction reaction, mamori::Instant instant) noexcept;
     void serve_watchdog(mamori::safety::GlobalStatus health, bool is_trustworthy,
                         mamori::Instant instant) noexcept;
@@ -88,6 +93,7 @@ class SafetySupervisor final : public mamori::Component {
     mamori::safety::FaultIndex first_fault_{mamori::safety::kNoFault};
     Reaction worst_reaction_{Reaction::kNone};
     bool is_self_testing_{false};
+    bool has_stood_in_ss1_{false};
     bool is_watchdog_refused_{false};
 };
 

@@ -188,7 +188,41 @@ TEST_F(SafetySupervisorTest, ControlledStopEndsSafeWhenItIsConfirmed) {
     EXPECT_TRUE(command.stop_requested);
 
     state_.is_standing = true;
+    reading_.brakes_closed = true;
     EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
+TEST_F(SafetySupervisorTest, BrakesCloseUnderTorqueBeforeItIsSwitchedOff) {
+    verifies("SWR-SAF-018", Technique::kStateTransition);
+    operate();
+    state_.is_standing = false;
+    state_.faults = to_bit(ArmFault::kEncoderImplausible);
+    EXPECT_TRUE(step().brake_release);
+
+    state_.is_standing = true;
+    const StopCommand closing = step();
+    EXPECT_EQ(closing.state, SafeState::kProtectiveStopSs1);
+    EXPECT_TRUE(closing.torque_enable);
+    EXPECT_FALSE(closing.brake_release);
+    state_.is_standing = false;
+    EXPECT_FALSE(step().brake_release) << "a twitch does not open them again";
+    state_.is_standing = true;
+    reading_.brakes_closed = true;
+    EXPECT_FALSE(step().torque_enable);
+}
+
+TEST_F(SafetySupervisorTest, BrakesThatNeverReportEndInTorqueOffAtTheBound) {
+    verifies("SWR-SAF-018", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    state_.faults = to_bit(ArmFault::kEncoderImplausible);
+    const auto bound = kStopBounds.ss1_within.ns / kFrame.ns;
+    for (std::int64_t i = 0; i < bound; ++i) {
+        ASSERT_TRUE(step().torque_enable) << i;
+    }
+
+    const StopCommand command = step();
+    EXPECT_EQ(command.state, SafeState::kSafe);
+    EXPECT_FALSE(command.torque_enable);
 }
 
 TEST_F(SafetySupervisorTest, ControlledStopThatIsIgnoredBecomesTorqueOff) {
