@@ -109,13 +109,14 @@ def _get_log(step: Step, context: Context) -> Path:
 def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
     log = _get_log(step, context)
     log.write_text("", encoding="utf-8")
-    begin_ns = log.stat().st_mtime_ns  # the clock of the file system, which also stamps the results
+    folder = context.project.root / step.junit if step.junit else context.project.junit
+    product = context.project.root / step.produces
+    before = {path: _get_stamp(path) for path in (*folder.glob("*.xml"), product)}
     start = time.monotonic()
     reason = _do_work(step, context, log, tick)
-    if not reason and step.produces and not _is_new(context.project.root / step.produces, begin_ns):
+    if not reason and step.produces and _get_stamp(product) in (None, before[product]):
         reason = f"{step.produces} was not written"
-    folder = context.project.root / step.junit if step.junit else context.project.junit
-    files = [path for path in sorted(folder.glob("*.xml")) if _is_new(path, begin_ns)]
+    files = [path for path in sorted(folder.glob("*.xml")) if _get_stamp(path) != before.get(path)]
     counts = count_results(files)
     if not reason and counts.failed:
         reason = f"{counts.failed} results failed"
@@ -128,8 +129,13 @@ def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
     return Outcome(step.name, verdict, time.monotonic() - start, counts, log, reason, failures)
 
 
-def _is_new(path: Path, begin_ns: int) -> bool:
-    return path.is_file() and path.stat().st_mtime_ns >= begin_ns
+def _get_stamp(path: Path) -> tuple[int, int, int] | None:
+    """What changes when a file is written or replaced; nothing when there is none. Times alone would not do: two files that
+    are written within one tick of the file system's clock have the same."""
+    if not path.is_file():
+        return None
+    status = path.stat()
+    return status.st_ino, status.st_size, status.st_mtime_ns
 
 
 def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:

@@ -91,6 +91,18 @@ def test_results_of_an_earlier_step_are_not_counted_again(context: Context) -> N
     assert total(outcomes) == Counts(passed=2)
 
 
+@pytest.mark.verifies("SWR-CLI-006", technique="error_guessing", polarity="violation")
+def test_result_of_the_same_tick_is_not_counted_again(context: Context) -> None:
+    def write_late(context: Context, _tick: Tick, _log: TextIO) -> None:
+        path = context.project.junit / "result.xml"
+        path.write_text('<testsuite><testcase name="a"/><testcase name="b"/></testsuite>', encoding="utf-8")
+        os.utime(path, ns=(2**62, 2**62))  # as if the clock had not moved on when the next step begins
+
+    outcomes = run_steps([Step("campaign", function=write_late), Step("trace check", (PASS,))], context)
+
+    assert [str(outcome.counts) for outcome in outcomes] == ["2 passed, 0 failed, 0 skipped", "1 passed, 0 failed, 0 skipped"]
+
+
 @pytest.mark.verifies("SWR-CLI-006", technique="fault_injection", polarity="violation")
 def test_missing_program_and_refusing_function_fail_their_steps(context: Context) -> None:
     def refuse(_context: Context, _tick: Tick, _log: TextIO) -> None:
