@@ -4,6 +4,7 @@
 // flipped.
 #include "mamori/safety/safe_state_machine.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -337,6 +338,33 @@ TEST_F(SafeStateMachineTest, EveryFlippedBitLeavesTheStateAsItWasOrLocksOut) {
         EXPECT_TRUE(corrupted.is_consistent()) << "locked out for good";
     }
     EXPECT_EQ(locked_out, 16U) << "each bit of the state and of its complement";
+}
+
+TEST_F(SafeStateMachineTest, FormsThatAgreeOnNoStateLockOut) {
+    verifies("SWR-FSM-007", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    std::array<unsigned char, sizeof(SafeStateMachine)> image{};
+    std::memcpy(image.data(), &sut_, image.size());
+    const auto state = static_cast<unsigned char>(SafeState::kOperational);
+    const auto complement = static_cast<unsigned char>(~state);
+    const std::array<unsigned char, 2U> forms{state, complement};
+    const auto place = std::search(image.begin(), image.end(), forms.begin(), forms.end());
+    ASSERT_NE(place, image.end());
+    std::size_t named = 0U;
+
+    for (unsigned int value = 0U; value <= 0xFFU; ++value) {
+        *place = static_cast<unsigned char>(value);
+        *(place + 1) = static_cast<unsigned char>(~value);
+        SafeStateMachine corrupted = sut_;
+        std::memcpy(static_cast<void*>(&corrupted), image.data(), image.size());
+        if (corrupted.is_consistent()) {
+            ++named;
+            continue;
+        }
+        EXPECT_EQ(corrupted.get_state(), SafeState::kLockedOut) << "value " << value;
+        EXPECT_EQ(corrupted.step(inputs_), SafeState::kLockedOut) << "value " << value;
+    }
+    EXPECT_EQ(named, kSafeStateCount);
 }
 
 TEST_F(SafeStateMachineTest, ClearedMemoryIsLockedOut) {
