@@ -9,6 +9,11 @@ namespace {
 
 constexpr int kExitUsage = 2;
 
+/// The conversion to an unsigned number would wrap a negative one round. @return what is wrong, or nothing.
+std::string check_not_negative(const std::string& text) {
+    return text.find('-') == std::string::npos ? std::string{} : "'" + text + "' must be 0 or more";
+}
+
 }  // namespace
 
 ParsedCommand parse_command(int argc, const char* const* argv) {
@@ -23,8 +28,11 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
     run->add_option("--out", options.out, "Folder for run.json, series.csv and events.csv")->required();
     run->add_option("--fault", options.fault_text,
                     "Fault plan, e.g. kind=encoder_freeze,joint=2,channel=a,at=2.0 (at: seconds of motion)");
-    run->add_option("--seed", options.seed, "Seed that the record names")->capture_default_str();
-    run->add_option("--frames", options.frames, "Frames of 1 ms to run; 0: the motion plus 2 s");
+    run->add_option("--seed", options.seed, "Seed that the record names")
+        ->check(check_not_negative)
+        ->capture_default_str();
+    run->add_option("--frames", options.frames, "Frames of 1 ms to run; 0: the motion plus 2 s")
+        ->check(check_not_negative);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {

@@ -104,6 +104,10 @@ TEST_F(RunTest, BrokenInputGivesOneLineAndNoRecord) {
     expect_one_line("encoder_freeze");
     EXPECT_EQ(run(arguments("--frames nine")), 2);
     expect_one_line("--frames");
+    EXPECT_EQ(run(arguments("--frames -1")), 2);
+    expect_one_line("--frames");
+    EXPECT_EQ(run(arguments("--seed -1")), 2);
+    expect_one_line("--seed");
     EXPECT_EQ(run("run --model /nowhere.yaml --motion x --out '" + (folder_ / "out").string() + "'"), 2);
     expect_one_line("/nowhere.yaml");
     std::ofstream{folder_ / "motion.dat"} << "0 0 0 0 0 0 0 0\n1 0 0 nan 0 0 0 0\n";
