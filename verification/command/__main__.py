@@ -3,6 +3,10 @@
 
 import sys
 
-from mamori.verification.command.main import main
+try:
+    from mamori.verification.command.main import main
+except KeyboardInterrupt:  # stopped before it could listen
+    print("\nmamori: stopped; no report was written", file=sys.stderr)
+    sys.exit(130)
 
 sys.exit(main())
