@@ -114,6 +114,7 @@ def _make_case_view(case: CampaignCase, index: int) -> CaseView:
     reaction_s = _subtract(_get_number(run, "reacted_at_s"), at_s)
     bound_s = _get_number(case.expected, "within_s")
     standstill_s = _subtract(_get_number(run, "standstill_at_s"), at_s)
+    stopped = reaction_s is not None or standstill_s is not None
     return CaseView(
         case=case,
         anchor=f"case-{index}-{re.sub(r'[^A-Za-z0-9_-]+', '-', case.id)}",
@@ -123,8 +124,9 @@ def _make_case_view(case: CampaignCase, index: int) -> CaseView:
         reaction_time=_describe_reaction(reaction_s, bound_s, run),
         share=reaction_s / bound_s if reaction_s is not None and bound_s else None,
         standstill=ABSENT if standstill_s is None else f"{1e3 * standstill_s:.0f} ms",
-        travel=_format_milli(max(_get_numbers(physics, "stop_travel_rad"), default=None)) if fault else ABSENT,
-        drift=_format_milli(_get_number(physics, "hold_drift_rad")) if fault else ABSENT,
+        # An arm that went on neither stopped nor held.
+        travel=_format_milli(max(_get_numbers(physics, "stop_travel_rad"), default=None)) if stopped else ABSENT,
+        drift=_format_milli(_get_number(physics, "hold_drift_rad")) if stopped else ABSENT,
         peak_speed=_describe_peak_speed(physics),
         detected=str(run.get("detected_fault") or ABSENT),
         reaction=str(run.get("reaction") or ""),

@@ -154,6 +154,24 @@ def test_a_run_that_lacks_its_facts_is_shown_without_them(sample: Sample, trace:
     assert "tells no speed limits" in outcome.content["findings"][0]["message"]
 
 
+@pytest.mark.verifies("SWR-TRC-012", technique="equivalence_classes", polarity="nominal")
+def test_an_arm_that_went_on_has_no_stop_travel(sample: Sample, write: Callable[[], Page]) -> None:
+    path = sample.evidence / "campaign" / "campaign.json"
+    content = json.loads(path.read_text())
+    content["cases"][1]["run"]["physics"].update(stop_travel_rad=[0.123456] * 7, hold_drift_rad=0.0234)
+    path.write_text(json.dumps(content))
+    before = write().text
+    assert "123.5 mrad" in before
+    assert "23.4 mrad" in before
+    content["cases"][1]["run"].update(reacted_at_s=None, standstill_at_s=None)
+    path.write_text(json.dumps(content))
+
+    text = write().text
+
+    assert "123.5 mrad" not in text
+    assert "23.4 mrad" not in text
+
+
 @pytest.mark.verifies("SWR-TRC-012", technique="boundary_values", polarity="nominal")
 def test_thinning_keeps_the_ends_and_the_peaks() -> None:
     values = [0.0] * 5000

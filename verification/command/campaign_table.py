@@ -23,7 +23,8 @@ def _make_row(name: str, cases: list[dict[str, Any]]) -> Row:
     runs = [case["run"] for case in cases if case["run"]]  # a program that crashed left none
     reactions = [run["reacted_at_s"] - run["fault"]["at_s"] for run in runs
                  if run["fault"] is not None and run["reacted_at_s"] is not None]
-    travels = [max(run["physics"]["stop_travel_rad"]) for run in runs if run["fault"] is not None]
+    travels = [max(run["physics"]["stop_travel_rad"]) for run in runs
+               if run["fault"] is not None and run["reacted_at_s"] is not None]  # an arm that went on did not stop
     errors = [run["physics"]["max_tracking_error_rad"] for run in runs]
     return (
         name,

@@ -28,6 +28,13 @@ def test_worst_case_of_each_scenario_is_shown() -> None:
                     ("freeze", "passed", "2/2", "Safe", "7.0 ms", "0.020 rad", "0.0020 rad")]  # fmt: skip
 
 
+@pytest.mark.verifies("SWR-CLI-006", technique="equivalence_classes")
+def test_arm_that_went_on_has_no_stop_travel() -> None:
+    _, rows = summarise_campaign({"cases": [make_case("lost_once", "pass", 1.0, None, 0.8)]})
+
+    assert rows[0][4:6] == ("-", "-")
+
+
 @pytest.mark.verifies("SWR-CLI-006", technique="error_guessing", polarity="violation")
 def test_failed_and_crashed_cases_fail_their_scenario() -> None:
     cases = [make_case("freeze", "pass", 1.0, 1.004, 0.01), make_case("freeze", "fail", 2.0, None, 0.0)]
