@@ -62,10 +62,10 @@ class ScenarioView:
 
 
 def make_scenario_views(project: Project, problems: list[Problem]) -> list[ScenarioView]:
-    """Scenarios and cases in order of their names. A series that cannot be drawn becomes a problem."""
+    """Scenarios and cases in the order of the campaign. A series that cannot be drawn becomes a problem."""
     groups: dict[str, list[CaseView]] = defaultdict(list)
     base = Path(project.evidence.folder) / "campaign"
-    for index, case in enumerate(sorted(project.evidence.cases, key=_sort_key)):
+    for index, case in enumerate(project.evidence.cases):
         view = _make_case_view(case, index)
         path = base / case.folder / "series.csv"
         try:
@@ -77,7 +77,7 @@ def make_scenario_views(project: Project, problems: list[Problem]) -> list[Scena
             place = Place(get_shown_path(path, project.root), 1)
             problems.append(Problem(UNREADABLE, place, f"{view.plot_problem}; run the campaign again"))
         groups[case.scenario].append(view)
-    return [ScenarioView(name, _get_common_title(views), views) for name, views in sorted(groups.items())]
+    return [ScenarioView(name, _get_common_title(views), views) for name, views in groups.items()]
 
 
 def find_slowest(scenarios: list[ScenarioView]) -> CaseView | None:
@@ -95,15 +95,9 @@ def _find_marks(case: CampaignCase) -> Marks:
     return Marks(fault_s, _get_number(case.run, "reacted_at_s"), _get_number(case.run, "standstill_at_s"), limits)
 
 
-def _sort_key(case: CampaignCase) -> tuple[str, list[tuple[int, int, str]]]:
-    """Numbers inside an id sort as numbers."""
-    parts = re.split(r"(\d+)", case.id)
-    return case.scenario, [(1, int(part), "") if part.isdigit() else (0, 0, part) for part in parts]
-
-
 def _get_common_title(views: list[CaseView]) -> str:
     titles = list(dict.fromkeys(view.case.title for view in views))
-    return titles[0] if len(titles) == 1 else f"{len(views)} cases"
+    return "; ".join(titles)
 
 
 def _make_case_view(case: CampaignCase, index: int) -> CaseView:
@@ -145,7 +139,8 @@ def _describe_where(fault: dict[str, Any] | None) -> str:
     if fault and isinstance(fault.get("joint"), int):
         parts.append(f"joint {fault['joint']}")
     if fault and fault.get("channel"):
-        parts.append(f"channel {str(fault['channel']).upper()}")
+        channel = str(fault["channel"])
+        parts.append("both channels" if channel == "both" else f"channel {channel.upper()}")
     return ", ".join(parts) or ABSENT
 
 

@@ -56,7 +56,7 @@ class Case:
 def select(plan: Plan, names: Sequence[str] = (), instants: int | None = None) -> Selection:
     """Scenarios by name, all where no name is given; the first `instants` of each, all where None.
 
-    Raises InputError for an unknown name (with the nearest ones) and for less than one instant.
+    Raises InputError for an unknown name (with the nearest ones), and for less than one instant or more than the plan has.
     """
     known = [scenario.name for scenario in plan.scenarios]
     for name in names:
@@ -64,7 +64,11 @@ def select(plan: Plan, names: Sequence[str] = (), instants: int | None = None) -
             raise InputError(f"unknown scenario '{name}'; {nearest_names(name, known)}")
     if instants is not None and instants < 1:
         raise InputError(f"{instants} instants per scenario; write 1 or more")
-    return Selection(plan, tuple(each for each in plan.scenarios if not names or each.name in names), instants)
+    chosen = tuple(each for each in plan.scenarios if not names or each.name in names)
+    most = max(len(each.instants) for each in chosen)
+    if instants is not None and instants > most:
+        raise InputError(f"{instants} instants per scenario; the plan has {most}: write 1 to {most}, or add instants to {plan.path}")
+    return Selection(plan, chosen, instants)
 
 
 def resolve(selection: Selection, motion: Motion) -> tuple[Case, ...]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import shutil
 import sys
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -60,6 +61,8 @@ def verify(jobs: int, folder: Path | None) -> int:
     if folder is None:
         return demo(jobs, None, (), None)
     project = Project(check_folder(folder))
+    if not (project.root / "requirements").is_dir():
+        raise UsageError(f"'{folder}' has no folder requirements/; verify judges a project by its requirements, build builds it")
     context = begin(project, jobs, (RELEASE,))
     outcomes = run_steps(plans.verify_plan(project), context)
     show_steps(outcomes, context)
@@ -67,7 +70,11 @@ def verify(jobs: int, folder: Path | None) -> int:
 
 
 def begin(project: Project, jobs: int, presets: Sequence[str]) -> Context:
-    """Throws the evidence of earlier runs away, so that none of it can count for this one, and records the environment."""
+    """Throws the evidence of earlier runs away, so that none of it can count for this one, and records the environment.
+
+    @raise UsageError when the report could not be written at the end.
+    """
+    check_report_folder(project.report.parent)
     for preset in presets:
         evidence = Project(project.root, preset).evidence
         if evidence.exists():
@@ -82,6 +89,17 @@ def check_folder(folder: Path) -> Path:
     if not (folder / "CMakeLists.txt").is_file():
         raise UsageError(f"'{folder}' has no CMakeLists.txt; give the folder of a project that calls find_package(mamori)")
     return folder.resolve()
+
+
+def check_report_folder(folder: Path) -> None:
+    """@raise UsageError when no file can be written there: better known before the work than after it."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise UsageError(f"{folder}: the report cannot be written there ({error.strerror}); make it a folder that you may "
+                         "write to, or remove it") from error
 
 
 def check_preset(preset: str) -> None:

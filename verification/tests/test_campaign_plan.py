@@ -151,7 +151,13 @@ def test_scenarios_are_selected_by_name_in_the_order_of_the_plan(plan: Plan, mot
 @pytest.mark.verifies("SWR-CMP-002")
 def test_the_first_instants_of_each_scenario_can_be_selected(plan: Plan, motion: Motion) -> None:
     assert [case.id for case in resolve(select(plan, instants=1), motion)] == ["none-1", "encoder_freeze-1", "message_late-1"]
-    assert len(resolve(select(plan, instants=99), motion)) == 6
+    assert len(resolve(select(plan, instants=3), motion)) == 6
+
+
+@pytest.mark.verifies("SWR-CMP-002", technique="boundary_values", polarity="violation")
+def test_more_instants_than_the_plan_has_are_refused(plan: Plan) -> None:
+    with pytest.raises(InputError, match="4 instants per scenario; the plan has 3: write 1 to 3"):
+        select(plan, instants=4)
 
 
 @pytest.mark.verifies("SWR-CMP-002", polarity="violation")

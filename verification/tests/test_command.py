@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from mamori.verification.command import jobs, plans
+from mamori.verification.command.errors import UsageError
 from mamori.verification.command.main import main, make_parser
 from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
 
@@ -75,3 +76,20 @@ def test_each_step_of_the_plans_is_named_once_and_needs_earlier_ones_only(quick:
             assert step.name not in seen
             assert set(step.needs) <= set(seen)
             seen.append(step.name)
+
+
+@pytest.mark.verifies("SWR-CLI-005", technique="error_guessing", polarity="violation")
+def test_report_that_could_not_be_written_is_known_before_the_work(tmp_path: Path) -> None:
+    (tmp_path / "report").write_text("a file where the folder should be\n", encoding="utf-8")
+
+    with pytest.raises(UsageError, match="report: the report cannot be written there"):
+        jobs.begin(Project(tmp_path), 1, (RELEASE,))
+    assert not (tmp_path / "build").exists()
+
+
+@pytest.mark.verifies("SWR-CLI-005", technique="error_guessing", polarity="violation")
+def test_project_without_requirements_cannot_be_verified(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "CMakeLists.txt").write_text("project(user)\n", encoding="utf-8")
+
+    assert main(("verify", str(tmp_path))) == 2
+    assert "has no folder requirements/" in capsys.readouterr().err

@@ -49,7 +49,8 @@
   });
   let closed = [];
   addEventListener("beforeprint", () => {
-    closed = folds.filter((each) => !each.open);
+    // Paper shows the argument and the plots; items and suites unfold there when they are open on the screen.
+    closed = folds.filter((each) => !each.open && each.matches(".scenario, #findings details"));
     for (const each of closed) each.open = true;
   });
   addEventListener("afterprint", () => { for (const each of closed) each.open = false; });
