@@ -232,16 +232,22 @@ void Executive::report_overrun(std::size_t window, std::size_t component, Instan
 bool Executive::run_first_pass(std::size_t window, std::size_t position, Instant deadline,
                                WindowHost& host) noexcept {
     const std::size_t component = view_.windows[window].first_component + position;
-    if (observer_ != nullptr) {
-        observer_->on_component_started(component, host.get_now());
+    // Only on_execute is a sign of life: one in Error, or Inactive, gets its turn and does nothing for
+    // anybody.
+    const ExecutionContext& context = windows_[window].context;
+    const bool is_executing =
+        context.get_component_state(*view_.components[component]).get_value() == LifecycleState::kActive;
+    ExecutionObserver* const listener = is_executing ? observer_ : nullptr;
+    if (listener != nullptr) {
+        listener->on_component_started(component, host.get_now());
     }
     ComponentRun run{windows_[window].context, position};
     if (!host.run_within(component, {&ComponentRun::execute, &run, WindowHost::Pass::kExecute}, deadline)) {
         report_overrun(window, component, host.get_now());
         return false;
     }
-    if (observer_ != nullptr) {
-        observer_->on_component_finished(component, host.get_now());
+    if (listener != nullptr) {
+        listener->on_component_finished(component, host.get_now());
     }
     return true;
 }

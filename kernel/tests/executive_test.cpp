@@ -168,6 +168,19 @@ TEST_F(ExecutiveTest, TheObserverHearsEachRunInOrderWithItsInstants) {
                                                         "finish 1 @70", "start 2 @400", "finish 2 @400"}));
 }
 
+TEST_F(ExecutiveTest, AComponentInErrorOrInactiveGivesNoSignOfLife) {
+    verifies("SWR-KRN-020", Technique::kFaultInjection, Polarity::kViolation);
+    SpyObserver observer;
+    counter_.answer = Status::kError;
+    run_frame(sut_, host_, 0);
+    ASSERT_EQ(sut_.get_context(1U).deactivate_component(sink_, host_.now), Status::kOk);
+    sut_.set_observer(&observer);
+
+    run_frame(sut_, host_, 1);
+
+    EXPECT_EQ(observer.heard, (std::vector<std::string>{"start 1 @1000", "finish 1 @1000"}));
+}
+
 TEST_F(ExecutiveTest, WithoutAnObserverNothingChanges) {
     verifies("SWR-KRN-020", Technique::kInterface);
     Counter counter;

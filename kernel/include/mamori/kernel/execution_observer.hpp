@@ -20,9 +20,10 @@ namespace mamori {
 /// are refused while it calls.
 class ExecutionObserver {
   public:
-    /// Component `component` is about to run its first pass (on_execute) in this window.
+    /// Component `component` is Active and about to run its first pass (on_execute) in this window. Never
+    /// called for one that is Inactive or in Error: its turn passes, but it does not do its work.
     virtual void on_component_started(std::size_t component, Instant now) noexcept = 0;
-    /// Component `component` came through its first pass within the budget. Never called for one that did
+    /// Component `component` came through its on_execute within the budget. Never called for one that did
     /// not.
     virtual void on_component_finished(std::size_t component, Instant now) noexcept = 0;
     /// Window `window` used its budget up while `component` was running, in either pass, or could not begin
