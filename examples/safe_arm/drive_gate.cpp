@@ -23,10 +23,12 @@ double saturate(double torque_nm, double limit_nm) noexcept {
 using mamori::ContextHandle;
 using mamori::Status;
 
-Status DriveGate::on_execute(ContextHandle) noexcept {
+Status DriveGate::on_execute(ContextHandle context) noexcept {
     DriveCommand result{};
-    // The supervisor decides in every frame. A decision of an earlier frame is no decision.
-    if (stop.is_new() && stop.read().torque_enable) {
+    // The supervisor decides in every frame. A decision of an earlier frame is no decision, and one that a
+    // gate cut off in that frame had no chance to use is still "new" in the next.
+    const bool is_of_this_frame = stop.is_new() && stop.calc_age(context.now) < kFrame;
+    if (is_of_this_frame && stop.read().torque_enable) {
         result.torque_enable = true;
         result.brake_release = stop.read().brake_release;
         for (std::size_t j = 0U; j < kArmJointCount; ++j) {

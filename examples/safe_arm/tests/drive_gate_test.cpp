@@ -64,6 +64,17 @@ TEST_F(DriveGateTest, PermissionOfAnEarlierFrameCountsForNothing) {
     EXPECT_FALSE(take(sut_.drive).torque_enable);
 }
 
+TEST_F(DriveGateTest, PermissionThatWaitedForAGateCutOffIsNoneInTheNextFrame) {
+    verifies("SWR-SAF-009", Technique::kFaultInjection, Polarity::kViolation);
+    allow(true);  // given at 0, and never marked read: the window of the gate overran
+    command(3.0);
+
+    ASSERT_EQ(sut_.on_execute({0, mamori::Instant{kFrame.ns - 1}}), Status::kOk);
+    EXPECT_TRUE(outputs_.torque_enable);
+    ASSERT_EQ(sut_.on_execute({0, mamori::Instant{kFrame.ns}}), Status::kOk);
+    expect_safe_outputs();
+}
+
 TEST_F(DriveGateTest, NoPermissionMeansSafeOutputsWhateverIsCommanded) {
     verifies("SWR-SAF-009", Technique::kFaultInjection, Polarity::kViolation);
     command(3.0);
