@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "arm_faults.hpp"
 #include "mamori/kernel/time.hpp"
 #include "mamori/safety/arm/guards.hpp"
 #include "mamori/safety/execution_supervisor.hpp"
@@ -68,8 +69,10 @@ inline constexpr double kStuckTravelRad = 0.004;
 /// Share of the torque limit by which measured and commanded torque may differ [-].
 inline constexpr double kTorqueDeviationShare = 0.15;
 inline constexpr mamori::safety::JointRanges kSafeRange = make_ranges(kSafePositionRad);
-/// The coarse channel is judged against a position of the fine one.
-inline constexpr mamori::safety::JointVector kMaxStepBRad = scale(kMaxStepRad, 1.0, kDiscrepancyRad);
+/// Channel B is judged against a position of channel A. When A freezes, B leaves it by one step per frame: it
+/// must stay plausible until the discrepancy is confirmed, or the sound channel would be the distrusted one.
+inline constexpr mamori::safety::JointVector kMaxStepBRad =
+    scale(kMaxStepRad, kConfirmFrames[to_index(ArmFault::kEncoderDiscrepancy)], kDiscrepancyRad);
 inline constexpr mamori::safety::JointVector kTorqueDeviationNm =
     scale(kTorqueLimitNm, kTorqueDeviationShare, 0.0);
 static_assert(mamori::safety::are_valid(kSafeRange) && mamori::safety::are_valid(kSafeSpeedRadS) &&

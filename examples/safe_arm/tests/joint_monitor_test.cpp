@@ -138,6 +138,27 @@ TEST_F(JointMonitorTest, ChannelsThatDisagreeAreReportedBeyondTheTolerance) {
     EXPECT_EQ(step().faults, to_bit(ArmFault::kEncoderDiscrepancy));
 }
 
+TEST_F(JointMonitorTest, FrozenChannelNeverTakesTheTrustOfTheSoundOne) {
+    verifies("SWR-SAF-006", Technique::kBoundaryValues, Polarity::kViolation);
+    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
+        for (int share = 1; share <= 20; ++share) {
+            ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+            reading_.position_a_rad = {};
+            reading_.position_b_rad = {};
+            command_.setpoint_rad = {};
+            step();
+            const double step_rad = kSafeSpeedRadS[joint] * kFrameS * share / 20.0;
+            std::uint32_t differing_frames = 0U;
+            while (differing_frames < kConfirmFrames[to_index(ArmFault::kEncoderDiscrepancy)]) {
+                reading_.position_b_rad[joint] += step_rad;
+                const std::uint32_t faults = step().faults;
+                ASSERT_EQ(faults & to_bit(ArmFault::kEncoderImplausible), 0U) << joint << ' ' << share;
+                differing_frames += (faults & to_bit(ArmFault::kEncoderDiscrepancy)) != 0U ? 1U : 0U;
+            }
+        }
+    }
+}
+
 TEST_F(JointMonitorTest, BothChannelsStuckAreReportedWhenTheSetpointTravels) {
     verifies("SWR-SAF-006", Technique::kFaultInjection, Polarity::kViolation);
     step();
