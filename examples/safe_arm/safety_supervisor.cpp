@@ -34,7 +34,7 @@ Status SafetySupervisor::on_execute(ContextHandle context) noexcept {
     inputs.reset_button = now.reset_button;
     inputs.standstill = arm_state.read().is_standing && (!is_in_ss1() || now.brakes_closed);
     inputs.faults_cleared = faults_.get_latched_count() == 0U;
-    inputs.start_permitted = arm_state.read().is_setpoint_near;
+    inputs.start_permitted = arm_state.read().is_setpoint_near && is_watchdog_served_;
     inputs.lock_out = is_sto_unconfirmed(now);
     const SafeState before = machine_.get_state();
     const SafeState state = machine_.step(inputs);
@@ -49,7 +49,8 @@ Status SafetySupervisor::on_execute(ContextHandle context) noexcept {
     return Status::kOk;
 }
 
-/// Good means: nothing to report, brakes closed, torque off. So many good frames in a row pass the test.
+/// Good means: nothing to report, brakes closed, torque off, and the watchdog watches: one that was never
+/// served would not. So many good frames in a row pass the test.
 SelfTestStatus SafetySupervisor::step_self_test(const JointReading& now, Instant instant) noexcept {
     if (machine_.get_state() != SafeState::kSelfTest) {
         is_self_testing_ = false;
@@ -60,7 +61,8 @@ SelfTestStatus SafetySupervisor::step_self_test(const JointReading& now, Instant
         self_test_began_ = instant;
         good_frames_ = 0U;
     }
-    const bool is_good = arm_state.read().faults == 0U && now.brakes_closed && !now.torque_enabled;
+    const bool is_good =
+        arm_state.read().faults == 0U && now.brakes_closed && !now.torque_enabled && is_watchdog_served_;
     good_frames_ = is_good ? good_frames_ + 1U : 0U;
     if (is_over(self_test_began_, instant, kSelfTestTime)) {
         return SelfTestStatus::kFailed;
@@ -125,6 +127,7 @@ void SafetySupervisor::note_reaction(Reaction reaction, Instant instant) noexcep
 
 void SafetySupervisor::serve_watchdog(GlobalStatus health, bool is_trustworthy, Instant instant) noexcept {
     const WatchdogOutcome outcome = gate_.step(instant, health, is_trustworthy);
+    is_watchdog_served_ = outcome == WatchdogOutcome::kServiced;
     const bool is_refused = outcome == WatchdogOutcome::kRefused || outcome == WatchdogOutcome::kClosed;
     if (is_refused && !is_watchdog_refused_) {
         write_event(instant, Severity::kFault, ArmEvent::kWatchdogRefused, static_cast<std::int64_t>(health));

@@ -95,6 +95,7 @@ class SafetySupervisor final : public mamori::Component {
     bool is_self_testing_{false};
     bool has_stood_in_ss1_{false};
     bool is_watchdog_refused_{false};
+    bool is_watchdog_served_{false};  ///< in the frame before
 };
 
 }  // namespace safe_arm

@@ -24,10 +24,11 @@ constexpr std::size_t kController = 1U;
 class SpyWatchdog final : public mamori::safety::Watchdog {
   public:
     Status service(Instant) noexcept override {
-        ++services;
-        return Status::kOk;
+        services += answer == Status::kOk ? 1 : 0;
+        return answer;
     }
     int services{0};
+    Status answer{Status::kOk};
 };
 
 class SafetySupervisorTest : public ::testing::Test {
@@ -123,6 +124,26 @@ TEST_F(SafetySupervisorTest, SelfTestThatNeverPassesLocksOut) {
     step_until(SafeState::kLockedOut, 600);
     EXPECT_EQ(sut_.get_state(), SafeState::kLockedOut);
     EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kSelfTestFailed));
+}
+
+TEST_F(SafetySupervisorTest, SelfTestDoesNotPassBeforeTheWatchdogIsServed) {
+    verifies("SWR-SAF-014", Technique::kFaultInjection, Polarity::kViolation);
+    // A watchdog that was never served has not begun to watch: nothing would open the relay.
+    supervision_.on_budget_overrun(0U, kOther, now_);
+
+    step_until(SafeState::kStandby, 600);
+    EXPECT_EQ(watchdog_.services, 0);
+    EXPECT_EQ(sut_.get_state(), SafeState::kLockedOut);
+}
+
+TEST_F(SafetySupervisorTest, StartIsRefusedWhileTheWatchdogIsNotServed) {
+    verifies("SWR-SAF-014", Technique::kFaultInjection, Polarity::kViolation);
+    step_until(SafeState::kStandby, 100);
+    watchdog_.answer = Status::kError;
+    step();
+
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kStandby);
 }
 
 TEST_F(SafetySupervisorTest, StartIsRefusedWithoutItsPreconditions) {
