@@ -30,6 +30,7 @@ enum class ArmFault : std::uint16_t {
     kPowerLost,           ///< drive supply out of range
     kBrakeFault,          ///< brake feedback contradicts the brake command
     kSelfTestFailed,      ///< power-up self test did not pass in time
+    kMeasurementStale,    ///< reading or judgement of this frame did not come: reader or monitor does not run
     kCount,               ///< number of faults
 };
 inline constexpr auto kArmFaultCount = static_cast<std::size_t>(ArmFault::kCount);
@@ -43,9 +44,9 @@ constexpr std::uint32_t to_bit(ArmFault fault) noexcept {
 
 /// Spelling of a fault in logs and reports, indexed by its number.
 inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
-    "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",    "FollowingError",
-    "Overspeed",          "PositionLimit",      "TorqueDeviation", "ControllerSilent",
-    "CommandStale",       "PowerLost",          "BrakeFault",      "SelfTestFailed"};
+    "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",     "FollowingError", "Overspeed",
+    "PositionLimit",      "TorqueDeviation",    "ControllerSilent", "CommandStale",   "PowerLost",
+    "BrakeFault",         "SelfTestFailed",     "MeasurementStale"};
 
 using mamori::safety::react;
 using mamori::safety::Reaction;
@@ -64,12 +65,13 @@ inline constexpr std::array<mamori::safety::ReactionRow, kArmFaultCount> kArmRea
     react(ArmFault::kCommandStale, Reaction::kSto, 2_ms),
     react(ArmFault::kPowerLost, Reaction::kSto, 2_ms),
     react(ArmFault::kBrakeFault, Reaction::kSto, 2_ms),
-    react(ArmFault::kSelfTestFailed, Reaction::kSto, 2_ms)};
+    react(ArmFault::kSelfTestFailed, Reaction::kSto, 2_ms),
+    react(ArmFault::kMeasurementStale, Reaction::kSto, 2_ms)};
 static_assert(mamori::safety::covers_all<kArmReactions, ArmFault::kCount>());
 
 /// Frames in a row in which a fault must be seen before it is latched, indexed by its number.
-inline constexpr std::array<std::uint32_t, kArmFaultCount> kConfirmFrames{1U, 2U, 1U, 1U, 2U, 1U,
-                                                                          3U, 1U, 1U, 1U, 1U, 1U};
+inline constexpr std::array<std::uint32_t, kArmFaultCount> kConfirmFrames{1U, 2U, 1U, 1U, 2U, 1U, 3U,
+                                                                          1U, 1U, 1U, 1U, 1U, 1U};
 
 }  // namespace safe_arm
 

@@ -79,6 +79,8 @@ void SafetySupervisor::report_faults(SelfTestStatus self_test, Instant instant) 
             is_present = supervision_.get_local_status(controller_) == LocalStatus::kExpired;
         } else if (fault == ArmFault::kSelfTestFailed) {
             is_present = self_test == SelfTestStatus::kFailed;
+        } else if (fault == ArmFault::kMeasurementStale) {
+            is_present = !reading.is_new() || !arm_state.is_new();
         }
         const bool was_latched = faults_.is_latched(to_index(fault));
         faults_.report(to_index(fault), is_present, instant);

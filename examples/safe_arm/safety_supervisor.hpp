@@ -3,7 +3,7 @@
 /// The place of decision: latches faults, chooses the severest reaction, steps the safe-state machine,
 /// commands its outputs and serves the watchdog on proven health.
 ///
-/// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015, SWR-SAF-018      Design:
+/// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015, SWR-SAF-018, SWR-SAF-019      Design:
 /// docs/design/safe_arm.md#reactions
 #ifndef EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 #define EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP

@@ -58,9 +58,15 @@ class SafetySupervisorTest : public ::testing::Test {
             supervision_.on_component_started(kController, now_);
             supervision_.on_component_finished(kController, now_ + 10_us);
         }
-        feed(sut_.reading, reading_);
-        feed(sut_.arm_state, state_);
+        if (is_reader_running_) {
+            feed(sut_.reading, reading_);
+        }
+        if (is_monitor_running_) {
+            feed(sut_.arm_state, state_);
+        }
         EXPECT_EQ(sut_.on_execute({0, now_}), Status::kOk);
+        sut_.reading.mark_read();
+        sut_.arm_state.mark_read();
         now_ = now_ + kFrame;
         return take(sut_.stop);
     }
@@ -90,6 +96,8 @@ class SafetySupervisorTest : public ::testing::Test {
     JointReading reading_{};
     JointState state_{};
     Instant now_{};
+    bool is_reader_running_{true};
+    bool is_monitor_running_{true};
     bool is_other_running_{true};
     bool is_controller_running_{true};
 };
@@ -278,6 +286,33 @@ TEST_F(SafetySupervisorTest, SilentControllerIsAFaultAndLeavesTheWatchdogServed)
     EXPECT_EQ(step().state, SafeState::kSafe);
     EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kControllerSilent));
     EXPECT_EQ(watchdog_.services, before + 1);
+}
+
+TEST_F(SafetySupervisorTest, ReaderThatFallsSilentStopsTorqueInItsFrame) {
+    verifies("SWR-SAF-019", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+
+    is_reader_running_ = false;
+    EXPECT_FALSE(step().torque_enable);
+    EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kMeasurementStale));
+}
+
+TEST_F(SafetySupervisorTest, MonitorThatFallsSilentStopsTorqueInItsFrame) {
+    verifies("SWR-SAF-019", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+
+    is_monitor_running_ = false;
+    EXPECT_FALSE(step().torque_enable) << "what was judged a frame ago says nothing";
+    EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kMeasurementStale));
+}
+
+TEST_F(SafetySupervisorTest, MeasurementOfEachFrameIsNoFault) {
+    verifies("SWR-SAF-019");
+    operate();
+
+    for (int i = 0; i < 100; ++i) {
+        ASSERT_EQ(step().state, SafeState::kOperational) << i;
+    }
 }
 
 TEST_F(SafetySupervisorTest, ResetBringsTheMachineBackOnlyWhenTheFaultIsGone) {
