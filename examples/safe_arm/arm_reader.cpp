@@ -23,12 +23,14 @@ Status ArmReader::on_activated(ContextHandle) noexcept {
 
 Status ArmReader::on_execute(ContextHandle) noexcept {
     JointReading result{};
+    result.brakes_open = true;
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
         result.position_a_rad[j] =
             static_cast<double>(inputs_.encoder_a_counts[j]) / scale_.a_counts_per_rad[j];
         result.position_b_rad[j] =
             static_cast<double>(inputs_.encoder_b_counts[j]) / scale_.b_counts_per_rad[j];
         result.brakes_closed = result.brakes_closed && inputs_.brake_closed[j];
+        result.brakes_open = result.brakes_open && !inputs_.brake_closed[j];
     }
     result.measured_torque_nm = inputs_.measured_torque_nm;
     result.torque_enabled = inputs_.torque_enabled;

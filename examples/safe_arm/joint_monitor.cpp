@@ -138,8 +138,10 @@ std::uint32_t JointMonitor::judge_torque(const JointReading& now) const noexcept
                 ArmFault::kTorqueDeviation);
 }
 
+/// One brake that sticks is enough, in either direction.
 std::uint32_t JointMonitor::judge_brakes(const JointReading& now) noexcept {
-    const bool is_contradicted = drive.has_value() && drive.read().brake_release == now.brakes_closed;
+    const bool is_obeyed = drive.read().brake_release ? now.brakes_open : now.brakes_closed;
+    const bool is_contradicted = drive.has_value() && !is_obeyed;
     brake_contradiction_for_ = is_contradicted ? brake_contradiction_for_ + kFrame : Duration{0};
     return brake_contradiction_for_ > kBrakeFeedbackTime ? to_bit(ArmFault::kBrakeFault) : 0U;
 }

@@ -24,7 +24,8 @@ struct JointReading {
     JointVector position_a_rad{};
     JointVector position_b_rad{};
     JointVector measured_torque_nm{};
-    bool brakes_closed{true};    ///< feedback of all seven
+    bool brakes_closed{true};    ///< feedback: all seven are closed
+    bool brakes_open{false};     ///< feedback: all seven are open; neither, while they move or one sticks
     bool torque_enabled{false};  ///< feedback
     bool power_good{false};
     bool start_button{false};
@@ -66,7 +67,7 @@ struct DriveCommand {
 }  // namespace safe_arm
 
 MAMORI_FIELDS(safe_arm::JointReading, position_a_rad, position_b_rad, measured_torque_nm, brakes_closed,
-              torque_enabled, power_good, start_button, reset_button)
+              brakes_open, torque_enabled, power_good, start_button, reset_button)
 MAMORI_FIELDS(safe_arm::JointState, position_rad, velocity_rad_s, faults, is_standing, is_setpoint_near)
 MAMORI_FIELDS(safe_arm::TorqueCommand, sequence, sent_at_ns, setpoint_rad, torque_nm)
 MAMORI_FIELDS(safe_arm::StopCommand, state, torque_enable, brake_release, stop_requested)

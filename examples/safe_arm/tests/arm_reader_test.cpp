@@ -39,8 +39,20 @@ TEST_F(ArmReaderTest, CountsBecomeRadiansAndFeedbackIsPassedOn) {
     EXPECT_EQ(reading.position_a_rad[2], -1.5);
     EXPECT_EQ(reading.position_b_rad[6], 0.25);
     EXPECT_TRUE(reading.brakes_closed);
+    EXPECT_FALSE(reading.brakes_open);
     EXPECT_TRUE(reading.power_good);
     EXPECT_EQ(reading.measured_torque_nm[1], 4.5);
+}
+
+TEST_F(ArmReaderTest, OneClosedBrakeIsNotOpenBrakes) {
+    verifies("SWR-SAF-004", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    EXPECT_TRUE(take(sut_.reading).brakes_open);
+    inputs_.brake_closed[0] = true;
+
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    EXPECT_FALSE(take(sut_.reading).brakes_open);
 }
 
 TEST_F(ArmReaderTest, OneOpenBrakeIsNotClosedBrakes) {

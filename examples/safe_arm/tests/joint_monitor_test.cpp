@@ -29,6 +29,7 @@ class JointMonitorTest : public ::testing::Test {
     void SetUp() override {
         reading_.power_good = true;
         reading_.brakes_closed = false;
+        reading_.brakes_open = true;
         reading_.torque_enabled = true;
         drive_.torque_enable = true;
         drive_.brake_release = true;
@@ -212,6 +213,7 @@ TEST_F(JointMonitorTest, FollowingErrorCountsOnlyWhileTorqueIsOn) {
     drive_.torque_enable = false;
     drive_.brake_release = false;
     reading_.brakes_closed = true;
+    reading_.brakes_open = false;
     EXPECT_EQ(step().faults, 0U);
 }
 
@@ -257,6 +259,7 @@ TEST_F(JointMonitorTest, LostSupplyIsReportedAtOnce) {
 TEST_F(JointMonitorTest, BrakeFeedbackMayContradictOnlyForItsTime) {
     verifies("SWR-SAF-008", Technique::kBoundaryValues, Polarity::kViolation);
     reading_.brakes_closed = true;
+    reading_.brakes_open = false;
     const auto tolerated = kBrakeFeedbackTime.ns / kFrame.ns;
     for (std::int64_t i = 0; i < tolerated; ++i) {
         ASSERT_EQ(step().faults, 0U) << i;
@@ -264,7 +267,23 @@ TEST_F(JointMonitorTest, BrakeFeedbackMayContradictOnlyForItsTime) {
 
     EXPECT_EQ(step().faults, to_bit(ArmFault::kBrakeFault));
     reading_.brakes_closed = false;
+    reading_.brakes_open = true;
     EXPECT_EQ(step().faults, 0U);
+}
+
+TEST_F(JointMonitorTest, OneBrakeThatSticksContradictsBothCommands) {
+    verifies("SWR-SAF-008", Technique::kFaultInjection, Polarity::kViolation);
+    reading_.brakes_closed = false;
+    reading_.brakes_open = false;
+    for (const bool is_release : {true, false}) {
+        drive_.brake_release = is_release;
+        ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+        JointState state{};
+        for (std::int64_t i = 0; i <= kBrakeFeedbackTime.ns / kFrame.ns; ++i) {
+            state = step();
+        }
+        EXPECT_EQ(state.faults, to_bit(ArmFault::kBrakeFault)) << is_release;
+    }
 }
 
 TEST_F(JointMonitorTest, StandstillNeedsTheWholeConfirmationTime) {
