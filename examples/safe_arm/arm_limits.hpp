@@ -88,9 +88,10 @@ inline constexpr mamori::Duration kCommandAgeMax = 3_ms;
 inline constexpr mamori::Duration kStandstillTime = 50_ms;
 /// Bounds of a controlled stop: then SS2 becomes SS1, and SS1 becomes STO.
 inline constexpr mamori::safety::StopBounds kStopBounds{400_ms, 400_ms};
-/// Torque feedback may outlast safe torque off for this long; then the machine locks out and the watchdog is
-/// left to switch the drives off.
-inline constexpr mamori::Duration kStoFeedbackTime = 20_ms;
+/// Torque feedback may contradict the command for this long. Torque that outlasts safe torque off locks the
+/// machine out and leaves it to the watchdog to switch the drives off; torque that does not come is a
+/// deviation.
+inline constexpr mamori::Duration kTorqueFeedbackTime = 20_ms;
 /// Brake feedback may contradict the command for this long: opening and closing delay with margin.
 inline constexpr mamori::Duration kBrakeFeedbackTime = 100_ms;
 /// The power-up self test must see this many good frames in a row, and within this time.

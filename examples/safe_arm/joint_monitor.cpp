@@ -33,6 +33,7 @@ Status JointMonitor::on_activated(ContextHandle) noexcept {
     distrusted_b_ = {};
     standstill_ = StandstillDetector{make_uniform(kStandstillRadS), kStandstillTime};
     brake_contradiction_for_ = {};
+    torque_absent_for_ = {};
     has_history_ = false;
     return Status::kOk;
 }
@@ -129,8 +130,14 @@ std::uint32_t JointMonitor::judge_motion(const JointState& now) const noexcept {
     return faults;
 }
 
-/// Compares only while both command and feedback say that torque is on: switching takes a few milliseconds.
-std::uint32_t JointMonitor::judge_torque(const JointReading& now) const noexcept {
+/// Compares only while both command and feedback say that torque is on: switching takes a few milliseconds. A
+/// feedback that stays away is a deviation too, or a broken contact would switch this judgement off for good.
+std::uint32_t JointMonitor::judge_torque(const JointReading& now) noexcept {
+    const bool is_absent = is_torque_on() && !now.torque_enabled;
+    torque_absent_for_ = is_absent ? torque_absent_for_ + kFrame : Duration{0};
+    if (torque_absent_for_ > kTorqueFeedbackTime) {
+        return to_bit(ArmFault::kTorqueDeviation);
+    }
     if (!is_torque_on() || !now.torque_enabled) {
         return 0U;
     }

@@ -42,7 +42,7 @@ class JointMonitor final : public mamori::Component {
     std::uint32_t judge_channels(const JointReading& now, JointVector& position_rad) noexcept;
     std::uint32_t judge_stuck(const JointReading& now) noexcept;
     std::uint32_t judge_motion(const JointState& now) const noexcept;
-    std::uint32_t judge_torque(const JointReading& now) const noexcept;
+    std::uint32_t judge_torque(const JointReading& now) noexcept;
     std::uint32_t judge_brakes(const JointReading& now) noexcept;
     bool is_command_fresh(mamori::Instant now) const noexcept;
     bool is_torque_on() const noexcept { return drive.has_value() && drive.read().torque_enable; }
@@ -56,6 +56,7 @@ class JointMonitor final : public mamori::Component {
     mamori::safety::JointSet distrusted_b_{};
     StandstillDetector standstill_{make_uniform(kStandstillRadS), kStandstillTime};
     mamori::Duration brake_contradiction_for_{};
+    mamori::Duration torque_absent_for_{};
     bool has_history_{false};
 };
 

@@ -108,7 +108,7 @@ void SafetySupervisor::follow_reset(const JointReading& now) noexcept {
 bool SafetySupervisor::is_sto_unconfirmed(const JointReading& now) noexcept {
     const bool is_contradicted = !calc_stop_outputs(machine_.get_state()).torque_enable && now.torque_enabled;
     torque_despite_sto_for_ = is_contradicted ? torque_despite_sto_for_ + kFrame : Duration{0};
-    return torque_despite_sto_for_ > kStoFeedbackTime;
+    return torque_despite_sto_for_ > kTorqueFeedbackTime;
 }
 
 /// At the end of a controlled stop the brakes close while the torque still holds the arm, so it does not sag

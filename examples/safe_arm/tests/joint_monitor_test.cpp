@@ -229,6 +229,19 @@ TEST_F(JointMonitorTest, TorqueThatWasNotCommandedIsReported) {
     EXPECT_EQ(step().faults, to_bit(ArmFault::kTorqueDeviation));
 }
 
+TEST_F(JointMonitorTest, TorqueFeedbackMayStayAwayOnlyForItsTime) {
+    verifies("SWR-SAF-007", Technique::kBoundaryValues, Polarity::kViolation);
+    reading_.torque_enabled = false;
+    const auto tolerated = kTorqueFeedbackTime.ns / kFrame.ns;
+    for (std::int64_t i = 0; i < tolerated; ++i) {
+        ASSERT_EQ(step().faults, 0U) << i;
+    }
+
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kTorqueDeviation));
+    drive_.torque_enable = false;
+    EXPECT_EQ(step().faults & to_bit(ArmFault::kTorqueDeviation), 0U);
+}
+
 TEST_F(JointMonitorTest, MessageOlderThanItsLimitIsStale) {
     verifies("SWR-SAF-008", Technique::kBoundaryValues, Polarity::kViolation);
     is_command_sent_ = false;

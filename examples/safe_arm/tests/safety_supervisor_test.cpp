@@ -357,7 +357,7 @@ TEST_F(SafetySupervisorTest, TorqueThatCannotBeSwitchedOffIsLeftToTheWatchdog) {
     operate();
     state_.faults = to_bit(ArmFault::kPowerLost);
     step();
-    const auto tolerated = kStoFeedbackTime.ns / kFrame.ns;
+    const auto tolerated = kTorqueFeedbackTime.ns / kFrame.ns;
     for (std::int64_t i = 0; i < tolerated; ++i) {
         ASSERT_EQ(step().state, SafeState::kSafe) << i;
     }
