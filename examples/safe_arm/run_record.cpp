@@ -145,8 +145,9 @@ void RunRecord::note_instants(const FrameFacts& facts, const mamori::sim::ArmPla
         reacted_at_ = facts.end;
         verdict_.mark_stop();
     }
+    // A fault that is tolerated is judged too: there the tracking is the only thing that could suffer.
     const bool is_judged = operational_at_.has_value() && facts.start >= *operational_at_ + kTransient &&
-                           !is_injected_ && !reacted_at_.has_value();
+                           !reacted_at_.has_value();
     if (is_judged) {
         verdict_.judge_tracking(plant.positions(), facts.setpoint_rad);
     }

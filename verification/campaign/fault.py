@@ -77,13 +77,14 @@ class Fault:
         return ",".join(f"{key}={value}" for key, value in parts.items() if value is not None)
 
     def find_difference(self, written: Mapping[str, Any] | None) -> str:
-        """What the fault in run.json has otherwise than this one; empty where they agree in all that was asked."""
+        """What the fault in run.json has otherwise than this one; empty where they agree. What was not asked must not be there:
+        a fault that should last to the end and was over after a while is another fault."""
         if written is None:
             return "no fault was injected"
         wanted = {"kind": self.kind, "joint": self.joint, "channel": self.channel, "motion_at_s": self.at_s,
                   "duration_s": self.duration_s, "magnitude": self.magnitude}  # fmt: skip
         for key, value in wanted.items():
-            if value is not None and not _agrees(value, written.get(key), key):
+            if not _agrees(value, written.get(key), key):
                 return f"{key} {written.get(key)}"
         return ""
 

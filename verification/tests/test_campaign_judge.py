@@ -104,7 +104,7 @@ OUTSIDE = [  # just outside a bound, and the check that must see it
     ("operational_at_s", None, "operational first"), ("operational_at_s", 2.0, "operational first"), ("seed", 4, "seed"),
     ("fault", None, "fault injected"), ("fault.kind", "power_loss", "fault injected"), ("fault.joint", 1, "fault injected"),
     ("fault.channel", "b", "fault injected"), ("fault.motion_at_s", 1.501, "fault injected"), ("fault.at_s", 2.001, "time watched"),
-    ("fault", None, "reaction time"),
+    ("fault", None, "reaction time"), ("fault.duration_s", 0.001, "fault injected"), ("fault.magnitude", 0.5, "fault injected"),
 ]  # fmt: skip
 
 

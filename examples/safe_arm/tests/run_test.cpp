@@ -86,6 +86,18 @@ TEST_F(RunTest, FaultAndItsReactionAreRecorded) {
     EXPECT_FALSE(summary["standstill_at_s"].is_null());
 }
 
+TEST_F(RunTest, TrackingIsJudgedBehindAToleratedFaultToo) {
+    verifies("SWR-SAF-016", Technique::kFaultInjection);
+    const std::string bias = "--fault kind=encoder_bias,joint=7,channel=a,magnitude=0.0038,at=";
+    ASSERT_EQ(run(arguments(bias + "1.2 --frames 1650")), 0) << messages_;
+    const double before = read_summary()["physics"]["max_tracking_error_rad"];
+    ASSERT_EQ(run(arguments(bias + "0.6 --frames 1800")), 0) << messages_;
+
+    const nlohmann::json summary = read_summary();
+    EXPECT_EQ(summary["final_state"], "Operational");
+    EXPECT_GT(summary["physics"]["max_tracking_error_rad"].get<double>(), before + 0.0005);
+}
+
 TEST_F(RunTest, SameRunGivesTheSameHashAndAnotherFaultAnotherOne) {
     verifies("SWR-SAF-016", Technique::kBackToBack);
     ASSERT_EQ(run(arguments("--frames 1200")), 0) << messages_;
