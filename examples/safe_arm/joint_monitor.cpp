@@ -82,6 +82,7 @@ void JointMonitor::begin_history(const JointReading& now) noexcept {
 /// Compares each channel with the last trusted position: farther than the joint can move is implausible. A
 /// distrusted channel stays distrusted until the component is activated anew.
 std::uint32_t JointMonitor::judge_channels(const JointReading& now, JointVector& position_rad) noexcept {
+    const JointSet distrusted_before = distrusted_a_;
     distrusted_a_ = unite(distrusted_a_, calc_jumps(now.position_a_rad, last_rad_, kMaxStepRad));
     distrusted_b_ = unite(distrusted_b_, calc_jumps(now.position_b_rad, last_rad_, kMaxStepBRad));
     const JointSet differing =
@@ -94,6 +95,9 @@ std::uint32_t JointMonitor::judge_channels(const JointReading& now, JointVector&
             position_rad[j] = last_rad_[j];
             faults |= to_bit(ArmFault::kEncoderDiscrepancy);
         } else if (is_a_bad || is_b_bad) {
+            if (is_a_bad && !distrusted_before.contains(j)) {
+                move_history_to_b(j);
+            }
             position_rad[j] = is_a_bad ? now.position_b_rad[j] : now.position_a_rad[j];
             faults |= to_bit(ArmFault::kEncoderImplausible);
         } else {
@@ -102,6 +106,15 @@ std::uint32_t JointMonitor::judge_channels(const JointReading& now, JointVector&
         }
     }
     return faults;
+}
+
+/// The channels differ by their mounting. Without this the change from A to B would be a movement, and its
+/// speed an overspeed.
+void JointMonitor::move_history_to_b(std::size_t joint) noexcept {
+    const double offset_rad = last_.position_b_rad[joint] - last_.position_a_rad[joint];
+    for (JointVector& past : past_rad_) {
+        past[joint] += offset_rad;
+    }
 }
 
 /// A turning joint always shows counts. When the setpoint travels and neither channel moves, both are stuck.

@@ -40,6 +40,7 @@ class JointMonitor final : public mamori::Component {
 
     void begin_history(const JointReading& now) noexcept;
     std::uint32_t judge_channels(const JointReading& now, JointVector& position_rad) noexcept;
+    void move_history_to_b(std::size_t joint) noexcept;
     std::uint32_t judge_stuck(const JointReading& now) noexcept;
     std::uint32_t judge_motion(const JointState& now) const noexcept;
     std::uint32_t judge_torque(const JointReading& now) noexcept;

@@ -95,6 +95,21 @@ TEST_F(JointMonitorTest, ChannelThatJumpsIsDistrustedAndTheOtherOneCounts) {
     EXPECT_EQ(state.faults, to_bit(ArmFault::kEncoderImplausible));
 }
 
+TEST_F(JointMonitorTest, ChangeOfTheTrustedChannelIsNoMovement) {
+    verifies("SWR-SAF-005", Technique::kBoundaryValues);
+    const double mounting_rad = kDiscrepancyRad * kInside;
+    reading_.position_b_rad[0] = mounting_rad;
+    step();
+
+    reading_.position_a_rad[0] = 0.7;
+    command_.setpoint_rad[0] = mounting_rad;
+    for (int i = 0; i < 8; ++i) {
+        const JointState state = step();
+        EXPECT_EQ(state.faults, to_bit(ArmFault::kEncoderImplausible)) << i;
+        EXPECT_NEAR(state.velocity_rad_s[0], 0.0, 1e-12);
+    }
+}
+
 TEST_F(JointMonitorTest, DistrustLastsUntilActivationEvenIfTheChannelComesBack) {
     verifies("SWR-SAF-005", Technique::kFaultInjection, Polarity::kViolation);
     step();
