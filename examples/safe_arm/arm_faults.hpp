@@ -23,7 +23,7 @@ enum class ArmFault : std::uint16_t {
     kEncoderStuck,        ///< the setpoint travels and no channel shows any movement
     kFollowingError,      ///< measured position is far from the setpoint
     kOverspeed,           ///< joint speed above the safe limit (SLS)
-    kPositionLimit,       ///< joint outside the safe range (SLP)
+    kPositionLimit,       ///< joint outside the safe range (SLP), or too fast to be stopped inside
     kTorqueDeviation,     ///< a drive delivers torque that was not commanded
     kControllerSilent,    ///< the controller overran its window or did not run
     kCommandStale,        ///< controller messages lost or late
@@ -59,7 +59,7 @@ inline constexpr std::array<mamori::safety::ReactionRow, kArmFaultCount> kArmRea
     react(ArmFault::kEncoderStuck, Reaction::kSto, 2_ms),
     react(ArmFault::kFollowingError, Reaction::kSto, 2_ms),
     react(ArmFault::kOverspeed, Reaction::kSto, 2_ms),
-    react(ArmFault::kPositionLimit, Reaction::kSs1, 2_ms),
+    react(ArmFault::kPositionLimit, Reaction::kSto, 2_ms),
     react(ArmFault::kTorqueDeviation, Reaction::kSto, 2_ms),
     react(ArmFault::kControllerSilent, Reaction::kSto, 2_ms),
     react(ArmFault::kCommandStale, Reaction::kSto, 2_ms),

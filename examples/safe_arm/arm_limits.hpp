@@ -50,6 +50,9 @@ inline constexpr double kFrameS = 0.001;
 
 /// Safely limited speed (SLS): 90 % of the mechanical speed limit [rad/s]. Motions are planned below 80 %.
 inline constexpr mamori::safety::JointVector kSafeSpeedRadS{0.9, 0.9, 1.8, 1.8, 5.65, 5.65, 5.65};
+/// From the detection of a fault to brakes that bite: confirmation, one frame, closing delay, and the braking
+/// itself. A joint that would leave the safe range within this time at its present speed is stopped at once.
+inline constexpr mamori::Duration kStopTime = 50_ms;
 /// Safely limited position (SLP): 2 degrees inside the mechanical range, symmetric [rad].
 inline constexpr mamori::safety::JointVector kSafePositionRad{3.05, 1.60, 3.00, 2.35, 4.41, 2.84, 4.41};
 /// Farthest that a joint can move within one frame: mechanical speed limit plus 20 % and both channels' steps

@@ -131,10 +131,18 @@ std::uint32_t JointMonitor::judge_stuck(const JointReading& now) noexcept {
                 ArmFault::kEncoderStuck);
 }
 
+/// The range holds for the place where the joint can be stopped, too: at the limit itself a fast joint is
+/// already lost.
 std::uint32_t JointMonitor::judge_motion(const JointState& now) const noexcept {
+    JointVector stopped_rad{};
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        stopped_rad[j] = now.position_rad[j] + now.velocity_rad_s[j] * mamori::to_seconds(kStopTime);
+    }
+    const JointSet outside = unite(calc_position_violations(now.position_rad, kSafeRange),
+                                   calc_position_violations(stopped_rad, kSafeRange));
     std::uint32_t faults =
         flag(calc_speed_violations(now.velocity_rad_s, kSafeSpeedRadS), ArmFault::kOverspeed) |
-        flag(calc_position_violations(now.position_rad, kSafeRange), ArmFault::kPositionLimit);
+        flag(outside, ArmFault::kPositionLimit);
     if (is_torque_on()) {
         faults |= flag(calc_following_errors(command.read().setpoint_rad, now.position_rad,
                                              make_uniform(kFollowingErrorRad)),

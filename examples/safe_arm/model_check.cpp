@@ -31,6 +31,11 @@ std::string check_model(const mamori::sim::ArmModel& model) {
         if (!(range > kSafePositionRad[j])) {
             return refuse(joint, "position range", range, "wider than the safe range", kSafePositionRad[j]);
         }
+        const double closing_s = to_seconds(joint.brake.closing_delay + model.sto_delay + kFrame);
+        if (!(closing_s < to_seconds(kStopTime))) {
+            return refuse(joint, "closing of the brake [s]", closing_s, "shorter than the stopping time",
+                          to_seconds(kStopTime));
+        }
         if (joint.torque_limit_nm != kTorqueLimitNm[j]) {
             return refuse(joint, "torque_limit_nm", joint.torque_limit_nm, "equal to", kTorqueLimitNm[j]);
         }

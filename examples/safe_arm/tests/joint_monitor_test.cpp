@@ -217,6 +217,19 @@ TEST_F(JointMonitorTest, PositionOutsideTheSafeRangeIsReportedOnBothSides) {
     }
 }
 
+TEST_F(JointMonitorTest, JointThatCannotBeStoppedInsideItsRangeIsReported) {
+    verifies("SWR-SAF-007", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr double kSpeedRadS = 0.8;
+    const double margin_rad = kSpeedRadS * mamori::to_seconds(kStopTime);
+    for (const double side : {1.0, -1.0}) {
+        ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+        place(1U, side * (kSafePositionRad[1] - margin_rad - 10.5 * kSpeedRadS * kFrameS));
+        step();
+        EXPECT_EQ(move(1U, side * kSpeedRadS, 10).faults, 0U);
+        EXPECT_EQ(move(1U, side * kSpeedRadS, 1).faults, to_bit(ArmFault::kPositionLimit));
+    }
+}
+
 TEST_F(JointMonitorTest, FollowingErrorCountsOnlyWhileTorqueIsOn) {
     verifies("SWR-SAF-007", Technique::kBoundaryValues, Polarity::kViolation);
     reading_.position_a_rad[0] = 1.0e-5;

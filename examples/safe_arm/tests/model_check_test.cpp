@@ -58,6 +58,9 @@ TEST_F(ModelCheckTest, RangeOnEitherSideTorqueAndCoarseEncoderAreJudged) {
     model_.joints[2].position_max_rad = kSafePositionRad[2];
     expect_refused("J3", "position range");
     model_ = sound;
+    model_.joints[6].brake.closing_delay = kStopTime - model_.sto_delay - kFrame;
+    expect_refused("J7", "closing of the brake");
+    model_ = sound;
     model_.joints[3].torque_limit_nm = 100.5;
     expect_refused("J4", "torque_limit_nm");
     model_ = sound;

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -84,6 +85,47 @@ TEST_F(RunTest, FaultAndItsReactionAreRecorded) {
     EXPECT_EQ(summary["reaction"], "Sto");
     EXPECT_EQ(summary["final_state"], "Safe");
     EXPECT_FALSE(summary["standstill_at_s"].is_null());
+}
+
+TEST_F(RunTest, PathThatLeavesTheRangeIsStoppedInsideTheMechanicalRange) {
+    verifies("SWR-SAF-007", Technique::kFaultInjection, Polarity::kViolation);
+    struct Row {
+        std::size_t joint;
+        double begin_rad;
+        double speed_rad_s;
+    };
+    // Every joint towards its end at the fastest planned speed: 80 % of the mechanical limit.
+    const std::array<Row, 7U> rows{{{0U, 2.3, 0.8},
+                                    {1U, 0.9, 0.8},
+                                    {2U, 2.0, 1.6},
+                                    {3U, 1.2, 1.6},
+                                    {4U, 2.0, 5.0},
+                                    {5U, 0.5, 5.0},
+                                    {6U, 2.0, 5.0}}};
+    for (const Row& row : rows) {
+        std::ofstream motion{folder_ / "motion.dat"};
+        for (int i = 0; i <= 150; ++i) {
+            // The speed rises for 0.4 s and stays.
+            const double time_s = 0.01 * i;
+            const double travel_rad =
+                time_s < 0.4 ? row.speed_rad_s * time_s * time_s / 0.8 : row.speed_rad_s * (time_s - 0.2);
+            std::array<double, 7U> position_rad{0.0, 0.3, 0.0, 0.8, 0.0, 0.8, 0.0};
+            position_rad[row.joint] = row.begin_rad + travel_rad;
+            motion << time_s;
+            for (const double value : position_rad) {
+                motion << ' ' << value;
+            }
+            motion << '\n';
+        }
+        motion.close();
+        ASSERT_EQ(run(arguments("")), 0) << messages_;
+
+        const nlohmann::json summary = read_summary();
+        EXPECT_EQ(summary["detected_fault"], "PositionLimit") << row.joint;
+        EXPECT_EQ(summary["reaction"], "Sto") << row.joint;
+        EXPECT_EQ(summary["final_state"], "Safe") << row.joint;
+        EXPECT_GT(summary["physics"]["min_position_margin_rad"].get<double>(), 0.0) << row.joint;
+    }
 }
 
 TEST_F(RunTest, TrackingIsJudgedBehindAToleratedFaultToo) {
