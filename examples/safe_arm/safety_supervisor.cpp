@@ -67,7 +67,7 @@ SelfTestStatus SafetySupervisor::step_self_test(const JointReading& now, Instant
     if (is_over(self_test_began_, instant, kSelfTestTime)) {
         return SelfTestStatus::kFailed;
     }
-    return good_frames_ > kSelfTestFrames ? SelfTestStatus::kPassed : SelfTestStatus::kRunning;
+    return good_frames_ >= kSelfTestFrames ? SelfTestStatus::kPassed : SelfTestStatus::kRunning;
 }
 
 void SafetySupervisor::report_faults(SelfTestStatus self_test, Instant instant) noexcept {
