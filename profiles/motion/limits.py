@@ -14,10 +14,13 @@ OPERATING_FRACTION = 0.8
 The rest is left to the controller: tracking a motion at the very limit would overshoot it.
 """
 
+OPERATING_MARGIN_RAD = 0.1
+"""Distance that a motion keeps from the mechanical end of a joint: a guard stops the arm before the end stop does."""
+
 
 @dataclass(frozen=True)
 class JointLimits:
-    """Limits of one joint: position range [rad] and the speed that a motion may ask for [rad/s]."""
+    """Limits of one joint: positions that a motion may use [rad] and the speed that a motion may ask for [rad/s]."""
 
     name: str
     position_min_rad: float
@@ -48,14 +51,14 @@ def _joint(node: Node) -> JointLimits:
     name = node.get("name").as_text()
     ends = _value(node.get("position_range_rad"))
     bounds = [end.as_float() for end in ends.as_list()]
-    if len(bounds) != 2 or not bounds[0] < bounds[1]:
-        raise ends.error(f"joint {name} needs two numbers [lowest, highest] in rad")
+    if len(bounds) != 2 or not bounds[0] + 2.0 * OPERATING_MARGIN_RAD < bounds[1]:
+        raise ends.error(f"joint {name} needs two numbers [lowest, highest] in rad, more than {2.0 * OPERATING_MARGIN_RAD:g} apart")
     entries = node.as_mapping()
     if "motion_speed_limit_rad_s" in entries:
         speed = _positive(entries["motion_speed_limit_rad_s"], name)
     else:
         speed = OPERATING_FRACTION * _positive(node.get("speed_limit_rad_s"), name)
-    return JointLimits(name, bounds[0], bounds[1], speed)
+    return JointLimits(name, bounds[0] + OPERATING_MARGIN_RAD, bounds[1] - OPERATING_MARGIN_RAD, speed)
 
 
 def _positive(node: Node, joint: str) -> float:

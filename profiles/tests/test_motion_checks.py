@@ -40,13 +40,13 @@ def test_a_step_back_over_the_speed_limit_is_refused_too(tmp_path: Path, limits:
 
 @pytest.mark.verifies("SWR-MOT-005", technique="boundary_values")
 def test_the_ends_of_the_position_range_are_accepted(tmp_path: Path, limits: ArmLimits) -> None:
-    read(tmp_path, limits, (0.0, 2.0), (10.0, -2.0))
+    read(tmp_path, limits, (0.0, 1.9), (10.0, -1.9))
 
 
-@pytest.mark.parametrize("position", [2.0000001, -2.0000001])
+@pytest.mark.parametrize("position", [1.9000001, -1.9000001])
 @pytest.mark.verifies("SWR-MOT-005", technique="boundary_values", polarity="violation")
 def test_a_position_outside_the_range_is_refused(tmp_path: Path, limits: ArmLimits, position: float) -> None:
-    with pytest.raises(InputError, match=r"motion.dat:2: joint 2 \(J2\) at -?2 rad, range -2 to 2 rad"):
+    with pytest.raises(InputError, match=r"motion.dat:2: joint 2 \(J2\) at -?1.9 rad, range -1.9 to 1.9 rad"):
         read(tmp_path, limits, (0.0, 0.0), (10.0, position))
 
 
@@ -108,7 +108,7 @@ def test_reading_stops_at_the_largest_number_of_samples(tmp_path: Path, limits: 
 def test_limits_come_from_the_model(limits: ArmLimits) -> None:
     assert [joint.name for joint in limits.joints] == [f"J{joint}" for joint in range(1, 8)]
     assert limits.joints[2].motion_speed_rad_s == pytest.approx(0.8 * 3.0)
-    assert (limits.joints[2].position_min_rad, limits.joints[2].position_max_rad) == (-2.0, 2.0)
+    assert (limits.joints[2].position_min_rad, limits.joints[2].position_max_rad) == (-1.9, 1.9)
     assert limits.ignored_columns == 2
 
 
