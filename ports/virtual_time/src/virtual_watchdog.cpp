@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
 
+#include "mamori/safety/elapsed.hpp"
+
 namespace mamori::ports::virtual_time {
 
 Status VirtualWatchdog::service(Instant now) noexcept {
@@ -14,7 +16,8 @@ Status VirtualWatchdog::service(Instant now) noexcept {
 }
 
 void VirtualWatchdog::check(Instant now) noexcept {
-    if (is_started_ && now - serviced_at_ > timeout_) {
+    // A clock that ran backwards proves nothing: the relay opens.
+    if (is_started_ && safety::is_over(serviced_at_, now, timeout_)) {
         has_expired_ = true;
     }
 }

@@ -44,5 +44,14 @@ TEST(VirtualWatchdogTest, LateServiceDoesNotHideTheTimeout) {
     EXPECT_TRUE(sut.has_expired());
 }
 
+TEST(VirtualWatchdogTest, ClockThatRunsBackwardsOpensTheRelay) {
+    verifies("SWR-VTM-005", Technique::kErrorGuessing, Polarity::kViolation);
+    VirtualWatchdog sut{5_ms};
+    ASSERT_EQ(sut.service(Instant{} + 10_ms), Status::kOk);
+
+    sut.check(Instant{} + 9_ms);
+    EXPECT_TRUE(sut.has_expired());
+}
+
 }  // namespace
 }  // namespace mamori::ports::virtual_time
