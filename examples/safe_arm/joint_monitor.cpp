@@ -29,8 +29,6 @@ using mamori::Status;
 using namespace mamori::safety;  // NOLINT: the guards
 
 Status JointMonitor::on_activated(ContextHandle) noexcept {
-    distrusted_a_ = {};
-    distrusted_b_ = {};
     standstill_ = StandstillDetector{make_uniform(kStandstillRadS), kStandstillTime};
     brake_contradiction_for_ = {};
     torque_absent_for_ = {};
@@ -40,7 +38,8 @@ Status JointMonitor::on_activated(ContextHandle) noexcept {
 
 Status JointMonitor::on_execute(ContextHandle context) noexcept {
     const JointReading& now = reading.read();
-    if (!has_history_) {
+    const bool is_reset = reset_edge_.step(now.reset_button) && !is_torque_on();
+    if (!has_history_ || is_reset) {
         begin_history(now);
     }
     JointState result{};
@@ -71,6 +70,8 @@ Status JointMonitor::on_execute(ContextHandle context) noexcept {
 }
 
 void JointMonitor::begin_history(const JointReading& now) noexcept {
+    distrusted_a_ = {};
+    distrusted_b_ = {};
     past_rad_.fill(now.position_a_rad);
     oldest_ = 0U;
     last_rad_ = now.position_a_rad;
@@ -80,7 +81,8 @@ void JointMonitor::begin_history(const JointReading& now) noexcept {
 }
 
 /// Compares each channel with the last trusted position: farther than the joint can move is implausible. A
-/// distrusted channel stays distrusted until the component is activated anew.
+/// distrusted channel stays distrusted until a person resets the machine while no torque flows; channels that
+/// still contradict each other are reported again then.
 std::uint32_t JointMonitor::judge_channels(const JointReading& now, JointVector& position_rad) noexcept {
     const JointSet distrusted_before = distrusted_a_;
     distrusted_a_ = unite(distrusted_a_, calc_jumps(now.position_a_rad, last_rad_, kMaxStepRad));

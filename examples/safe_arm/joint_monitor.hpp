@@ -14,6 +14,7 @@
 #include "arm_faults.hpp"
 #include "arm_limits.hpp"
 #include "mamori/kernel/system.hpp"
+#include "mamori/safety/rising_edge.hpp"
 #include "messages.hpp"
 
 namespace safe_arm {
@@ -55,6 +56,7 @@ class JointMonitor final : public mamori::Component {
     JointVector stuck_since_rad_{};  ///< setpoint when a count of the joint last changed
     mamori::safety::JointSet distrusted_a_{};
     mamori::safety::JointSet distrusted_b_{};
+    mamori::safety::RisingEdge reset_edge_{};
     StandstillDetector standstill_{make_uniform(kStandstillRadS), kStandstillTime};
     mamori::Duration brake_contradiction_for_{};
     mamori::Duration torque_absent_for_{};

@@ -43,6 +43,10 @@ int run_scenario(const safe_arm::RunOptions& options) {
     if (!track.read(options.motion, safe_arm::kFrameS, error)) {
         return fail(kExitUsage, error);
     }
+    const std::string unwritable = safe_arm::claim_folder(options.out);
+    if (!unwritable.empty()) {
+        return fail(kExitUsage, unwritable);
+    }
     const auto motion_ns = static_cast<std::int64_t>(std::llround(track.get_duration_s() * 1.0e9));
     const Instant motion_end = Instant{} + kMotionStart + Duration{motion_ns};
     mamori::sim::FaultPlan fault = options.fault;

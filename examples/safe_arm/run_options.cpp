@@ -2,7 +2,12 @@
 #include "run_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <string_view>
+#include <vector>
+
+#include "mamori/simbody_sim/nearest_name.hpp"
 
 namespace safe_arm {
 namespace {
@@ -12,6 +17,25 @@ constexpr int kExitUsage = 2;
 /// The conversion to an unsigned number would wrap a negative one round. @return what is wrong, or nothing.
 std::string check_not_negative(const std::string& text) {
     return text.find('-') == std::string::npos ? std::string{} : "'" + text + "' must be 0 or more";
+}
+
+const std::vector<std::string_view> kWords{"run",     "--model", "--motion", "--out",
+                                           "--fault", "--seed",  "--frames", "--help"};
+
+/// @return the first word that is neither known nor the value of an option.
+std::string find_unknown_word(int argc, const char* const* argv) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word{argv[i]};
+        const bool is_known =
+            std::find(kWords.begin(), kWords.end(), word.substr(0U, word.find('='))) != kWords.end();
+        if (!is_known) {
+            return std::string{word};
+        }
+        if (word.substr(0U, 2U) == "--" && word.find('=') == std::string_view::npos) {
+            ++i;
+        }
+    }
+    return {};
 }
 
 }  // namespace
@@ -39,7 +63,15 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
         result.exit_code = app.exit(help);
         return result;
     } catch (const CLI::ParseError& error) {
-        std::cerr << "safe_arm: " << error.what() << "; see 'safe_arm run --help'\n";
+        const std::string word = find_unknown_word(argc, argv);
+        std::cerr << "safe_arm: ";
+        if (word.empty()) {
+            std::cerr << error.what();
+        } else {
+            std::cerr << "'" << word << "' is not known; did you mean '"
+                      << mamori::sim::find_nearest_name(word, kWords) << "'?";
+        }
+        std::cerr << " See 'safe_arm run --help'.\n";
         result.exit_code = kExitUsage;
         return result;
     }

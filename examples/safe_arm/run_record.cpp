@@ -239,21 +239,28 @@ std::string RunRecord::make_summary(const Closing& closing) const {
     return summary.dump(2) + "\n";
 }
 
-std::string RunRecord::write(const mamori::EventLog& events, const Closing& closing) const {
+std::string claim_folder(const std::string& folder) {
     namespace fs = std::filesystem;
-    const fs::path folder{options_.out};
     std::error_code error;
     fs::create_directories(folder, error);
     // The summary goes first and comes last: whoever finds one finds the whole record of one run.
-    const bool is_clear = !error && (fs::remove(folder / "run.json", error) || !error);
-    if (is_clear && replace_file(folder / "series.csv", series_) &&
+    const bool is_clear = !error && (fs::remove(fs::path{folder} / "run.json", error) || !error);
+    const fs::path series = fs::path{folder} / "series.csv";
+    if (is_clear && replace_file(series, {}) && fs::remove(series, error)) {
+        return {};
+    }
+    const std::string reason = error ? error.message() : "no file can be made in it";
+    return folder + ": the record cannot be written (" + reason + "): name a folder that you may write to";
+}
+
+std::string RunRecord::write(const mamori::EventLog& events, const Closing& closing) const {
+    const std::filesystem::path folder{options_.out};
+    if (replace_file(folder / "series.csv", series_) &&
         replace_file(folder / "events.csv", make_events_text(events)) &&
         replace_file(folder / "run.json", make_summary(closing))) {
         return {};
     }
-    const std::string reason = error ? error.message() : "the disk may be full, or the folder read-only";
-    return options_.out + ": the record cannot be written (" + reason +
-           "): name a folder that you may write to";
+    return options_.out + ": the record cannot be written: the disk may be full, or the folder has gone";
 }
 
 }  // namespace safe_arm

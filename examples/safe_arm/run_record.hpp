@@ -36,6 +36,11 @@ struct FrameFacts {
     bool brake_release{false};
 };
 
+/// Makes the folder of a record and tries a file in it, so that a long run does not end without a place to go
+/// to.
+/// @return empty on success, else one line with the reason.
+std::string claim_folder(const std::string& folder);
+
 /// Gathers one run. Host only; owns heap memory. Thread safety: none.
 class RunRecord final {
   public:

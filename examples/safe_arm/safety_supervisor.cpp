@@ -76,7 +76,7 @@ void SafetySupervisor::report_faults(SelfTestStatus self_test, Instant instant) 
         const auto fault = static_cast<ArmFault>(i);
         bool is_present = (seen & to_bit(fault)) != 0U;
         if (fault == ArmFault::kControllerSilent) {
-            is_present = supervision_.get_local_status(controller_) == LocalStatus::kExpired;
+            is_present = is_controller_silent();
         } else if (fault == ArmFault::kSelfTestFailed) {
             is_present = self_test == SelfTestStatus::kFailed;
         } else if (fault == ArmFault::kMeasurementStale) {
@@ -93,6 +93,16 @@ void SafetySupervisor::report_faults(SelfTestStatus self_test, Instant instant) 
     }
 }
 
+/// In the safe state each frame is judged anew: a controller that still hangs expires again in every frame,
+/// one that runs again is silent no more, and the fault register alone remembers that it was.
+bool SafetySupervisor::is_controller_silent() noexcept {
+    const bool is_expired = supervision_.get_local_status(controller_) == LocalStatus::kExpired;
+    if (is_expired && machine_.get_state() == SafeState::kSafe) {
+        static_cast<void>(supervision_.acknowledge(controller_));
+    }
+    return is_expired;
+}
+
 /// A deliberate push acknowledges what is no longer present; the state machine judges the same push by
 /// itself.
 void SafetySupervisor::follow_reset(const JointReading& now) noexcept {
@@ -101,7 +111,6 @@ void SafetySupervisor::follow_reset(const JointReading& now) noexcept {
     }
     // What is still present stays latched, and the machine then refuses the reset: no status to act on here.
     static_cast<void>(faults_.acknowledge_all());
-    static_cast<void>(supervision_.acknowledge(controller_));
 }
 
 /// The stop of last resort has a confirmation too: the drives' own feedback.
@@ -130,7 +139,7 @@ void SafetySupervisor::note_reaction(Reaction reaction, Instant instant) noexcep
 void SafetySupervisor::serve_watchdog(GlobalStatus health, bool is_trustworthy, Instant instant) noexcept {
     const WatchdogOutcome outcome = gate_.step(instant, health, is_trustworthy);
     is_watchdog_served_ = outcome == WatchdogOutcome::kServiced;
-    const bool is_refused = outcome == WatchdogOutcome::kRefused || outcome == WatchdogOutcome::kClosed;
+    const bool is_refused = outcome != WatchdogOutcome::kServiced && outcome != WatchdogOutcome::kHeldBack;
     if (is_refused && !is_watchdog_refused_) {
         write_event(instant, Severity::kFault, ArmEvent::kWatchdogRefused, static_cast<std::int64_t>(health));
     }

@@ -67,6 +67,7 @@ class SafetySupervisor final : public mamori::Component {
   private:
     mamori::safety::SelfTestStatus step_self_test(const JointReading& now, mamori::Instant instant) noexcept;
     void report_faults(mamori::safety::SelfTestStatus self_test, mamori::Instant instant) noexcept;
+    bool is_controller_silent() noexcept;
     void follow_reset(const JointReading& now) noexcept;
     bool is_sto_unconfirmed(const JointReading& now) noexcept;
     bool is_in_ss1() const noexcept {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mamori/simbody_sim/fault_plan.hpp"
-#include "nearest_name.hpp"
+#include "mamori/simbody_sim/nearest_name.hpp"
 #include "number_text.hpp"
 
 namespace mamori::sim {
@@ -47,7 +47,7 @@ Pairs split(std::string_view text) {
         const std::string key(pair.substr(0U, equal));
         if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
             throw PlanError("unknown key '" + key + "'; did you mean '" +
-                            std::string(detail::find_nearest_name(key, keys)) + "'?");
+                            std::string(find_nearest_name(key, keys)) + "'?");
         }
         if (!pairs.emplace(key, pair.substr(equal + 1U)).second) {
             throw PlanError(key + " is given twice");
@@ -70,7 +70,7 @@ Enum find_by_name(const char* key, const std::string& word, const std::array<Enu
         names.emplace_back(get_name(element));
     }
     throw PlanError("unknown " + std::string(key) + " '" + word + "'; did you mean '" +
-                    std::string(detail::find_nearest_name(word, names)) + "'?");
+                    std::string(find_nearest_name(word, names)) + "'?");
 }
 
 /// Value of `key`, which must be there exactly when the kind uses it; empty otherwise.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "nearest_name.hpp"
+#include "mamori/simbody_sim/nearest_name.hpp"
 #include "number_text.hpp"
 
 namespace mamori::sim::detail {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nearest_name.hpp"
+#include "mamori/simbody_sim/nearest_name.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 
-namespace mamori::sim::detail {
+namespace mamori::sim {
 namespace {
 
 /// Levenshtein distance, row by row.
@@ -32,4 +32,4 @@ std::string_view find_nearest_name(std::string_view word, const std::vector<std:
     });
 }
 
-}  // namespace mamori::sim::detail
+}  // namespace mamori::sim

@@ -110,16 +110,37 @@ TEST_F(JointMonitorTest, ChangeOfTheTrustedChannelIsNoMovement) {
     }
 }
 
-TEST_F(JointMonitorTest, DistrustLastsUntilActivationEvenIfTheChannelComesBack) {
+TEST_F(JointMonitorTest, DistrustLastsUntilAResetWithoutTorque) {
     verifies("SWR-SAF-005", Technique::kFaultInjection, Polarity::kViolation);
     step();
     reading_.position_a_rad[3] = 0.7;
     step();
-
     reading_.position_a_rad[3] = 0.0;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kEncoderImplausible)) << "comes back by itself";
+    reading_.reset_button = true;
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kEncoderImplausible)) << "reset while torque is on";
+
+    reading_.reset_button = false;
+    drive_ = {};
+    reading_.torque_enabled = false;
+    reading_.brakes_open = false;
+    reading_.brakes_closed = true;
     EXPECT_EQ(step().faults, to_bit(ArmFault::kEncoderImplausible));
-    ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+    reading_.reset_button = true;
     EXPECT_EQ(step().faults, 0U);
+}
+
+TEST_F(JointMonitorTest, ChannelThatIsStillWrongAfterTheResetIsReportedInEachFrame) {
+    verifies("SWR-SAF-005", Technique::kFaultInjection, Polarity::kViolation);
+    drive_ = {};
+    step();
+    reading_.position_a_rad[3] = 0.7;
+    step();
+
+    reading_.reset_button = true;
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_NE(step().faults, 0U) << i;
+    }
 }
 
 TEST_F(JointMonitorTest, StepThatTheJointCanMakeIsTrusted) {

@@ -156,6 +156,10 @@ TEST_F(RunTest, BrokenInputGivesOneLineAndNoRecord) {
 
     EXPECT_EQ(run(arguments("--fault kind=encoder_freze,joint=2,channel=a,at=1")), 2);
     expect_one_line("encoder_freeze");
+    EXPECT_EQ(run(arguments("--fualt kind=power_loss,at=1")), 2);
+    expect_one_line("did you mean '--fault'");
+    EXPECT_EQ(run("rnu"), 2);
+    expect_one_line("'run'");
     EXPECT_EQ(run(arguments("--frames nine")), 2);
     expect_one_line("--frames");
     EXPECT_EQ(run(arguments("--frames -1")), 2);
@@ -173,7 +177,7 @@ TEST_F(RunTest, FolderThatCannotBeWrittenGivesOneLine) {
     verifies("SWR-SAF-016", Technique::kErrorGuessing, Polarity::kViolation);
     std::ofstream{folder_ / "out"} << "a file where the folder should be\n";
 
-    EXPECT_EQ(run(arguments("--frames 700")), 1);
+    EXPECT_EQ(run(arguments("--frames 700")), 2);
     EXPECT_NE(messages_.find("cannot be written"), std::string::npos) << messages_;
 }
 

@@ -333,6 +333,25 @@ TEST_F(SafetySupervisorTest, ResetBringsTheMachineBackOnlyWhenTheFaultIsGone) {
     EXPECT_EQ(step().state, SafeState::kSelfTest);
 }
 
+TEST_F(SafetySupervisorTest, OnePushBringsTheMachineBackOnceTheControllerRunsAgain) {
+    verifies("SWR-SAF-013", Technique::kStateTransition);
+    operate();
+    supervision_.on_budget_overrun(1U, kController, now_);
+    step();
+    reading_.torque_enabled = false;
+    reading_.brakes_open = false;
+    reading_.brakes_closed = true;
+    for (int i = 0; i < 5; ++i) {
+        supervision_.on_budget_overrun(1U, kController, now_);
+        reading_.reset_button = i == 3;
+        ASSERT_EQ(step().state, SafeState::kSafe) << "still hanging, push in frame 3";
+    }
+
+    step();
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSelfTest);
+}
+
 TEST_F(SafetySupervisorTest, WatchdogIsServedWhileTheSafetyPartitionIsHealthy) {
     verifies("SWR-SAF-015");
     for (int i = 1; i <= 50; ++i) {
