@@ -14,12 +14,12 @@ function(mamori_common_flags target)
         -Woverloaded-virtual -Wdouble-promotion -Werror -ffp-contract=off -UNDEBUG)
 endfunction()
 
-# mamori_library(<layer> [TARGET_SUBSET] [NO_INSTALL] SOURCES ... DEPENDS ... PRIVATE_DEPENDS ...)
+# mamori_library(<layer> [TARGET_SUBSET] [COMPONENT name] SOURCES ... DEPENDS ... PRIVATE_DEPENDS ...)
 #   gives mamori_<layer> and its alias mamori::<layer>, exported and installed.
 #   TARGET_SUBSET: the layer runs on a bare controller: no exceptions, no RTTI, no guarded statics.
-#   NO_INSTALL: the layer stays out of the package, for instance because it needs libraries that have no package of their own.
+#   COMPONENT: users ask for it, find_package(mamori COMPONENTS name), since it needs libraries that not everybody has.
 function(mamori_library layer)
-    cmake_parse_arguments(arg "TARGET_SUBSET;NO_INSTALL" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+    cmake_parse_arguments(arg "TARGET_SUBSET" "COMPONENT" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
     set(target mamori_${layer})
     add_library(${target} STATIC ${arg_SOURCES})
     add_library(mamori::${layer} ALIAS ${target})
@@ -31,10 +31,12 @@ function(mamori_library layer)
         target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics)
     endif()
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${layer})
-    if(NOT arg_NO_INSTALL)
-        install(TARGETS ${target} EXPORT mamoriTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-        install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    set(export mamoriTargets)
+    if(arg_COMPONENT)
+        set(export mamori_${arg_COMPONENT}Targets)
     endif()
+    install(TARGETS ${target} EXPORT ${export} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
 # mamori_test(<name> SOURCES ... DEPENDS ...)
@@ -54,11 +56,17 @@ function(mamori_test name)
 endfunction()
 
 function(mamori_install_package)
+    set(mamori_model_dir "${CMAKE_INSTALL_DATADIR}/mamori/models")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/simbody_sim/models/" DESTINATION ${mamori_model_dir})
     configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/mamoriConfig.cmake.in"
-        "${PROJECT_BINARY_DIR}/mamoriConfig.cmake" INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)
+        "${PROJECT_BINARY_DIR}/mamoriConfig.cmake" INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori
+        PATH_VARS mamori_model_dir)
     write_basic_package_version_file("${PROJECT_BINARY_DIR}/mamoriConfigVersion.cmake"
         VERSION ${PROJECT_VERSION} COMPATIBILITY SameMinorVersion)
     install(FILES "${PROJECT_BINARY_DIR}/mamoriConfig.cmake" "${PROJECT_BINARY_DIR}/mamoriConfigVersion.cmake"
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)
     install(EXPORT mamoriTargets NAMESPACE mamori:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)
+    if(MAMORI_WITH_SIMBODY_SIM)
+        install(EXPORT mamori_simbody_simTargets NAMESPACE mamori:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)
+    endif()
 endfunction()
