@@ -208,7 +208,7 @@ std::string RunRecord::make_summary(const Closing& closing) const {
     const Json summary = {
         {"schema", "mamori.run/1"},
         {"commit", get_environment("MAMORI_COMMIT", "unknown")},
-        {"compiler", __VERSION__},
+        {"compiler", SAFE_ARM_COMPILER},
         {"seed", options_.seed},
         {"frames", closing.frames},
         {"period_s", to_seconds(kFrame)},
