@@ -14,6 +14,7 @@ import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
+from mamori.profiles.text_file import write_text
 from mamori.verification.command.project import Project
 
 COMPILERS = ("g++", "clang++-19", "arm-none-eabi-g++")
@@ -24,9 +25,7 @@ def write_environment(project: Project, command: Sequence[str]) -> Path:
     record = collect_environment(project, command)
     project.evidence.mkdir(parents=True, exist_ok=True)
     path = project.evidence / "environment.json"
-    part = path.with_name(f".{path.name}.part")
-    part.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
-    os.replace(part, path)
+    write_text(path, json.dumps(record, indent=1) + "\n")
     return path
 
 

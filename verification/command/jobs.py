@@ -13,12 +13,12 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+from mamori.profiles.input_error import nearest_names
 from mamori.verification.command import plans
 from mamori.verification.command.campaign_step import CampaignRequest
 from mamori.verification.command.campaign_table import summarise_campaign
 from mamori.verification.command.environment import write_environment
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
-from mamori.verification.command.names import nearest
 from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
 from mamori.verification.command.steps import Context, Outcome, all_passed, run_steps, total
 
@@ -107,7 +107,7 @@ def check_preset(preset: str) -> None:
     presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
     names = [entry["name"] for entry in presets if not entry.get("hidden")]
     if preset not in names:
-        raise UsageError(f"there is no preset '{preset}'; nearest: {nearest(preset, names)}")
+        raise UsageError(f"there is no preset '{preset}'; {nearest_names(preset, names)}")
 
 
 def show_steps(outcomes: Sequence[Outcome], context: Context) -> None:

@@ -15,9 +15,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
 
+from mamori.profiles.input_error import InputError, nearest_names
 from mamori.verification.command import jobs
 from mamori.verification.command.errors import EXIT_INTERRUPTED, EXIT_USAGE, UsageError
-from mamori.verification.command.names import nearest
 from mamori.verification.command.process import end_children, raise_on_signals
 from mamori.verification.command.project import RELEASE
 
@@ -33,7 +33,7 @@ class Parser(argparse.ArgumentParser):
     def _check_value(self, action: argparse.Action, value: object) -> None:
         if action.choices is not None and value not in action.choices:
             where = self.prog.removeprefix(PROGRAM).strip() or "the command line"
-            raise UsageError(f"{where}: there is no '{value}'; nearest: {nearest(str(value), [*map(str, action.choices)])}")
+            raise UsageError(f"{where}: there is no '{value}'; {nearest_names(str(value), map(str, action.choices))}")
 
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         known, rest = super().parse_known_args(args, namespace)
@@ -46,7 +46,7 @@ class Parser(argparse.ArgumentParser):
         if not word.startswith("-"):
             return f"{command} does not take '{word}'; see ./mamori {command} --help"
         options = [text for action in self._actions for text in action.option_strings]
-        return f"{command} has no option '{word}'; nearest: {nearest(word.partition('=')[0], options)}"
+        return f"{command} has no option '{word}'; {nearest_names(word.partition('=')[0], options)}"
 
 
 def at_least_one(text: str) -> int:
@@ -105,7 +105,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     raise_on_signals()
     try:
         return run(list(sys.argv[1:] if argv is None else argv))
-    except UsageError as error:
+    except (UsageError, InputError) as error:
         print(f"{PROGRAM}: {error}", file=sys.stderr)
         return EXIT_USAGE
     except KeyboardInterrupt:
