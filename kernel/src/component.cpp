@@ -4,7 +4,7 @@
 namespace mamori {
 
 Status Component::initialize() noexcept {
-    const LifecycleTransition transition = get_transition(state_, LifecycleEvent::kInitialize);
+    const LifecycleTransition transition = get_transition(get_state(), LifecycleEvent::kInitialize);
     if (is_changing_ || transition.admission != Status::kOk) {
         return Status::kPreconditionNotMet;
     }
@@ -12,17 +12,17 @@ Status Component::initialize() noexcept {
     const Status result = on_initialize();
     is_changing_ = false;
     if (result == Status::kOk) {
-        state_ = transition.target;
+        set_state(transition.target);
     }
     return result;
 }
 
 Status Component::finalize() noexcept {
     // Also refuses a call from on_initialize or on_finalize: the component is not alive there.
-    if (is_participating_ || !is_alive()) {
+    if (context_ != nullptr || !is_alive()) {
         return Status::kPreconditionNotMet;
     }
-    state_ = LifecycleState::kCreated;
+    set_state(LifecycleState::kCreated);
     is_changing_ = true;
     const Status result = on_finalize();
     is_changing_ = false;

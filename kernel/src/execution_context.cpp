@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/execution_context.hpp"
 
+#include "mamori/kernel/external_trigger.hpp"
+
 namespace mamori {
 namespace {
 
@@ -11,52 +13,78 @@ constexpr LifecycleState calc_target(LifecycleState state, LifecycleEvent event)
     return transition.target;
 }
 
+/// What ContextPlan says about its own fields.
+bool is_sound(const ContextPlan& plan) noexcept {
+    if (plan.period <= Duration{0} || plan.events_per_cycle == 0U) {
+        return false;
+    }
+    const bool is_periodic = plan.kind == ExecutionKind::kPeriodic;
+    if ((plan.kind == ExecutionKind::kOther) != (plan.trigger != nullptr) ||
+        (!is_periodic && !plan.alternative_periods.empty())) {
+        return false;
+    }
+    for (const Duration& alternative : plan.alternative_periods) {
+        if (alternative <= plan.period || alternative.ns % plan.period.ns != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 /// Marks that an action of one participant is being called, for as long as it lives.
 class ExecutionContext::ActionScope final {
   public:
     ActionScope(ExecutionContext& context, std::size_t position) noexcept : context_(context) {
-        context_.acting_position_ = position;
-        context_.is_in_action_.store(true, std::memory_order_release);
+        move_to(position);
     }
-    ~ActionScope() { context_.is_in_action_.store(false, std::memory_order_release); }
+    ~ActionScope() { context_.acting_position_.store(kNoPosition, std::memory_order_release); }
     ActionScope(const ActionScope&) = delete;
     ActionScope& operator=(const ActionScope&) = delete;
+
+    void move_to(std::size_t position) noexcept {
+        context_.acting_position_.store(position, std::memory_order_relaxed);
+    }
 
   private:
     ExecutionContext& context_;
 };
 
 bool ExecutionContext::is_busy() const noexcept {
-    return is_in_cycle_ || is_in_action_.load(std::memory_order_acquire);
+    return is_in_cycle() || acting_position_.load(std::memory_order_acquire) != kNoPosition;
 }
 
 Status ExecutionContext::attach(std::int32_t id, Span<Component* const> participants,
-                                Duration period) noexcept {
+                                const ContextPlan& plan) noexcept {
     if (id_ >= 0) {
         return Status::kPreconditionNotMet;
     }
-    if (id < 0 || period <= Duration{0} || participants.empty()) {
+    if (id < 0 || participants.empty() || !is_sound(plan)) {
         return Status::kBadParameter;
     }
     for (std::size_t i = 0U; i < participants.size(); ++i) {
-        if (participants[i] == nullptr || participants[i]->is_participating_) {
+        if (participants[i] == nullptr || participants[i]->context_ != nullptr) {
+            // Covers one that is named twice: its first place has been taken.
+            release_participants(participants.subspan(0U, i));
             return Status::kBadParameter;
         }
-        for (std::size_t j = 0U; j < i; ++j) {
-            if (participants[i] == participants[j]) {
-                return Status::kBadParameter;
-            }
-        }
-    }
-    for (Component* component : participants) {
-        component->is_participating_ = true;
+        participants[i]->context_ = this;
+        participants[i]->position_ = i;
     }
     id_ = id;
-    period_ = period;
+    plan_ = plan;
     participants_ = participants;
     return Status::kOk;
+}
+
+void ExecutionContext::release_participants(Span<Component* const> participants) noexcept {
+    for (Component* component : participants) {
+        component->context_ = nullptr;
+        if (component->get_state() == LifecycleState::kError) {
+            component->set_state(LifecycleState::kInactive);
+        }
+    }
 }
 
 Status ExecutionContext::detach() noexcept {
@@ -64,17 +92,13 @@ Status ExecutionContext::detach() noexcept {
         return Status::kPreconditionNotMet;
     }
     for (const Component* component : participants_) {
-        if (component->state_ == LifecycleState::kActive) {
+        if (component->get_state() == LifecycleState::kActive) {
             return Status::kPreconditionNotMet;
         }
     }
-    for (Component* component : participants_) {
-        component->is_participating_ = false;
-        if (component->state_ == LifecycleState::kError) {
-            component->state_ = LifecycleState::kInactive;
-        }
-    }
+    release_participants(participants_);
     participants_ = {};
+    plan_ = {};
     id_ = -1;
     return Status::kOk;
 }
@@ -88,7 +112,7 @@ Status ExecutionContext::start(Instant now) noexcept {
             return Status::kPreconditionNotMet;
         }
     }
-    has_refusal_ = false;
+    refusing_position_ = kNoPosition;
     for (std::size_t i = 0U; i < participants_.size(); ++i) {
         const ActionScope scope{*this, i};
         const Status result = participants_[i]->on_startup(make_handle(now));
@@ -98,11 +122,13 @@ Status ExecutionContext::start(Instant now) noexcept {
                 static_cast<void>(participants_[started]->on_shutdown(make_handle(now)));
             }
             refusing_position_ = i;
-            has_refusal_ = true;
             return result;
         }
     }
     is_running_ = true;
+    if (plan_.trigger != nullptr) {
+        plan_.trigger->ignore_waiting();
+    }
     return Status::kOk;
 }
 
@@ -123,12 +149,7 @@ Status ExecutionContext::stop(Instant now) noexcept {
 }
 
 Result<std::size_t> ExecutionContext::find(const Component& component) const noexcept {
-    for (std::size_t i = 0U; i < participants_.size(); ++i) {
-        if (participants_[i] == &component) {
-            return i;
-        }
-    }
-    return Status::kBadParameter;
+    return component.context_ == this ? Result<std::size_t>{component.position_} : Status::kBadParameter;
 }
 
 Result<std::size_t> ExecutionContext::admit(const Component& component, LifecycleEvent event) const noexcept {
@@ -139,14 +160,14 @@ Result<std::size_t> ExecutionContext::admit(const Component& component, Lifecycl
     if (is_busy()) {
         return Status::kPreconditionNotMet;
     }
-    const Status admission = get_transition(component.state_, event).admission;
+    const Status admission = get_transition(component.get_state(), event).admission;
     return admission == Status::kOk ? index : Result<std::size_t>{admission};
 }
 
-void ExecutionContext::enter_error(Component& component, Instant now) noexcept {
-    component.state_ = calc_target(component.state_, LifecycleEvent::kFail);
+void ExecutionContext::enter_error(Component& component, ContextHandle handle) noexcept {
+    component.set_state(calc_target(component.get_state(), LifecycleEvent::kFail));
     // on_aborting cannot make matters worse: the component is in Error whatever it answers.
-    static_cast<void>(component.on_aborting(make_handle(now)));
+    static_cast<void>(component.on_aborting(handle));
 }
 
 Status ExecutionContext::activate_component(const Component& component, Instant now) noexcept {
@@ -158,9 +179,9 @@ Status ExecutionContext::activate_component(const Component& component, Instant 
     const ActionScope scope{*this, index.get_value()};
     const Status result = participant.on_activated(make_handle(now));
     if (result == Status::kOk) {
-        participant.state_ = calc_target(participant.state_, LifecycleEvent::kActivate);
+        participant.set_state(calc_target(participant.get_state(), LifecycleEvent::kActivate));
     } else {
-        enter_error(participant, now);
+        enter_error(participant, make_handle(now));
     }
     return result;
 }
@@ -172,7 +193,7 @@ Status ExecutionContext::deactivate_component(const Component& component, Instan
     }
     Component& participant = *participants_[index.get_value()];
     const ActionScope scope{*this, index.get_value()};
-    participant.state_ = calc_target(participant.state_, LifecycleEvent::kDeactivate);
+    participant.set_state(calc_target(participant.get_state(), LifecycleEvent::kDeactivate));
     return participant.on_deactivated(make_handle(now));
 }
 
@@ -185,7 +206,7 @@ Status ExecutionContext::reset_component(const Component& component, Instant now
     const ActionScope scope{*this, index.get_value()};
     const Status result = participant.on_reset(make_handle(now));
     if (result == Status::kOk) {
-        participant.state_ = calc_target(participant.state_, LifecycleEvent::kReset);
+        participant.set_state(calc_target(participant.get_state(), LifecycleEvent::kReset));
     }
     return result;
 }
@@ -194,11 +215,16 @@ Result<LifecycleState> ExecutionContext::get_component_state(const Component& co
     if (!find(component).has_value() || !component.is_alive()) {
         return Status::kBadParameter;
     }
-    return component.state_;
+    return component.get_state();
+}
+
+LifecycleState ExecutionContext::get_state_at(std::size_t position) const noexcept {
+    return participants_[position]->get_state();
 }
 
 double ExecutionContext::get_rate() const noexcept {
-    return id_ < 0 ? -1.0 : 1.0e9 / static_cast<double>(period_.ns);
+    const bool has_rate = id_ >= 0 && plan_.kind == ExecutionKind::kPeriodic;
+    return has_rate ? 1.0e9 / static_cast<double>(plan_.period.ns) : -1.0;
 }
 
 Status ExecutionContext::set_rate(double rate_hz) noexcept {
@@ -210,42 +236,50 @@ Status ExecutionContext::set_rate(double rate_hz) noexcept {
 }
 
 Result<std::size_t> ExecutionContext::get_acting_position() const noexcept {
-    if (!is_in_action_.load(std::memory_order_acquire)) {
-        return Status::kPreconditionNotMet;
-    }
-    return acting_position_;
+    const std::size_t position = acting_position_.load(std::memory_order_acquire);
+    return position == kNoPosition ? Status::kPreconditionNotMet : Result<std::size_t>{position};
 }
 
 Result<std::size_t> ExecutionContext::get_refusing_position() const noexcept {
-    if (!has_refusal_) {
-        return Status::kPreconditionNotMet;
-    }
-    return refusing_position_;
+    return refusing_position_ == kNoPosition ? Status::kPreconditionNotMet
+                                             : Result<std::size_t>{refusing_position_};
+}
+
+bool ExecutionContext::take_turn() noexcept {
+    return is_running_ && (plan_.trigger == nullptr || plan_.trigger->take());
 }
 
 Status ExecutionContext::begin_cycle(Instant now) noexcept {
     if (!is_running_ || is_busy()) {
         return Status::kPreconditionNotMet;
     }
-    is_in_cycle_ = true;
+    is_in_cycle_.store(true, std::memory_order_relaxed);
     cycle_start_ = now;
     return Status::kOk;
 }
 
-void ExecutionContext::execute(std::size_t index) noexcept {
-    MAMORI_REQUIRE(2, is_in_cycle_);
-    Component& component = *participants_[index];
-    const Instant now = cycle_start_;
-    const ActionScope scope{*this, index};
-    switch (component.state_) {
+void ExecutionContext::execute_range(std::size_t first, std::size_t count) noexcept {
+    MAMORI_REQUIRE(2, is_in_cycle());
+    const Span<Component* const> range = participants_.subspan(first, count);
+    const ContextHandle handle = make_handle(cycle_start_);
+    ActionScope scope{*this, first};
+    for (std::size_t i = 0U; i < count && is_in_cycle(); ++i) {
+        scope.move_to(first + i);
+        Component& component = *range.data()[i];
+        if (component.get_state() != LifecycleState::kActive) {
+            execute_unusual(component, handle);
+        } else if (component.on_execute(handle) != Status::kOk) {
+            enter_error(component, handle);
+        }
+    }
+}
+
+void ExecutionContext::execute_unusual(Component& component, ContextHandle handle) noexcept {
+    switch (component.get_state()) {
         case LifecycleState::kError:
-            static_cast<void>(component.on_error(make_handle(now)));
+            static_cast<void>(component.on_error(handle));
             return;
         case LifecycleState::kActive:
-            if (component.on_execute(make_handle(now)) != Status::kOk) {
-                enter_error(component, now);
-            }
-            return;
         case LifecycleState::kCreated:
         case LifecycleState::kInactive:
             return;
@@ -253,21 +287,19 @@ void ExecutionContext::execute(std::size_t index) noexcept {
     MAMORI_INVARIANT(3, false);  // only a corrupted state comes here
 }
 
-void ExecutionContext::update_state(std::size_t index) noexcept {
-    MAMORI_REQUIRE(4, is_in_cycle_);
-    Component& component = *participants_[index];
-    if (component.state_ != LifecycleState::kActive) {
-        return;
+void ExecutionContext::update_range(std::size_t first, std::size_t count) noexcept {
+    MAMORI_REQUIRE(4, is_in_cycle());
+    const Span<Component* const> range = participants_.subspan(first, count);
+    const ContextHandle handle = make_handle(cycle_start_);
+    ActionScope scope{*this, first};
+    for (std::size_t i = 0U; i < count && is_in_cycle(); ++i) {
+        scope.move_to(first + i);
+        Component& component = *range.data()[i];
+        if (component.get_state() == LifecycleState::kActive &&
+            component.on_state_update(handle) != Status::kOk) {
+            enter_error(component, handle);
+        }
     }
-    const Instant now = cycle_start_;
-    const ActionScope scope{*this, index};
-    if (component.on_state_update(make_handle(now)) != Status::kOk) {
-        enter_error(component, now);
-    }
-}
-
-void ExecutionContext::end_cycle() noexcept {
-    is_in_cycle_ = false;
 }
 
 }  // namespace mamori

@@ -46,7 +46,7 @@ Status Executive::attach_contexts() noexcept {
         const Span<Component* const> participants =
             view_.components.subspan(row.first_component, row.component_count);
         const Status result =
-            windows_[w].context.attach(static_cast<std::int32_t>(w), participants, view_.frame);
+            windows_[w].context.attach(static_cast<std::int32_t>(w), participants, ContextPlan{view_.frame});
         if (result != Status::kOk) {
             failed_component_ = row.first_component;
             for (std::size_t attached = 0U; attached < w; ++attached) {

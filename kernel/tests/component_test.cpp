@@ -87,7 +87,7 @@ TEST_F(ComponentTest, FinalizeWhileParticipatingIsRefusedUntilTheContextGaveItUp
     const std::array<Component*, 1> participants{&sut_};
     ExecutionContext context;
     ASSERT_EQ(sut_.initialize(), Status::kOk);
-    ASSERT_EQ(context.attach(0, participants, 1_ms), Status::kOk);
+    ASSERT_EQ(context.attach(0, participants, ContextPlan{1_ms}), Status::kOk);
 
     EXPECT_EQ(sut_.finalize(), Status::kPreconditionNotMet);
     EXPECT_TRUE(sut_.is_alive());

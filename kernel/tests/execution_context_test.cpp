@@ -118,7 +118,7 @@ TEST_F(ExecutionContextTest, ADetachedComponentIsInactiveInItsNextContextEvenAft
 
     EXPECT_EQ(sut_.detach(), Status::kOk);
     ExecutionContext next;
-    ASSERT_EQ(next.attach(1, participants_, 1_ms), Status::kOk);
+    ASSERT_EQ(next.attach(1, participants_, ContextPlan{1_ms}), Status::kOk);
 
     EXPECT_EQ(next.get_component_state(a_).get_value(), LifecycleState::kInactive);
     EXPECT_EQ(sut_.get_component_state(a_).get_status(), Status::kBadParameter);
@@ -132,16 +132,16 @@ TEST_F(ExecutionContextTest, AttachRefusesEachWrongArgumentAndTakesNobody) {
     const std::array<Component*, 2> twice{&stranger_, &stranger_};
     const std::array<Component*, 2> taken{&stranger_, &a_};
 
-    EXPECT_EQ(other.attach(-1, one, 1_ms), Status::kBadParameter);
-    EXPECT_EQ(other.attach(0, one, 0_ns), Status::kBadParameter);
-    EXPECT_EQ(other.attach(0, one, Duration{-1}), Status::kBadParameter);
-    EXPECT_EQ(other.attach(0, {}, 1_ms), Status::kBadParameter);
-    EXPECT_EQ(other.attach(0, with_null, 1_ms), Status::kBadParameter);
-    EXPECT_EQ(other.attach(0, twice, 1_ms), Status::kBadParameter);
-    EXPECT_EQ(other.attach(0, taken, 1_ms), Status::kBadParameter);
-    EXPECT_EQ(sut_.attach(0, one, 1_ms), Status::kPreconditionNotMet);
+    EXPECT_EQ(other.attach(-1, one, ContextPlan{1_ms}), Status::kBadParameter);
+    EXPECT_EQ(other.attach(0, one, ContextPlan{0_ns}), Status::kBadParameter);
+    EXPECT_EQ(other.attach(0, one, ContextPlan{Duration{-1}}), Status::kBadParameter);
+    EXPECT_EQ(other.attach(0, {}, ContextPlan{1_ms}), Status::kBadParameter);
+    EXPECT_EQ(other.attach(0, with_null, ContextPlan{1_ms}), Status::kBadParameter);
+    EXPECT_EQ(other.attach(0, twice, ContextPlan{1_ms}), Status::kBadParameter);
+    EXPECT_EQ(other.attach(0, taken, ContextPlan{1_ms}), Status::kBadParameter);
+    EXPECT_EQ(sut_.attach(0, one, ContextPlan{1_ms}), Status::kPreconditionNotMet);
 
-    EXPECT_EQ(other.attach(0, one, 1_ns), Status::kOk) << "nobody was taken by the refused ones";
+    EXPECT_EQ(other.attach(0, one, ContextPlan{1_ns}), Status::kOk) << "nobody was taken by the refused ones";
 }
 
 TEST_F(ExecutionContextTest, DetachIsRefusedWhileRunningActiveOrEmpty) {
@@ -178,7 +178,7 @@ TEST_F(ExecutionContextTest, StartWithAParticipantThatIsNotAliveIsRefused) {
     verifies("SWR-KRN-012", Technique::kStateTransition, Polarity::kViolation);
     ExecutionContext other;
     const std::array<Component*, 1> created{&stranger_};
-    ASSERT_EQ(other.attach(0, created, 1_ms), Status::kOk);
+    ASSERT_EQ(other.attach(0, created, ContextPlan{1_ms}), Status::kOk);
 
     EXPECT_EQ(other.start(now_), Status::kPreconditionNotMet);
     EXPECT_EQ(other.activate_component(stranger_, now_), Status::kBadParameter);

@@ -168,7 +168,7 @@ TEST_F(ExecutionCycleTest, AnErrorInOneContextLeavesTheOtherContextAlone) {
     const std::array<Component*, 1> others{&stranger_};
     ExecutionContext other;
     ASSERT_EQ(stranger_.initialize(), Status::kOk);
-    ASSERT_EQ(other.attach(8, others, 1_ms), Status::kOk);
+    ASSERT_EQ(other.attach(8, others, ContextPlan{1_ms}), Status::kOk);
     ASSERT_EQ(other.start(now_), Status::kOk);
     ASSERT_EQ(other.activate_component(stranger_, now_), Status::kOk);
     start_and_activate();

@@ -120,7 +120,7 @@ TEST_F(ExecutiveLifeTest, AComponentOfAnotherSystemIsRefusedAndNobodyIsTaken) {
     verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
     ExecutionContext elsewhere;
     const std::array<Component*, 1> taken{&c_};
-    ASSERT_EQ(elsewhere.attach(0, taken, 1_ms), Status::kOk);
+    ASSERT_EQ(elsewhere.attach(0, taken, ContextPlan{1_ms}), Status::kOk);
 
     EXPECT_EQ(sut_.initialize(), Status::kBadParameter);
     EXPECT_EQ(sut_.get_failed_component(), 2U);

@@ -21,7 +21,7 @@ class ContextFixture : public ::testing::Test {
     void SetUp() override {
         ASSERT_EQ(a_.initialize(), Status::kOk);
         ASSERT_EQ(b_.initialize(), Status::kOk);
-        ASSERT_EQ(sut_.attach(kId, participants_, 1_ms), Status::kOk);
+        ASSERT_EQ(sut_.attach(kId, participants_, ContextPlan{1_ms}), Status::kOk);
         calls_.clear();
     }
     /// Running, both Active; nothing is recorded.

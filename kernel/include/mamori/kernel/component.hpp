@@ -9,6 +9,8 @@
 #ifndef MAMORI_KERNEL_COMPONENT_HPP
 #define MAMORI_KERNEL_COMPONENT_HPP
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 #include "mamori/kernel/lifecycle.hpp"
@@ -36,9 +38,14 @@ class LifecycleRegion {
     friend class Component;
     friend class ExecutionContext;
 
-    LifecycleState state_{LifecycleState::kCreated};
-    bool is_participating_{false};
-    bool is_changing_{false};  ///< on_initialize or on_finalize is being called
+    LifecycleState get_state() const noexcept { return state_.load(std::memory_order_relaxed); }
+    void set_state(LifecycleState state) noexcept { state_.store(state, std::memory_order_relaxed); }
+
+    /// Atomic, so that it may be looked at from outside while actions run.
+    std::atomic<LifecycleState> state_{LifecycleState::kCreated};
+    bool is_changing_{false};             ///< on_initialize or on_finalize is being called
+    ExecutionContext* context_{nullptr};  ///< the one that it participates in
+    std::size_t position_{0U};            ///< its place there
 };
 
 /// Base of every component. Derive, add ports, override the actions you need; each defaults to kOk.
@@ -103,7 +110,7 @@ class Component : public LifecycleRegion {
     Status finalize() noexcept;
 
     /// True from a successful initialize() until finalize().
-    bool is_alive() const noexcept { return state_ != LifecycleState::kCreated; }
+    bool is_alive() const noexcept { return get_state() != LifecycleState::kCreated; }
 
     /// Name given at construction; static storage, never nullptr.
     const char* get_name() const noexcept { return name_; }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Periodic execution context: starts and stops its participants, moves them through their life cycle and
-/// runs them once per cycle in two passes, first on_execute of all, then on_state_update of all.
+/// Execution context: starts and stops its participants, moves them through their life cycle and runs them
+/// once per cycle in two passes, first on_execute of all, then on_state_update of all.
 ///
-/// @satisfies SWR-KRN-012, SWR-KRN-013, SWR-KRN-014      Design: docs/design/kernel.md#execution-context
-/// Source:   OMG RTC 1.0, ExecutionContext (kind PERIODIC); where the text leaves a choice, the design note
+/// @satisfies SWR-KRN-012, SWR-KRN-013, SWR-KRN-014, SWR-RTC-002
+/// Design:   docs/design/rtc_semantics.md, docs/design/kernel.md#execution-context
+/// Source:   OMG RTC 1.0, ExecutionContext; where the text leaves a choice, the design note
 ///           says which one was taken.
 #ifndef MAMORI_KERNEL_EXECUTION_CONTEXT_HPP
 #define MAMORI_KERNEL_EXECUTION_CONTEXT_HPP
@@ -12,8 +13,10 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "mamori/kernel/component.hpp"
+#include "mamori/kernel/context_plan.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
@@ -39,10 +42,10 @@ class ExecutionContext final {
     /// Takes its participants. Call once, before anything else.
     /// @param[in] id           identity handed to the actions, >= 0.
     /// @param[in] participants execution order; each must be in no other context.
-    /// @param[in] period       time between two cycles, > 0.
-    /// @return kOk; kPreconditionNotMet (already attached); kBadParameter (id, period, no participant, a null
-    ///         or already participating one, or one named twice).
-    Status attach(std::int32_t id, Span<Component* const> participants, Duration period) noexcept;
+    /// @param[in] plan         kind, periods and policy; copied, but its spans must outlive the context.
+    /// @return kOk; kPreconditionNotMet (already attached); kBadParameter (id, no participant, a null or
+    ///         already participating one, one named twice, or a plan that contradicts what ContextPlan says).
+    Status attach(std::int32_t id, Span<Component* const> participants, const ContextPlan& plan) noexcept;
 
     /// Gives its participants up, so that they can be finalized; one in Error becomes Inactive, since Error
     /// is a state in this context only.
@@ -78,8 +81,15 @@ class ExecutionContext final {
 
     /// @return kInactive, kActive or kError; kBadParameter (no participant, or not alive).
     Result<LifecycleState> get_component_state(const Component& component) const noexcept;
+    /// State of the participant at `position`, 0 .. get_participant_count() - 1, kCreated when it is not
+    /// alive; a position out of range is an own bug.
+    LifecycleState get_state_at(std::size_t position) const noexcept;
 
-    /// Cycles per second, from the table; negative while not attached.
+    /// Kind from the plan; kPeriodic while not attached.
+    ExecutionKind get_kind() const noexcept { return plan_.kind; }
+    /// Time between two cycles in use now; 0 while not attached.
+    Duration get_period() const noexcept { return plan_.period; }
+    /// Cycles per second; negative when the kind has no periodic processing, and while not attached.
     double get_rate() const noexcept;
 
     /// Rates come from the static table. @param[in] rate_hz wanted cycles per second.
@@ -94,38 +104,50 @@ class ExecutionContext final {
     /// Position of the participant that refused the last start(). @return kPreconditionNotMet: none did.
     Result<std::size_t> get_refusing_position() const noexcept;
 
-    /// @name One cycle in steps, as the executive needs it: begin, execute 0..n-1, update_state 0..n-1, end.
-    /// Calling a step outside a cycle, or with an index out of range, is an own bug.
+    /// @name One cycle in steps, as the executive needs it: take_turn, begin, execute 0..n-1,
+    /// update_state 0..n-1, end. Calling a step outside a cycle, or with a position out of range, is an own
+    /// bug. A range that its host abandoned ends after the action that is under way when the cycle has ended.
     /// @{
+    /// Counts one window of the context. @return true when a cycle is due in it: always, each n-th time at a
+    /// rate that is n times slower than the plan's, or once for each tick of the trigger; false while
+    /// Stopped.
+    bool take_turn() noexcept;
     /// @return kOk; kPreconditionNotMet (Stopped, or busy).
     Status begin_cycle(Instant now) noexcept;
     /// on_execute when Active, on_error when in Error, nothing when Inactive.
-    void execute(std::size_t index) noexcept;
+    void execute(std::size_t position) noexcept { execute_range(position, 1U); }
+    /// execute() of `count` positions from `first` on.
+    void execute_range(std::size_t first, std::size_t count) noexcept;
     /// on_state_update when Active, so not when on_execute failed in this cycle.
-    void update_state(std::size_t index) noexcept;
-    void end_cycle() noexcept;
+    void update_state(std::size_t position) noexcept { update_range(position, 1U); }
+    /// update_state() of `count` positions from `first` on.
+    void update_range(std::size_t first, std::size_t count) noexcept;
+    void end_cycle() noexcept { is_in_cycle_.store(false, std::memory_order_relaxed); }
     /// @}
 
   private:
     class ActionScope;
+    static constexpr std::size_t kNoPosition = std::numeric_limits<std::size_t>::max();
 
+    bool is_in_cycle() const noexcept { return is_in_cycle_.load(std::memory_order_relaxed); }
     bool is_busy() const noexcept;
+    static void release_participants(Span<Component* const> participants) noexcept;
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
-    void enter_error(Component& component, Instant now) noexcept;
+    void execute_unusual(Component& component, ContextHandle handle) noexcept;
+    void enter_error(Component& component, ContextHandle handle) noexcept;
     ContextHandle make_handle(Instant now) const noexcept { return {id_, now}; }
 
     Span<Component* const> participants_{};
-    Duration period_{};
+    ContextPlan plan_{};
     Instant cycle_start_{};
-    std::size_t acting_position_{0U};
-    std::size_t refusing_position_{0U};
-    std::int32_t id_{-1};
-    /// Atomic, since an action that its host has abandoned ends on another thread.
-    std::atomic<bool> is_in_action_{false};
+    std::size_t refusing_position_{kNoPosition};
+    /// Whose action is being called. Atomic, since an action that its host has abandoned ends on another
+    /// thread; kNoPosition is stored last, so that whoever sees it sees all that the actions did.
+    std::atomic<std::size_t> acting_position_{kNoPosition};
+    std::atomic<bool> is_in_cycle_{false};
     bool is_running_{false};
-    bool is_in_cycle_{false};
-    bool has_refusal_{false};
+    std::int32_t id_{-1};
 };
 
 }  // namespace mamori

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/kernel/external_trigger.hpp"
+
+namespace mamori {
+namespace {
+
+/// Only the context writes these counters, so a load and a store make one saturating step.
+void add_saturating(std::atomic<std::uint32_t>& counter, std::uint32_t count) noexcept {
+    const std::uint32_t value = counter.load(std::memory_order_relaxed);
+    const std::uint32_t room = std::numeric_limits<std::uint32_t>::max() - value;
+    counter.store(value + (count < room ? count : room), std::memory_order_relaxed);
+}
+
+}  // namespace
+
+bool ExternalTrigger::take() noexcept {
+    const std::uint32_t settled = settled_count_.load(std::memory_order_relaxed);
+    const std::uint32_t backlog = arrived_count_.load(std::memory_order_acquire) - settled;
+    const std::uint32_t overflow = backlog > backlog_limit_ ? backlog - backlog_limit_ : 0U;
+    const bool is_due = backlog > overflow;
+    add_saturating(overflow_count_, overflow);
+    settled_count_.store(settled + overflow + (is_due ? 1U : 0U), std::memory_order_relaxed);
+    return is_due;
+}
+
+void ExternalTrigger::ignore_waiting() noexcept {
+    const std::uint32_t arrived = arrived_count_.load(std::memory_order_acquire);
+    add_saturating(ignored_count_, arrived - settled_count_.load(std::memory_order_relaxed));
+    settled_count_.store(arrived, std::memory_order_relaxed);
+}
+
+std::uint32_t ExternalTrigger::get_backlog() const noexcept {
+    const std::uint32_t settled = settled_count_.load(std::memory_order_relaxed);
+    return arrived_count_.load(std::memory_order_acquire) - settled;
+}
+
+}  // namespace mamori
