@@ -71,7 +71,8 @@ int run_scenario(const safe_arm::RunOptions& options) {
     times[safe_arm::kControllerIndex] = safe_arm::kControllerTime;
     mamori::ports::virtual_time::VirtualHost host{times};
     safe_arm::Machine machine{plant, host, fault, record};
-    mamori::ports::virtual_time::FrameRunner runner{safe_arm::executive, host, machine};
+    mamori::ports::virtual_time::SimulatedCore core{safe_arm::executive, host};
+    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, machine};
 
     const auto wall_start = std::chrono::steady_clock::now();
     const auto settled =

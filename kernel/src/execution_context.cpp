@@ -258,7 +258,7 @@ Status ExecutionContext::begin_cycle(Instant now) noexcept {
     return Status::kOk;
 }
 
-void ExecutionContext::execute_range(std::size_t first, std::size_t count) noexcept {
+void ExecutionContext::execute_range(std::size_t first, std::size_t count, AfterStep after) noexcept {
     MAMORI_REQUIRE(2, is_in_cycle());
     const Span<Component* const> range = participants_.subspan(first, count);
     const ContextHandle handle = make_handle(cycle_start_);
@@ -270,6 +270,9 @@ void ExecutionContext::execute_range(std::size_t first, std::size_t count) noexc
             execute_unusual(component, handle);
         } else if (component.on_execute(handle) != Status::kOk) {
             enter_error(component, handle);
+        }
+        if (after.function != nullptr && is_in_cycle()) {
+            after.function(after.argument, first + i);
         }
     }
 }

@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/executive.hpp"
 
+#include "mamori/kernel/system_check.hpp"
+
 namespace mamori {
 
-/// One component's place in a cycle, carried through the host as the argument of its work. It is read before
-/// the action is called, so work that is abandoned later does not refer to it any more.
-struct Executive::ComponentRun {
-    ExecutionContext& context;
-    std::size_t position;
-
-    static void execute(void* argument) noexcept {
-        const ComponentRun& run = *static_cast<const ComponentRun*>(argument);
-        run.context.execute(run.position);
-    }
-    static void update_state(void* argument) noexcept {
-        const ComponentRun& run = *static_cast<const ComponentRun*>(argument);
-        run.context.update_state(run.position);
-    }
-};
+using Pass = WindowHost::Pass;
 
 bool Executive::is_any_running() const noexcept {
     for (const detail::WindowState& state : windows_) {
@@ -31,7 +19,10 @@ bool Executive::is_any_running() const noexcept {
 Status Executive::initialize_components() noexcept {
     for (std::size_t i = 0U; i < view_.components.size(); ++i) {
         Component& component = *view_.components[i];
-        const Status result = component.is_alive() ? Status::kOk : component.initialize();
+        if (!is_own(view_.component_rows[i].window) || component.is_alive()) {
+            continue;
+        }
+        const Status result = component.initialize();
         if (result != Status::kOk) {
             failed_component_ = i;
             return result;
@@ -43,31 +34,56 @@ Status Executive::initialize_components() noexcept {
 Status Executive::attach_contexts() noexcept {
     for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
         const WindowRow& row = view_.windows[w];
+        if (!is_own(w)) {
+            continue;
+        }
         const Span<Component* const> participants =
             view_.components.subspan(row.first_component, row.component_count);
-        const Status result =
-            windows_[w].context.attach(static_cast<std::int32_t>(w), participants, ContextPlan{view_.frame});
+        ContextPlan plan{};
+        plan.period = row.period;
+        plan.alternative_periods = {row.alternative_periods.data(), row.alternative_count};
+        plan.kind = row.kind;
+        plan.abort_policy = view_.abort_policy;
+        plan.trigger = row.trigger;
+        plan.events_per_cycle = row.events_per_cycle;
+        const Status result = windows_[w].context.attach(static_cast<std::int32_t>(w), participants, plan);
         if (result != Status::kOk) {
             failed_component_ = row.first_component;
             for (std::size_t attached = 0U; attached < w; ++attached) {
-                // Cannot be refused: nothing has been started yet.
+                // Cannot be refused where it is attached: nothing has been started yet.
                 static_cast<void>(windows_[attached].context.detach());
             }
             return result;
         }
+        windows_[w].executive = this;
+        windows_[w].window = w;
     }
     return Status::kOk;
+}
+
+void Executive::attach_inputs() noexcept {
+    for (const ConnectionRow& connection : view_.connections) {
+        if (is_own(connection.sink_window)) {
+            connection.sink->set_age_max(connection.age_max);
+        }
+    }
 }
 
 Status Executive::initialize() noexcept {
     if (is_initialized_ || is_busy_) {
         return Status::kPreconditionNotMet;
     }
-    is_busy_ = true;
     failed_component_ = kNoIndex;
+    if (check(view_).rule != Rule::kNone) {
+        return Status::kBadParameter;
+    }
+    is_busy_ = true;
     Status result = initialize_components();
     if (result == Status::kOk) {
         result = attach_contexts();
+    }
+    if (result == Status::kOk) {
+        attach_inputs();
     }
     is_initialized_ = result == Status::kOk;
     is_busy_ = false;
@@ -77,6 +93,11 @@ Status Executive::initialize() noexcept {
 Status Executive::start_all() noexcept {
     for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
         ExecutionContext& context = windows_[w].context;
+        if (!is_own(w)) {
+            continue;
+        }
+        // What was written on the way to the last stop belongs to that run.
+        discard_outputs(w);
         const Status result = context.start(last_release_);
         if (result != Status::kOk) {
             failed_component_ =
@@ -87,7 +108,8 @@ Status Executive::start_all() noexcept {
     for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
         const WindowRow& row = view_.windows[w];
         ExecutionContext& context = windows_[w].context;
-        for (std::size_t i = row.first_component; i < row.first_component + row.component_count; ++i) {
+        for (std::size_t i = row.first_component; is_own(w) && i < row.first_component + row.component_count;
+             ++i) {
             const Status result = context.activate_component(*view_.components[i], last_release_);
             if (result != Status::kOk) {
                 failed_component_ = i;
@@ -123,10 +145,9 @@ Status Executive::stop_all() noexcept {
     for (std::size_t w = view_.windows.size(); w-- > 0U;) {
         const WindowRow& row = view_.windows[w];
         ExecutionContext& context = windows_[w].context;
-        for (std::size_t i = row.component_count; i-- > 0U;) {
-            const Component& component = *view_.components[row.first_component + i];
-            if (context.get_component_state(component).get_value() == LifecycleState::kActive) {
-                note(context.deactivate_component(component, last_release_));
+        for (std::size_t i = context.get_participant_count(); i-- > 0U;) {
+            if (context.get_state_at(i) == LifecycleState::kActive) {
+                note(context.deactivate_component(*view_.components[row.first_component + i], last_release_));
             }
         }
         if (context.is_running()) {
@@ -150,11 +171,9 @@ Status Executive::finalize() noexcept {
     if (!is_initialized_ || is_busy_ || is_any_running()) {
         return Status::kPreconditionNotMet;
     }
-    for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
-        const WindowRow& row = view_.windows[w];
-        for (std::size_t i = row.first_component; i < row.first_component + row.component_count; ++i) {
-            const auto state = windows_[w].context.get_component_state(*view_.components[i]);
-            if (state.get_value() == LifecycleState::kActive) {
+    for (const detail::WindowState& state : windows_) {
+        for (std::size_t i = 0U; i < state.context.get_participant_count(); ++i) {
+            if (state.context.get_state_at(i) == LifecycleState::kActive) {
                 return Status::kPreconditionNotMet;
             }
         }
@@ -162,11 +181,14 @@ Status Executive::finalize() noexcept {
     is_busy_ = true;
     is_initialized_ = false;
     for (detail::WindowState& state : windows_) {
-        // Cannot be refused: nothing runs and nothing is Active.
+        // Cannot be refused where it is attached: nothing runs and nothing is Active.
         static_cast<void>(state.context.detach());
     }
     Status first_failure = Status::kOk;
     for (std::size_t i = view_.components.size(); i-- > 0U;) {
+        if (!is_own(view_.component_rows[i].window)) {
+            continue;
+        }
         const Status result = view_.components[i]->finalize();
         if (first_failure == Status::kOk) {
             first_failure = result;
@@ -176,49 +198,69 @@ Status Executive::finalize() noexcept {
     return first_failure;
 }
 
-void Executive::latch_inputs(std::size_t window) noexcept {
-    for (const ConnectionRow& connection : view_.connections) {
-        if (connection.sink_window == window) {
-            connection.latch(*connection.source, *connection.sink);
-        }
+void Executive::latch_inputs(std::size_t window, Instant opening) noexcept {
+    const WindowRow& row = view_.windows[window];
+    for (const std::size_t i : view_.latch_order.subspan(row.first_latch, row.latch_count)) {
+        const ConnectionRow& connection = view_.connections[i];
+        connection.operations->latch(*connection.source, *connection.sink, connection.crossing, opening);
     }
 }
 
-void Executive::hand_on_outputs(std::size_t component, Instant now) noexcept {
-    for (const ConnectionRow& connection : view_.connections) {
-        if (connection.is_forward_in_window && connection.source_component == component) {
-            connection.hand_on(*connection.source, *connection.sink, now);
+void Executive::hand_on_outputs(std::size_t component, Instant opening) noexcept {
+    const ComponentRow& row = view_.component_rows[component];
+    for (const std::size_t i : view_.outgoing_order.subspan(row.first_outgoing, row.outgoing_count)) {
+        const ConnectionRow& connection = view_.connections[i];
+        if (connection.is_forward_in_window && connection.operations->hand_on != nullptr) {
+            connection.operations->hand_on(*connection.source, *connection.sink, opening);
         }
     }
 }
 
 void Executive::mark_inputs_read(std::size_t window, std::size_t finished_count) noexcept {
-    const std::size_t end = view_.windows[window].first_component + finished_count;
-    for (const PortRow& port : view_.ports) {
-        if (port.window != window || port.input == nullptr || port.component >= end) {
+    const std::size_t first = view_.windows[window].first_component;
+    for (std::size_t i = 0U; i < finished_count; ++i) {
+        const ComponentRow& row = view_.component_rows[first + i];
+        const LifecycleState state = windows_[window].context.get_state_at(i);
+        if (state != LifecycleState::kActive && state != LifecycleState::kError) {
             continue;
         }
-        const LifecycleState state = windows_[window].context.get_component_state(*port.owner).get_value();
-        if (state == LifecycleState::kActive || state == LifecycleState::kError) {
-            port.input->mark_read();
+        for (const PortRow& port : view_.ports.subspan(row.first_port, row.port_count)) {
+            if (port.input != nullptr) {
+                port.input->mark_read();
+            }
         }
     }
 }
 
-void Executive::publish_outputs(std::size_t window, Instant now) noexcept {
-    for (std::size_t i = 0U; i < view_.ports.size(); ++i) {
-        const PortRow& port = view_.ports[i];
-        if (port.window == window && port.output != nullptr && port.output->publish(now)) {
-            trace_hash_(static_cast<std::uint64_t>(i));
-            port.output->hash_into(trace_hash_);
+void Executive::publish_outputs(std::size_t window, Instant close) noexcept {
+    const WindowRow& window_row = view_.windows[window];
+    for (std::size_t i = 0U; i < window_row.component_count; ++i) {
+        const ComponentRow& row = view_.component_rows[window_row.first_component + i];
+        for (std::size_t p = row.first_port; p < row.first_port + row.port_count; ++p) {
+            OutPortBase* const output = view_.ports[p].output;
+            if (output == nullptr || !output->publish(close)) {
+                continue;
+            }
+            trace_hash_(static_cast<std::uint64_t>(p));
+            output->hash_into(trace_hash_);
+            for (const std::size_t o : view_.outgoing_order.subspan(row.first_outgoing, row.outgoing_count)) {
+                const ConnectionRow& connection = view_.connections[o];
+                if (connection.source == output && connection.operations->deliver != nullptr) {
+                    connection.operations->deliver(*output, *connection.sink, connection.crossing);
+                }
+            }
         }
     }
 }
 
 void Executive::discard_outputs(std::size_t window) noexcept {
-    for (const PortRow& port : view_.ports) {
-        if (port.window == window && port.output != nullptr) {
-            port.output->discard();
+    const WindowRow& window_row = view_.windows[window];
+    for (std::size_t i = 0U; i < window_row.component_count; ++i) {
+        const ComponentRow& row = view_.component_rows[window_row.first_component + i];
+        for (const PortRow& port : view_.ports.subspan(row.first_port, row.port_count)) {
+            if (port.output != nullptr) {
+                port.output->discard();
+            }
         }
     }
 }
@@ -229,39 +271,54 @@ void Executive::report_overrun(std::size_t window, std::size_t component, Instan
     }
 }
 
-bool Executive::run_first_pass(std::size_t window, std::size_t position, Instant deadline,
-                               WindowHost& host) noexcept {
-    const std::size_t component = view_.windows[window].first_component + position;
-    // Only on_execute is a sign of life: one in Error, or Inactive, gets its turn and does nothing for
-    // anybody.
-    const ExecutionContext& context = windows_[window].context;
-    const bool is_executing =
-        context.get_component_state(*view_.components[component]).get_value() == LifecycleState::kActive;
-    ExecutionObserver* const listener = is_executing ? observer_ : nullptr;
-    if (listener != nullptr) {
-        listener->on_component_started(component, host.get_now());
-    }
-    ComponentRun run{windows_[window].context, position};
-    if (!host.run_within(component, {&ComponentRun::execute, &run, WindowHost::Pass::kExecute}, deadline)) {
-        report_overrun(window, component, host.get_now());
-        return false;
-    }
-    if (listener != nullptr) {
-        listener->on_component_finished(component, host.get_now());
-    }
-    return true;
+void Executive::execute_steps(void* argument, std::size_t first, std::size_t end) noexcept {
+    detail::WindowState& state = *static_cast<detail::WindowState*>(argument);
+    const bool has_hand_on = state.executive->view_.windows[state.window].has_hand_on;
+    state.context.execute_range(first, end - first, {has_hand_on ? &hand_on_after : nullptr, argument});
 }
 
-bool Executive::run_second_pass(std::size_t window, std::size_t position, Instant deadline,
-                                WindowHost& host) noexcept {
-    const std::size_t component = view_.windows[window].first_component + position;
-    ComponentRun run{windows_[window].context, position};
-    if (!host.run_within(component, {&ComponentRun::update_state, &run, WindowHost::Pass::kStateUpdate},
-                         deadline)) {
-        report_overrun(window, component, host.get_now());
-        return false;
+void Executive::hand_on_after(void* argument, std::size_t position) noexcept {
+    const detail::WindowState& state = *static_cast<const detail::WindowState*>(argument);
+    Executive& self = *state.executive;
+    self.hand_on_outputs(self.view_.windows[state.window].first_component + position, self.last_release_);
+}
+
+void Executive::update_steps(void* argument, std::size_t first, std::size_t end) noexcept {
+    static_cast<detail::WindowState*>(argument)->context.update_range(first, end - first);
+}
+
+/// The first pass as supervision sees it: each component's start and finish are told.
+std::size_t Executive::run_observed(std::size_t window, Instant deadline, WindowHost& host) noexcept {
+    const WindowRow& row = view_.windows[window];
+    detail::WindowState& state = windows_[window];
+    Instant now = host.get_now();
+    for (std::size_t i = 0U; i < row.component_count; ++i) {
+        const std::size_t component = row.first_component + i;
+        // Only on_execute is a sign of life: one in Error, or Inactive, gets its turn and does nothing for
+        // anybody.
+        const bool is_executing = state.context.get_state_at(i) == LifecycleState::kActive;
+        if (is_executing) {
+            observer_->on_component_started(component, now);
+        }
+        if (host.run_within({&execute_steps, &state, component, i, 1U, Pass::kExecute}, deadline) == 0U) {
+            return i;
+        }
+        now = host.get_now();
+        if (is_executing) {
+            observer_->on_component_finished(component, now);
+        }
     }
-    return true;
+    return row.component_count;
+}
+
+std::size_t Executive::run_first_pass(std::size_t window, Instant deadline, WindowHost& host) noexcept {
+    if (observer_ != nullptr) {
+        return run_observed(window, deadline, host);
+    }
+    const WindowRow& row = view_.windows[window];
+    return host.run_within(
+        {&execute_steps, &windows_[window], row.first_component, 0U, row.component_count, Pass::kExecute},
+        deadline);
 }
 
 WindowOutcome Executive::run_open_window(std::size_t window, Instant release, WindowHost& host) noexcept {
@@ -276,31 +333,33 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, Wi
         report_overrun(window, row.first_component + hanging.get_value(), opened);
         return WindowOutcome::kOverrun;
     }
+    if (!state.context.take_turn()) {
+        return WindowOutcome::kNotDue;
+    }
     const Status begun = state.context.begin_cycle(release);
     MAMORI_INVARIANT(1, begun == Status::kOk);
     if (state.has_abandoned_outputs) {
         discard_outputs(window);
         state.has_abandoned_outputs = false;
     }
-    latch_inputs(window);
+    latch_inputs(window, release);
     // A window that opens late keeps its budget, but not beyond its planned close.
     const Instant close = release + row.length;
     const Instant deadline = opened + row.budget < close ? opened + row.budget : close;
-    std::size_t finished_count = 0U;
-    while (finished_count < row.component_count && run_first_pass(window, finished_count, deadline, host)) {
-        hand_on_outputs(row.first_component + finished_count, release);
-        ++finished_count;
-    }
-    bool is_complete = finished_count == row.component_count;
-    for (std::size_t i = 0U; i < row.component_count && is_complete; ++i) {
-        is_complete = run_second_pass(window, i, deadline, host);
+    const std::size_t executed_count = run_first_pass(window, deadline, host);
+    std::size_t guilty = executed_count;
+    if (executed_count == row.component_count && row.has_second_pass) {
+        guilty = host.run_within(
+            {&update_steps, &state, row.first_component, 0U, row.component_count, Pass::kStateUpdate},
+            deadline);
     }
     state.context.end_cycle();
-    mark_inputs_read(window, finished_count);
-    if (is_complete) {
+    mark_inputs_read(window, executed_count);
+    if (guilty == row.component_count) {
         publish_outputs(window, close);
         return WindowOutcome::kCompleted;
     }
+    report_overrun(window, row.first_component + guilty, host.get_now());
     state.has_abandoned_outputs = state.context.get_acting_position().has_value();
     if (!state.has_abandoned_outputs) {
         discard_outputs(window);

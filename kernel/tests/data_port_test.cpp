@@ -56,7 +56,7 @@ TEST_F(DataPortTest, AValueThatIsNotPublishedYetIsNotSeen) {
     ASSERT_TRUE(out_.publish(Instant{100}));
     out_.write(6);
 
-    in_.latch(out_);
+    in_.take(out_.get_published_sample());
 
     EXPECT_EQ(in_.read(), 5);
     EXPECT_EQ(out_.get_published(), 5);
@@ -106,7 +106,7 @@ TEST_F(DataPortTest, TheHashCoversValueSequenceAndInstant) {
 TEST_F(DataPortTest, AnInputHasNoValueUntilOneArrives) {
     verifies("SWR-KRN-016");
 
-    in_.latch(out_);
+    in_.take(out_.get_published_sample());
 
     EXPECT_FALSE(in_.has_value());
     EXPECT_FALSE(in_.is_new());
@@ -119,12 +119,12 @@ TEST_F(DataPortTest, ALatchedValueIsNewOnceAndGrowsOld) {
     out_.write(5);
     ASSERT_TRUE(out_.publish(Instant{100}));
 
-    in_.latch(out_);
+    in_.take(out_.get_published_sample());
     EXPECT_TRUE(in_.has_value() && in_.is_new());
     EXPECT_EQ(in_.read(), 5);
     EXPECT_EQ(in_.calc_age(Instant{100}), 0_ns);
     in_.mark_read();
-    in_.latch(out_);
+    in_.take(out_.get_published_sample());
 
     EXPECT_FALSE(in_.is_new()) << "the same publication is not new again";
     EXPECT_TRUE(in_.has_value());
@@ -135,12 +135,12 @@ TEST_F(DataPortTest, AnEqualValueThatIsPublishedAgainIsNew) {
     verifies("SWR-KRN-016", Technique::kEquivalenceClasses);
     out_.write(5);
     ASSERT_TRUE(out_.publish(Instant{100}));
-    in_.latch(out_);
+    in_.take(out_.get_published_sample());
     in_.mark_read();
 
     out_.write(5);
     ASSERT_TRUE(out_.publish(Instant{200}));
-    in_.latch(out_);
+    in_.take(out_.get_published_sample());
 
     EXPECT_TRUE(in_.is_new());
     EXPECT_EQ(in_.calc_age(Instant{200}), 0_ns);
@@ -150,15 +150,15 @@ TEST_F(DataPortTest, AHandedOnValueIsTakenAheadOfItsPublicationAndNotTwice) {
     verifies("SWR-KRN-016");
     out_.write(5);
 
-    in_.hand_on(out_, Instant{50});
+    in_.take(out_.get_staged_sample(Instant{50}));
     EXPECT_TRUE(in_.is_new());
     EXPECT_EQ(in_.read(), 5);
     EXPECT_EQ(in_.calc_age(Instant{50}), 0_ns);
     in_.mark_read();
-    in_.hand_on(out_, Instant{60});
+    in_.take(out_.get_staged_sample(Instant{60}));
     EXPECT_FALSE(in_.is_new()) << "handed on again without a write";
     ASSERT_TRUE(out_.publish(Instant{100}));
-    in_.latch(out_);
+    in_.take(out_.get_published_sample());
 
     EXPECT_FALSE(in_.is_new()) << "its publication is nothing new";
 }
@@ -166,12 +166,12 @@ TEST_F(DataPortTest, AHandedOnValueIsTakenAheadOfItsPublicationAndNotTwice) {
 TEST_F(DataPortTest, AWriteAfterTheHandOnArrivesWithThePublication) {
     verifies("SWR-KRN-016", Technique::kErrorGuessing);
     out_.write(5);
-    in_.hand_on(out_, Instant{50});
+    in_.take(out_.get_staged_sample(Instant{50}));
     in_.mark_read();
 
     out_.write(6);
     ASSERT_TRUE(out_.publish(Instant{100}));
-    in_.latch(out_);
+    in_.take(out_.get_published_sample());
 
     EXPECT_TRUE(in_.is_new());
     EXPECT_EQ(in_.read(), 6);
@@ -182,11 +182,11 @@ TEST_F(DataPortTest, AnOlderPublicationDoesNotReplaceAHandedOnValueThatWasDiscar
     out_.write(5);
     ASSERT_TRUE(out_.publish(Instant{100}));
     out_.write(6);
-    in_.hand_on(out_, Instant{150});
+    in_.take(out_.get_staged_sample(Instant{150}));
     in_.mark_read();
     out_.discard();
 
-    in_.latch(out_);
+    in_.take(out_.get_published_sample());
 
     EXPECT_EQ(in_.read(), 6);
     EXPECT_FALSE(in_.is_new());
@@ -197,7 +197,7 @@ TEST_F(DataPortTest, NothingIsHandedOnWhenNothingWasWritten) {
     out_.write(5);
     ASSERT_TRUE(out_.publish(Instant{100}));
 
-    in_.hand_on(out_, Instant{150});
+    in_.take(out_.get_staged_sample(Instant{150}));
 
     EXPECT_FALSE(in_.has_value());
 }

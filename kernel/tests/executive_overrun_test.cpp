@@ -217,15 +217,16 @@ class AbandoningHost final : public WindowHost {
     Instant now{};
 
     Instant get_now() const noexcept override { return now; }
-    bool run_within(std::size_t component, Work work, Instant deadline) noexcept override {
-        if (component != 0U || !component_.is_to_hang) {
-            work.function(work.argument);
-            return true;
+    std::size_t run_within(const Work& work, Instant deadline) noexcept override {
+        const auto run_all = [work] { work.run(work.argument, work.first, work.first + work.count); };
+        if (work.component != 0U || !component_.is_to_hang) {
+            run_all();
+            return work.count;
         }
-        thread_ = std::thread([work] { work.function(work.argument); });
+        thread_ = std::thread(run_all);
         component_.entered.get_future().wait();
         now = deadline;
-        return false;
+        return 0U;
     }
     void let_it_return() {
         component_.released.set_value();

@@ -13,7 +13,7 @@ void feed(mamori::InPort<T>& input, const T& value, mamori::Instant now = {}) {
     // One source for all calls: an input takes only what is newer than what it has.
     static mamori::OutPort<T> source{"source"};
     source.write(value);
-    input.hand_on(source, now);
+    input.take(source.get_staged_sample(now));
 }
 
 /// Publishes and returns what the component wrote in this cycle.

@@ -20,9 +20,13 @@ class Consumer final : public mamori::Component {
     using Ports = mamori::Ports<&Consumer::in>;
 };
 
+enum class Fault { kOverspeed, kTrackingLost };
+enum class Reaction { kSs1, kSto };
+
 using namespace mamori::literals;
 inline Producer g_producer;
 inline Producer g_second_producer;
 inline Consumer g_consumer;
+inline mamori::Crossing<double> g_crossing;
 
 #endif  // MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARTS_HPP

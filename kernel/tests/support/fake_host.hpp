@@ -26,16 +26,21 @@ class FakeHost final : public WindowHost {
 
     Instant get_now() const noexcept override { return now; }
 
-    bool run_within(std::size_t component, Work work, Instant deadline) noexcept override {
+    std::size_t run_within(const Work& work, Instant deadline) noexcept override {
         deadlines.push_back(deadline);
-        const auto key = std::make_pair(component, work.pass);
-        if (!hangs[key]) {
-            work.function(work.argument);
+        for (std::size_t i = 0U; i < work.count; ++i) {
+            const auto key = std::make_pair(work.component + i, work.pass);
+            if (!hangs[key]) {
+                work.run(work.argument, work.first + i, work.first + i + 1U);
+            }
+            const Instant end = now + durations[key];
+            const bool is_in_time = !hangs[key] && end <= deadline;
+            now = is_in_time ? end : deadline;
+            if (!is_in_time) {
+                return i;
+            }
         }
-        const Instant end = now + durations[key];
-        const bool is_in_time = !hangs[key] && end <= deadline;
-        now = is_in_time ? end : deadline;
-        return is_in_time;
+        return work.count;
     }
 };
 

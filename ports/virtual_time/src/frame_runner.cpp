@@ -3,20 +3,37 @@
 
 namespace mamori::ports::virtual_time {
 
+SimulatedCore& FrameRunner::find_next() noexcept {
+    SimulatedCore* best = &cores_[0];
+    for (SimulatedCore& core : cores_) {
+        if (core.schedule_.get_next().release < best->schedule_.get_next().release) {
+            best = &core;
+        }
+    }
+    return *best;
+}
+
 void FrameRunner::run_frame() noexcept {
-    const SystemView& view = executive_.get_view();
-    const Instant start{static_cast<std::int64_t>(frame_count_) * view.frame.ns};
-    host_.advance_to(start);
+    const Duration length = cores_[0].executive_.get_view().frame;
+    const Instant start{static_cast<std::int64_t>(frame_count_) * length.ns};
+    const Instant end = start + length;
+    for (SimulatedCore& core : cores_) {
+        core.host_.advance_to(start);
+    }
     devices_.begin_frame(frame_count_, start);
-    for (std::size_t window = 0U; window < view.windows.size(); ++window) {
-        const Instant release = start + view.windows[window].offset;
-        host_.advance_to(release);
-        if (executive_.run_window(window, release, host_) == WindowOutcome::kOverrun) {
+    for (SimulatedCore* core = &find_next(); core->schedule_.get_next().release < end; core = &find_next()) {
+        const FrameSchedule::Opening opening = core->schedule_.get_next();
+        core->schedule_.advance();
+        core->host_.advance_to(opening.release);
+        if (core->executive_.run_window(opening.window, opening.release, core->host_) ==
+            WindowOutcome::kOverrun) {
             ++overrun_count_;
         }
     }
-    host_.advance_to(start + view.frame);
-    devices_.end_frame(frame_count_, start, view.frame);
+    for (SimulatedCore& core : cores_) {
+        core.host_.advance_to(end);
+    }
+    devices_.end_frame(frame_count_, start, length);
     ++frame_count_;
 }
 

@@ -5,20 +5,23 @@
 
 namespace mamori::ports::virtual_time {
 
-bool VirtualHost::run_within(std::size_t component, Work work, Instant deadline) noexcept {
-    const bool is_modelled = work.pass == Pass::kExecute && component < durations_.size();
-    const Duration duration = is_modelled ? durations_[component] : Duration{0};
-    MAMORI_REQUIRE(2, duration >= Duration{0});
-    if (duration != kNever) {
-        work.function(work.argument);
+std::size_t VirtualHost::run_within(const Work& work, Instant deadline) noexcept {
+    for (std::size_t i = 0U; i < work.count; ++i) {
+        const std::size_t component = work.component + i;
+        const bool is_modelled = work.pass == Pass::kExecute && component < durations_.size();
+        const Duration duration = is_modelled ? durations_[component] : Duration{0};
+        MAMORI_REQUIRE(2, duration >= Duration{0});
+        if (duration != kNever) {
+            work.run(work.argument, work.first + i, work.first + i + 1U);
+        }
+        // Written without the sum, which could overflow.
+        if (duration == kNever || duration > deadline - now_) {
+            advance_to(deadline > now_ ? deadline : now_);
+            return i;
+        }
+        now_ = now_ + duration;
     }
-    // Written without the sum, which could overflow.
-    if (duration == kNever || duration > deadline - now_) {
-        advance_to(deadline > now_ ? deadline : now_);
-        return false;
-    }
-    now_ = now_ + duration;
-    return true;
+    return work.count;
 }
 
 void VirtualHost::advance_to(Instant instant) noexcept {

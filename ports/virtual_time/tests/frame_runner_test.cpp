@@ -82,7 +82,8 @@ struct Plant {
     ExecutiveFor<decltype(table)> executive{table};
     VirtualHost host{durations};
     SpyDevices devices{sensor, doubler};
-    FrameRunner runner{executive, host, devices};
+    SimulatedCore core{executive, host};
+    FrameRunner runner{{&core, 1U}, devices};
 
     Plant() {
         EXPECT_EQ(executive.initialize(), Status::kOk);

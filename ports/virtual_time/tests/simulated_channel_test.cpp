@@ -27,7 +27,7 @@ class SimulatedChannelTest : public ::testing::Test {
             source_.write(message);
             EXPECT_TRUE(source_.publish(now_));
         }
-        sut_.in.latch(source_);
+        sut_.in.take(source_.get_published_sample());
         EXPECT_EQ(sut_.on_execute({0, now_}), Status::kOk);
         sut_.in.mark_read();
         now_ = now_ + 10_ns;

@@ -8,13 +8,29 @@
 #ifndef MAMORI_KERNEL_DATA_PORT_HPP
 #define MAMORI_KERNEL_DATA_PORT_HPP
 
+#include <array>
 #include <cstdint>
+#include <limits>
 
 #include "mamori/kernel/fields.hpp"
 #include "mamori/kernel/time.hpp"
 #include "mamori/kernel/trace_hash.hpp"
 
 namespace mamori {
+
+/// What a port has to say about its data, with the numbers of the standard.
+/// Source: OpenRTM PortStatus (PORT_OK .. UNKNOWN_ERROR).
+enum class PortStatus : std::uint32_t {
+    kOk = 0U,             ///< PORT_OK
+    kError = 1U,          ///< PORT_ERROR
+    kBufferFull = 2U,     ///< BUFFER_FULL
+    kBufferEmpty = 3U,    ///< BUFFER_EMPTY
+    kBufferTimeout = 4U,  ///< BUFFER_TIMEOUT: the data is older than it may be
+    kUnknownError = 5U,   ///< UNKNOWN_ERROR
+};
+
+/// Age limit of an input whose connection declares none.
+inline constexpr Duration kNoAgeLimit{std::numeric_limits<std::int64_t>::max()};
 
 /// Must an input be fed by a connection? The system table refuses a mandatory one that is not.
 enum class Need : std::uint8_t { kMandatory, kOptional };
@@ -28,32 +44,43 @@ class OutPortBase {
     const char* get_name() const noexcept { return name_; }
     /// Number of publications so far (wraps at 2^32).
     std::uint32_t get_sequence() const noexcept { return sequence_; }
+    /// Instant of the last publication; without meaning before the first.
+    Instant get_published_at() const noexcept { return published_at_; }
     /// True when a value was written since the last publication.
     bool is_staged() const noexcept { return is_staged_; }
 
     /// Makes the staged value the published one. For the executive, at the close of the window.
     /// @param[in] now instant of publication. @return true when there was one.
-    bool publish(Instant now) noexcept;
+    bool publish(Instant now) noexcept {
+        if (!is_staged_) {
+            return false;
+        }
+        published_slot_ ^= 1U;
+        published_at_ = now;
+        published_revision_ = revision_;
+        ++sequence_;
+        is_staged_ = false;
+        return true;
+    }
     /// Throws the staged value away: its window overran. What was published before stays.
     void discard() noexcept { is_staged_ = false; }
     /// Adds the published value, its sequence and instant.
     void hash_into(TraceHash& hash) const noexcept;
 
   protected:
-    using CopyStaged = void (*)(OutPortBase&) noexcept;
     using HashPublished = void (*)(const OutPortBase&, TraceHash&) noexcept;
 
-    constexpr OutPortBase(const char* name, CopyStaged copy, HashPublished hash) noexcept
-        : name_(name), copy_staged_(copy), hash_published_(hash) {}
+    constexpr OutPortBase(const char* name, HashPublished hash) noexcept
+        : name_(name), hash_published_(hash) {}
     ~OutPortBase() = default;
 
     const char* name_;
-    CopyStaged copy_staged_;
     HashPublished hash_published_;
     Instant published_at_{};
     std::uint64_t revision_{0U};            ///< writes so far
     std::uint64_t published_revision_{0U};  ///< of them, the one that is published
     std::uint32_t sequence_{0U};
+    std::uint8_t published_slot_{0U};  ///< of the two; the other one is staged
     bool is_staged_{false};
 };
 
@@ -72,8 +99,19 @@ class InPortBase {
     /// Time since the value was published, or handed on within the window; without meaning before
     /// has_value(). @param[in] now start of the window, as in ContextHandle::now.
     Duration calc_age(Instant now) const noexcept { return now - published_at_; }
+    /// What the value is worth in the cycle that begins at `now`.
+    /// @return kBufferEmpty (nothing has arrived yet); kBufferTimeout (older than the limit that its
+    ///         connection declares); else kOk.
+    PortStatus calc_status(Instant now) const noexcept {
+        if (!has_value_) {
+            return PortStatus::kBufferEmpty;
+        }
+        return calc_age(now) > age_max_ ? PortStatus::kBufferTimeout : PortStatus::kOk;
+    }
     /// For the executive, after the owner's cycle.
     void mark_read() noexcept { is_new_ = false; }
+    /// For the executive. @param[in] age_max limit of the connection that feeds this input, >= 0.
+    void set_age_max(Duration age_max) noexcept { age_max_ = age_max; }
 
   protected:
     constexpr explicit InPortBase(const char* name) noexcept : name_(name) {}
@@ -81,6 +119,7 @@ class InPortBase {
 
     const char* name_;
     Instant published_at_{};
+    Duration age_max_{kNoAgeLimit};
     std::uint64_t revision_{0U};  ///< write of the source that is held here
     bool has_value_{false};
     bool is_new_{false};
@@ -89,7 +128,7 @@ class InPortBase {
 /// Output of type T. The value is a trivially copyable payload with a field list (or a plain number).
 ///
 /// Thread safety: written by its component, published by the executive of the same core.
-/// Time: O(sizeof(T)). Memory: two T.
+/// Time: O(sizeof(T)) for write, O(1) for publish. Memory: two T.
 template <typename T>
 class OutPort final : public OutPortBase {
     static_assert(is_payload<T>(),
@@ -99,36 +138,42 @@ class OutPort final : public OutPortBase {
     using Payload = T;
 
     /// @param[in] name port name with static storage.
-    constexpr explicit OutPort(const char* name) noexcept
-        : OutPortBase(name, &copy_staged, &hash_published) {}
+    constexpr explicit OutPort(const char* name) noexcept : OutPortBase(name, &hash_published) {}
 
     /// Stages a value for the close of the window; a second write in one cycle replaces the first.
     void write(const T& value) noexcept {
-        staged_ = value;
+        slots_[published_slot_ ^ 1U] = value;
         ++revision_;
         is_staged_ = true;
     }
 
     /// Last published value; a value-initialised T before the first publication.
-    const T& get_published() const noexcept { return published_; }
+    const T& get_published() const noexcept { return slots_[published_slot_]; }
+
+    /// What a connection moves: a value, the write it comes from, and when it counts.
+    struct Sample {
+        const T& value;
+        std::uint64_t revision;  ///< 0: there is none yet
+        Instant published_at;
+    };
+    /// For connections: the published value.
+    Sample get_published_sample() const noexcept {
+        return {get_published(), published_revision_, published_at_};
+    }
+    /// For connections within a window: the staged value ahead of its publication, or none.
+    Sample get_staged_sample(Instant now) const noexcept {
+        return {slots_[published_slot_ ^ 1U], is_staged_ ? revision_ : 0U, now};
+    }
 
   private:
-    template <typename U, Need kNeed>
-    friend class InPort;
-
-    static void copy_staged(OutPortBase& base) noexcept {
-        OutPort& self = static_cast<OutPort&>(base);
-        self.published_ = self.staged_;
-    }
     static void hash_published(const OutPortBase& base, TraceHash& hash) noexcept {
-        hash.add(static_cast<const OutPort&>(base).published_);
+        hash.add(static_cast<const OutPort&>(base).get_published());
     }
 
-    T staged_{};
-    T published_{};
+    std::array<T, 2U> slots_{};
 };
 
-/// Input of type T.
+/// Input of type T that holds the latest value.
 ///
 /// Thread safety: read by its component, filled by the executive of the same core.
 /// Time: O(sizeof(T)). Memory: one T.
@@ -140,6 +185,7 @@ class InPort final : public InPortBase {
   public:
     using Payload = T;
     static constexpr bool kIsMandatory = kNeed == Need::kMandatory;
+    static constexpr bool kIsQueue = false;
 
     /// @param[in] name port name with static storage.
     constexpr explicit InPort(const char* name) noexcept : InPortBase(name) {}
@@ -147,31 +193,18 @@ class InPort final : public InPortBase {
     /// Latched value; a value-initialised T while has_value() is false.
     const T& read() const noexcept { return value_; }
 
-    /// Takes what `source` has published, when it is newer than what is held. For the executive, at the
-    /// opening of the window.
-    void latch(const OutPort<T>& source) noexcept {
-        if (source.published_revision_ > revision_) {
-            take(source.published_, source.published_revision_, source.published_at_);
-        }
-    }
-
-    /// Takes what `source` has staged in this very window, ahead of its publication. For the executive.
-    /// @param[in] now start of the window.
-    void hand_on(const OutPort<T>& source, Instant now) noexcept {
-        if (source.is_staged_ && source.revision_ > revision_) {
-            take(source.staged_, source.revision_, now);
+    /// Takes a sample when it comes from a later write than what is held. For connections.
+    void take(const typename OutPort<T>::Sample& sample) noexcept {
+        if (sample.revision > revision_) {
+            value_ = sample.value;
+            revision_ = sample.revision;
+            published_at_ = sample.published_at;
+            has_value_ = true;
+            is_new_ = true;
         }
     }
 
   private:
-    void take(const T& value, std::uint64_t revision, Instant published_at) noexcept {
-        value_ = value;
-        revision_ = revision;
-        published_at_ = published_at;
-        has_value_ = true;
-        is_new_ = true;
-    }
-
     T value_{};
 };
 

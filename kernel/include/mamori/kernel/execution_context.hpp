@@ -116,8 +116,13 @@ class ExecutionContext final {
     Status begin_cycle(Instant now) noexcept;
     /// on_execute when Active, on_error when in Error, nothing when Inactive.
     void execute(std::size_t position) noexcept { execute_range(position, 1U); }
-    /// execute() of `count` positions from `first` on.
-    void execute_range(std::size_t first, std::size_t count) noexcept;
+    /// What follows each execute() while the context still counts as acting; nothing when `function` is null.
+    struct AfterStep {
+        void (*function)(void* argument, std::size_t position) noexcept;
+        void* argument;
+    };
+    /// execute() of `count` positions from `first` on, each followed by `after`.
+    void execute_range(std::size_t first, std::size_t count, AfterStep after = {nullptr, nullptr}) noexcept;
     /// on_state_update when Active, so not when on_execute failed in this cycle.
     void update_state(std::size_t position) noexcept { update_range(position, 1U); }
     /// update_state() of `count` positions from `first` on.

@@ -3,7 +3,8 @@
 /// Runs the windows of a system table: latches inputs when a window opens, runs its components in order under
 /// a budget that the port enforces, hands values on within the window, and publishes outputs when it closes.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024      Design: docs/design/kernel.md#windows
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026      Design:
+/// docs/design/kernel.md#windows
 #ifndef MAMORI_KERNEL_EXECUTIVE_HPP
 #define MAMORI_KERNEL_EXECUTIVE_HPP
 
@@ -24,17 +25,22 @@ enum class WindowOutcome : std::uint8_t {
     kCompleted,  ///< every component came through both passes; outputs are published
     kOverrun,    ///< the budget ran out, or earlier work still hangs; no output of this window is published
     kStopped,    ///< the context is Stopped; nothing ran
+    kNotDue,     ///< no cycle in this opening: a slower rate leaves it out, or no tick has come
 };
+
+class Executive;
 
 namespace detail {
 /// What the executive keeps for each window while the system runs.
 struct WindowState {
     ExecutionContext context{};
+    Executive* executive{nullptr};  ///< set while a cycle runs; work reaches its executive through it
+    std::size_t window{0U};
     bool has_abandoned_outputs{false};  ///< hanging work may still write; discard once it has returned
 };
 }  // namespace detail
 
-/// Size-free executive; instantiate ExecutiveFor.
+/// Size-free executive of one core; instantiate ExecutiveFor.
 ///
 /// Operations called from within an action of a component or from the observer are refused; running a window
 /// from there is an own bug.
@@ -46,10 +52,12 @@ class Executive {
     Executive(const Executive&) = delete;
     Executive& operator=(const Executive&) = delete;
 
-    /// Initialises every component that is not alive yet and attaches it to the context of its window, in
-    /// table order. After a refusal no context is attached, and a second call goes on where the first ended.
-    /// @return kOk; kPreconditionNotMet (done before, or called from an action); kBadParameter (a component
-    ///         participates elsewhere); else the code of the on_initialize that refused.
+    /// Initialises every component of its core that is not alive yet and attaches it to the context of its
+    /// window, in table order. After a refusal no context is attached, and a second call goes on where the
+    /// first ended.
+    /// @return kOk; kPreconditionNotMet (done before, or called from an action); kBadParameter (the table
+    ///         breaks a rule, see check_all(), or a component participates elsewhere); else the code of the
+    ///         on_initialize that refused.
     Status initialize() noexcept;
 
     /// Starts every context, then activates every component, in table order. After a refusal everything is
@@ -71,7 +79,7 @@ class Executive {
 
     /// Runs window `index` once. Actions and publications carry the planned instants, not the measured ones,
     /// so a late release changes no data.
-    /// @param[in] index   0 .. get_view().windows.size() - 1.
+    /// @param[in] index   0 .. get_view().windows.size() - 1, a window of this core.
     /// @param[in] release planned opening of the window, not after host.get_now(); later is an own bug.
     WindowOutcome run_window(std::size_t index, Instant release, WindowHost& host) noexcept;
     /// The same for a host that releases windows exactly: the planned opening is now.
@@ -82,6 +90,8 @@ class Executive {
     /// Context of window `index`, to start, stop or reset a single component.
     ExecutionContext& get_context(std::size_t index) noexcept { return windows_[index].context; }
     const SystemView& get_view() const noexcept { return view_; }
+    /// Core whose windows it runs, as WindowRow::core.
+    std::size_t get_core() const noexcept { return core_; }
     /// Component whose refusal ended the last initialize() or start(), for a participation elsewhere the
     /// first of its window; kNoIndex when none did.
     std::size_t get_failed_component() const noexcept { return failed_component_; }
@@ -92,28 +102,29 @@ class Executive {
     std::uint64_t get_trace_hash() const noexcept { return trace_hash_.get_value(); }
 
   protected:
-    constexpr Executive(const SystemView& view, Span<detail::WindowState> windows) noexcept
-        : view_(view), windows_(windows) {}
+    constexpr Executive(const SystemView& view, Span<detail::WindowState> windows, std::size_t core) noexcept
+        : view_(view), windows_(windows), core_(core) {}
     ~Executive() = default;
 
   private:
-    struct ComponentRun;
-
+    bool is_own(std::size_t window) const noexcept { return view_.windows[window].core == core_; }
     bool is_any_running() const noexcept;
     Status initialize_components() noexcept;
     Status attach_contexts() noexcept;
+    void attach_inputs() noexcept;
     Status start_all() noexcept;
     Status stop_all() noexcept;
     WindowOutcome run_open_window(std::size_t window, Instant release, WindowHost& host) noexcept;
-    bool run_first_pass(std::size_t window, std::size_t position, Instant deadline,
-                        WindowHost& host) noexcept;
-    bool run_second_pass(std::size_t window, std::size_t position, Instant deadline,
-                         WindowHost& host) noexcept;
+    std::size_t run_first_pass(std::size_t window, Instant deadline, WindowHost& host) noexcept;
+    std::size_t run_observed(std::size_t window, Instant deadline, WindowHost& host) noexcept;
+    static void execute_steps(void* argument, std::size_t first, std::size_t end) noexcept;
+    static void hand_on_after(void* argument, std::size_t position) noexcept;
+    static void update_steps(void* argument, std::size_t first, std::size_t end) noexcept;
     void report_overrun(std::size_t window, std::size_t component, Instant now) noexcept;
-    void latch_inputs(std::size_t window) noexcept;
-    void hand_on_outputs(std::size_t component, Instant now) noexcept;
+    void latch_inputs(std::size_t window, Instant opening) noexcept;
+    void hand_on_outputs(std::size_t component, Instant opening) noexcept;
     void mark_inputs_read(std::size_t window, std::size_t finished_count) noexcept;
-    void publish_outputs(std::size_t window, Instant now) noexcept;
+    void publish_outputs(std::size_t window, Instant close) noexcept;
     void discard_outputs(std::size_t window) noexcept;
 
     SystemView view_;
@@ -121,6 +132,7 @@ class Executive {
     ExecutionObserver* observer_{nullptr};
     TraceHash trace_hash_{};
     Instant last_release_{};
+    std::size_t core_;
     std::size_t failed_component_{kNoIndex};
     bool is_initialized_{false};
     bool is_busy_{false};  ///< an operation or a window is under way: another one must wait
@@ -139,9 +151,10 @@ template <typename Table>
 class ExecutiveFor final : private detail::WindowStorage<Table::kWindowCount>, public Executive {
   public:
     /// @param[in] table must outlive the executive; check it with MAMORI_CHECK.
-    constexpr explicit ExecutiveFor(const Table& table) noexcept
-        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows) {}
-    explicit ExecutiveFor(const Table&& table) = delete;
+    /// @param[in] core  whose windows it runs; each core of a system has an executive of its own.
+    constexpr explicit ExecutiveFor(const Table& table, std::size_t core = 0U) noexcept
+        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core) {}
+    explicit ExecutiveFor(const Table&& table, std::size_t core = 0U) = delete;
 };
 
 }  // namespace mamori

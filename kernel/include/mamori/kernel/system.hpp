@@ -1,221 +1,190 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The static description of a system: one frame, its windows with their components, and the connections
-/// between ports. It is a constant of the program; `MAMORI_CHECK` makes the compiler refuse a table that
-/// could not work.
+/// The words of a system description: cores with windows, components, connections, faults and reactions, in
+/// one constant of the program that MAMORI_CHECK makes the compiler prove.
 ///
-///     inline constexpr auto kSystem = mamori::system(
-///         mamori::frame(1_ms),
-///         mamori::window("sense", 0_us, 200_us, mamori::budget(150_us), mamori::run(encoder, monitor)),
-///         mamori::connect(encoder.joints, monitor.joints));
+///     static constexpr auto kSystem = mamori::system(
+///         mamori::frame(10_ms),
+///         mamori::window("sense", 0_us, 200_us, mamori::every(1_ms), mamori::rate(1000_hz),
+///                        mamori::budget(150_us), mamori::run(encoder, mamori::worst_case(monitor, 40_us))),
+///         mamori::window("plan", 1_ms, 8_ms, mamori::core(1), mamori::budget(7_ms), mamori::run(planner)),
+///         mamori::connect(encoder.joints, monitor.joints, mamori::fresh_within(2_ms)),
+///         mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner)),
+///         mamori::faults<Fault::kOverspeed>(),
+///         mamori::react(Fault::kOverspeed, Reaction::kSs1, mamori::within(20_ms)));
 ///     MAMORI_CHECK(kSystem);
 ///
 /// @satisfies SWR-KRN-017, SWR-KRN-018      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SYSTEM_HPP
 #define MAMORI_KERNEL_SYSTEM_HPP
 
-#include <array>
-#include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
-#include "mamori/kernel/component.hpp"
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/system_check.hpp"
-#include "mamori/kernel/system_table.hpp"
+#include "mamori/kernel/system_builder.hpp"
+#include "mamori/kernel/system_rules.hpp"
+#include "mamori/kernel/window_part.hpp"
 
 namespace mamori {
 
-/// Ports of a component, as pointers to its members; a component without the alias has no ports:
-///     using Ports = mamori::Ports<&Monitor::joints, &Monitor::verdict>;
-template <auto... kMembers>
-struct Ports {
-    static constexpr std::size_t kCount = sizeof...(kMembers);
-};
-
+/// Length of the major frame, after which everything repeats; the same for all cores.
 struct Frame {
     Duration length;
 };
-struct Budget {
-    Duration limit;
-};
-/// One window: opens `offset` after the frame began, closes `length` later.
-template <typename... Cs>
-struct Window {
-    const char* name;
-    Duration offset;
-    Duration length;
-    Duration budget;
-    std::array<Component*, sizeof...(Cs)> components;
-    std::array<PortRow, (port_count<Cs>() + ... + 0U)> ports;
-};
-struct Connection {
-    ConnectionRow row;
-};
-
 /// @param[in] length > 0.
 constexpr Frame frame(Duration length) noexcept {
     return {length};
 }
-/// Execution time that all components of a window may use together, counted from its opening.
-constexpr Budget budget(Duration limit) noexcept {
+
+struct FreshWithin {
+    Duration age_max;
+};
+/// Age at which the value of an input is stale: its status becomes kBufferTimeout. @param[in] age_max > 0.
+constexpr FreshWithin fresh_within(Duration age_max) noexcept {
+    return {age_max};
+}
+
+template <typename T>
+struct Through {
+    Crossing<T>& crossing;
+};
+/// Storage of a connection that leaves its core or partition; static, used by one connection.
+template <typename T>
+constexpr Through<T> through(Crossing<T>& crossing) noexcept {
+    return {crossing};
+}
+
+struct ConnectionPart {
+    using Types = detail::PartTypes<detail::TypeList<>, detail::TypeList<>, detail::TypeList<>, 0U, 1U>;
+    ConnectionRow row{};
+};
+
+namespace detail {
+
+template <typename T, typename Sink>
+constexpr void apply(ConnectionRow& row, FreshWithin option) noexcept {
+    row.age_max = option.age_max;
+}
+template <typename T, typename Sink, typename U>
+constexpr void apply(ConnectionRow& row, Through<U> option) noexcept {
+    static_assert(std::is_same_v<T, U>, "the Crossing of a connection carries its payload type");
+    static_assert(!Sink::kIsQueue, "a queue is its own buffer; connect it without through(...)");
+    row.crossing = &option.crossing;
+    row.operations = &CrossingConnection<T, Sink>::kOperations;
+}
+
+}  // namespace detail
+
+/// Feeds `sink` from `source`; their payload types must be the same.
+/// @param[in] sink    InPort or QueueInPort. @param[in] options fresh_within(...), through(...).
+template <typename T, typename Sink, typename... Options>
+constexpr ConnectionPart connect(OutPort<T>& source, Sink& sink, Options... options) noexcept {
+    static_assert(std::is_base_of_v<InPortBase, Sink>, "connect() joins an output to an input");
+    static_assert(std::is_same_v<T, typename Sink::Payload>, "connect() joins ports of one payload type");
+    ConnectionPart part{};
+    part.row.source = &source;
+    part.row.sink = &sink;
+    if constexpr (std::is_same_v<T, typename Sink::Payload>) {
+        using Connection = std::conditional_t<Sink::kIsQueue, detail::QueueConnection<T, Sink>,
+                                              detail::LatestConnection<T, Sink>>;
+        part.row.operations = &Connection::kOperations;
+        (detail::apply<T, Sink>(part.row, options), ...);
+    }
+    return part;
+}
+
+/// A fault as a compiler message shows it.
+template <auto kFault>
+struct FaultName {
+    static constexpr auto kValue = kFault;
+};
+template <auto... kFaults>
+struct FaultsPart {
+    using Types =
+        detail::PartTypes<detail::TypeList<>, detail::TypeList<>, detail::TypeList<FaultName<kFaults>...>>;
+};
+/// Declares faults, each an enumerator of the application: the table is refused until each has one reaction.
+template <auto... kFaults>
+constexpr FaultsPart<kFaults...> faults() noexcept {
+    static_assert((std::is_enum_v<decltype(kFaults)> && ...),
+                  "faults are the enumerators of one enumeration");
+    return {};
+}
+
+struct Within {
+    Duration limit;
+};
+/// Time from the confirmed fault to the start of its reaction. @param[in] limit > 0.
+constexpr Within within(Duration limit) noexcept {
     return {limit};
 }
 
-namespace detail {
-
-template <typename C, typename Port>
-constexpr PortRow make_port_row(C& component, Port& port) noexcept {
-    PortRow row{};
-    row.owner = &component;
-    if constexpr (std::is_base_of_v<OutPortBase, Port>) {
-        row.output = &port;
-    } else {
-        static_assert(std::is_base_of_v<InPortBase, Port>, "Ports<...> names members that are ports");
-        row.input = &port;
-        row.is_mandatory = Port::kIsMandatory;
-    }
-    return row;
-}
-
-template <typename C, std::size_t N, auto... kMembers>
-constexpr void append_ports(C& component, std::array<PortRow, N>& rows, std::size_t& next,
-                            Ports<kMembers...>) noexcept {
-    ((rows[next++] = make_port_row(component, component.*kMembers)), ...);
-}
-
-template <typename C, std::size_t N>
-constexpr void append_ports_of(C& component, std::array<PortRow, N>& rows, std::size_t& next) noexcept {
-    if constexpr (port_count<C>() > 0U) {
-        append_ports(component, rows, next, typename C::Ports{});
-    } else {
-        static_cast<void>(component);
-        static_cast<void>(rows);
-        static_cast<void>(next);
-    }
-}
-
-template <typename Source, typename Sink>
-void latch(OutPortBase& source, InPortBase& sink) noexcept {
-    static_cast<Sink&>(sink).latch(static_cast<Source&>(source));
-}
-template <typename Source, typename Sink>
-void hand_on(OutPortBase& source, InPortBase& sink, Instant now) noexcept {
-    static_cast<Sink&>(sink).hand_on(static_cast<Source&>(source), now);
-}
-
-}  // namespace detail
-
-/// The components of one window in execution order; they form one periodic execution context.
-template <typename... Cs>
-struct RunList {
-    std::array<Component*, sizeof...(Cs)> components;
-    std::array<PortRow, (port_count<Cs>() + ... + 0U)> ports;
+struct ReactionPart {
+    using Types = detail::PartTypes<detail::TypeList<>, detail::TypeList<>, detail::TypeList<>, 0U, 0U, 1U>;
+    ReactionRow row{};
 };
-template <typename... Cs>
-constexpr RunList<Cs...> run(Cs&... components) noexcept {
-    static_assert(sizeof...(Cs) > 0U, "a window runs at least one component");
-    RunList<Cs...> list{{{&components...}}, {}};
-    std::size_t next = 0U;
-    (detail::append_ports_of(components, list.ports, next), ...);
-    return list;
+/// What a fault leads to; both are enumerators of the application or of the safety layer.
+template <typename Fault, typename Reaction>
+constexpr ReactionPart react(Fault fault, Reaction reaction, Within time) noexcept {
+    static_assert(std::is_enum_v<Fault> && std::is_enum_v<Reaction>,
+                  "a fault and a reaction are enumerators");
+    return {{static_cast<std::uint32_t>(fault), static_cast<std::uint32_t>(reaction), time.limit}};
 }
 
-template <typename... Cs>
-constexpr Window<Cs...> window(const char* name, Duration offset, Duration length, Budget limit,
-                               const RunList<Cs...>& list) noexcept {
-    return {name, offset, length, limit.limit, list.components, list.ports};
-}
-
-/// Feeds `sink` from `source`; their payload types must be the same.
-template <typename T, typename U, Need kNeed>
-constexpr Connection connect(OutPort<T>& source, InPort<U, kNeed>& sink) noexcept {
-    static_assert(std::is_same_v<T, U>, "connect() joins ports of one payload type");
-    ConnectionRow row{};
-    row.source = &source;
-    row.sink = &sink;
-    if constexpr (std::is_same_v<T, U>) {
-        row.latch = &detail::latch<OutPort<T>, InPort<T, kNeed>>;
-        row.hand_on = &detail::hand_on<OutPort<T>, InPort<T, kNeed>>;
-    }
-    return {row};
+struct AbortPolicyPart {
+    using Types = detail::PartTypes<>;
+    AbortPolicy policy;
+};
+/// Which actions a component gets on its way to Error, in the whole system; without it kSpecOnly.
+constexpr AbortPolicyPart abort_policy(AbortPolicy policy) noexcept {
+    return {policy};
 }
 
 namespace detail {
 
-template <typename Part>
-struct PartSize {
-    static constexpr std::size_t kWindows = 0U;
-    static constexpr std::size_t kComponents = 0U;
-    static constexpr std::size_t kPorts = 0U;
-    static constexpr std::size_t kConnections = 0U;
-};
-template <typename... Cs>
-struct PartSize<Window<Cs...>> {
-    static constexpr std::size_t kWindows = 1U;
-    static constexpr std::size_t kComponents = sizeof...(Cs);
-    static constexpr std::size_t kPorts = (port_count<Cs>() + ... + 0U);
-    static constexpr std::size_t kConnections = 0U;
-};
-template <>
-struct PartSize<Connection> {
-    static constexpr std::size_t kWindows = 0U;
-    static constexpr std::size_t kComponents = 0U;
-    static constexpr std::size_t kPorts = 0U;
-    static constexpr std::size_t kConnections = 1U;
-};
+template <typename Builder, typename... Cs>
+constexpr void add_part(Builder& builder, const WindowPart<Cs...>& part) noexcept {
+    builder.add_window(part);
+}
+template <typename Builder, auto... kFaults>
+constexpr void add_part(Builder& builder, const FaultsPart<kFaults...>&) noexcept {
+    (builder.add(FaultRow{static_cast<std::uint32_t>(kFaults)}), ...);
+}
+template <typename Builder>
+constexpr void add_part(Builder& builder, const ConnectionPart& part) noexcept {
+    builder.add(part.row);
+}
+template <typename Builder>
+constexpr void add_part(Builder& builder, const ReactionPart& part) noexcept {
+    builder.add(part.row);
+}
 
-/// Writes the parts of a description into the rows of a table, in the order they are given.
-template <typename Table>
-struct TableBuilder {
-    Table table{};
-    std::size_t window_count{0U};
-    std::size_t component_count{0U};
-    std::size_t port_count{0U};
-    std::size_t connection_count{0U};
+template <typename Builder>
+constexpr void add_part(Builder& builder, const AbortPolicyPart& part) noexcept {
+    builder.add(part.policy);
+}
 
-    template <typename... Cs>
-    constexpr void add(const Window<Cs...>& part) noexcept {
-        WindowRow& row = table.windows[window_count];
-        row.name = part.name;
-        row.offset = part.offset;
-        row.length = part.length;
-        row.budget = part.budget;
-        row.first_component = component_count;
-        row.component_count = part.components.size();
-        for (const PortRow& port : part.ports) {
-            table.ports[port_count] = port;
-            table.ports[port_count].window = window_count;
-            for (std::size_t i = 0U; i < part.components.size(); ++i) {
-                if (part.components[i] == port.owner) {
-                    table.ports[port_count].component = component_count + i;
-                }
-            }
-            ++port_count;
-        }
-        for (Component* component : part.components) {
-            table.components[component_count] = component;
-            ++component_count;
-        }
-        ++window_count;
-    }
-    constexpr void add(const Connection& part) noexcept {
-        table.connections[connection_count] = part.row;
-        ++connection_count;
-    }
-};
+template <typename Types>
+using TableOf = SystemTable<Types::kWindows, Types::Components::kSize, Types::Ports::kSize,
+                            Types::kConnections, Types::Faults::kSize, Types::kReactions>;
 
 }  // namespace detail
 
-/// Builds the table from a frame, windows and connections.
+/// A table that still knows the types of its components and ports, so that the compiler can name them.
+template <typename PartTypes>
+struct DescribedSystem : detail::TableOf<PartTypes> {
+    using Types = PartTypes;
+};
+
+/// Builds the table from a frame and its parts, in any order; components are numbered as they are listed.
 template <typename... Parts>
 constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
-    using Table = SystemTable<
-        (detail::PartSize<Parts>::kWindows + ... + 0U), (detail::PartSize<Parts>::kComponents + ... + 0U),
-        (detail::PartSize<Parts>::kPorts + ... + 0U), (detail::PartSize<Parts>::kConnections + ... + 0U)>;
-    detail::TableBuilder<Table> builder{};
+    using Types = detail::JoinedTypes<Parts...>;
+    detail::TableBuilder<DescribedSystem<Types>> builder{};
     builder.table.frame = frame_part.length;
-    (builder.add(parts), ...);
+    (detail::add_part(builder, parts), ...);
     detail::resolve_connections(builder.table);
+    detail::sort_connections(builder.table);
     return builder.table;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Rows of a system table: what the compiler checks and the executive runs. Users write `mamori::system(...)`
-/// (system.hpp) and never fill rows by hand.
+/// (system.hpp); a tool that makes tables at run time fills rows and has them checked (system_check.hpp).
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SYSTEM_TABLE_HPP
@@ -9,10 +9,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <type_traits>
 
 #include "mamori/kernel/component.hpp"
+#include "mamori/kernel/connection.hpp"
+#include "mamori/kernel/context_plan.hpp"
 #include "mamori/kernel/data_port.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/time.hpp"
@@ -21,14 +23,41 @@ namespace mamori {
 
 /// Index that no row has.
 inline constexpr std::size_t kNoIndex = std::numeric_limits<std::size_t>::max();
+/// Rates beside the first that one window can declare.
+inline constexpr std::size_t kAlternativeRateMax = 4U;
 
+/// One window: opens at `offset`, `offset + period`, ... of each frame; its components form one execution
+/// context.
 struct WindowRow {
     const char* name{nullptr};
-    Duration offset{};  ///< from the start of the frame
-    Duration length{};
-    Duration budget{};  ///< from the opening of the window; never beyond its close
+    Duration offset{};    ///< first opening, from the start of the frame
+    Duration length{};    ///< from opening to close
+    Duration period{};    ///< between two openings; divides the frame
+    Duration budget{};    ///< from the opening of the window; never beyond its close
+    double rate_hz{0.0};  ///< declared cycles per second; 0: not declared
+    std::array<Duration, kAlternativeRateMax> alternative_periods{};
+    std::size_t alternative_count{0U};
+    std::size_t core{0U};
+    const char* partition{""};  ///< name; equal names are one partition
     std::size_t first_component{0U};
     std::size_t component_count{0U};
+    std::size_t first_latch{0U};  ///< connections into this window, places of `latch_order`
+    std::size_t latch_count{0U};
+    ExecutionKind kind{ExecutionKind::kPeriodic};
+    ExternalTrigger* trigger{nullptr};  ///< whose ticks release the cycles of kind kOther
+    std::size_t events_per_cycle{1U};   ///< bound of kind kEventDriven
+    bool has_second_pass{true};         ///< a component of it overrides on_state_update
+    bool has_hand_on{false};            ///< a connection of it is forward in the window
+};
+
+/// What the table knows of one component.
+struct ComponentRow {
+    std::size_t window{kNoIndex};
+    Duration worst_case{};  ///< declared execution time of both passes; 0: not declared
+    std::size_t first_port{0U};
+    std::size_t port_count{0U};
+    std::size_t first_outgoing{0U};  ///< connections from its outputs, places of `outgoing_order`
+    std::size_t outgoing_count{0U};
 };
 
 /// Either `input` or `output` is set.
@@ -44,22 +73,43 @@ struct PortRow {
 struct ConnectionRow {
     OutPortBase* source{nullptr};
     InPortBase* sink{nullptr};
-    void (*latch)(OutPortBase&, InPortBase&) noexcept {nullptr};
-    void (*hand_on)(OutPortBase&, InPortBase&, Instant) noexcept {nullptr};
+    CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
+    const ConnectionOperations* operations{nullptr};
+    Duration age_max{kNoAgeLimit};
     std::size_t source_window{kNoIndex};
     std::size_t sink_window{kNoIndex};
     std::size_t source_component{kNoIndex};
+    std::size_t sink_component{kNoIndex};
     /// Source and sink run in one window, the source first: the value is handed on within the window.
     bool is_forward_in_window{false};
 };
 
-template <std::size_t kWindows, std::size_t kComponents, std::size_t kPorts, std::size_t kConnections>
+/// A fault that the system declares, by its number in the application's enumeration.
+struct FaultRow {
+    std::uint32_t fault{0U};
+};
+/// What a fault leads to, by its number in the application's enumeration.
+struct ReactionRow {
+    std::uint32_t fault{0U};
+    std::uint32_t reaction{0U};
+    Duration within{};  ///< from the confirmed fault to the start of the reaction, > 0
+};
+
+/// Rows with their sizes in the type.
+template <std::size_t kWindows, std::size_t kComponents, std::size_t kPorts, std::size_t kConnections,
+          std::size_t kFaults = 0U, std::size_t kReactions = 0U>
 struct SystemTable {
     Duration frame{};
     std::array<WindowRow, kWindows> windows{};
     std::array<Component*, kComponents> components{};
-    std::array<PortRow, kPorts> ports{};
+    std::array<ComponentRow, kComponents> component_rows{};
+    std::array<PortRow, kPorts> ports{};  ///< in the order of their owners
     std::array<ConnectionRow, kConnections> connections{};
+    std::array<std::size_t, kConnections> latch_order{};     ///< connections by window of their sink
+    std::array<std::size_t, kConnections> outgoing_order{};  ///< connections by component of their source
+    std::array<FaultRow, kFaults> faults{};
+    std::array<ReactionRow, kReactions> reactions{};
+    AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
 
     static constexpr std::size_t kWindowCount = kWindows;
     static constexpr std::size_t kComponentCount = kComponents;
@@ -70,53 +120,21 @@ struct SystemView {
     Duration frame{};
     Span<const WindowRow> windows{};
     Span<Component* const> components{};
+    Span<const ComponentRow> component_rows{};
     Span<const PortRow> ports{};
     Span<const ConnectionRow> connections{};
+    Span<const std::size_t> latch_order{};
+    Span<const std::size_t> outgoing_order{};
+    Span<const FaultRow> faults{};
+    Span<const ReactionRow> reactions{};
+    AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
 };
 
-template <std::size_t kW, std::size_t kC, std::size_t kP, std::size_t kN>
-constexpr SystemView make_view(const SystemTable<kW, kC, kP, kN>& table) noexcept {
-    return {table.frame, table.windows, table.components, table.ports, table.connections};
-}
-
-namespace detail {
-
-template <typename C, typename = void>
-struct PortCount {
-    static constexpr std::size_t kValue = 0U;
-};
-template <typename C>
-struct PortCount<C, std::void_t<typename C::Ports>> {
-    static constexpr std::size_t kValue = C::Ports::kCount;
-};
-
-/// Fills what follows from the rows: which windows a connection joins, and in which order.
-template <typename Table>
-constexpr void resolve_connections(Table& table) noexcept {
-    for (ConnectionRow& connection : table.connections) {
-        std::size_t sink_component = kNoIndex;
-        for (const PortRow& port : table.ports) {
-            if (port.output != nullptr && port.output == connection.source) {
-                connection.source_window = port.window;
-                connection.source_component = port.component;
-            }
-            if (port.input != nullptr && port.input == connection.sink) {
-                connection.sink_window = port.window;
-                sink_component = port.component;
-            }
-        }
-        connection.is_forward_in_window = connection.source_window != kNoIndex &&
-                                          connection.source_window == connection.sink_window &&
-                                          connection.source_component < sink_component;
-    }
-}
-
-}  // namespace detail
-
-/// Ports that component type C declares.
-template <typename C>
-constexpr std::size_t port_count() noexcept {
-    return detail::PortCount<C>::kValue;
+template <std::size_t kW, std::size_t kC, std::size_t kP, std::size_t kN, std::size_t kF, std::size_t kR>
+constexpr SystemView make_view(const SystemTable<kW, kC, kP, kN, kF, kR>& table) noexcept {
+    return {table.frame,  table.windows,     table.components,  table.component_rows,
+            table.ports,  table.connections, table.latch_order, table.outgoing_order,
+            table.faults, table.reactions,   table.abort_policy};
 }
 
 }  // namespace mamori

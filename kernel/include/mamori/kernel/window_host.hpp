@@ -22,21 +22,27 @@ class WindowHost {
     /// Which part of a component's cycle a piece of work is.
     enum class Pass : std::uint8_t { kExecute, kStateUpdate };
 
-    /// A piece of work; call it at most once.
+    /// One pass over components of a window, as a range of steps, so that a host which has nothing to do
+    /// between two of them pays for one call only.
     struct Work {
-        void (*function)(void* argument) noexcept;
-        void* argument;  ///< valid until run_within() returns; work that begins does not need it afterwards
+        /// Runs the steps `begin` .. `end` - 1 in order.
+        void (*run)(void* argument, std::size_t begin, std::size_t end) noexcept;
+        void* argument;         ///< owned by the executive, which outlives work that is abandoned
+        std::size_t component;  ///< place of the first step's component in the system table; others follow
+        std::size_t first;      ///< number of the first step
+        std::size_t count;      ///< of steps, > 0
         Pass pass;
     };
 
     /// @return the time on the port's line; never goes back.
     virtual Instant get_now() const noexcept = 0;
 
-    /// Runs `work` of component `component`.
+    /// Runs the steps of `work`, each at most once and in order, together or one by one.
     /// @param[in] deadline instant at which the window's budget is used up; may have passed already.
-    /// @return true when it returned by the deadline; false when the budget ran out first, whether the work
-    ///         returned late, was abandoned, or never began because earlier work of its context still hangs.
-    virtual bool run_within(std::size_t component, Work work, Instant deadline) noexcept = 0;
+    /// @return how many of them returned by the deadline; less than count when the budget ran out
+    ///         first, whether that step returned late, was abandoned, or never began because earlier work of
+    ///         its context still hangs.
+    virtual std::size_t run_within(const Work& work, Instant deadline) noexcept = 0;
 
   protected:
     ~WindowHost() = default;

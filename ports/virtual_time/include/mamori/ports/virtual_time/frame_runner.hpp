@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Runs whole frames of an executive in virtual time, in lockstep with simulated devices: devices are sampled
-/// before the first window and advanced by one frame after the last.
+/// Runs whole frames of a system in virtual time, with as many cores as it has, in lockstep with simulated
+/// devices: devices are sampled before the first window and advanced by one frame after the last.
 ///
 /// @satisfies SWR-VTM-003      Design: docs/design/virtual_time.md#lockstep
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_FRAME_RUNNER_HPP
@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/frame_schedule.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
 
 namespace mamori::ports::virtual_time {
@@ -26,16 +27,34 @@ class FrameDevices {
     ~FrameDevices() = default;
 };
 
-/// Drives one executive; frame n begins at n times the frame length. All references must outlive it, and the
-/// clock of `host` must not be past the frame that is run next (own bug).
+/// One core of the simulated machine: its executive and its clock, both of which must outlive it.
+class SimulatedCore final {
+  public:
+    SimulatedCore(Executive& executive, VirtualHost& host) noexcept
+        : executive_(executive),
+          host_(host),
+          schedule_(executive.get_view(), executive.get_core(), host.get_now()) {}
+
+  private:
+    friend class FrameRunner;
+
+    Executive& executive_;
+    VirtualHost& host_;
+    FrameSchedule schedule_;
+};
+
+/// Drives the executives of one system; frame n begins at n times the frame length. Openings of all cores are
+/// run in the order of their planned instants, which is all that the data flow depends on. All references
+/// must outlive it, and no core's clock may be past the frame that is run next (own bug).
 ///
 /// Thread safety: none. Time: one frame per call, as fast as the host computes it.
 class FrameRunner final {
   public:
-    FrameRunner(Executive& executive, VirtualHost& host, FrameDevices& devices) noexcept
-        : executive_(executive), host_(host), devices_(devices) {}
+    /// @param[in] cores at least one, all of the same system table.
+    FrameRunner(Span<SimulatedCore> cores, FrameDevices& devices) noexcept
+        : cores_(cores), devices_(devices) {}
 
-    /// Runs the next frame: each window opens at its offset, whatever happened in the one before.
+    /// Runs the next frame: each window opens at its instants, whatever happened in the one before.
     void run_frame() noexcept;
 
     /// Frames run so far.
@@ -44,8 +63,10 @@ class FrameRunner final {
     std::uint64_t get_overrun_count() const noexcept { return overrun_count_; }
 
   private:
-    Executive& executive_;
-    VirtualHost& host_;
+    /// Core whose next opening is the earliest.
+    SimulatedCore& find_next() noexcept;
+
+    Span<SimulatedCore> cores_;
     FrameDevices& devices_;
     std::uint64_t frame_count_{0U};
     std::uint64_t overrun_count_{0U};

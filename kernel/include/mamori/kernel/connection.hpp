@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// How a connection moves values: at the opening of the sink's window, within a window, and, where it leaves
+/// a core or a partition, through a buffer that neither side waits for.
+///
+/// @satisfies SWR-KRN-016, SWR-KRN-026      Design: docs/design/kernel.md#connections
+#ifndef MAMORI_KERNEL_CONNECTION_HPP
+#define MAMORI_KERNEL_CONNECTION_HPP
+
+#include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/triple_buffer.hpp"
+
+namespace mamori {
+
+/// Type-free part of the storage of a connection that leaves its core or partition.
+class CrossingBase {
+  public:
+    CrossingBase(const CrossingBase&) = delete;
+    CrossingBase& operator=(const CrossingBase&) = delete;
+
+  protected:
+    constexpr CrossingBase() noexcept = default;
+    ~CrossingBase() = default;
+};
+
+/// Storage of one connection between two cores or two partitions:
+///     static mamori::Crossing<JointState> to_planner;
+///     mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner))
+/// What counts at a reader's opening is decided by the planned instants, not by who was faster.
+///
+/// Thread safety: one core writes, one core reads, neither waits. Time: O(sizeof(T)). Memory: three T.
+template <typename T>
+class Crossing final : public CrossingBase {
+  public:
+    constexpr Crossing() noexcept = default;
+
+    /// For the executive of the writing core, right after the publication.
+    void deliver(const OutPort<T>& source) noexcept {
+        const typename OutPort<T>::Sample sample = source.get_published_sample();
+        Slot& slot = buffer_.get_write_slot();
+        slot.value = sample.value;
+        slot.revision = sample.revision;
+        slot.published_at = sample.published_at;
+        buffer_.publish();
+    }
+    /// For the executive of the reading core, at the opening of its window. A value whose publication lies
+    /// after `opening` is left for the next one: the reader is late, and takes what it would have found.
+    template <typename Sink>
+    void latch(Sink& sink, Instant opening) noexcept {
+        static_cast<void>(buffer_.update());
+        const Slot& slot = buffer_.get_read_slot();
+        if (slot.published_at <= opening) {
+            sink.take({slot.value, slot.revision, slot.published_at});
+        }
+    }
+
+  private:
+    struct Slot {
+        T value{};
+        std::uint64_t revision{0U};
+        Instant published_at{};
+    };
+    TripleBuffer<Slot> buffer_{};
+};
+
+/// What the executive calls for a connection; one constant per pair of port types. nullptr: nothing to do.
+struct ConnectionOperations {
+    /// After a publication of the source.
+    void (*deliver)(OutPortBase&, InPortBase&, CrossingBase*) noexcept;
+    /// At the opening of the sink's window.
+    void (*latch)(OutPortBase&, InPortBase&, CrossingBase*, Instant opening) noexcept;
+    /// After the source's cycle in a window in which the sink comes later.
+    void (*hand_on)(OutPortBase&, InPortBase&, Instant opening) noexcept;
+    bool may_leave_core;  ///< source and sink may run on two cores or in two partitions
+    bool is_latest;       ///< only the newest value is kept, so the order of writer and reader matters
+};
+
+namespace detail {
+
+/// A sink that keeps the latest value, fed on its own core.
+template <typename T, typename Sink>
+struct LatestConnection {
+    static void latch(OutPortBase& source, InPortBase& sink, CrossingBase*, Instant) noexcept {
+        static_cast<Sink&>(sink).take(static_cast<OutPort<T>&>(source).get_published_sample());
+    }
+    static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
+        static_cast<Sink&>(sink).take(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
+    }
+    static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, false, true};
+};
+
+/// The same through a buffer.
+template <typename T, typename Sink>
+struct CrossingConnection {
+    static void deliver(OutPortBase& source, InPortBase&, CrossingBase* crossing) noexcept {
+        static_cast<Crossing<T>*>(crossing)->deliver(static_cast<OutPort<T>&>(source));
+    }
+    static void latch(OutPortBase&, InPortBase& sink, CrossingBase* crossing, Instant opening) noexcept {
+        static_cast<Crossing<T>*>(crossing)->latch(static_cast<Sink&>(sink), opening);
+    }
+    static constexpr ConnectionOperations kOperations{&deliver, &latch, nullptr, true, true};
+};
+
+/// A sink that queues every publication; the queue itself may lie between two cores.
+template <typename T, typename Sink>
+struct QueueConnection {
+    static void deliver(OutPortBase& source, InPortBase& sink, CrossingBase*) noexcept {
+        static_cast<Sink&>(sink).push(static_cast<OutPort<T>&>(source).get_published_sample());
+    }
+    static void latch(OutPortBase&, InPortBase& sink, CrossingBase*, Instant opening) noexcept {
+        static_cast<Sink&>(sink).open(opening);
+    }
+    static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
+        static_cast<Sink&>(sink).push(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
+    }
+    static constexpr ConnectionOperations kOperations{&deliver, &latch, &hand_on, Sink::kMayLeaveCore, false};
+};
+
+}  // namespace detail
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_CONNECTION_HPP

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: two cores exchange values by their planned instants, late or not; windows of several rates run as
+// often as they say. Method: two executives of one table, run by hand in orders that a real machine may show.
+#include <gtest/gtest.h>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/verification/verifies.hpp"
+#include "support/fake_host.hpp"
+#include "support/flow_components.hpp"
+
+namespace mamori {
+namespace {
+
+using testing_support::Counter;
+using testing_support::FakeHost;
+using testing_support::Sink;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+using Values = std::vector<std::int64_t>;
+
+/// The counter writes from 0 to 400 ns on core 0, the sink reads at 400 ns on core 1.
+class ExecutiveCoresTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        for (Executive* core : {static_cast<Executive*>(&writer_), static_cast<Executive*>(&reader_)}) {
+            ASSERT_EQ(core->initialize(), Status::kOk);
+            ASSERT_EQ(core->start(), Status::kOk);
+        }
+    }
+    void write(std::int64_t frame, std::int64_t late = 0) {
+        host_.now = Instant{frame * 1000 + late};
+        ASSERT_EQ(writer_.run_window(0U, Instant{frame * 1000}, host_), WindowOutcome::kCompleted);
+    }
+    void read(std::int64_t frame, std::int64_t late = 0) {
+        host_.now = Instant{frame * 1000 + 400 + late};
+        ASSERT_EQ(reader_.run_window(1U, Instant{frame * 1000 + 400}, host_), WindowOutcome::kCompleted);
+    }
+
+    Counter counter_;
+    Sink sink_;
+    Crossing<std::int64_t> crossing_;
+    SystemTable<2U, 2U, 2U, 1U> table_ =
+        system(frame(1000_ns), window("write", 0_ns, 400_ns, budget(300_ns), run(counter_)),
+               window("read", 400_ns, 600_ns, core(1), budget(100_ns), run(sink_)),
+               connect(counter_.out, sink_.in, through(crossing_), fresh_within(500_ns)));
+    FakeHost host_;
+    ExecutiveFor<decltype(table_)> writer_{table_};
+    ExecutiveFor<decltype(table_)> reader_{table_, 1U};
+};
+
+TEST_F(ExecutiveCoresTest, AValueArrivesAtTheFirstOpeningThatIsNotBeforeItsPublication) {
+    verifies("SWR-KRN-026");
+    write(0);
+    read(0);
+    write(1);
+    read(1);
+
+    EXPECT_EQ(sink_.get_values(), (Values{10, 20}));
+    EXPECT_TRUE(sink_.notes[1].is_new);
+    EXPECT_EQ(sink_.notes[1].age, 0_ns) << "published at the close, 400 ns, and read there";
+}
+
+TEST_F(ExecutiveCoresTest, ALateReaderDoesNotSeeWhatIsPublishedAfterItsOpening) {
+    verifies("SWR-KRN-026", Technique::kFaultInjection, Polarity::kViolation);
+    write(0);
+    read(0);
+    write(1);
+    read(1);
+    write(2);
+    read(1, 600);  // the reader of frame 1 comes in frame 2, after its writer
+
+    EXPECT_EQ(sink_.get_values(), (Values{10, 20, 20}));
+    EXPECT_FALSE(sink_.notes[2].is_new);
+}
+
+TEST_F(ExecutiveCoresTest, AValueThatCameTooEarlyArrivesAtTheNextOpening) {
+    verifies("SWR-KRN-026", Technique::kFaultInjection, Polarity::kViolation);
+    write(0);
+    write(1);
+    read(0, 600);
+    read(1);
+
+    EXPECT_EQ(sink_.get_values(), (Values{0, 20})) << "the first one was replaced before it was looked at";
+    EXPECT_EQ(sink_.in.get_name(), std::string("in"));
+}
+
+TEST_F(ExecutiveCoresTest, ASilentWriterMakesItsValueStaleAtTheReader) {
+    verifies("SWR-KRN-016", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(sink_.in.calc_status(Instant{0}), PortStatus::kBufferEmpty);
+    write(0);
+    read(0);
+    read(1);
+
+    EXPECT_EQ(sink_.in.calc_status(Instant{400 + 500}), PortStatus::kOk);
+    EXPECT_EQ(sink_.in.calc_status(Instant{400 + 501}), PortStatus::kBufferTimeout);
+}
+
+TEST_F(ExecutiveCoresTest, EachExecutiveStartsStopsAndFinalizesItsOwnCoreOnly) {
+    verifies("SWR-KRN-024", Technique::kStateTransition);
+    EXPECT_EQ(writer_.get_core(), 0U);
+    EXPECT_EQ(reader_.get_core(), 1U);
+    EXPECT_EQ(writer_.stop(), Status::kOk);
+    EXPECT_EQ(writer_.finalize(), Status::kOk);
+
+    EXPECT_FALSE(counter_.is_alive());
+    EXPECT_TRUE(sink_.is_alive());
+    EXPECT_TRUE(reader_.get_context(1U).is_running());
+    read(0);
+    EXPECT_EQ(reader_.stop(), Status::kOk);
+    EXPECT_EQ(reader_.finalize(), Status::kOk);
+}
+
+TEST(ExecutiveStartTest, WhatWasWrittenOnTheWayToTheLastStopIsNotPublishedByTheNextRun) {
+    verifies("SWR-KRN-015", Technique::kErrorGuessing, Polarity::kViolation);
+    Counter counter;
+    const auto table = system(frame(1000_ns), window("w", 0_ns, 400_ns, budget(300_ns), run(counter)));
+    ExecutiveFor sut{table};
+    FakeHost host;
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    counter.out.write(666);  // as on_deactivated would
+    ASSERT_EQ(sut.stop(), Status::kOk);
+    counter.is_writing = false;
+
+    ASSERT_EQ(sut.start(), Status::kOk);
+    ASSERT_EQ(sut.run_window(0U, host), WindowOutcome::kCompleted);
+
+    EXPECT_EQ(counter.out.get_sequence(), 0U);
+}
+
+}  // namespace
+}  // namespace mamori

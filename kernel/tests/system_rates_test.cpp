@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: windows with periods, rates, worst cases, cores and reactions are in the table, and their rules find
+// the guilty element on both sides of each limit.
+// Method: tables that break one rule each; overlap of periodic windows against counting every nanosecond.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/verification/verifies.hpp"
+#include "support/flow_components.hpp"
+
+namespace mamori {
+namespace {
+
+using testing_support::Counter;
+using testing_support::Relay;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+enum class Fault : std::uint32_t { kHot = 3, kFast = 7 };
+enum class Reaction : std::uint32_t { kSlow = 1, kStop = 2 };
+
+Counter g_counter;
+Counter g_other{"other"};
+Relay g_relay;
+Crossing<std::int64_t> g_crossing;
+
+constexpr auto kSystem = system(
+    frame(12_ms),
+    window("fast", 0_ms, 1_ms, every(3_ms), rate(333.333333333_hz, 166.666666667_hz), budget(500_us),
+           run(worst_case(g_counter, 400_us))),
+    window("slow", 1_ms, 1_ms, every(12_ms), core(1), partition("plan"), budget(1_ms), run(g_relay)),
+    connect(g_counter.out, g_relay.in, through(g_crossing), fresh_within(5_ms)),
+    abort_policy(AbortPolicy::kOpenRtmCompat), faults<Fault::kHot, Fault::kFast>(),
+    react(Fault::kFast, Reaction::kStop, within(20_ms)), react(Fault::kHot, Reaction::kSlow, within(1_s)));
+MAMORI_CHECK(kSystem);
+
+template <typename Table>
+std::vector<Rule> list_rules(const Table& table) {
+    std::array<Finding, 16U> findings{};
+    const std::size_t count = check_all(make_view(table), findings);
+    std::vector<Rule> rules;
+    for (std::size_t i = 0U; i < count && i < findings.size(); ++i) {
+        rules.push_back(findings[i].rule);
+    }
+    return rules;
+}
+using Rules = std::vector<Rule>;
+
+TEST(SystemRatesTest, ThePartsAreInTheTable) {
+    verifies("SWR-KRN-017");
+
+    EXPECT_EQ(kSystem.windows[0].period, 3_ms);
+    EXPECT_EQ(kSystem.windows[0].alternative_count, 1U);
+    EXPECT_EQ(kSystem.windows[0].alternative_periods[0], 6_ms);
+    EXPECT_EQ(kSystem.windows[1].core, 1U);
+    EXPECT_STREQ(kSystem.windows[1].partition, "plan");
+    EXPECT_EQ(kSystem.component_rows[0].worst_case, 400_us);
+    EXPECT_EQ(kSystem.connections[0].crossing, &g_crossing);
+    EXPECT_EQ(kSystem.connections[0].age_max, 5_ms);
+    EXPECT_EQ(kSystem.abort_policy, AbortPolicy::kOpenRtmCompat);
+    EXPECT_EQ(kSystem.faults[1].fault, 7U);
+    EXPECT_EQ(kSystem.reactions[0].reaction, 2U);
+    EXPECT_EQ(kSystem.reactions[0].within, 20_ms);
+}
+
+TEST(SystemRatesTest, TheSecondPassIsKnownToBeNeededOnlyWhereItIsOverridden) {
+    verifies("SWR-KRN-017", Technique::kEquivalenceClasses);
+
+    EXPECT_TRUE(kSystem.windows[0].has_second_pass);
+    EXPECT_FALSE(kSystem.windows[1].has_second_pass);
+}
+
+TEST(SystemRatesTest, PeriodicWindowsOverlapExactlyWhenTheyMeetInSomeFrame) {
+    verifies("SWR-KRN-018", Technique::kBackToBack, Polarity::kViolation);
+    const std::int64_t frame_length = 60;
+    std::size_t overlap_count = 0U;
+    for (const std::int64_t period : {12, 15, 20}) {
+        for (const std::int64_t other_period : {10, 15, 30}) {
+            for (std::int64_t offset = 0; offset < 9; ++offset) {
+                const auto table =
+                    system(frame(Duration{frame_length}),
+                           window("a", 2_ns, 3_ns, every(Duration{period}), budget(1_ns), run(g_counter)),
+                           window("b", Duration{offset}, 1_ns, every(Duration{other_period}), budget(1_ns),
+                                  run(g_other)));
+                std::vector<int> users(60U, 0);
+                for (std::int64_t t = 2; t < frame_length; t += period) {
+                    std::fill_n(users.begin() + t, 3, 1);
+                }
+                bool overlaps = false;
+                for (std::int64_t t = offset; t < frame_length; t += other_period) {
+                    overlaps = overlaps || *(users.begin() + t) == 1;
+                }
+                overlap_count += overlaps ? 1U : 0U;
+                EXPECT_EQ(list_rules(table), overlaps ? Rules{Rule::kWindowsOverlap} : Rules{})
+                    << period << " " << other_period << " " << offset;
+            }
+        }
+    }
+    EXPECT_GT(overlap_count, 10U) << "both outcomes occur";
+    EXPECT_LT(overlap_count, 71U);
+}
+
+TEST(SystemRatesTest, WindowsOfTwoCoresMayOverlap) {
+    verifies("SWR-KRN-018", Technique::kEquivalenceClasses);
+
+    EXPECT_EQ(list_rules(system(frame(1_ms), window("a", 0_us, 1_ms, budget(1_us), run(g_counter)),
+                                window("b", 0_us, 1_ms, core(1), budget(1_us), run(g_other)))),
+              Rules{});
+}
+
+TEST(SystemRatesTest, ADeclaredRateIsThatOfTheOpenings) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_rate = [](Rate declared, Duration period) {
+        return list_rules(system(frame(100_ms), window("a", 0_us, 1_us, every(period), rate(declared),
+                                                       budget(1_us), run(g_counter))));
+    };
+
+    EXPECT_EQ(check_rate(1000_hz, 1_ms), Rules{});
+    EXPECT_EQ(check_rate(1001_hz, 1_ms), Rules{Rule::kRateNotOccurrences});
+    EXPECT_EQ(check_rate(999_hz, 1_ms), Rules{Rule::kRateNotOccurrences});
+    EXPECT_EQ(check_rate(Rate{-1000.0}, 1_ms), Rules{Rule::kRateNotOccurrences});
+    EXPECT_EQ(check_rate(Rate{1000.0 * (1.0 + 2.0e-9)}, 1_ms), Rules{Rule::kRateNotOccurrences});
+}
+
+TEST(SystemRatesTest, ASlowerRateIsAWholePartOfTheFirst) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_slower = [](Rate slower) {
+        return list_rules(system(
+            frame(1_ms), window("a", 0_us, 1_us, rate(1000_hz, slower), budget(1_us), run(g_counter))));
+    };
+
+    EXPECT_EQ(check_slower(500_hz), Rules{});
+    EXPECT_EQ(check_slower(250_hz), Rules{});
+    for (const double hz : {1000.0, 2000.0, 600.0, 0.0, -500.0}) {
+        EXPECT_EQ(check_slower(Rate{hz}), Rules{Rule::kRateNotReachable}) << hz;
+    }
+}
+
+TEST(SystemRatesTest, WorstCasesMayFillTheBudgetAndNoMore) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_sum = [](Duration second) {
+        return list_rules(
+            system(frame(1_ms), window("a", 0_us, 100_us, budget(50_us),
+                                       run(worst_case(g_counter, 30_us), worst_case(g_other, second)))));
+    };
+
+    EXPECT_EQ(check_sum(20_us), Rules{});
+    EXPECT_EQ(check_sum(20_us + 1_ns), Rules{Rule::kWorstCasesExceedBudget});
+    EXPECT_EQ(check_sum(Duration{std::numeric_limits<std::int64_t>::max()}),
+              Rules{Rule::kWorstCasesExceedBudget});
+}
+
+TEST(SystemRatesTest, AReaderOnAnotherCoreOpensOutsideOfItsWritersWindow) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_offset = [](Duration offset) {
+        return list_rules(system(frame(1_ms), window("w", 100_us, 200_us, budget(1_us), run(g_counter)),
+                                 window("r", offset, 1_us, core(1), budget(1_us), run(g_relay)),
+                                 connect(g_counter.out, g_relay.in, through(g_crossing))));
+    };
+
+    EXPECT_EQ(check_offset(100_us - 1_ns), Rules{});
+    EXPECT_EQ(check_offset(100_us), Rules{Rule::kCrossingNotOrdered});
+    EXPECT_EQ(check_offset(300_us - 1_ns), Rules{Rule::kCrossingNotOrdered});
+    EXPECT_EQ(check_offset(300_us), Rules{});
+}
+
+TEST(SystemRatesTest, EveryFaultHasOneReactionAndEveryReactionAFaultAndTime) {
+    verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const auto stop = react(Fault::kHot, Reaction::kStop, within(1_ns));
+
+    EXPECT_EQ(list_rules(system(frame(1_ms), faults<Fault::kHot>(), stop)), Rules{});
+    EXPECT_EQ(list_rules(system(frame(1_ms), faults<Fault::kHot>())), Rules{Rule::kFaultWithoutReaction});
+    EXPECT_EQ(list_rules(system(frame(1_ms), faults<Fault::kHot>(), stop, stop)),
+              Rules{Rule::kFaultWithTwoReactions});
+    EXPECT_EQ(list_rules(system(frame(1_ms), stop)), Rules{Rule::kReactionToUnknownFault});
+    EXPECT_EQ(list_rules(system(frame(1_ms), faults<Fault::kHot>(),
+                                react(Fault::kHot, Reaction::kStop, within(0_ns)))),
+              Rules{Rule::kReactionWithoutTime});
+}
+
+// Tables made at run time.
+
+TEST(RunTimeTableTest, AllFindingsAreToldAtOnce) {
+    verifies("SWR-KRN-025", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_EQ(
+        list_rules(system(frame(1_ms), window("a", 0_us, 100_us, budget(101_us), run(g_relay)),
+                          window("b", 50_us, 100_us, every(300_us), budget(1_us), run(g_relay)),
+                          connect(g_counter.out, g_relay.in), faults<Fault::kHot>())),
+        (Rules{Rule::kBudgetExceedsWindow, Rule::kPeriodNotInFrame, Rule::kWindowsOverlap,
+               Rule::kComponentInTwoPlaces, Rule::kPortOfUnknownComponent, Rule::kFaultWithoutReaction}));
+}
+
+TEST(RunTimeTableTest, FindingsBeyondTheRoomAreCounted) {
+    verifies("SWR-KRN-025", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto table = system(frame(1_ms), faults<Fault::kHot, Fault::kFast>());
+    std::array<Finding, 1U> findings{};
+
+    EXPECT_EQ(check_all(make_view(table), findings), 2U);
+    EXPECT_EQ(check_all(make_view(table), {}), 2U);
+    EXPECT_EQ(findings[0].rule, Rule::kFaultWithoutReaction);
+}
+
+TEST(RunTimeTableTest, RowsThatAreInvalidInThemselvesHideWhatReliesOnThem) {
+    verifies("SWR-KRN-025", Technique::kErrorGuessing, Polarity::kViolation);
+    const auto good = system(frame(1_ms), window("a", 0_us, 1_us, budget(1_us), run(g_counter, g_relay)),
+                             connect(g_counter.out, g_relay.in));
+    const auto list_broken = [&good](auto&& spoil) {
+        auto table = good;
+        spoil(table);
+        return list_rules(table);
+    };
+
+    EXPECT_EQ(list_broken([](auto&) {}), Rules{});
+    EXPECT_EQ(list_broken([](auto& t) { t.frame = 0_ns; }), Rules{Rule::kFrameNotPositive});
+    EXPECT_EQ(list_broken([](auto& t) { t.windows[0].name = nullptr; }), Rules{Rule::kWindowRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.windows[0].partition = nullptr; }), Rules{Rule::kWindowRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.windows[0].period = 0_ns; }), Rules{Rule::kWindowRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.windows[0].component_count = 3U; }),
+              Rules{Rule::kWindowRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.windows[0].first_component = 1U; }),
+              Rules{Rule::kWindowRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.windows[0].latch_count = 2U; }), Rules{Rule::kWindowRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.windows[0].alternative_count = 5U; }),
+              Rules{Rule::kWindowRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.components[1] = nullptr; }), Rules{Rule::kComponentRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.component_rows[1].window = 1U; }),
+              Rules{Rule::kComponentRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.component_rows[1].port_count = 3U; }),
+              Rules{Rule::kComponentRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.component_rows[0].outgoing_count = 2U; }),
+              Rules{Rule::kComponentRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.ports[0].output = nullptr; }), Rules{Rule::kPortRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.connections[0].source = nullptr; }),
+              Rules{Rule::kConnectionRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.connections[0].sink = nullptr; }),
+              Rules{Rule::kConnectionRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.connections[0].operations = nullptr; }),
+              Rules{Rule::kConnectionRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.connections[0].source_window = 1U; }),
+              Rules{Rule::kConnectionRowInvalid});
+    EXPECT_EQ(list_broken([](auto& t) { t.connections[0].sink_window = 1U; }),
+              Rules{Rule::kConnectionRowInvalid});
+}
+
+TEST(RunTimeTableTest, AnExecutiveRefusesATableWithAFindingAndRunsOneWithout) {
+    verifies("SWR-KRN-025", Technique::kErrorGuessing, Polarity::kViolation);
+    Counter counter;
+    const auto broken = system(frame(1_ms), window("a", 0_us, 1_us, budget(2_us), run(counter)));
+    const auto good = system(frame(1_ms), window("a", 0_us, 1_us, budget(1_us), run(counter)));
+    ExecutiveFor refusing{broken};
+    ExecutiveFor running{good};
+
+    EXPECT_EQ(refusing.initialize(), Status::kBadParameter);
+    EXPECT_FALSE(counter.is_alive());
+    EXPECT_EQ(running.initialize(), Status::kOk);
+    EXPECT_EQ(running.finalize(), Status::kOk);
+}
+
+TEST(RunTimeTableTest, EachRuleHasANameOfItsOwn) {
+    verifies("SWR-KRN-025");
+
+    EXPECT_STREQ(get_name(Rule::kNone), "None");
+    EXPECT_STREQ(get_name(Rule::kReactionToUnknownFault), "ReactionToUnknownFault");
+    EXPECT_STREQ(get_name(static_cast<Rule>(999)), "Invalid");
+}
+
+}  // namespace
+}  // namespace mamori
