@@ -172,6 +172,7 @@ Exploration explore() {
 template <typename T>
 class SteppedAtomic {
   public:
+    using value_type = T;
     static constexpr bool is_always_lock_free = true;
     constexpr SteppedAtomic(T value = T{}) noexcept : value_(value) {}  // NOLINT: as std::atomic
     SteppedAtomic(const SteppedAtomic&) = delete;
