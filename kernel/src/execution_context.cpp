@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/execution_context.hpp"
 
+#include "action_scope.hpp"
 #include "mamori/kernel/external_trigger.hpp"
 
 namespace mamori {
@@ -31,25 +32,24 @@ bool is_sound(const ContextPlan& plan) noexcept {
     return true;
 }
 
+/// Declared period within half a nanosecond of `period_ns`; 0 when there is none.
+Duration find_period(const ContextPlan& plan, double period_ns) noexcept {
+    const auto is_meant = [period_ns](Duration declared) noexcept {
+        const double difference = period_ns - static_cast<double>(declared.ns);
+        return difference < 0.5 && difference > -0.5;
+    };
+    if (is_meant(plan.period)) {
+        return plan.period;
+    }
+    for (const Duration& alternative : plan.alternative_periods) {
+        if (is_meant(alternative)) {
+            return alternative;
+        }
+    }
+    return Duration{0};
+}
+
 }  // namespace
-
-/// Marks that an action of one participant is being called, for as long as it lives.
-class ExecutionContext::ActionScope final {
-  public:
-    ActionScope(ExecutionContext& context, std::size_t position) noexcept : context_(context) {
-        move_to(position);
-    }
-    ~ActionScope() { context_.acting_position_.store(kNoPosition, std::memory_order_release); }
-    ActionScope(const ActionScope&) = delete;
-    ActionScope& operator=(const ActionScope&) = delete;
-
-    void move_to(std::size_t position) noexcept {
-        context_.acting_position_.store(position, std::memory_order_relaxed);
-    }
-
-  private:
-    ExecutionContext& context_;
-};
 
 bool ExecutionContext::is_busy() const noexcept {
     return is_in_cycle() || acting_position_.load(std::memory_order_acquire) != kNoPosition;
@@ -74,6 +74,9 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
     }
     id_ = id;
     plan_ = plan;
+    period_ = plan.period;
+    pending_period_ = plan.period;
+    divisor_ = 1;
     participants_ = participants;
     return Status::kOk;
 }
@@ -81,6 +84,7 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
 void ExecutionContext::release_participants(Span<Component* const> participants) noexcept {
     for (Component* component : participants) {
         component->context_ = nullptr;
+        component->notices_ = 0U;
         if (component->get_state() == LifecycleState::kError) {
             component->set_state(LifecycleState::kInactive);
         }
@@ -99,6 +103,9 @@ Status ExecutionContext::detach() noexcept {
     release_participants(participants_);
     participants_ = {};
     plan_ = {};
+    period_ = {};
+    pending_period_ = {};
+    divisor_ = 1;
     id_ = -1;
     return Status::kOk;
 }
@@ -113,19 +120,23 @@ Status ExecutionContext::start(Instant now) noexcept {
         }
     }
     refusing_position_ = kNoPosition;
+    const ContextHandle handle = make_handle(now);
     for (std::size_t i = 0U; i < participants_.size(); ++i) {
         const ActionScope scope{*this, i};
-        const Status result = participants_[i]->on_startup(make_handle(now));
+        const Status result = participants_[i]->on_startup(handle);
+        note(*participants_[i], ComponentAction::kStartup, result, handle);
         if (result != Status::kOk) {
             for (std::size_t started = 0U; started < i; ++started) {
                 // The refusal is what the caller must hear; a second failure would only hide it.
-                static_cast<void>(participants_[started]->on_shutdown(make_handle(now)));
+                note(*participants_[started], ComponentAction::kShutdown,
+                     participants_[started]->on_shutdown(handle), handle);
             }
             refusing_position_ = i;
             return result;
         }
     }
     is_running_ = true;
+    windows_to_skip_ = 0;
     if (plan_.trigger != nullptr) {
         plan_.trigger->ignore_waiting();
     }
@@ -138,9 +149,11 @@ Status ExecutionContext::stop(Instant now) noexcept {
     }
     is_running_ = false;
     Status first_failure = Status::kOk;
+    const ContextHandle handle = make_handle(now);
     for (std::size_t i = 0U; i < participants_.size(); ++i) {
         const ActionScope scope{*this, i};
-        const Status result = participants_[i]->on_shutdown(make_handle(now));
+        const Status result = participants_[i]->on_shutdown(handle);
+        note(*participants_[i], ComponentAction::kShutdown, result, handle);
         if (first_failure == Status::kOk) {
             first_failure = result;
         }
@@ -164,9 +177,20 @@ Result<std::size_t> ExecutionContext::admit(const Component& component, Lifecycl
     return admission == Status::kOk ? index : Result<std::size_t>{admission};
 }
 
+void ExecutionContext::note(Component& component, ComponentAction action, Status answer,
+                            ContextHandle handle) noexcept {
+    if (answer != Status::kOk) {
+        component.last_failure_ = {handle.now, answer, action};
+    }
+}
+
 void ExecutionContext::enter_error(Component& component, ContextHandle handle) noexcept {
     component.set_state(calc_target(component.get_state(), LifecycleEvent::kFail));
-    // on_aborting cannot make matters worse: the component is in Error whatever it answers.
+    // Neither action can make matters worse: the component is in Error whatever they answer, and what led
+    // there is what get_last_failure() must tell.
+    if (plan_.abort_policy == AbortPolicy::kOpenRtmCompat) {
+        static_cast<void>(component.on_deactivated(handle));
+    }
     static_cast<void>(component.on_aborting(handle));
 }
 
@@ -176,12 +200,14 @@ Status ExecutionContext::activate_component(const Component& component, Instant 
         return index.get_status();
     }
     Component& participant = *participants_[index.get_value()];
+    const ContextHandle handle = make_handle(now);
     const ActionScope scope{*this, index.get_value()};
-    const Status result = participant.on_activated(make_handle(now));
+    const Status result = participant.on_activated(handle);
+    note(participant, ComponentAction::kActivated, result, handle);
     if (result == Status::kOk) {
         participant.set_state(calc_target(participant.get_state(), LifecycleEvent::kActivate));
     } else {
-        enter_error(participant, make_handle(now));
+        enter_error(participant, handle);
     }
     return result;
 }
@@ -192,9 +218,12 @@ Status ExecutionContext::deactivate_component(const Component& component, Instan
         return index.get_status();
     }
     Component& participant = *participants_[index.get_value()];
+    const ContextHandle handle = make_handle(now);
     const ActionScope scope{*this, index.get_value()};
     participant.set_state(calc_target(participant.get_state(), LifecycleEvent::kDeactivate));
-    return participant.on_deactivated(make_handle(now));
+    const Status result = participant.on_deactivated(handle);
+    note(participant, ComponentAction::kDeactivated, result, handle);
+    return result;
 }
 
 Status ExecutionContext::reset_component(const Component& component, Instant now) noexcept {
@@ -203,8 +232,10 @@ Status ExecutionContext::reset_component(const Component& component, Instant now
         return index.get_status();
     }
     Component& participant = *participants_[index.get_value()];
+    const ContextHandle handle = make_handle(now);
     const ActionScope scope{*this, index.get_value()};
-    const Status result = participant.on_reset(make_handle(now));
+    const Status result = participant.on_reset(handle);
+    note(participant, ComponentAction::kReset, result, handle);
     if (result == Status::kOk) {
         participant.set_state(calc_target(participant.get_state(), LifecycleEvent::kReset));
     }
@@ -224,15 +255,39 @@ LifecycleState ExecutionContext::get_state_at(std::size_t position) const noexce
 
 double ExecutionContext::get_rate() const noexcept {
     const bool has_rate = id_ >= 0 && plan_.kind == ExecutionKind::kPeriodic;
-    return has_rate ? 1.0e9 / static_cast<double>(plan_.period.ns) : -1.0;
+    return has_rate ? 1.0e9 / static_cast<double>(period_.ns) : -1.0;
 }
 
 Status ExecutionContext::set_rate(double rate_hz) noexcept {
     // Written so that a rate that is not a number is refused too.
-    if (!(rate_hz > 0.0)) {
+    if (!(rate_hz > 0.0 && rate_hz <= std::numeric_limits<double>::max())) {
         return Status::kBadParameter;
     }
-    return Status::kUnsupported;
+    if (id_ < 0 || plan_.kind != ExecutionKind::kPeriodic) {
+        return Status::kUnsupported;
+    }
+    const Duration wished = find_period(plan_, 1.0e9 / rate_hz);
+    if (wished == Duration{0}) {
+        return Status::kUnsupported;
+    }
+    if (is_busy()) {
+        return Status::kPreconditionNotMet;
+    }
+    pending_period_ = wished;
+    return Status::kOk;
+}
+
+bool ExecutionContext::apply_pending_rate() noexcept {
+    if (pending_period_ == period_ || is_busy()) {
+        return false;
+    }
+    period_ = pending_period_;
+    divisor_ = period_.ns / plan_.period.ns;
+    windows_to_skip_ = 0;
+    for (Component* component : participants_) {
+        component->notices_ |= Component::kRateNotice;
+    }
+    return true;
 }
 
 Result<std::size_t> ExecutionContext::get_acting_position() const noexcept {
@@ -243,66 +298,6 @@ Result<std::size_t> ExecutionContext::get_acting_position() const noexcept {
 Result<std::size_t> ExecutionContext::get_refusing_position() const noexcept {
     return refusing_position_ == kNoPosition ? Status::kPreconditionNotMet
                                              : Result<std::size_t>{refusing_position_};
-}
-
-bool ExecutionContext::take_turn() noexcept {
-    return is_running_ && (plan_.trigger == nullptr || plan_.trigger->take());
-}
-
-Status ExecutionContext::begin_cycle(Instant now) noexcept {
-    if (!is_running_ || is_busy()) {
-        return Status::kPreconditionNotMet;
-    }
-    is_in_cycle_.store(true, std::memory_order_relaxed);
-    cycle_start_ = now;
-    return Status::kOk;
-}
-
-void ExecutionContext::execute_range(std::size_t first, std::size_t count, AfterStep after) noexcept {
-    MAMORI_REQUIRE(2, is_in_cycle());
-    const Span<Component* const> range = participants_.subspan(first, count);
-    const ContextHandle handle = make_handle(cycle_start_);
-    ActionScope scope{*this, first};
-    for (std::size_t i = 0U; i < count && is_in_cycle(); ++i) {
-        scope.move_to(first + i);
-        Component& component = *range.data()[i];
-        if (component.get_state() != LifecycleState::kActive) {
-            execute_unusual(component, handle);
-        } else if (component.on_execute(handle) != Status::kOk) {
-            enter_error(component, handle);
-        }
-        if (after.function != nullptr && is_in_cycle()) {
-            after.function(after.argument, first + i);
-        }
-    }
-}
-
-void ExecutionContext::execute_unusual(Component& component, ContextHandle handle) noexcept {
-    switch (component.get_state()) {
-        case LifecycleState::kError:
-            static_cast<void>(component.on_error(handle));
-            return;
-        case LifecycleState::kActive:
-        case LifecycleState::kCreated:
-        case LifecycleState::kInactive:
-            return;
-    }
-    MAMORI_INVARIANT(3, false);  // only a corrupted state comes here
-}
-
-void ExecutionContext::update_range(std::size_t first, std::size_t count) noexcept {
-    MAMORI_REQUIRE(4, is_in_cycle());
-    const Span<Component* const> range = participants_.subspan(first, count);
-    const ContextHandle handle = make_handle(cycle_start_);
-    ActionScope scope{*this, first};
-    for (std::size_t i = 0U; i < count && is_in_cycle(); ++i) {
-        scope.move_to(first + i);
-        Component& component = *range.data()[i];
-        if (component.get_state() == LifecycleState::kActive &&
-            component.on_state_update(handle) != Status::kOk) {
-            enter_error(component, handle);
-        }
-    }
 }
 
 }  // namespace mamori

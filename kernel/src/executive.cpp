@@ -367,6 +367,18 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, Wi
     return WindowOutcome::kOverrun;
 }
 
+/// What changes for all windows of the core at once changes here, before the first window of a frame.
+void Executive::begin_frame(Instant release) noexcept {
+    const std::int64_t number = release.ns / view_.frame.ns;
+    if (number == frame_number_) {
+        return;
+    }
+    frame_number_ = number;
+    for (detail::WindowState& state : windows_) {
+        static_cast<void>(state.context.apply_pending_rate());
+    }
+}
+
 WindowOutcome Executive::run_window(std::size_t index, Instant release, WindowHost& host) noexcept {
     MAMORI_REQUIRE(2, !is_busy_);
     MAMORI_REQUIRE(3, release <= host.get_now());
@@ -375,6 +387,7 @@ WindowOutcome Executive::run_window(std::size_t index, Instant release, WindowHo
     }
     is_busy_ = true;
     last_release_ = release;
+    begin_frame(release);
     const WindowOutcome outcome = run_open_window(index, release, host);
     is_busy_ = false;
     return outcome;

@@ -259,13 +259,14 @@ TEST_F(ExecutionContextTest, EveryOperationOnAStrangerIsABadParameter) {
     EXPECT_TRUE(calls_.empty());
 }
 
-TEST_F(ExecutionContextTest, ARateThatIsNoRateIsABadParameterAndAnyOtherIsUnsupported) {
+TEST_F(ExecutionContextTest, ARateThatIsNoRateIsABadParameterAndOneThatIsNotDeclaredIsUnsupported) {
     verifies("SWR-KRN-012", Technique::kBoundaryValues, Polarity::kViolation);
 
     EXPECT_EQ(sut_.set_rate(0.0), Status::kBadParameter);
     EXPECT_EQ(sut_.set_rate(-0.0), Status::kBadParameter);
     EXPECT_EQ(sut_.set_rate(-1.0), Status::kBadParameter);
     EXPECT_EQ(sut_.set_rate(std::numeric_limits<double>::quiet_NaN()), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_rate(std::numeric_limits<double>::infinity()), Status::kBadParameter);
     EXPECT_EQ(sut_.set_rate(std::numeric_limits<double>::denorm_min()), Status::kUnsupported);
     EXPECT_EQ(sut_.set_rate(500.0), Status::kUnsupported);
 

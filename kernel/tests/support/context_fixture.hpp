@@ -21,7 +21,7 @@ class ContextFixture : public ::testing::Test {
     void SetUp() override {
         ASSERT_EQ(a_.initialize(), Status::kOk);
         ASSERT_EQ(b_.initialize(), Status::kOk);
-        ASSERT_EQ(sut_.attach(kId, participants_, ContextPlan{1_ms}), Status::kOk);
+        ASSERT_EQ(sut_.attach(kId, participants_, plan_), Status::kOk);
         calls_.clear();
     }
     /// Running, both Active; nothing is recorded.
@@ -61,6 +61,7 @@ class ContextFixture : public ::testing::Test {
     SpyComponent stranger_{"stranger", calls_};
     std::array<Component*, 2> participants_{&a_, &b_};
     Instant now_{1000};
+    ContextPlan plan_{1_ms};  ///< a derived fixture may change it in its constructor
     ExecutionContext sut_;
 };
 

@@ -38,6 +38,9 @@ class SpyComponent final : public Component {
     Status on_reset(ContextHandle h) noexcept override { return record("on_reset", h); }
     Status on_execute(ContextHandle h) noexcept override { return record("on_execute", h); }
     Status on_state_update(ContextHandle h) noexcept override { return record("on_state_update", h); }
+    Status on_rate_changed(ContextHandle h) noexcept override { return record("on_rate_changed", h); }
+    Status on_action(ContextHandle h) noexcept override { return record("on_action", h); }
+    Status on_mode_changed(ContextHandle h) noexcept override { return record("on_mode_changed", h); }
 
   private:
     Status record(const std::string& action) {

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/action_failure.hpp"
 #include "mamori/kernel/lifecycle.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
@@ -38,14 +39,19 @@ class LifecycleRegion {
     friend class Component;
     friend class ExecutionContext;
 
+    static constexpr std::uint32_t kRateNotice = 1U;
+    static constexpr std::uint32_t kModeNotice = 2U;
+
     LifecycleState get_state() const noexcept { return state_.load(std::memory_order_relaxed); }
     void set_state(LifecycleState state) noexcept { state_.store(state, std::memory_order_relaxed); }
 
     /// Atomic, so that it may be looked at from outside while actions run.
     std::atomic<LifecycleState> state_{LifecycleState::kCreated};
+    std::uint32_t notices_{0U};           ///< kRateNotice, kModeNotice: to be told before the next turn
     bool is_changing_{false};             ///< on_initialize or on_finalize is being called
     ExecutionContext* context_{nullptr};  ///< the one that it participates in
-    std::size_t position_{0U};            ///< its place there
+    ActionFailure last_failure_{};
+    std::size_t position_{0U};  ///< its place there
 };
 
 /// Base of every component. Derive, add ports, override the actions you need; each defaults to kOk.
@@ -92,10 +98,14 @@ class Component : public LifecycleRegion {
     virtual Status on_error(ContextHandle) noexcept { return Status::kOk; }
     /// @}
 
-    /// @name RTC actions that the periodic context with its fixed rate never calls
+    /// @name RTC actions: changes around the component. Anything but kOk leads to Error when it is Active.
     /// @{
+    /// The rate of its context has changed; in the first turn at the new rate, before anything else.
     virtual Status on_rate_changed(ContextHandle) noexcept { return Status::kOk; }
+    /// A state machine leaves a state, takes a transition or enters a state that it has a behaviour for;
+    /// event-driven contexts only, while Active. See FsmComponent::get_step().
     virtual Status on_action(ContextHandle) noexcept { return Status::kOk; }
+    /// Its mode has changed; before the next on_execute. See MultiModeComponent.
     virtual Status on_mode_changed(ContextHandle) noexcept { return Status::kOk; }
     /// @}
 
@@ -111,6 +121,10 @@ class Component : public LifecycleRegion {
 
     /// True from a successful initialize() until finalize().
     bool is_alive() const noexcept { return get_state() != LifecycleState::kCreated; }
+
+    /// The last answer to its context that was not kOk, on_aborting and on_error left out; kept until the
+    /// next.
+    const ActionFailure& get_last_failure() const noexcept { return last_failure_; }
 
     /// Name given at construction; static storage, never nullptr.
     const char* get_name() const noexcept { return name_; }

@@ -3,7 +3,7 @@
 /// Execution context: starts and stops its participants, moves them through their life cycle and runs them
 /// once per cycle in two passes, first on_execute of all, then on_state_update of all.
 ///
-/// @satisfies SWR-KRN-012, SWR-KRN-013, SWR-KRN-014, SWR-RTC-002
+/// @satisfies SWR-KRN-012, SWR-KRN-013, SWR-KRN-014, SWR-RTC-002, SWR-RTC-003, SWR-RTC-005
 /// Design:   docs/design/rtc_semantics.md, docs/design/kernel.md#execution-context
 /// Source:   OMG RTC 1.0, ExecutionContext; where the text leaves a choice, the design note
 ///           says which one was taken.
@@ -88,13 +88,25 @@ class ExecutionContext final {
     /// Kind from the plan; kPeriodic while not attached.
     ExecutionKind get_kind() const noexcept { return plan_.kind; }
     /// Time between two cycles in use now; 0 while not attached.
-    Duration get_period() const noexcept { return plan_.period; }
-    /// Cycles per second; negative when the kind has no periodic processing, and while not attached.
+    Duration get_period() const noexcept { return period_; }
+    /// Windows of the plan per cycle in use now, >= 1.
+    std::int64_t get_divisor() const noexcept { return divisor_; }
+    /// Cycles per second in use now; negative when the kind has no periodic processing, and while not
+    /// attached.
     double get_rate() const noexcept;
 
-    /// Rates come from the static table. @param[in] rate_hz wanted cycles per second.
-    /// @return kBadParameter (0, negative, not a number); kUnsupported otherwise: the rate is kept.
+    /// Wishes for another rate: that of the plan's period or of an alternative. It comes into use with
+    /// apply_pending_rate(), and a later wish replaces an earlier one.
+    /// @param[in] rate_hz cycles per second; names the period that lies within half a nanosecond of 1 / rate.
+    /// @return kOk; kBadParameter (0, negative, infinite, not a number); kUnsupported (no periodic
+    ///         processing, not attached, or a rate that the plan does not declare); kPreconditionNotMet
+    ///         (busy).
     Status set_rate(double rate_hz) noexcept;
+
+    /// Brings the wished rate into use, the next window being the first at the new rate, in which each
+    /// participant gets on_rate_changed. For the executive, at the boundary of a frame.
+    /// @return true when the rate has changed; a wish waits while the context is busy.
+    bool apply_pending_rate() noexcept;
 
     bool is_running() const noexcept { return is_running_; }
     std::size_t get_participant_count() const noexcept { return participants_.size(); }
@@ -140,11 +152,19 @@ class ExecutionContext final {
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
     void execute_unusual(Component& component, ContextHandle handle) noexcept;
+    void give_notices(Component& component, ContextHandle handle) noexcept;
+    static void note(Component& component, ComponentAction action, Status answer,
+                     ContextHandle handle) noexcept;
+    void judge(Component& component, ComponentAction action, Status answer, ContextHandle handle) noexcept;
     void enter_error(Component& component, ContextHandle handle) noexcept;
     ContextHandle make_handle(Instant now) const noexcept { return {id_, now}; }
 
     Span<Component* const> participants_{};
     ContextPlan plan_{};
+    Duration period_{};          ///< in use
+    Duration pending_period_{};  ///< wished for; equal to period_ when there is no wish
+    std::int64_t divisor_{1};
+    std::int64_t windows_to_skip_{0};
     Instant cycle_start_{};
     std::size_t refusing_position_{kNoPosition};
     /// Whose action is being called. Atomic, since an action that its host has abandoned ends on another

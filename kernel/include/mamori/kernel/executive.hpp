@@ -114,6 +114,7 @@ class Executive {
     void attach_inputs() noexcept;
     Status start_all() noexcept;
     Status stop_all() noexcept;
+    void begin_frame(Instant release) noexcept;
     WindowOutcome run_open_window(std::size_t window, Instant release, WindowHost& host) noexcept;
     std::size_t run_first_pass(std::size_t window, Instant deadline, WindowHost& host) noexcept;
     std::size_t run_observed(std::size_t window, Instant deadline, WindowHost& host) noexcept;
@@ -132,6 +133,7 @@ class Executive {
     ExecutionObserver* observer_{nullptr};
     TraceHash trace_hash_{};
     Instant last_release_{};
+    std::int64_t frame_number_{-1};  ///< of the window that ran last; -1: none since start()
     std::size_t core_;
     std::size_t failed_component_{kNoIndex};
     bool is_initialized_{false};
