@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// An input that queues every publication of its source instead of keeping the latest, with the buffer
+/// policies of OpenRTM. The source may run on another core: entries count by their planned instants, so what
+/// a cycle can read does not depend on which core was faster.
+///
+/// @satisfies SWR-KRN-028, SWR-KRN-029      Design: docs/design/kernel.md#connections
+/// Source:   OpenRTM-aist, buffer.write.full_policy and buffer.read.empty_policy of a data port
+#ifndef MAMORI_KERNEL_QUEUE_IN_PORT_HPP
+#define MAMORI_KERNEL_QUEUE_IN_PORT_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/fifo_buffer.hpp"
+#include "mamori/kernel/status.hpp"
+
+namespace mamori {
+
+/// Input of type T with room for `kCapacity` values (1 .. 254) that wait.
+///
+/// Thread safety: read by its component; filled by the executive of the source's core, which may be another.
+/// Time:          wait-free; read() and push() copy one T. Memory: kCapacity + 3 T, no heap.
+template <typename T, std::size_t kCapacity, FullPolicy kFull = FullPolicy::kOverwrite,
+          EmptyPolicy kEmpty = EmptyPolicy::kReadback, Need kNeed = Need::kMandatory>
+class QueueInPort final : public InPortBase {
+    static_assert(is_payload<T>(),
+                  "a payload needs MAMORI_FIELDS(Type, field, ...) and must be trivially copyable");
+
+  public:
+    using Payload = T;
+    static constexpr bool kIsMandatory = kNeed == Need::kMandatory;
+    static constexpr bool kIsQueue = true;
+    static constexpr bool kMayLeaveCore = true;
+
+    /// @param[in] name port name with static storage.
+    constexpr explicit QueueInPort(const char* name) noexcept : InPortBase(name) {}
+
+    /// Takes the oldest value whose publication is not after the opening of the window.
+    /// @param[out] value written on kOk only.
+    /// @return kOk (with kReadback also for the value that was read last); kPreconditionNotMet (none waits,
+    ///         and kEmpty is kDoNothing or nothing was ever read); kOutOfResources (kFull is kOverwrite and
+    ///         the writer on the other core was faster: ask again).
+    Status read(T& value) noexcept {
+        const Status status = fetch();
+        if (status == Status::kOk || (status == Status::kPreconditionNotMet && is_readable_again())) {
+            value = value_;
+            return Status::kOk;
+        }
+        return status;
+    }
+
+    /// True when read() would give a value that was not read before.
+    bool has_waiting() noexcept {
+        return buffer_.peek() == Status::kOk && buffer_.get_front().published_at <= opening_;
+    }
+
+    /// Most values that ever waited, 0 .. kCapacity.
+    std::uint32_t get_high_water_mark() const noexcept { return buffer_.get_high_water_mark(); }
+    /// Values that were refused because kCapacity waited (kFull is kDoNothing).
+    std::uint32_t get_rejected_count() const noexcept { return buffer_.get_rejected_count(); }
+    /// Values that gave way before they were read (kFull is kOverwrite).
+    std::uint32_t get_overwritten_count() const noexcept { return buffer_.get_overwritten_count(); }
+    /// Calls of read() that found none waiting.
+    std::uint32_t get_empty_read_count() const noexcept { return empty_read_count_; }
+
+    /// For connections, on the source's core: appends a sample when it comes from a later write than the
+    /// last one. A full queue counts what it refuses; nothing waits.
+    void push(const typename OutPort<T>::Sample& sample) noexcept {
+        if (sample.revision <= pushed_revision_) {
+            return;
+        }
+        pushed_revision_ = sample.revision;
+        Entry& entry = buffer_.get_write_slot();
+        entry.value = sample.value;
+        entry.published_at = sample.published_at;
+        static_cast<void>(buffer_.publish());  // the buffer counts what it refuses
+    }
+
+    /// For connections, at the opening of the owner's window: what is published later waits for a later one.
+    void open(Instant opening) noexcept {
+        opening_ = opening;
+        is_new_ = has_waiting();
+    }
+
+  private:
+    struct Entry {
+        T value{};
+        Instant published_at{};
+    };
+
+    bool is_readable_again() const noexcept { return kEmpty == EmptyPolicy::kReadback && has_value_; }
+
+    Status fetch() noexcept {
+        const Status status = buffer_.peek();
+        if (status == Status::kOutOfResources) {
+            return status;
+        }
+        if (status != Status::kOk || buffer_.get_front().published_at > opening_) {
+            ++empty_read_count_;
+            return Status::kPreconditionNotMet;
+        }
+        value_ = buffer_.get_front().value;
+        published_at_ = buffer_.get_front().published_at;
+        has_value_ = true;
+        buffer_.drop();
+        return Status::kOk;
+    }
+
+    FifoBuffer<Entry, kCapacity, kFull, EmptyPolicy::kDoNothing> buffer_{};
+    T value_{};  ///< read last
+    Instant opening_{};
+    std::uint64_t pushed_revision_{0U};  ///< the source's side
+    std::uint32_t empty_read_count_{0U};
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_QUEUE_IN_PORT_HPP

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a queue gives every publication once, in order, not before its instant, and counts what it cannot.
+// Method: a source and a queue moved by hand; a whole system with two rates on one core and on two.
+#include "mamori/kernel/queue_in_port.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/verification/verifies.hpp"
+#include "support/fake_host.hpp"
+#include "support/flow_components.hpp"
+
+namespace mamori {
+namespace {
+
+using testing_support::Counter;
+using testing_support::FakeHost;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+using Values = std::vector<std::int64_t>;
+
+template <FullPolicy kFull, EmptyPolicy kEmpty>
+class Queue {
+  public:
+    void publish(std::int64_t value, Instant at) {
+        out.write(value);
+        ASSERT_TRUE(out.publish(at));
+        in.push(out.get_published_sample());
+    }
+    /// What reads at `opening` give until the first refusal, at most `limit`.
+    Values read_all(Instant opening, std::size_t limit = 9U) {
+        in.open(opening);
+        Values values;
+        std::int64_t value = 0;
+        while (values.size() < limit && in.read(value) == Status::kOk) {
+            values.push_back(value);
+        }
+        return values;
+    }
+    OutPort<std::int64_t> out{"out"};
+    QueueInPort<std::int64_t, 2U, kFull, kEmpty> in{"in"};
+};
+
+TEST(QueueInPortTest, ValuesComeInOrderAndOnce) {
+    verifies("SWR-KRN-028");
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
+    sut.publish(1, Instant{10});
+    sut.publish(2, Instant{20});
+
+    EXPECT_EQ(sut.read_all(Instant{20}), (Values{1, 2}));
+    EXPECT_EQ(sut.in.calc_age(Instant{25}), 5_ns);
+    EXPECT_EQ(sut.read_all(Instant{30}), Values{});
+    EXPECT_EQ(sut.in.get_empty_read_count(), 2U);
+}
+
+TEST(QueueInPortTest, AValueIsNotReadBeforeItsInstant) {
+    verifies("SWR-KRN-028", Technique::kBoundaryValues, Polarity::kViolation);
+    Queue<FullPolicy::kOverwrite, EmptyPolicy::kDoNothing> sut;
+    sut.publish(1, Instant{10});
+    sut.publish(2, Instant{20});
+
+    EXPECT_EQ(sut.read_all(Instant{9}), Values{});
+    EXPECT_FALSE(sut.in.is_new());
+    EXPECT_EQ(sut.read_all(Instant{19}), Values{1});
+    EXPECT_EQ(sut.read_all(Instant{20}), Values{2});
+}
+
+TEST(QueueInPortTest, ASampleThatWasQueuedIsNotQueuedAgain) {
+    verifies("SWR-KRN-028", Technique::kErrorGuessing, Polarity::kViolation);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
+    sut.out.write(1);
+    sut.in.push(sut.out.get_staged_sample(Instant{5}));
+    ASSERT_TRUE(sut.out.publish(Instant{10}));
+    sut.in.push(sut.out.get_published_sample());
+    sut.in.push(sut.out.get_staged_sample(Instant{20}));
+
+    EXPECT_EQ(sut.read_all(Instant{20}), Values{1});
+}
+
+TEST(QueueInPortTest, AFullQueueRefusesTheNewestOrGivesUpTheOldestAndCounts) {
+    verifies("SWR-KRN-029", Technique::kBoundaryValues, Polarity::kViolation);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> refusing;
+    Queue<FullPolicy::kOverwrite, EmptyPolicy::kDoNothing> replacing;
+    for (std::int64_t i = 1; i <= 3; ++i) {
+        refusing.publish(i, Instant{i});
+        replacing.publish(i, Instant{i});
+    }
+
+    EXPECT_EQ(refusing.in.get_rejected_count(), 1U);
+    EXPECT_EQ(refusing.in.get_high_water_mark(), 2U);
+    EXPECT_EQ(refusing.read_all(Instant{9}), (Values{1, 2}));
+    EXPECT_EQ(replacing.in.get_overwritten_count(), 1U);
+    EXPECT_EQ(replacing.read_all(Instant{9}), (Values{2, 3}));
+}
+
+TEST(QueueInPortTest, AnEmptyQueueReadsTheLastValueBackWhenToldToAndOnlyOnceThereWasOne) {
+    verifies("SWR-KRN-029", Technique::kEquivalenceClasses);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kReadback> sut;
+    EXPECT_EQ(sut.read_all(Instant{9}), Values{});
+    sut.publish(1, Instant{10});
+
+    EXPECT_EQ(sut.read_all(Instant{10}, 3U), (Values{1, 1, 1}));
+    sut.publish(2, Instant{20});
+    EXPECT_EQ(sut.read_all(Instant{19}, 2U), (Values{1, 1})) << "the next one waits for its instant";
+    EXPECT_EQ(sut.in.calc_status(Instant{19}), PortStatus::kOk);
+}
+
+/// Reads all that waits and notes it.
+class Collector final : public Component {
+  public:
+    Collector() : Component("collector") {}
+    QueueInPort<std::int64_t, 8U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> in{"in"};
+    using Ports = mamori::Ports<&Collector::in>;
+    std::vector<Values> cycles;
+
+    Status on_execute(ContextHandle) noexcept override {
+        Values values;
+        std::int64_t value = 0;
+        while (in.read(value) == Status::kOk) {
+            values.push_back(value);
+        }
+        cycles.push_back(values);
+        return Status::kOk;
+    }
+};
+
+TEST(QueueSystemTest, ASlowReaderGetsEveryValueOfAFastWriter) {
+    verifies("SWR-KRN-028");
+    Counter counter;
+    Collector collector;
+    const auto table =
+        system(frame(40_ns), window("fast", 0_ns, 5_ns, every(10_ns), budget(5_ns), run(counter)),
+               window("slow", 5_ns, 5_ns, budget(5_ns), run(collector)), connect(counter.out, collector.in));
+    ExecutiveFor sut{table};
+    FakeHost host;
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    for (std::int64_t t = 0; t < 80; t += 10) {
+        host.now = Instant{t};
+        ASSERT_EQ(sut.run_window(0U, host), WindowOutcome::kCompleted);
+        if (t % 40 == 0) {
+            host.now = Instant{t + 5};
+            ASSERT_EQ(sut.run_window(1U, host), WindowOutcome::kCompleted);
+        }
+    }
+
+    EXPECT_EQ(collector.cycles, (std::vector<Values>{{10}, {20, 30, 40, 50}}));
+}
+
+TEST(QueueSystemTest, AQueueWithinAWindowGetsAValueOnceInTheSameCycle) {
+    verifies("SWR-KRN-028", Technique::kStateTransition);
+    Counter counter;
+    Collector collector;
+    const auto table = system(frame(40_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(counter, collector)),
+                              connect(counter.out, collector.in));
+    ExecutiveFor sut{table};
+    FakeHost host;
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    ASSERT_EQ(sut.run_window(0U, host), WindowOutcome::kCompleted);
+    counter.is_updating = true;  // a second value, in the second pass
+    host.now = Instant{40};
+    ASSERT_EQ(sut.run_window(0U, host), WindowOutcome::kCompleted);
+    counter.is_writing = false;
+    counter.is_updating = false;
+    host.now = Instant{80};
+    ASSERT_EQ(sut.run_window(0U, host), WindowOutcome::kCompleted);
+
+    EXPECT_EQ(collector.cycles, (std::vector<Values>{{10}, {20}, {-20}}));
+}
+
+TEST(QueueSystemTest, AQueueBetweenCoresNeedsNoCrossingAndNoOrder) {
+    verifies("SWR-KRN-028", Technique::kEquivalenceClasses);
+    Counter counter;
+    Collector collector;
+    const auto table = system(frame(40_ns), window("w", 0_ns, 10_ns, budget(5_ns), run(counter)),
+                              window("r", 5_ns, 5_ns, core(1), budget(5_ns), run(collector)),
+                              connect(counter.out, collector.in));
+    ExecutiveFor writer{table};
+    ExecutiveFor reader{table, 1U};
+    FakeHost host;
+    for (Executive* core : {static_cast<Executive*>(&writer), static_cast<Executive*>(&reader)}) {
+        ASSERT_EQ(core->initialize(), Status::kOk);
+        ASSERT_EQ(core->start(), Status::kOk);
+    }
+    for (std::int64_t t = 0; t < 120; t += 40) {
+        host.now = Instant{t + 5};
+        ASSERT_EQ(writer.run_window(0U, Instant{t}, host), WindowOutcome::kCompleted);
+        ASSERT_EQ(reader.run_window(1U, Instant{t + 5}, host), WindowOutcome::kCompleted);
+    }
+
+    EXPECT_EQ(collector.cycles, (std::vector<Values>{{}, {10}, {20}})) << "published at the close, 10 ns";
+}
+
+}  // namespace
+}  // namespace mamori
