@@ -164,6 +164,41 @@ TEST(CompileFailTest, APayloadWithoutAFieldListIsRefused) {
     expect_refused("payload_without_fields", "MAMORI_FIELDS");
 }
 
+TEST(CompileFailTest, AFieldListThatLeavesAFieldOutIsRefused) {
+    verifies("SWR-CDR-001", Technique::kInterface, Polarity::kViolation);
+    expect_refused("fields_left_out", "decomposes into 3 elements");
+}
+
+TEST(CompileFailTest, AFieldListInAnotherOrderThanTheTypeIsRefused) {
+    verifies("SWR-CDR-001", Technique::kInterface, Polarity::kViolation);
+    expect_refused("fields_in_wrong_order", "in the order of their declaration");
+}
+
+TEST(CompileFailTest, AFieldListThatNamesAStrangerIsRefused) {
+    verifies("SWR-CDR-001", Technique::kInterface, Polarity::kViolation);
+    expect_refused("fields_unknown", "velocty");
+}
+
+TEST(CompileFailTest, AnEnumerationWithoutItsLastEnumeratorIsNotEncoded) {
+    verifies("SWR-CDR-015", Technique::kInterface, Polarity::kViolation);
+    expect_refused("enumeration_without_last", "MAMORI_LAST_ENUMERATOR");
+}
+
+TEST(CompileFailTest, AWideCharacterIsNotEncoded) {
+    verifies("SWR-CDR-010", Technique::kInterface, Polarity::kViolation);
+    expect_refused("wide_character", "wide characters have no encoding");
+}
+
+TEST(CompileFailTest, ALiteralThatIsTooLongIsRefused) {
+    verifies("SWR-CDR-003", Technique::kInterface, Polarity::kViolation);
+    expect_refused("literal_too_long", "longer than the string holds");
+}
+
+TEST(CompileFailTest, AnArrayThatIsTooLongIsRefused) {
+    verifies("SWR-CDR-002", Technique::kInterface, Polarity::kViolation);
+    expect_refused("array_too_long", "more elements than the sequence holds");
+}
+
 TEST(CompileFailTest, AStatusThatIsDroppedIsRefused) {
     verifies("SWR-KRN-001", Technique::kInterface, Polarity::kViolation);
     expect_refused("status_ignored", "nodiscard");

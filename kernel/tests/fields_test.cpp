@@ -26,8 +26,21 @@ struct Outer {
     Mode mode;
     std::array<std::uint16_t, 0> nothing;
 };
-struct Ten {
-    std::int32_t a, b, c, d, e, f, g, h, i, j;
+struct Forty {
+    std::int32_t a0, a1, a2, a3, a4, a5, a6, a7, a8, a9;
+    std::int32_t b0, b1, b2, b3, b4, b5, b6, b7, b8, b9;
+    std::int32_t c0, c1, c2, c3, c4, c5, c6, c7, c8, c9;
+    std::int32_t d0, d1, d2, d3, d4, d5, d6, d7, d8, d9;
+};
+/// Names that the macro could use itself.
+struct Awkward {
+    std::int32_t value, call, self, field, kDeclared;
+};
+struct Bounded {
+    BoundedSequence<Inner, 3> inner;
+    BoundedString<4> name;
+    BoundedSequence<BoundedString<2>, 2> names;
+    std::uint8_t last;
 };
 struct One {
     std::int32_t only;
@@ -45,7 +58,10 @@ struct NotCopyable {
 }  // namespace mamori
 MAMORI_FIELDS(mamori::Inner, small, large)
 MAMORI_FIELDS(mamori::Outer, flag, inner, mode, nothing)
-MAMORI_FIELDS(mamori::Ten, a, b, c, d, e, f, g, h, i, j)
+MAMORI_FIELDS(mamori::Forty, a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, b0, b1, b2, b3, b4, b5, b6, b7, b8, b9,
+              c0, c1, c2, c3, c4, c5, c6, c7, c8, c9, d0, d1, d2, d3, d4, d5, d6, d7, d8, d9)
+MAMORI_FIELDS(mamori::Awkward, value, call, self, field, kDeclared)
+MAMORI_FIELDS(mamori::Bounded, inner, name, names, last)
 MAMORI_FIELDS(mamori::One, only)
 MAMORI_FIELDS(mamori::NotCopyable, value)
 
@@ -78,16 +94,45 @@ TEST(FieldsTest, NestedPayloadsAreVisitedInDeclarationOrder) {
     EXPECT_EQ(notes.values, (std::vector<double>{1.0, -3.0, 2.5, 7.0, -0.5, 4.0}));
 }
 
-TEST(FieldsTest, AListHoldsOneToTenFields) {
-    verifies("SWR-KRN-005", Technique::kBoundaryValues);
-    Notes of_ten;
+TEST(FieldsTest, AListHoldsOneFieldOrFortyWhateverTheyAreCalled) {
+    verifies("SWR-CDR-001", Technique::kBoundaryValues);
+    Forty forty{};
+    std::vector<double> expected;
+    std::int32_t next = 0;
+    const auto number = [&](auto&... field) noexcept { ((field = next++), ...); };
+    Notes of_forty;
     Notes of_one;
+    Notes of_awkward;
 
-    visit_scalars(Ten{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, of_ten);
+    Fields<Forty>::apply(forty, number);
+    visit_scalars(forty, of_forty);
     visit_scalars(One{5}, of_one);
+    visit_scalars(Awkward{1, 2, 3, 4, 5}, of_awkward);
 
-    EXPECT_EQ(of_ten.values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+    for (int i = 0; i < 40; ++i) {
+        expected.push_back(i);
+    }
+    EXPECT_EQ(forty.d9, 39);
+    EXPECT_EQ(of_forty.values, expected);
     EXPECT_EQ(of_one.values, std::vector<double>{5});
+    EXPECT_EQ(of_awkward.values, (std::vector<double>{1, 2, 3, 4, 5}));
+}
+
+TEST(FieldsTest, ASequenceIsItsLengthAndTheElementsInUse) {
+    verifies("SWR-CDR-004");
+    Bounded payload{};
+    payload.inner = std::array<Inner, 2>{{{1, 2.0}, {3, 4.0}}};
+    payload.name = "ab";
+    payload.names = std::array<BoundedString<2>, 1>{"c"};
+    payload.last = 9U;
+    Notes notes;
+    Notes of_nothing;
+
+    visit_scalars(payload, notes);
+    visit_scalars(Bounded{}, of_nothing);
+
+    EXPECT_EQ(notes.values, (std::vector<double>{2, 1, 2, 3, 4, 2, 97, 98, 1, 1, 99, 9}));
+    EXPECT_EQ(of_nothing.values, (std::vector<double>{0, 0, 0, 0}));
 }
 
 TEST(FieldsTest, NumbersAndArraysOfPayloadsNeedNoListOfTheirOwn) {
@@ -96,6 +141,7 @@ TEST(FieldsTest, NumbersAndArraysOfPayloadsNeedNoListOfTheirOwn) {
     static_assert(is_payload<double>() && is_payload<bool>() && is_payload<Mode>());
     static_assert(is_payload<Inner>() && is_payload<std::array<Inner, 3>>());
     static_assert(is_payload<std::array<std::array<float, 2>, 0>>());
+    static_assert(is_payload<BoundedSequence<Inner, 3>>() && is_payload<BoundedString<1>>());
     SUCCEED();
 }
 
@@ -104,6 +150,7 @@ TEST(FieldsTest, WhatHasNoListOrCannotBeCopiedAsBytesIsNoPayload) {
 
     static_assert(!is_payload<Bare>() && !is_payload<std::array<Bare, 2>>());
     static_assert(!is_payload<NotCopyable>(), "a list alone is not enough");
+    static_assert(!is_payload<BoundedSequence<Bare, 2>>(), "a sequence is what its elements are");
     static_assert(!is_payload<double*>() && !is_payload<std::string>());
     SUCCEED();
 }

@@ -26,6 +26,7 @@ MAMORI_FIELDS(mamori::Padded, small, large)
 namespace mamori {
 namespace {
 
+using verification::Polarity;
 using verification::Technique;
 using verification::verifies;
 
@@ -77,6 +78,28 @@ TEST(TraceHashTest, PaddingBytesDoNotTakePart) {
 
     ASSERT_NE(std::memcmp(&first, &second, sizeof first), 0);
     EXPECT_EQ(hash_of(first), hash_of(second));
+}
+
+TEST(TraceHashTest, ElementsThatAreNotInUseDoNotTakePart) {
+    verifies("SWR-CDR-004", Technique::kErrorGuessing, Polarity::kViolation);
+    BoundedSequence<std::uint8_t, 4> shrunk = std::array<std::uint8_t, 3>{1U, 2U, 3U};
+    BoundedString<4> cut = "abc";
+
+    ASSERT_EQ(shrunk.resize(1U), Status::kOk);
+    ASSERT_EQ(cut.assign(Span<const char>("abc", 1U)), Status::kOk);
+
+    EXPECT_EQ(hash_of(shrunk), hash_of(BoundedSequence<std::uint8_t, 4>(std::array<std::uint8_t, 1>{1U})));
+    EXPECT_EQ(hash_of(shrunk), hash_text(std::string("\x01\x00\x00\x00\x01", 5)));
+    EXPECT_EQ(hash_of(cut), hash_of(BoundedString<4>("a")));
+}
+
+TEST(TraceHashTest, TheLengthOfASequenceCounts) {
+    verifies("SWR-CDR-004", Technique::kErrorGuessing);
+    using Two = std::array<BoundedSequence<std::uint8_t, 2>, 2>;
+    const Two first{{std::array<std::uint8_t, 2>{1U, 2U}, {}}};
+    const Two second{{std::array<std::uint8_t, 1>{1U}, std::array<std::uint8_t, 1>{2U}}};
+
+    EXPECT_NE(hash_of(first), hash_of(second));
 }
 
 TEST(TraceHashTest, EveryBitOfAValueCounts) {

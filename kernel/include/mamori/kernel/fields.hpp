@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One field list per payload type. Everything that must look inside a payload (trace hash, and the encodings
-/// that later layers add) walks this list, so padding bytes never take part and each type is described once.
+/// One field list per payload type. Everything that must look inside a payload (trace hash, encodings) walks
+/// this list, so padding bytes never take part and each type is described once.
 ///
-/// @satisfies SWR-KRN-005      Design: docs/design/kernel.md#field-lists
+/// @satisfies SWR-KRN-005, SWR-CDR-001, SWR-CDR-004      Design: docs/design/payloads.md#field-lists
 #ifndef MAMORI_KERNEL_FIELDS_HPP
 #define MAMORI_KERNEL_FIELDS_HPP
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
+#include <utility>
+
+#include "mamori/kernel/bounded_sequence.hpp"
+#include "mamori/kernel/bounded_string.hpp"
 
 namespace mamori {
 
-/// Field list of T. Specialised by MAMORI_FIELDS; a type without one cannot be a port payload.
+/// Field list of T. Specialised by MAMORI_FIELDS; a type without one cannot be a port payload. A class
+/// template is specialised by hand with the same two members: `kDeclared = true` and
+/// `apply(self, call)`, which returns `call(self.first, self.second, ...)` for a const or mutable `self`.
 template <typename T>
 struct Fields {
     static constexpr bool kDeclared = false;
@@ -21,87 +28,157 @@ struct Fields {
 
 namespace detail {
 
+/// What a payload type is made of, decided in one place for everything that walks payloads.
 template <typename T>
-struct IsStdArray : std::false_type {};
+struct Shape {
+    static constexpr bool kIsArray = false;
+    static constexpr bool kIsSequence = false;
+    static constexpr bool kIsString = false;
+};
 template <typename T, std::size_t N>
-struct IsStdArray<std::array<T, N>> : std::true_type {};
+struct Shape<std::array<T, N>> : Shape<void> {
+    static constexpr bool kIsArray = true;
+    static constexpr std::size_t kCapacity = N;
+    using Element = T;
+};
+template <typename T, std::size_t N>
+struct Shape<BoundedSequence<T, N>> : Shape<void> {
+    static constexpr bool kIsSequence = true;
+    static constexpr std::size_t kCapacity = N;
+    using Element = T;
+};
+template <std::size_t N>
+struct Shape<BoundedString<N>> : Shape<void> {
+    static constexpr bool kIsString = true;
+    static constexpr std::size_t kCapacity = N;
+};
+
+template <typename T>
+inline constexpr bool kIsScalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+template <typename... T>
+struct TypeList {};
+/// Called with fields, tells their types.
+struct ListTypes {
+    template <typename... T>
+    constexpr TypeList<T...> operator()(const T&... /*fields*/) const noexcept {
+        return {};
+    }
+};
+template <typename T>
+using FieldTypes = decltype(Fields<T>::apply(std::declval<T&>(), ListTypes{}));
 
 }  // namespace detail
 
-/// True when T can travel through a port: a number, bool, enum, a type with a field list, or an array of
-/// such.
+/// True when T can travel through a port: a number, bool, enum, a type with a field list, a bounded string,
+/// or an array or bounded sequence of such.
 template <typename T>
 constexpr bool is_payload() noexcept {
-    if constexpr (detail::IsStdArray<T>::value) {
-        return is_payload<typename T::value_type>();
+    if constexpr (detail::Shape<T>::kIsArray || detail::Shape<T>::kIsSequence) {
+        return is_payload<typename detail::Shape<T>::Element>();
     } else {
         return std::is_trivially_copyable_v<T> &&
-               (std::is_arithmetic_v<T> || std::is_enum_v<T> || Fields<T>::kDeclared);
+               (detail::kIsScalar<T> || detail::Shape<T>::kIsString || Fields<T>::kDeclared);
     }
 }
 
-/// Calls `visitor(scalar)` for every number, bool or enum of `value`, in declaration order.
+namespace detail {
+
+/// Walks a payload, const or mutable, in declaration order until `visitor` says false:
+///     run(first, count)     numbers, bools or enums that follow one another
+///     open(sequence, count) before a sequence; sets how many of its elements are walked, 0 .. capacity
+///     text(string)          a bounded string
 /// Depth is bounded by the nesting of the types, which the compiler knows.
+/// @return true when the visitor never said false.
+template <typename T, typename Visitor>
+constexpr bool walk(T& value, Visitor& visitor) noexcept {
+    using Bare = std::remove_const_t<T>;
+    static_assert(is_payload<Bare>(), "give this type a field list: MAMORI_FIELDS(Type, field, ...)");
+    if constexpr (Shape<Bare>::kIsString) {
+        return visitor.text(value);
+    } else if constexpr (Shape<Bare>::kIsArray || Shape<Bare>::kIsSequence) {
+        std::size_t count = Shape<Bare>::kCapacity;
+        if constexpr (Shape<Bare>::kIsSequence) {
+            if (!visitor.open(value, count)) {
+                return false;
+            }
+        }
+        if constexpr (kIsScalar<typename Shape<Bare>::Element>) {
+            return visitor.run(value.data(), count);
+        } else {
+            bool goes_on = true;
+            for (std::size_t i = 0U; goes_on && i < count; ++i) {
+                goes_on = walk(value.data()[i], visitor);
+            }
+            return goes_on;
+        }
+    } else if constexpr (kIsScalar<Bare>) {
+        return visitor.run(&value, 1U);
+    } else {
+        return Fields<Bare>::apply(
+            value, [&visitor](auto&... field) noexcept { return (walk(field, visitor) && ...); });
+    }
+}
+
+/// Hands every scalar to a callable. A sequence or string is its length, a 32-bit number, and what it holds.
+template <typename Visitor>
+class EachScalar final {
+  public:
+    constexpr explicit EachScalar(Visitor& visitor) noexcept : visitor_(visitor) {}
+
+    template <typename T>
+    constexpr bool run(const T* first, std::size_t count) noexcept {
+        for (std::size_t i = 0U; i < count; ++i) {
+            visitor_(first[i]);
+        }
+        return true;
+    }
+    template <typename Sequence>
+    constexpr bool open(const Sequence& sequence, std::size_t& count) noexcept {
+        count = sequence.size();
+        visitor_(static_cast<std::uint32_t>(count));
+        return true;
+    }
+    template <std::size_t N>
+    constexpr bool text(const BoundedString<N>& string) noexcept {
+        visitor_(static_cast<std::uint32_t>(string.size()));
+        return run(string.c_str(), string.size());
+    }
+
+  private:
+    Visitor& visitor_;
+};
+
+}  // namespace detail
+
+/// Calls `visitor(scalar)` for every number, bool or enum of `value`, in declaration order. A bounded
+/// sequence or string gives its length as std::uint32_t and then the elements in use, never the others.
 template <typename T, typename Visitor>
 constexpr void visit_scalars(const T& value, Visitor& visitor) noexcept {
-    static_assert(is_payload<T>(), "give this type a field list: MAMORI_FIELDS(Type, field, ...)");
-    if constexpr (detail::IsStdArray<T>::value) {
-        for (const auto& element : value) {
-            visit_scalars(element, visitor);
-        }
-    } else if constexpr (Fields<T>::kDeclared) {
-        Fields<T>::for_each(value, [&visitor](const auto& field) noexcept { visit_scalars(field, visitor); });
-    } else {
-        visitor(value);
-    }
+    detail::EachScalar<Visitor> each(visitor);
+    static_cast<void>(detail::walk(value, each));
 }
 
 }  // namespace mamori
 
-#define MAMORI_DETAIL_EXPAND(x) x
-#define MAMORI_DETAIL_F1(a) call(value.a);
-#define MAMORI_DETAIL_F2(a, ...) \
-    call(value.a);               \
-    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F1(__VA_ARGS__))
-#define MAMORI_DETAIL_F3(a, ...) \
-    call(value.a);               \
-    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F2(__VA_ARGS__))
-#define MAMORI_DETAIL_F4(a, ...) \
-    call(value.a);               \
-    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F3(__VA_ARGS__))
-#define MAMORI_DETAIL_F5(a, ...) \
-    call(value.a);               \
-    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F4(__VA_ARGS__))
-#define MAMORI_DETAIL_F6(a, ...) \
-    call(value.a);               \
-    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F5(__VA_ARGS__))
-#define MAMORI_DETAIL_F7(a, ...) \
-    call(value.a);               \
-    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F6(__VA_ARGS__))
-#define MAMORI_DETAIL_F8(a, ...) \
-    call(value.a);               \
-    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F7(__VA_ARGS__))
-#define MAMORI_DETAIL_F9(a, ...) \
-    call(value.a);               \
-    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F8(__VA_ARGS__))
-#define MAMORI_DETAIL_F10(a, ...) \
-    call(value.a);                \
-    MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_F9(__VA_ARGS__))
-#define MAMORI_DETAIL_PICK(a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, name, ...) name
-
-/// Declares the fields of `Type` (1 to 10, every one it has), at global scope:
+/// Declares the fields of `Type`, all of them in the order of their declaration, at global scope:
 ///     MAMORI_FIELDS(ns::JointState, position_rad, velocity_rad_s)
-#define MAMORI_FIELDS(Type, ...)                                                                          \
-    template <>                                                                                           \
-    struct mamori::Fields<Type> {                                                                         \
-        static constexpr bool kDeclared = true;                                                           \
-        template <typename Call>                                                                          \
-        static constexpr void for_each(const Type& value, Call&& call) noexcept {                         \
-            MAMORI_DETAIL_EXPAND(MAMORI_DETAIL_PICK(                                                      \
-                __VA_ARGS__, MAMORI_DETAIL_F10, MAMORI_DETAIL_F9, MAMORI_DETAIL_F8, MAMORI_DETAIL_F7,     \
-                MAMORI_DETAIL_F6, MAMORI_DETAIL_F5, MAMORI_DETAIL_F4, MAMORI_DETAIL_F3, MAMORI_DETAIL_F2, \
-                MAMORI_DETAIL_F1, unused)(__VA_ARGS__))                                                   \
-        }                                                                                                 \
-    };
+/// The compiler refuses a list that leaves one out, names a stranger or changes the order of two types.
+/// `Type` is a plain struct: public members, no base class with members of its own, not final.
+#define MAMORI_FIELDS(Type, ...)                                                                            \
+    template <>                                                                                             \
+    struct mamori::Fields<Type> {                                                                           \
+        static constexpr bool kDeclared = true;                                                             \
+        template <typename MamoriSelf, typename MamoriCall>                                                 \
+        static constexpr decltype(auto) apply(MamoriSelf& mamori_self, MamoriCall&& mamori_call) noexcept { \
+            auto& [__VA_ARGS__] = mamori_self;                                                              \
+            return mamori_call(__VA_ARGS__);                                                                \
+        }                                                                                                   \
+        struct Named : Type {                                                                               \
+            using Types = decltype(mamori::detail::ListTypes{}(__VA_ARGS__));                               \
+        };                                                                                                  \
+    };                                                                                                      \
+    static_assert(std::is_same_v<mamori::Fields<Type>::Named::Types, mamori::detail::FieldTypes<Type>>,     \
+                  "MAMORI_FIELDS names the fields of a type in the order of their declaration");
 
 #endif  // MAMORI_KERNEL_FIELDS_HPP
