@@ -3,10 +3,23 @@
 
 #include <limits>
 
+#include "mamori/kernel/flight_recorder.hpp"
+
 namespace mamori {
+
+Status EventLog::attach(FlightRecorder& recorder) noexcept {
+    if (recorder_ != nullptr || !recorder.is_open()) {
+        return Status::kPreconditionNotMet;
+    }
+    recorder_ = &recorder;
+    return Status::kOk;
+}
 
 void EventLog::write(Instant time, Severity severity, std::uint16_t source, std::uint16_t code,
                      std::int64_t argument) noexcept {
+    if (recorder_ != nullptr) {
+        recorder_->write(time, severity, source, code, argument);
+    }
     const bool is_full = kept_count_ == storage_.size();
     if (is_full && lost_count_ < std::numeric_limits<std::uint32_t>::max()) {
         ++lost_count_;

@@ -3,7 +3,7 @@
 /// Bounded log of numbered events. Records are numbers, not strings: the tables that name them stay on the
 /// host. When it is full the oldest record gives way and is counted as lost.
 ///
-/// @satisfies SWR-KRN-019      Design: docs/design/kernel.md#event-log
+/// @satisfies SWR-KRN-019, SWR-REC-009      Design: docs/design/kernel.md#event-log
 #ifndef MAMORI_KERNEL_EVENT_LOG_HPP
 #define MAMORI_KERNEL_EVENT_LOG_HPP
 
@@ -11,9 +11,12 @@
 #include <cstdint>
 
 #include "mamori/kernel/span.hpp"
+#include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
 
 namespace mamori {
+
+class FlightRecorder;
 
 /// How much an event matters.
 enum class Severity : std::uint8_t { kInfo, kWarning, kFault };
@@ -36,6 +39,11 @@ class EventLog final {
     /// @param[in] storage room for the records; with none at all every write is a lost record.
     constexpr explicit EventLog(Span<Event> storage) noexcept : storage_(storage) {}
 
+    /// Hands every later record on to a recorder as well, which outlives the program; for a start without one
+    /// nothing needs to be called. @param[in] recorder open, and to be left open until the last write.
+    /// @return kOk; kPreconditionNotMet (the recorder is not open, or there is one already).
+    Status attach(FlightRecorder& recorder) noexcept;
+
     /// Appends a record; never fails, never blocks.
     void write(Instant time, Severity severity, std::uint16_t source, std::uint16_t code,
                std::int64_t argument) noexcept;
@@ -50,6 +58,7 @@ class EventLog final {
 
   private:
     Span<Event> storage_;
+    FlightRecorder* recorder_{nullptr};
     std::uint32_t written_count_{0U};
     std::uint32_t lost_count_{0U};
     std::size_t next_index_{0U};

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the recorder keeps the newest records, goes on where an earlier session ended, and changes nothing
+// that it refuses. Method: below, at and above the capacity; several sessions over one region; damage between
+// two sessions.
+#include "mamori/kernel/flight_recorder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "mamori/kernel/flight_reader.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+class FlightRecorderTest : public ::testing::Test {
+  protected:
+    static constexpr std::size_t kCapacity = 4U;
+
+    Span<std::byte> region() { return {memory_.data(), memory_.size()}; }
+    static void write(FlightRecorder& recorder, int count) {
+        for (int i = 0; i < count; ++i) {
+            recorder.write(Instant{i}, Severity::kInfo, 1U, 2U, i);
+        }
+    }
+    /// Numbers of the records that can be read, slot by slot; 0 for every other slot.
+    std::vector<std::uint64_t> read_sequences() const {
+        FlightReader reader;
+        EXPECT_EQ(reader.open({memory_.data(), memory_.size()}), Status::kOk);
+        std::vector<std::uint64_t> sequences;
+        for (std::size_t slot = 0U; slot < reader.get_capacity(); ++slot) {
+            FlightRecord record{};
+            sequences.push_back(reader.read(slot, record) == SlotState::kWhole ? record.sequence : 0U);
+        }
+        return sequences;
+    }
+    std::byte& byte_of_slot(std::size_t slot, std::size_t offset) {
+        return memory_[flight::calc_region_size(slot) + offset];
+    }
+    /// Puts a whole record into its slot, as no session of this test would write it.
+    void plant(const FlightRecord& record) {
+        flight::RecordBytes bytes = flight::encode_record(record);
+        bytes[flight::kCommitOffset] = flight::kCommitted;
+        for (std::size_t i = 0U; i < bytes.size(); ++i) {
+            byte_of_slot(flight::calc_slot(record.sequence, kCapacity), i) = std::byte{bytes[i]};
+        }
+    }
+
+    std::vector<std::byte> memory_ = std::vector<std::byte>(flight::calc_region_size(kCapacity));
+    FlightRecorder sut_;
+};
+
+using Sequences = std::vector<std::uint64_t>;
+
+TEST_F(FlightRecorderTest, MemoryOfZerosBecomesTheFirstSession) {
+    verifies("SWR-REC-006");
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+
+    EXPECT_TRUE(sut_.is_open());
+    EXPECT_EQ(sut_.get_session(), 1U);
+    EXPECT_EQ(sut_.get_next_sequence(), 1U);
+    EXPECT_EQ(read_sequences(), (Sequences{0U, 0U, 0U, 0U}));
+}
+
+TEST_F(FlightRecorderTest, EachOpeningIsASessionThatGoesOnWithTheNumbers) {
+    verifies("SWR-REC-006", Technique::kStateTransition);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    write(sut_, 2);
+
+    FlightRecorder second;
+    ASSERT_EQ(second.open(region()), Status::kOk);
+    EXPECT_EQ(second.get_session(), 2U);
+    EXPECT_EQ(second.get_next_sequence(), 3U);
+    FlightRecorder third;
+    ASSERT_EQ(third.open(region()), Status::kOk);
+    EXPECT_EQ(third.get_session(), 3U) << "a session without a record counts";
+    write(third, 1);
+    EXPECT_EQ(read_sequences(), (Sequences{1U, 2U, 3U, 0U}));
+}
+
+TEST_F(FlightRecorderTest, FullRingGivesUpTheOldestAndCounts) {
+    verifies("SWR-REC-008", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+
+    write(sut_, 4);
+    EXPECT_EQ(read_sequences(), (Sequences{1U, 2U, 3U, 4U}));
+    EXPECT_EQ(sut_.get_overwritten_count(), 0U);
+    write(sut_, 1);
+    EXPECT_EQ(read_sequences(), (Sequences{5U, 2U, 3U, 4U}));
+    EXPECT_EQ(sut_.get_overwritten_count(), 1U);
+    write(sut_, 1000);
+    EXPECT_EQ(read_sequences(), (Sequences{1005U, 1002U, 1003U, 1004U}));
+    EXPECT_EQ(sut_.get_overwritten_count(), 1001U);
+}
+
+TEST_F(FlightRecorderTest, NothingIsGivenUpBelowTheCapacity) {
+    verifies("SWR-REC-008");
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    write(sut_, 3);
+
+    EXPECT_EQ(read_sequences(), (Sequences{1U, 2U, 3U, 0U}));
+    EXPECT_EQ(sut_.get_overwritten_count(), 0U);
+}
+
+TEST_F(FlightRecorderTest, RoomForOneRecordHoldsTheNewest) {
+    verifies("SWR-REC-008", Technique::kBoundaryValues);
+    memory_.resize(flight::calc_region_size(1U));
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    write(sut_, 3);
+
+    EXPECT_EQ(read_sequences(), (Sequences{3U}));
+    EXPECT_EQ(sut_.get_overwritten_count(), 2U);
+}
+
+TEST_F(FlightRecorderTest, RecordsOfAnEarlierSessionGiveWayToo) {
+    verifies("SWR-REC-006", Technique::kStateTransition);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    write(sut_, 4);
+    FlightRecorder second;
+    ASSERT_EQ(second.open(region()), Status::kOk);
+    write(second, 1);
+
+    EXPECT_EQ(read_sequences(), (Sequences{5U, 2U, 3U, 4U}));
+    EXPECT_EQ(second.get_overwritten_count(), 1U);
+}
+
+TEST_F(FlightRecorderTest, NumbersBehindTheNewestThatCannotBeReadAreNotGivenAgain) {
+    verifies("SWR-REC-006", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    write(sut_, 3);
+    byte_of_slot(1U, 0U) ^= std::byte{1U};                    // corrupt
+    byte_of_slot(2U, flight::kCommitOffset) = std::byte{0U};  // torn
+
+    FlightRecorder second;
+    ASSERT_EQ(second.open(region()), Status::kOk);
+    EXPECT_EQ(second.get_next_sequence(), 4U);
+    write(second, 1);
+    EXPECT_EQ(read_sequences(), (Sequences{1U, 0U, 0U, 4U}));
+}
+
+TEST_F(FlightRecorderTest, RingWithoutAnyReadableRecordGoesOnBehindItsSession) {
+    verifies("SWR-REC-006", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    write(sut_, 9);
+    FlightRecorder second;
+    ASSERT_EQ(second.open(region()), Status::kOk);
+    for (std::size_t slot = 0U; slot < kCapacity; ++slot) {
+        byte_of_slot(slot, 0U) ^= std::byte{0x80U};
+    }
+
+    FlightRecorder third;
+    ASSERT_EQ(third.open(region()), Status::kOk);
+    EXPECT_EQ(third.get_session(), 3U);
+    EXPECT_EQ(third.get_next_sequence(), 10U + kCapacity);
+}
+
+TEST_F(FlightRecorderTest, SessionIsKnownFromTheRecordsWhenTheHeaderForgotIt) {
+    verifies("SWR-REC-006", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    FlightRecorder second;
+    ASSERT_EQ(second.open(region()), Status::kOk);
+    write(second, 1);
+    for (const std::size_t offset : flight::kSessionOffsets) {
+        memory_[offset] ^= std::byte{1U};
+    }
+
+    FlightRecorder third;
+    ASSERT_EQ(third.open(region()), Status::kOk);
+    EXPECT_EQ(third.get_session(), 3U);
+    EXPECT_EQ(third.get_next_sequence(), 2U);
+}
+
+TEST_F(FlightRecorderTest, UsedUpRecordNumbersAreRefused) {
+    verifies("SWR-REC-007", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
+    plant({flight::kSequenceMax - 1U, {}, 0, 1U, 0U, 0U, Severity::kInfo});
+    EXPECT_EQ(sut_.open(region()), Status::kOk);
+    EXPECT_EQ(sut_.get_next_sequence(), flight::kSequenceMax);
+
+    plant({flight::kSequenceMax, {}, 0, 1U, 0U, 0U, Severity::kInfo});
+    const std::vector<std::byte> before = memory_;
+    FlightRecorder next;
+    EXPECT_EQ(next.open(region()), Status::kOutOfResources);
+    EXPECT_FALSE(next.is_open());
+    EXPECT_EQ(memory_, before);
+}
+
+TEST_F(FlightRecorderTest, UsedUpSessionNumbersAreRefused) {
+    verifies("SWR-REC-007", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr std::uint32_t kMax = std::numeric_limits<std::uint32_t>::max();
+    ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
+    plant({1U, {}, 0, kMax - 1U, 0U, 0U, Severity::kInfo});
+    EXPECT_EQ(sut_.open(region()), Status::kOk);
+    EXPECT_EQ(sut_.get_session(), kMax);
+
+    FlightRecorder next;
+    EXPECT_EQ(next.open(region()), Status::kOutOfResources);
+    EXPECT_FALSE(next.is_open());
+}
+
+TEST_F(FlightRecorderTest, ForeignRegionIsRefusedAndLeftAsItWas) {
+    verifies("SWR-REC-007", Technique::kFaultInjection, Polarity::kViolation);
+    for (std::byte& byte : memory_) {
+        byte = std::byte{'m'};
+    }
+    const std::vector<std::byte> before = memory_;
+
+    EXPECT_EQ(sut_.open(region()), Status::kError);
+    EXPECT_FALSE(sut_.is_open());
+    EXPECT_EQ(memory_, before);
+}
+
+TEST_F(FlightRecorderTest, RegionOfANewerVersionIsRefusedAndLeftAsItWas) {
+    verifies("SWR-REC-007", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
+    memory_[flight::kVersionOffset] = std::byte{2U};
+    const std::vector<std::byte> before = memory_;
+
+    EXPECT_EQ(sut_.open(region()), Status::kUnsupported);
+    EXPECT_EQ(memory_, before);
+}
+
+TEST_F(FlightRecorderTest, RecorderWithoutItsHeaderIsRefusedAndLeftAsItWas) {
+    verifies("SWR-REC-007", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    write(sut_, 1);
+    for (std::size_t i = 0U; i < flight::kHeaderSize; ++i) {
+        memory_[i] = std::byte{0U};
+    }
+    const std::vector<std::byte> before = memory_;
+
+    FlightRecorder second;
+    EXPECT_EQ(second.open(region()), Status::kError) << "its records are still there";
+    EXPECT_EQ(memory_, before);
+}
+
+TEST_F(FlightRecorderTest, RegionOfAnotherSizeIsRefused) {
+    verifies("SWR-REC-007", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
+    ASSERT_EQ(sut_.open(region()), Status::kOk) << "the whole is right";
+
+    FlightRecorder second;
+    EXPECT_EQ(second.open(region().subspan(0U, flight::calc_region_size(kCapacity) - 1U)), Status::kError);
+    EXPECT_EQ(second.open(region().subspan(0U, flight::calc_region_size(1U) - 1U)), Status::kBadParameter);
+    EXPECT_EQ(second.open({}), Status::kBadParameter);
+    EXPECT_EQ(FlightRecorder::format(region().subspan(0U, flight::calc_region_size(1U) - 1U)),
+              Status::kBadParameter);
+}
+
+TEST_F(FlightRecorderTest, FormatMakesAnEmptyRecorderOfWhateverWasThere) {
+    verifies("SWR-REC-007");
+    for (std::byte& byte : memory_) {
+        byte = std::byte{0xFFU};
+    }
+    ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
+
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    EXPECT_EQ(sut_.get_session(), 1U);
+    EXPECT_EQ(read_sequences(), (Sequences{0U, 0U, 0U, 0U}));
+}
+
+TEST_F(FlightRecorderTest, OpenRecorderRefusesASecondRegion) {
+    verifies("SWR-REC-007", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    EXPECT_EQ(sut_.open(region()), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut_.get_session(), 1U);
+
+    sut_.close();
+    EXPECT_FALSE(sut_.is_open());
+    EXPECT_EQ(sut_.open(region()), Status::kOk);
+    EXPECT_EQ(sut_.get_session(), 2U);
+}
+
+TEST_F(FlightRecorderTest, WriteWithoutARegionEndsInTheAssertion) {
+    verifies("SWR-REC-008", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_DEATH(write(sut_, 1), "");
+}
+
+TEST_F(FlightRecorderTest, EventsOfALogGoOnToTheRecorder) {
+    verifies("SWR-REC-009");
+    std::array<Event, 2U> storage{};
+    EventLog log{storage};
+    log.write(Instant{1}, Severity::kInfo, 5U, 6U, 7);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    ASSERT_EQ(log.attach(sut_), Status::kOk);
+
+    log.write(Instant{2}, Severity::kFault, 15U, 16U, -17);
+
+    EXPECT_EQ(log.size(), 2U);
+    EXPECT_EQ(read_sequences(), (Sequences{1U, 0U, 0U, 0U}));
+    FlightReader reader;
+    ASSERT_EQ(reader.open({memory_.data(), memory_.size()}), Status::kOk);
+    FlightRecord record{};
+    ASSERT_EQ(reader.read(0U, record), SlotState::kWhole);
+    EXPECT_EQ(record.time, Instant{2});
+    EXPECT_EQ(record.severity, Severity::kFault);
+    EXPECT_EQ(record.source, 15U);
+    EXPECT_EQ(record.code, 16U);
+    EXPECT_EQ(record.argument, -17);
+}
+
+TEST_F(FlightRecorderTest, LogTakesOneRecorderThatIsOpen) {
+    verifies("SWR-REC-009", Technique::kStateTransition, Polarity::kViolation);
+    std::array<Event, 2U> storage{};
+    EventLog log{storage};
+    EXPECT_EQ(log.attach(sut_), Status::kPreconditionNotMet);
+    log.write(Instant{1}, Severity::kInfo, 0U, 0U, 0);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+
+    EXPECT_EQ(log.attach(sut_), Status::kOk);
+    EXPECT_EQ(log.attach(sut_), Status::kPreconditionNotMet);
+    log.write(Instant{2}, Severity::kInfo, 0U, 0U, 0);
+    EXPECT_EQ(sut_.get_next_sequence(), 2U);
+}
+
+}  // namespace
+}  // namespace mamori
