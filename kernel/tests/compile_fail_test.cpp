@@ -48,9 +48,10 @@ Compilation compile(const std::string& name, const std::string& option) {
 }
 
 /// The case compiles as it is, and its broken form is refused with `expected` in the message.
-void expect_refused(const std::string& name, const std::string& expected) {
+void expect_refused(const std::string& name, const std::string& expected,
+                    const std::string& option = "-DMAMORI_BREAK") {
     const Compilation control = compile(name, "");
-    const Compilation broken = compile(name, "-DMAMORI_BREAK");
+    const Compilation broken = compile(name, option);
 
     ASSERT_TRUE(control.has_succeeded) << control.output;
     EXPECT_FALSE(broken.has_succeeded);
@@ -197,6 +198,19 @@ TEST(CompileFailTest, ALiteralThatIsTooLongIsRefused) {
 TEST(CompileFailTest, AnArrayThatIsTooLongIsRefused) {
     verifies("SWR-CDR-002", Technique::kInterface, Polarity::kViolation);
     expect_refused("array_too_long", "more elements than the sequence holds");
+}
+
+TEST(CompileFailTest, ABufferOfAPayloadThatIsNotTriviallyCopyableIsRefused) {
+    verifies("SWR-BUF-008", Technique::kInterface, Polarity::kViolation);
+    expect_refused("triple_buffer_payload", "the payload of a TripleBuffer must be trivially copyable");
+    expect_refused("fifo_payload", "the payload of a FifoBuffer must be trivially copyable");
+    expect_refused("snapshot_payload", "the payload of a SnapshotCell must be trivially copyable");
+}
+
+TEST(CompileFailTest, AFifoWithoutRoomOrWithTooMuchIsRefused) {
+    verifies("SWR-BUF-008", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("fifo_capacity", "a FIFO needs room for at least one entry", "-DMAMORI_BREAK=0");
+    expect_refused("fifo_capacity", "a FIFO has room for at most 254 entries", "-DMAMORI_BREAK=255");
 }
 
 TEST(CompileFailTest, AStatusThatIsDroppedIsRefused) {

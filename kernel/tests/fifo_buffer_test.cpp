@@ -262,6 +262,19 @@ TEST(FifoBufferTest, TheDefaultsAreThoseOfOpenRtm) {
     EXPECT_EQ(kBuffer.get_high_water_mark(), 0U) << "constant-initialised";
 }
 
+TEST(FifoBufferTest, TheLargestCapacityHoldsThatManyEntries) {
+    verifies("SWR-BUF-008", Technique::kBoundaryValues);
+    static FifoBuffer<std::int32_t, 254U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
+
+    push_range(sut, 1, 255);
+
+    EXPECT_EQ(sut.get_rejected_count(), 1U);
+    for (std::int32_t value = 1; value <= 254; ++value) {
+        EXPECT_EQ(pop(sut), value);
+    }
+    EXPECT_EQ(pop(sut), -1);
+}
+
 /// A word that names a slot beyond the last, as only corrupted memory does.
 struct CorruptedEntry : SteppedAtomic<std::uint32_t> {
     using SteppedAtomic::SteppedAtomic;
