@@ -43,13 +43,26 @@ SEEDED = {
     "new": ("int* make() { return new int{1}; }", "heap"),
     "delete": ("void drop(int* p) { delete p; }", "heap"),
     "malloc": ("#include <cstdlib>\nvoid* make() { return std::malloc(8); }", "heap"),
+    "aligned new": ("struct alignas(64) A { char b[64]; };\nA* make() { return new A; }", "heap"),
+    "array delete": ("void drop(int* p) { delete[] p; }", "heap"),
+    "realloc": ("#include <cstdlib>\nvoid* grow(void* p) { return std::realloc(p, 8); }", "heap"),
+    "copied text": ("#include <cstring>\nchar* copy(const char* p) { return strdup(p); }", "heap"),
+    "newlib's malloc": ("extern \"C\" void* _malloc_r(void*, unsigned);\nvoid* make() { return _malloc_r(nullptr, 8); }", "heap"),
+    "break of the heap": ("extern \"C\" void* _sbrk(int);\nvoid* make() { return _sbrk(8); }", "heap"),
+    "growing container": ("#include <vector>\nvoid add(std::vector<int>& v) { v.push_back(1); }", "heap"),
     "virtual destructor": ("struct A { virtual ~A(); };\nA::~A() {}", "heap"),
     "throw": ("void stop() { throw 1; }", "exceptions"),
     "catch": ("void f();\nint g() { try { f(); } catch (...) { return 1; } return 0; }", "exceptions"),
+    "noexcept": ("void f();\nvoid g() noexcept { f(); }", "exceptions"),
+    "rethrow": ("void f() { throw; }", "exceptions"),
     "library throw": ("#include <array>\nint get(std::array<int, 2>& a, unsigned i) { return a.at(i); }", "exceptions"),
     "virtual class": ("struct A { virtual void f(); };\nvoid A::f() {}", "RTTI"),
     "typeid": ("#include <typeinfo>\nconst char* f(int a) { return typeid(a).name(); }", "RTTI"),
+    "dynamic_cast": ("struct A { virtual void f(); };\nstruct B : A { void f() override; };\n"
+                     "B* cast(A* a) { return dynamic_cast<B*>(a); }", "RTTI"),
     "guarded static": ("int f();\nint g() { static int a = f(); return a; }", "dynamic initialisation"),
+    "thread-local": ("int f();\nthread_local int a = f();\nint g() { return a; }", "dynamic initialisation"),
+    "at exit": ("#include <cstdlib>\nvoid f();\nvoid g() { std::atexit(f); }", "dynamic initialisation"),
     "static destructor": ("struct A { ~A(); };\nA a;", "dynamic initialisation"),
 }
 
@@ -61,9 +74,15 @@ def test_seeded_use_is_found(compile_seeded: Callable[..., Path], name: str) -> 
     assert kind in {finding.kind for finding in scan_symbols(compile_seeded(text, "-std=c++17", "-O1"))}
 
 
+@pytest.mark.parametrize(
+    "text",
+    ["int f();\nint a = f();", "struct A { A(); };\nA a;", "int a;\n[[gnu::constructor]] void f() { a = 1; }", "int a;\n[[gnu::destructor]] void f() { a = 1; }",
+     "int f();\ntemplate <typename T> struct A { static int a; };\ntemplate <typename T> int A<T>::a = f();\ntemplate struct A<int>;"],
+    ids=["variable", "object", "constructor function", "destructor function", "template member"],
+)  # fmt: skip
 @pytest.mark.verifies("SWR-PRF-002", technique="fault_injection", polarity="violation")
-def test_seeded_initialiser_is_found(compile_seeded: Callable[..., Path]) -> None:
-    seeded = compile_seeded("int f();\nint a = f();")
+def test_seeded_initialiser_is_found(compile_seeded: Callable[..., Path], text: str) -> None:
+    seeded = compile_seeded(text)
     assert {finding.kind for finding in scan_sections(seeded)} == {"dynamic initialisation"}
 
 
