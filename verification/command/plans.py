@@ -134,6 +134,8 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         cppcheck_step(project),
         proof_step("symbol proof", "symbols"),
         proof_step("bare-metal proof", "bare_metal", needs=()),
+        proof_step("stack proof", "stack", needs=()),
+        proof_step("loop proof", "loops", needs=()),
         proof_step("consumer proof", "consumer"),
         build_step(SANITIZED, slow=True),
         ctest_step(SANITIZED, slow=True),

@@ -13,10 +13,10 @@ from pathlib import Path
 
 # Mangled names (Itanium C++ ABI). A pure virtual call traps in __cxa_pure_virtual, which the image supplies: no violation.
 FORBIDDEN_SYMBOLS = {
-    "heap": r"_{0,2}(?:malloc|calloc|realloc|free|reallocarray|aligned_alloc|memalign|posix_memalign|strn?dup|sbrk)(?:_r)?|brk"
-    r"|_Zn[wa].*|_Zd[la].*",
-    "exceptions": r"__cxa_(?!pure_virtual$|(?:thread_)?atexit$|guard_|finalize$).*|_Unwind_.*|__gxx_personality.*|_ZSt\d+__throw_.*"
-    r"|_ZSt9terminatev",
+    "heap": r"_{0,2}(?:malloc|calloc|realloc|free|reallocarray|aligned_alloc|memalign|posix_memalign|strn?dup|sbrk)(?:_r)?"
+    r"|brk|_Zn[wa].*|_Zd[la].*",
+    "exceptions": r"__cxa_(?!pure_virtual$|(?:thread_)?atexit$|guard_|finalize$).*|_Unwind_.*|__gxx_personality.*"
+    r"|_ZSt\d+__throw_.*|_ZSt9terminatev",
     "RTTI": r"_ZT[IS].*|_ZTVN10__cxxabiv1.*|__dynamic_cast",
     "dynamic initialisation": r"__cxa_(?:(?:thread_)?atexit|finalize|guard_.*)|_ZGV.*|_GLOBAL__(?:sub_)?[ID]_.*"
     r"|(?:__aeabi_)?atexit|_ZT[HW].*|__tls_(?:init|guard)"

@@ -76,8 +76,10 @@ def test_seeded_use_is_found(compile_seeded: Callable[..., Path], name: str) -> 
 
 @pytest.mark.parametrize(
     "text",
-    ["int f();\nint a = f();", "struct A { A(); };\nA a;", "int a;\n[[gnu::constructor]] void f() { a = 1; }", "int a;\n[[gnu::destructor]] void f() { a = 1; }",
-     "int f();\ntemplate <typename T> struct A { static int a; };\ntemplate <typename T> int A<T>::a = f();\ntemplate struct A<int>;"],
+    ["int f();\nint a = f();", "struct A { A(); };\nA a;",
+     "int a;\n[[gnu::constructor]] void f() { a = 1; }", "int a;\n[[gnu::destructor]] void f() { a = 1; }",
+     "int f();\ntemplate <typename T> struct A { static int a; };\ntemplate <typename T> int A<T>::a = f();\n"
+     "template struct A<int>;"],
     ids=["variable", "object", "constructor function", "destructor function", "template member"],
 )  # fmt: skip
 @pytest.mark.verifies("SWR-PRF-002", technique="fault_injection", polarity="violation")

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Groups of functions that call each other, and the deepest path through a graph of calls.
+
+@satisfies SWR-PRF-020, SWR-PRF-022      Design: docs/design/proofs.md#stack
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+
+def find_groups(calls: Mapping[str, Collection[str]]) -> list[list[str]]:
+    """Strongly connected components, callees before callers (Tarjan's algorithm, without recursion of its own).
+
+    A group of one function is no recursion unless the function calls itself.
+    """
+    number: dict[str, int] = {}
+    low: dict[str, int] = {}
+    open_nodes: dict[str, None] = {}  # keeps its order, and tells quickly what is in it
+    groups: list[list[str]] = []
+    for start in sorted(calls):
+        work = [] if start in number else [(start, iter(sorted(calls[start])))]
+        while work:
+            node, callees = work[-1]
+            if node not in number:
+                number[node] = low[node] = len(number)
+                open_nodes[node] = None
+            callee = next(callees, None)
+            if callee is None:
+                work.pop()
+                if work:
+                    low[work[-1][0]] = min(low[work[-1][0]], low[node])
+                if low[node] == number[node]:
+                    group = [open_nodes.popitem()[0]]
+                    while group[-1] != node:
+                        group.append(open_nodes.popitem()[0])
+                    groups.append(sorted(group))
+            elif callee not in number:
+                work.append((callee, iter(sorted(calls.get(callee, ())))))
+            elif callee in open_nodes:
+                low[node] = min(low[node], number[callee])
+    return groups
+
+
+def is_recursive(group: Collection[str], calls: Mapping[str, Collection[str]]) -> bool:
+    """True when a function of the group may be called before it has returned."""
+    return len(group) > 1 or any(name in calls.get(name, ()) for name in group)
+
+
+def calc_deepest_paths(frames: Mapping[str, int], calls: Mapping[str, Collection[str]]) -> dict[str, tuple[str, ...]]:
+    """For each function the path with the largest sum of frames, itself first.
+
+    A function that may reach a recursion, or one without a frame, is left out: it has no bound.
+    """
+    paths: dict[str, tuple[str, ...]] = {}
+    sums: dict[str, int] = {}
+    for group in find_groups(calls):
+        name = group[0]
+        callees = calls.get(name, ())
+        if is_recursive(group, calls) or name not in frames or any(callee not in sums for callee in callees):
+            continue
+        deepest = max(sorted(callees), key=lambda callee: sums[callee], default=None)
+        paths[name] = (name, *paths.get(deepest or "", ()))
+        sums[name] = frames[name] + (sums[deepest] if deepest else 0)
+    return paths

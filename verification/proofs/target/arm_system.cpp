@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The static table of the target image: read it as a drawing.
+#include "arm_system.hpp"
+
+#include "arm_limits.hpp"
+#include "arm_reader.hpp"
+#include "drive_gate.hpp"
+#include "hold_controller.hpp"
+#include "joint_monitor.hpp"
+#include "mamori/kernel/event_log.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/ports/virtual_time/simulated_channel.hpp"
+#include "mamori/ports/virtual_time/virtual_watchdog.hpp"
+#include "safety_supervisor.hpp"
+
+namespace proof {
+namespace {
+
+using namespace mamori::literals;  // NOLINT: units of the table
+using mamori::Duration;
+using mamori::Instant;
+using mamori::Status;
+namespace virtual_time = mamori::ports::virtual_time;
+
+constexpr std::size_t kControllerIndex = 3U;
+constexpr std::size_t kComponentCount = 6U;
+constexpr double kCountsPerRad = 100000.0;
+
+// The course of the run: start, an encoder that jumps, reset and start, a controller that hangs.
+constexpr Instant kFirstStart{100000000};
+constexpr Instant kEncoderJumps{300000000};
+constexpr Instant kReset{900000000};
+constexpr Instant kSecondStart{1100000000};
+constexpr Instant kControllerHangs{1400000000};
+constexpr Duration kPush = 50_ms;
+constexpr Duration kControllerTime = 120_us;
+
+mamori::safety::ArmInputs inputs;
+mamori::safety::ArmOutputs outputs;
+std::array<mamori::Event, 256U> event_storage;
+mamori::EventLog event_log{event_storage};
+virtual_time::VirtualWatchdog watchdog{safe_arm::kWatchdogTimeout};
+mamori::safety::ExecutionStorage<kComponentCount> supervision_storage;
+mamori::safety::ExecutionSupervisor supervision{supervision_storage, safe_arm::kLatenessMax};
+Facts facts;
+
+safe_arm::ArmReader reader{inputs};
+safe_arm::JointMonitor monitor;
+safe_arm::SafetySupervisor supervisor{supervision, kControllerIndex, watchdog, event_log};
+HoldController controller;
+virtual_time::SimulatedChannel<safe_arm::TorqueCommand, 4U> channel{"channel"};
+safe_arm::DriveGate gate{outputs};
+
+constexpr auto kSystem = mamori::system(
+    mamori::frame(safe_arm::kFrame),
+    mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
+    mamori::window("control", 300_us, 400_us, mamori::budget(350_us), mamori::run(controller)),
+    mamori::window("transport", 700_us, 100_us, mamori::budget(80_us), mamori::run(channel)),
+    mamori::window("act", 800_us, 100_us, mamori::budget(80_us), mamori::run(gate)),
+    mamori::connect(reader.reading, monitor.reading), mamori::connect(channel.out, monitor.command),
+    mamori::connect(gate.drive, monitor.drive), mamori::connect(reader.reading, supervisor.reading),
+    mamori::connect(monitor.state, supervisor.arm_state), mamori::connect(monitor.state, controller.state),
+    mamori::connect(supervisor.stop, controller.stop), mamori::connect(controller.command, channel.in),
+    mamori::connect(supervisor.stop, gate.stop), mamori::connect(channel.out, gate.command));
+MAMORI_CHECK(kSystem);
+static_assert(kSystem.components.size() == kComponentCount &&
+              kSystem.components[kControllerIndex] == &controller);
+
+mamori::ExecutiveFor executive_of_table{kSystem};
+
+bool is_pushed(Instant since, Instant now) noexcept {
+    return now >= since && now < since + kPush;
+}
+
+}  // namespace
+
+mamori::Executive& executive = executive_of_table;
+
+Status prepare() noexcept {
+    executive.set_observer(&supervision);
+    for (std::size_t i = 0U; i < kComponentCount; ++i) {
+        const auto scope = i == kControllerIndex ? mamori::safety::SupervisionScope::kLocal
+                                                 : mamori::safety::SupervisionScope::kGlobal;
+        const Status result =
+            supervision.watch(i, {safe_arm::kAliveLimits, {Duration{0}, safe_arm::kControllerMax}, scope});
+        if (result != Status::kOk) {
+            return result;
+        }
+    }
+    return reader.configure({safe_arm::make_uniform(kCountsPerRad), safe_arm::make_uniform(kCountsPerRad)});
+}
+
+void ObedientDevices::begin_frame(std::uint64_t, Instant now) noexcept {
+    inputs.encoder_a_counts[2] = now >= kEncoderJumps && now < kReset ? 5000 : 0;
+    inputs.measured_torque_nm = outputs.torque_nm;
+    inputs.brake_closed.fill(!outputs.brake_release);
+    inputs.torque_enabled = outputs.torque_enable;
+    inputs.power_good = true;
+    inputs.start_button = is_pushed(kFirstStart, now) || is_pushed(kSecondStart, now);
+    inputs.reset_button = is_pushed(kReset, now);
+    const Duration controller_time = now < kControllerHangs ? kControllerTime : virtual_time::kNever;
+    // The controller is in the model's table, so this cannot be refused.
+    static_cast<void>(host_.set_duration(kControllerIndex, controller_time));
+}
+
+void ObedientDevices::end_frame(std::uint64_t, Instant now, Duration length) noexcept {
+    watchdog.check(now + length);
+    facts.operational_frames += outputs.torque_enable ? 1U : 0U;
+}
+
+Facts get_facts() noexcept {
+    facts.latched_count = 0U;
+    for (std::size_t i = 0U; i < event_log.size(); ++i) {
+        const mamori::Event& event = event_log.get(i);
+        facts.latched_count +=
+            event.code == static_cast<std::uint16_t>(safe_arm::ArmEvent::kFaultLatched) ? 1U : 0U;
+    }
+    return facts;
+}
+
+}  // namespace proof

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A small but whole system: the protecting components of the safe arm, a controller that holds the arm, the
+/// channel between them, and devices that obey. No plant and no heap, so it runs on a bare controller.
+///
+/// @satisfies SWR-PRF-024      Design: docs/design/proofs.md#watermark
+#ifndef VERIFICATION_PROOFS_TARGET_ARM_SYSTEM_HPP
+#define VERIFICATION_PROOFS_TARGET_ARM_SYSTEM_HPP
+
+#include <cstdint>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/ports/virtual_time/frame_runner.hpp"
+
+namespace proof {
+
+/// Runs the static table, which is in arm_system.cpp.
+extern mamori::Executive& executive;
+
+/// Sets everything up that must be there before the executive is initialised.
+/// @return kOk; else what a component or the supervision refused.
+mamori::Status prepare() noexcept;
+
+/// Devices that obey at once, an operator who starts and resets, and one fault after the other: an encoder
+/// that jumps, then a controller that hangs.
+class ObedientDevices final : public mamori::ports::virtual_time::FrameDevices {
+  public:
+    explicit ObedientDevices(mamori::ports::virtual_time::VirtualHost& host) noexcept : host_(host) {}
+
+    void begin_frame(std::uint64_t frame, mamori::Instant now) noexcept override;
+    void end_frame(std::uint64_t frame, mamori::Instant now, mamori::Duration length) noexcept override;
+
+  private:
+    mamori::ports::virtual_time::VirtualHost& host_;
+};
+
+/// What became of the run.
+struct Facts {
+    std::uint32_t latched_count{0U};       ///< events of a fault that was latched
+    std::uint32_t operational_frames{0U};  ///< frames with torque on
+};
+Facts get_facts() noexcept;
+
+}  // namespace proof
+
+#endif  // VERIFICATION_PROOFS_TARGET_ARM_SYSTEM_HPP

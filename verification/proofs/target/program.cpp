@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the system through its whole life and writes what became of it as one line of JSON.
+#include <array>
+
+#include "arm_system.hpp"
+#include "board.hpp"
+
+namespace proof {
+namespace {
+
+namespace virtual_time = mamori::ports::virtual_time;
+
+constexpr std::uint64_t kFrameCount = 2000U;
+
+void write_number(const char* name, std::uint64_t value) noexcept {
+    std::array<char, 21U> digits{};  // 20 for the largest number, and the end
+    std::size_t first = digits.size() - 1U;
+    // At most 20 rounds: the number loses a digit in each.
+    do {
+        --first;
+        digits[first] = static_cast<char>('0' + value % 10U);
+        value /= 10U;
+    } while (value != 0U);
+    write_text(name);
+    write_text(&digits[first]);
+}
+
+void on_failed_check(const mamori::AssertionRecord& record) noexcept {
+    write_text(record.file);
+    write_number(" line ", record.line);
+    write_text(": a check failed\n");
+    end_program(kFaulted);
+}
+
+bool is_refused(mamori::Status status, const char* what) noexcept {
+    if (status == mamori::Status::kOk) {
+        return false;
+    }
+    write_text(what);
+    write_text(" was refused\n");
+    return true;
+}
+
+}  // namespace
+
+int run_program() noexcept {
+    mamori::set_assertion_handler(&on_failed_check);
+    if (is_refused(prepare(), "prepare") || is_refused(executive.initialize(), "initialize") ||
+        is_refused(executive.start(), "start")) {
+        return kNotStarted;
+    }
+    std::array<mamori::Duration, 8U> durations{};
+    virtual_time::VirtualHost host{durations};
+    ObedientDevices devices{host};
+    virtual_time::FrameRunner runner{executive, host, devices};
+    for (std::uint64_t frame = 0U; frame < kFrameCount; ++frame) {
+        runner.run_frame();
+    }
+    if (is_refused(executive.stop(), "stop") || is_refused(executive.finalize(), "finalize")) {
+        return kNotStarted;
+    }
+    const Facts facts = get_facts();
+    write_number("{\"frames\": ", runner.get_frame_count());
+    write_number(", \"overruns\": ", runner.get_overrun_count());
+    write_number(", \"latched_faults\": ", facts.latched_count);
+    write_number(", \"operational_frames\": ", facts.operational_frames);
+    write_number(", \"trace_hash\": ", executive.get_trace_hash());
+    write_number(", \"stack_used_bytes\": ", calc_stack_used());
+    write_text("}\n");
+    return kEnded;
+}
+
+}  // namespace proof
