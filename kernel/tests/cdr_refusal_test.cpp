@@ -35,9 +35,9 @@ constexpr auto kBig = ByteOrder::kBig;
 constexpr auto kLittle = ByteOrder::kLittle;
 const std::string kTime = "00000001 00000002";
 
-const TimedStringSeq<2, 4> kNames{{3U, 4U}, std::array<BoundedString<4>, 2>{"a", "bcde"}};
-const TimedDoubleSeq<2> kNumbers{{3U, 4U}, std::array{1.5, -2.5}};
-const TimedBooleanSeq<4> kFlags{{3U, 4U}, std::array{true, false, true}};
+constexpr TimedStringSeq<2, 4> kNames{{3U, 4U}, std::array<BoundedString<4>, 2>{"a", "bcde"}};
+constexpr TimedDoubleSeq<2> kNumbers{{3U, 4U}, std::array{1.5, -2.5}};
+constexpr TimedBooleanSeq<4> kFlags{{3U, 4U}, std::array{true, false, true}};
 
 TEST(CdrRefusalTest, WholeEncodingsAreTaken) {
     verifies("SWR-CDR-013");
@@ -116,6 +116,31 @@ TEST(CdrRefusalTest, OnlyAWholeEncodingWithNothingBehindItIsTaken) {
         cdr_checks::expect_only_whole_is_taken(cdr_checks::encode_exactly(kFlags, order), order, kFlags);
     }
     expect_refused(from_hex("00"), kBig, std::array<double, 0>{});
+}
+
+/// The first kSize bytes of an encoding, in an array of that size. A compiler refuses a constant expression
+/// that reads outside.
+template <std::size_t kSize>
+constexpr bool is_cut_refused() {
+    std::array<std::byte, 29U> whole{};
+    std::array<std::byte, kSize> cut{};
+    TimedStringSeq<2, 4> names = kNames;
+    const bool is_whole = encode(kNames, whole, kBig).get_value() == whole.size();
+    for (std::size_t i = 0U; i < kSize; ++i) {
+        cut[i] = whole[i];
+    }
+    return is_whole && decode(Span<const std::byte>(cut.data(), kSize), kBig, names) == Status::kBadParameter;
+}
+template <std::size_t... kSize>
+constexpr bool is_each_cut_refused(std::index_sequence<kSize...> /*sizes*/) {
+    return (is_cut_refused<kSize>() && ...);
+}
+
+TEST(CdrRefusalTest, NothingOutsideIsReadInAConstantExpression) {
+    verifies("SWR-CDR-013", Technique::kInterface, Polarity::kViolation);
+    constexpr bool kIsEachRefused = is_each_cut_refused(std::make_index_sequence<29U>{});
+
+    EXPECT_TRUE(kIsEachRefused);
 }
 
 TEST(CdrRefusalTest, TheOtherByteOrderIsRefusedWhereItCanBeSeen) {

@@ -162,6 +162,15 @@ TEST(CdrTest, AValueReplacesALongerAndAShorterOne) {
     }
 }
 
+TEST(CdrTest, AnEmptySequenceIsReadBackWhereverItStands) {
+    verifies("SWR-CDR-012", Technique::kBoundaryValues);
+    using Rows = std::array<BoundedSequence<double, 1>, 3>;
+    const Bytes rows = from_hex("00000000 00000001 3ff0000000000000 00000000");
+
+    cdr_checks::expect_decodes<Rows>(rows, ByteOrder::kBig, rows);
+    cdr_checks::expect_decodes<std::array<double, 0>>({}, ByteOrder::kBig, {});
+}
+
 TEST(CdrTest, PaddingIsIgnored) {
     verifies("SWR-CDR-012", Technique::kErrorGuessing);
     Bytes bytes = from_hex(kMixedBig);

@@ -39,6 +39,18 @@ TEST_F(EventLogTest, ARecordIsKeptAsItWasWritten) {
     EXPECT_EQ(event.argument, -9);
 }
 
+TEST(EventTest, IsAllZeroUntilItIsWritten) {
+    verifies("SWR-KRN-019", Technique::kInterface);
+    const Event event{};
+
+    EXPECT_EQ(event.sequence, 0U);
+    EXPECT_EQ(event.time, Instant{});
+    EXPECT_EQ(event.severity, Severity::kInfo);
+    EXPECT_EQ(event.source, 0U);
+    EXPECT_EQ(event.code, 0U);
+    EXPECT_EQ(event.argument, 0);
+}
+
 TEST_F(EventLogTest, NothingIsLostUpToTheCapacity) {
     verifies("SWR-KRN-019", Technique::kBoundaryValues);
     EXPECT_EQ(sut_.size(), 0U);

@@ -22,7 +22,18 @@ TEST(StatusTest, NumbersAndNamesAreThoseOfTheRtcStandard) {
     EXPECT_EQ(static_cast<std::uint32_t>(Status::kUnsupported), 3U);
     EXPECT_EQ(static_cast<std::uint32_t>(Status::kOutOfResources), 4U);
     EXPECT_EQ(static_cast<std::uint32_t>(Status::kPreconditionNotMet), 5U);
+    EXPECT_EQ(std::string(get_name(Status::kOk)), "RTC_OK");
+    EXPECT_EQ(std::string(get_name(Status::kError)), "RTC_ERROR");
+    EXPECT_EQ(std::string(get_name(Status::kBadParameter)), "BAD_PARAMETER");
+    EXPECT_EQ(std::string(get_name(Status::kUnsupported)), "UNSUPPORTED");
+    EXPECT_EQ(std::string(get_name(Status::kOutOfResources)), "OUT_OF_RESOURCES");
     EXPECT_EQ(std::string(get_name(Status::kPreconditionNotMet)), "PRECONDITION_NOT_MET");
+}
+
+TEST(StatusTest, ACorruptedCodeHasANameThatSaysSo) {
+    verifies("SWR-KRN-001", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_EQ(std::string(get_name(static_cast<Status>(6U))), "INVALID_STATUS");
 }
 
 TEST(StatusTest, ResultNeverReportsSuccessWithoutAValue) {

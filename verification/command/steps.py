@@ -103,7 +103,7 @@ def all_passed(outcomes: Sequence[Outcome]) -> bool:
 
 
 def _get_log(step: Step, context: Context) -> Path:
-    return context.project.logs / f"{step.name.replace(' ', '-').replace('+', 'x')}.log"
+    return context.project.logs / f"{step.name.replace(' ', '-').replace('+', 'x').replace('/', '')}.log"
 
 
 def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:

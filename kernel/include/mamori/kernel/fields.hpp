@@ -15,6 +15,7 @@
 
 #include "mamori/kernel/bounded_sequence.hpp"
 #include "mamori/kernel/bounded_string.hpp"
+#include "mamori/kernel/type_list.hpp"
 
 namespace mamori {
 
@@ -56,8 +57,6 @@ struct Shape<BoundedString<N>> : Shape<void> {
 template <typename T>
 inline constexpr bool kIsScalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-template <typename... T>
-struct TypeList {};
 /// Called with fields, tells their types.
 struct ListTypes {
     template <typename... T>

@@ -10,13 +10,9 @@
 #include <cstddef>
 
 #include "mamori/kernel/system_table.hpp"
+#include "mamori/kernel/type_list.hpp"
 
 namespace mamori::detail {
-
-template <typename... Ts>
-struct TypeList {
-    static constexpr std::size_t kSize = sizeof...(Ts);
-};
 
 template <typename... Lists>
 struct Concat;

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measures line, branch and MC/DC coverage of the kernel by its tests, and holds the gaps against the list of known ones.
+
+    python -P -m mamori.verification.coverage [--jobs N]
+
+Prints a table, then each gap that gaps.toml does not list and each row of it that names no gap; writes
+build/host-release/evidence/coverage/coverage.json and .txt. Exit status 0 when there are neither, 1 otherwise, 2 for wrong arguments.
+
+@satisfies SWR-VER-001, SWR-VER-002      Design: docs/design/test_strength.md#coverage
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from mamori.verification.command.project import ROOT, Project
+from mamori.verification.coverage.gaps import LIST, ListError, Verdict, find_gaps, judge, read_list
+from mamori.verification.coverage.measure import CoverageError, measure
+from mamori.verification.coverage.reached import read_functions
+from mamori.verification.coverage.report import count, make_table, write_evidence
+
+
+def check_kernel(project: Project, jobs: int) -> tuple[Verdict, str]:
+    """Measures, judges and writes the evidence. @return the verdict and the table."""
+    rows = read_list()
+    exported = measure(project.root, jobs)
+    functions = read_functions(exported, project.root)
+    verdict = judge(find_gaps(functions), rows)
+    files = count(exported, functions, project.root)
+    table = make_table(files, verdict)
+    write_evidence(project.evidence / "coverage", files, verdict, table)
+    return verdict, table
+
+
+def describe(verdict: Verdict) -> list[str]:
+    """One line for each thing to mend."""
+    list_name = LIST.relative_to(ROOT)
+    return [f"{gap} (test it, or list it in {list_name} with the reason)" for gap in verdict.unlisted] + [
+        f"{list_name}: row names no gap any more, remove it: {row}" for row in verdict.unused
+    ]
+
+
+def main(argv: list[str] | None = None) -> int:
+    """@return the exit status."""
+    parser = argparse.ArgumentParser(prog="mamori.verification.coverage", allow_abbrev=False,
+                                     description="Line, branch and MC/DC coverage of the kernel by its tests.")  # fmt: skip
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="parallel compilations")
+    jobs = parser.parse_args(argv).jobs
+    if jobs < 1:
+        parser.error(f"--jobs {jobs}: give a number from 1 on")
+    try:
+        verdict, table = check_kernel(Project(Path(ROOT)), jobs)
+    except (CoverageError, ListError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    print(table)
+    for line in describe(verdict):
+        print(line)
+    print(f"coverage: {len(verdict.unlisted)} gaps without a reason, {len(verdict.unused)} rows without a gap")
+    return 0 if verdict.passed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Linked into the test programs of the coverage build: writes the counters also when a program dies on
+/// purpose.
+///
+/// A death test ends its child process in a trap or in _Exit, where clang's run time writes nothing, so the
+/// failing side of every check of the kernel would count as untested. Profiles are merged in the file
+/// (LLVM_PROFILE_FILE with %m), so what a child adds is kept beside what its parent writes.
+///
+/// @satisfies SWR-VER-001      Design: docs/design/test_strength.md#coverage
+#include <csignal>
+#include <initializer_list>
+
+extern "C" {
+int __llvm_profile_write_file(void);
+[[noreturn]] void __real__exit(int status);
+[[noreturn]] void __real__Exit(int status);
+
+[[noreturn]] void __wrap__exit(int status) {
+    static_cast<void>(__llvm_profile_write_file());
+    __real__exit(status);
+}
+
+[[noreturn]] void __wrap__Exit(int status) {
+    static_cast<void>(__llvm_profile_write_file());
+    __real__Exit(status);
+}
+}
+
+namespace {
+
+/// Writes and dies of the same signal, so that the death test sees what it waits for.
+void write_and_die(int signal) {
+    static_cast<void>(__llvm_profile_write_file());
+    static_cast<void>(std::signal(signal, SIG_DFL));
+    static_cast<void>(std::raise(signal));
+}
+
+[[gnu::constructor]] void install() {
+    for (const int signal : {SIGILL, SIGTRAP, SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) {
+        static_cast<void>(std::signal(signal, &write_and_die));
+    }
+}
+
+}  // namespace

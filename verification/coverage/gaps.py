@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Gaps of the coverage, and the checked list of those that are accepted with their reason.
+
+@satisfies SWR-VER-001, SWR-VER-002      Design: docs/design/test_strength.md#list-of-gaps
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.verification.coverage.reached import Function
+
+LIST = Path(__file__).resolve().with_name("gaps.toml")
+NEVER_CALLED = "never called"
+
+
+class ListError(Exception):
+    """The list cannot be read: which row, and why."""
+
+
+@dataclass(frozen=True, order=True)
+class Gap:
+    """Something that no test has shown."""
+
+    file: str
+    line: int
+    function: str
+    condition: str  # empty: the whole function
+    missing: str
+
+    def __str__(self) -> str:
+        what = f"'{self.condition}' was not seen: {self.missing}" if self.condition else self.missing
+        return f"{self.file}:{self.line}: {self.function}: {what}"
+
+
+@dataclass(frozen=True)
+class Row:
+    """An accepted gap. Lines are not named, so that a row outlives changes elsewhere in its file."""
+
+    file: str
+    function: str
+    condition: str
+    reason: str
+
+    def __str__(self) -> str:
+        return f"{self.file}: {self.function}: {self.condition or NEVER_CALLED}"
+
+    def covers(self, gap: Gap) -> bool:
+        return (self.file, self.function, self.condition) == (gap.file, gap.function, gap.condition)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The gaps held against the list."""
+
+    accepted: tuple[tuple[Gap, Row], ...]
+    unlisted: tuple[Gap, ...]
+    unused: tuple[Row, ...]
+
+    @property
+    def passed(self) -> bool:
+        return not (self.unlisted or self.unused)
+
+
+def find_gaps(functions: Iterable[Function]) -> list[Gap]:
+    """Functions that were never called, and in the others the conditions that were not shown."""
+    gaps = []
+    for function in functions:
+        if function.count == 0:
+            gaps.append(Gap(function.file, function.line, function.name, "", NEVER_CALLED))
+            continue
+        for condition in function.conditions.values():
+            if condition.missing:
+                gaps.append(Gap(function.file, condition.line, function.name, condition.text, condition.missing))
+    return sorted(gaps)
+
+
+def read_list(path: Path = LIST) -> list[Row]:
+    """@raise ListError for a row that is not whole, gives no reason, or stands there twice."""
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8")).get("gap", [])
+    except tomllib.TOMLDecodeError as error:
+        raise ListError(f"{path}: {error}") from error
+    rows: list[Row] = []
+    for number, table in enumerate(tables, start=1):
+        if set(table) - {"condition"} != {"file", "function", "reason"}:
+            raise ListError(f"{path}: row {number} needs file, function and reason, and may have condition; it has {sorted(table)}")
+        row = Row(table["file"], table["function"], table.get("condition", ""), table["reason"].strip())
+        if not row.reason:
+            raise ListError(f"{path}: row {number} ({row}) gives no reason")
+        if any(str(row) == str(other) for other in rows):
+            raise ListError(f"{path}: row {number} ({row}) is there twice")
+        rows.append(row)
+    return rows
+
+
+def judge(gaps: Sequence[Gap], rows: Sequence[Row]) -> Verdict:
+    """Holds `gaps` against `rows`, in both directions."""
+    accepted = []
+    unlisted = []
+    for gap in gaps:
+        row = next((row for row in rows if row.covers(gap)), None)
+        if row is None:
+            unlisted.append(gap)
+        else:
+            accepted.append((gap, row))
+    unused = [row for row in rows if not any(row is used for _, used in accepted)]
+    return Verdict(tuple(accepted), tuple(unlisted), tuple(unused))

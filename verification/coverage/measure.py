@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds the kernel's tests with clang's coverage, runs them, and exports what was reached.
+
+@satisfies SWR-VER-001, SWR-VER-003      Design: docs/design/test_strength.md#coverage
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+COMPILER = "clang++-19"
+FLAGS = ("-fprofile-instr-generate", "-fcoverage-mapping", "-fcoverage-mcdc")
+PRESET = "host-coverage"
+LAYER = "kernel"
+FLUSH = Path(__file__).with_name("flush_on_death.cpp")
+WRAPPED = "-Wl,--wrap=_exit,--wrap=_Exit"
+TEST_TIMEOUT_S = 600
+# clang says this as a warning without a name, which -Werror leaves a warning.
+UNMEASURED = "unsupported MC/DC boolean expression"
+
+
+class CoverageError(Exception):
+    """The measurement could not be made: what failed, and its last words."""
+
+
+def measure(root: Path, jobs: int) -> dict[str, Any]:
+    """Builds and runs all test programs of the kernel. @return the export of llvm-cov. @raise CoverageError."""
+    build = root / "build" / PRESET
+    build.mkdir(parents=True, exist_ok=True)
+    flush = build / "flush_on_death.o"
+    run((COMPILER, "-std=c++17", "-O1", "-c", str(FLUSH), "-o", str(flush)))
+    run(("cmake", "-S", str(root), "--preset", PRESET, "-DMAMORI_WITH_SIMBODY_SIM=OFF", "-DMAMORI_BUILD_EXAMPLES=OFF",
+         f"-DCMAKE_EXE_LINKER_FLAGS={flush} {WRAPPED}"))  # fmt: skip
+    # From scratch: what clang cannot measure it tells while compiling, and only then.
+    refuse_unmeasured(run(("cmake", "--build", str(build), "--clean-first", "--target", f"{LAYER}/all", "--parallel", str(jobs))))
+    listing = json.loads(run(("ctest", "--test-dir", str(build / LAYER), "--show-only=json-v1")))
+    programs = [Path(test["command"][0]) for test in listing["tests"]]
+    if not programs:
+        raise CoverageError(f"{build / LAYER} has no test program; nothing was measured")
+    return export(programs, build / "profiles", (root / LAYER / "include", root / LAYER / "src"))
+
+
+def export(programs: Sequence[Path], profiles: Path, sources: Sequence[Path]) -> dict[str, Any]:
+    """Runs `programs` and reads their counters, of `sources` only. Old profiles in `profiles` are thrown away first."""
+    shutil.rmtree(profiles, ignore_errors=True)
+    profiles.mkdir(parents=True)
+    for program in programs:
+        run((str(program),), LLVM_PROFILE_FILE=f"{profiles}/{program.name}-%m.profraw")
+    merged = profiles / "merged.profdata"
+    run(("llvm-profdata-19", "merge", "-sparse", "-o", str(merged), *map(str, sorted(profiles.glob("*.profraw")))))
+    first, *others = map(str, programs)
+    objects = [word for other in others for word in ("-object", other)]
+    return json.loads(run(("llvm-cov-19", "export", first, *objects, f"-instr-profile={merged}", *map(str, sources))))
+
+
+def refuse_unmeasured(words: str) -> None:
+    """@param words output of a compiler. @raise CoverageError with the places of expressions that MC/DC leaves out."""
+    places = [line for line in words.splitlines() if UNMEASURED in line]
+    if places:
+        raise CoverageError("write these expressions so that clang can measure them, with names for what is nested:\n" + "\n".join(places))
+
+
+def run(argv: Sequence[str], **settings: str) -> str:
+    """@return standard output. @raise CoverageError when the program is missing, fails, or does not end."""
+    try:
+        done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
+                              timeout=TEST_TIMEOUT_S, env={**os.environ, **settings})  # fmt: skip
+    except FileNotFoundError as error:
+        raise CoverageError(f"'{argv[0]}' is not installed; ./mamori test installs it") from error
+    except subprocess.TimeoutExpired as error:
+        raise CoverageError(f"'{' '.join(argv)}' did not end in {TEST_TIMEOUT_S} s") from error
+    if done.returncode != 0:
+        tail = "\n".join((done.stdout + done.stderr).splitlines()[-30:])
+        raise CoverageError(f"'{' '.join(argv)}' ended with status {done.returncode}:\n{tail}")
+    return done.stdout

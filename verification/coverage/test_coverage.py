@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: the tests of the kernel show every condition, or the list says why not; a gap that nobody listed is found.
+# Method: one measurement of the shipped kernel; small programs with a seeded gap, compiled and run like the kernel's tests.
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mamori.verification.command.project import ROOT, Project
+from mamori.verification.coverage.__main__ import check_kernel, describe
+from mamori.verification.coverage.gaps import Gap, ListError, Row, Verdict, find_gaps, judge, read_list
+from mamori.verification.coverage.measure import COMPILER, FLAGS, FLUSH, PRESET, WRAPPED, CoverageError, export, refuse_unmeasured, run
+from mamori.verification.coverage.reached import read_functions
+from mamori.verification.coverage.report import count, make_table
+
+PROGRAM = """\
+#include <sys/wait.h>
+#include <unistd.h>
+#define CHECK(number, condition) ((condition) ? static_cast<void>(0) : __builtin_trap())
+template <typename T> bool are_both(T a, T b) { return a > 0 && b > 0; }
+bool is_small(int a) { return a < 10 ? true : false; }
+void demand(int a, int b) { CHECK(1, a < 2 && b < 2); }
+int forgotten() { return 1; }
+void demand_in_child(int a, int b) {
+    const int child = fork();
+    if (child == 0) { demand(a, b); _exit(0); }
+    int status = 0;
+    waitpid(child, &status, 0);
+}
+int main() {
+    @CALLS@
+}
+"""
+ALL_CALLS = ("are_both<int>(1, 1); are_both<int>(0, 1); are_both<long>(1, 1); are_both<long>(1, 0);",
+             "is_small(1); is_small(10);", "demand(1, 1); demand_in_child(2, 1); demand_in_child(1, 2);", "forgotten();")  # fmt: skip
+FORGOTTEN = "are_both<int>", "is_small(10)", "demand_in_child(1, 2)", "forgotten()"
+
+
+@pytest.fixture(scope="module")
+def kernel() -> tuple[Verdict, str]:
+    """The measurement of the shipped kernel."""
+    return check_kernel(Project(ROOT), os.cpu_count() or 1)
+
+
+@pytest.fixture
+def find_seeded(tmp_path: Path) -> Callable[[str], list[Gap]]:
+    """Builds and runs PROGRAM with the given calls. @return its gaps, without those of main and its helper."""
+
+    def find(calls: str) -> list[Gap]:
+        source, flush, program = tmp_path / "seeded.cpp", tmp_path / "flush.o", tmp_path / "seeded"
+        source.write_text(PROGRAM.replace("@CALLS@", calls), encoding="utf-8")
+        run((COMPILER, "-c", str(FLUSH), "-o", str(flush)))
+        run((COMPILER, *FLAGS, "-std=c++17", str(source), str(flush), WRAPPED, "-o", str(program)))
+        functions = read_functions(export((program,), tmp_path / "profiles", (source,)), tmp_path)
+        return [gap for gap in find_gaps(functions) if gap.function not in ("main", "demand_in_child")]
+
+    return find
+
+
+@pytest.mark.verifies("SWR-VER-001")
+def test_every_condition_of_the_kernel_is_shown_or_listed(kernel: tuple[Verdict, str]) -> None:
+    verdict, table = kernel
+    print(table)
+
+    assert [str(gap) for gap in verdict.unlisted] == []
+
+
+@pytest.mark.verifies("SWR-VER-001")
+def test_evidence_holds_each_file_of_the_kernel(kernel: tuple[Verdict, str]) -> None:
+    evidence = json.loads((Project(ROOT).evidence / "coverage" / "coverage.json").read_text(encoding="utf-8"))
+
+    sources = {path.relative_to(ROOT).as_posix() for path in (ROOT / "kernel" / "src").rglob("*.cpp")}
+    assert sources <= {file["file"] for file in evidence["files"]}
+    assert evidence["total"]["conditions"] > 100
+    assert all(gap["reason"] for gap in evidence["gaps"])
+
+
+@pytest.mark.verifies("SWR-VER-002")
+def test_every_row_of_the_list_names_a_gap(kernel: tuple[Verdict, str]) -> None:
+    assert [str(row) for row in kernel[0].unused] == []
+
+
+@pytest.mark.verifies("SWR-VER-001")
+def test_what_is_shown_in_one_instantiation_or_in_a_dying_child_counts(find_seeded: Callable[[str], list[Gap]]) -> None:
+    assert find_seeded(" ".join(ALL_CALLS)) == []
+
+
+SEEDED = {
+    "condition of a template": (0, "are_both<int>(1, 1); are_both<int>(0, 1);", "are_both", "b > 0", "own effect on the decision"),
+    "outcome of a lone condition": (1, "is_small(1);", "is_small", "a < 10", "false"),
+    "condition of a check": (2, "demand(1, 1); demand_in_child(2, 1);", "demand",
+                             "condition 2 of CHECK(1, a < 2 && b < 2)", "own effect on the decision"),
+    "function": (3, "", "forgotten", "", "never called"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SEEDED)
+@pytest.mark.verifies("SWR-VER-001", technique="fault_injection", polarity="violation")
+def test_seeded_gap_is_found_with_its_place(find_seeded: Callable[[str], list[Gap]], name: str) -> None:
+    place, call, function, condition, missing = SEEDED[name]
+    calls = [*ALL_CALLS[:place], call, *ALL_CALLS[place + 1 :]]
+
+    (gap,) = find_seeded(" ".join(calls))
+
+    line = next(number for number, text in enumerate(PROGRAM.splitlines(), start=1) if f" {function}(" in text)
+    assert gap == Gap("seeded.cpp", line, function, condition, missing)
+    (message,) = describe(judge([gap], []))
+    assert message.startswith(f"seeded.cpp:{line}: {function}: ")
+    assert condition in message
+
+
+@pytest.mark.verifies("SWR-VER-001", technique="error_guessing", polarity="violation")
+def test_failing_test_program_is_no_measurement(tmp_path: Path) -> None:
+    program = tmp_path / "failing"
+    program.write_text("#!/bin/sh\necho 1 test failed\nexit 1\n", encoding="utf-8")
+    program.chmod(0o755)
+
+    with pytest.raises(CoverageError, match=r"ended with status 1:\n1 test failed"):
+        export((program,), tmp_path / "profiles", ())
+
+
+@pytest.mark.verifies("SWR-VER-001", technique="interface")
+def test_table_counts_each_place_once(tmp_path: Path) -> None:
+    source, program = tmp_path / "seeded.cpp", tmp_path / "seeded"
+    source.write_text(PROGRAM.replace("@CALLS@", ALL_CALLS[0] + ALL_CALLS[1]), encoding="utf-8")
+    run((COMPILER, *FLAGS, "-std=c++17", str(source), "-o", str(program)))
+    exported = export((program,), tmp_path / "profiles", (source,))
+    functions = read_functions(exported, tmp_path)
+    verdict = judge(find_gaps(functions), [])
+
+    (figures,) = count(exported, functions, tmp_path)
+    assert (figures.functions, figures.functions_reached) == (6, 3)
+    assert (figures.conditions, figures.conditions_shown) == (6, 3)
+    assert "3/6  50.0 %" in make_table([figures], verdict)
+
+
+ROW = Row("a.cpp", "f", "a > 0", "Needs 2^32 calls.")
+
+
+@pytest.mark.verifies("SWR-VER-002", technique="fault_injection", polarity="violation")
+def test_row_without_a_gap_fails() -> None:
+    verdict = judge([], [ROW])
+
+    assert not verdict.passed
+    assert describe(verdict) == ["verification/coverage/gaps.toml: row names no gap any more, remove it: a.cpp: f: a > 0"]
+
+
+@pytest.mark.verifies("SWR-VER-002", technique="equivalence_classes")
+def test_row_accepts_its_gap_wherever_it_stands() -> None:
+    gaps = [Gap("a.cpp", line, "f", "a > 0", "true") for line in (3, 30)]
+
+    assert judge(gaps, [ROW]).passed
+    assert not judge([*gaps, Gap("a.cpp", 3, "g", "a > 0", "true")], [ROW]).passed
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('[[gap]]\nfile = "a"\nfunction = "f"\n', "row 1 needs file, function and reason"),
+        ('[[gap]]\nfile = "a"\nfunction = "f"\nreason = " "\n', "gives no reason"),
+        ('[[gap]]\nfile = "a"\nfunction = "f"\nreason = "r"\nline = 3\n', "row 1 needs"),
+        ('[[gap]]\nfile = "a"\nfunction = "f"\nreason = "r"\n' * 2, "row 2 .* is there twice"),
+        ("[[gap]\n", "gaps.toml"),
+    ],
+)
+@pytest.mark.verifies("SWR-VER-002", technique="equivalence_classes", polarity="violation")
+def test_list_that_is_not_whole_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "gaps.toml"
+    path.write_text(text, encoding="utf-8")
+
+    with pytest.raises(ListError, match=message):
+        read_list(path)
+
+
+@pytest.mark.verifies("SWR-VER-003")
+def test_preset_measures_with_the_flags_of_these_tests() -> None:
+    presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
+    (preset,) = (each["cacheVariables"] for each in presets if each["name"] == PRESET)
+
+    assert preset["CMAKE_CXX_FLAGS"].split() == list(FLAGS)
+    assert preset["CMAKE_CXX_COMPILER"] == COMPILER
+
+
+@pytest.mark.verifies("SWR-VER-003", technique="fault_injection", polarity="violation")
+def test_expression_that_cannot_be_measured_is_refused_with_its_place(tmp_path: Path) -> None:
+    source = tmp_path / "seeded.cpp"
+    source.write_text("bool f(bool);\nbool g(bool a, bool b, bool c) {\n    return c && f(a || b);\n}\n", encoding="utf-8")
+    done = subprocess.run((COMPILER, *FLAGS, "-Werror", "-c", str(source), "-o", str(tmp_path / "seeded.o")), text=True,
+                          capture_output=True, check=True)  # fmt: skip
+
+    with pytest.raises(CoverageError, match=r"seeded\.cpp:3:\d+: .*unsupported MC/DC"):
+        refuse_unmeasured(done.stdout + done.stderr)
+
+
+@pytest.mark.verifies("SWR-VER-003", technique="error_guessing")
+def test_other_words_of_a_compiler_are_not_refused() -> None:
+    refuse_unmeasured("a.cpp:1:1: warning: unused variable 'a'\n[3/3] Linking CXX executable kernel_test\n")
