@@ -20,6 +20,7 @@ from mamori.verification.command import jobs
 from mamori.verification.command.errors import EXIT_INTERRUPTED, EXIT_USAGE, UsageError
 from mamori.verification.command.process import end_children, raise_on_signals
 from mamori.verification.command.project import RELEASE
+from mamori.verification.recorder import command as recorder_log
 
 PROGRAM = "mamori"
 
@@ -75,6 +76,7 @@ def make_parser(with_trace: bool = False) -> Parser:
     add("test").add_argument("--quick", action="store_true")
     add("build", with_project=True).add_argument("--preset", default=RELEASE, metavar="NAME")
     add("verify", with_project=True)
+    recorder_log.add_arguments(commands.add_parser("log", allow_abbrev=False))
     if with_trace:
         from mamori.trace.command import add_arguments
 
@@ -94,6 +96,8 @@ def run(argv: list[str]) -> int:
             return jobs.build(arguments.jobs, arguments.project, arguments.preset)
         case "verify":
             return jobs.verify(arguments.jobs, arguments.project)
+        case "log":
+            return recorder_log.run(arguments)
         case _:
             from mamori.trace.command import run as run_trace
 

@@ -103,7 +103,7 @@ def test_second_run_installs_nothing(box: Box) -> None:
 @pytest.mark.verifies("SWR-CLI-001", technique="equivalence_classes")
 @pytest.mark.parametrize(
     ("words", "wanted", "unwanted"),
-    [(("trace", "check"), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
+    [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
      (("build", "--preset", "host-coverage"), "clang-19", "git")],
 )  # fmt: skip
 def test_each_command_needs_its_groups_only(box: Box, words: tuple[str, ...], wanted: str, unwanted: str) -> None:
@@ -205,7 +205,7 @@ def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004")
-@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace"])
+@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log"])
 def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
     bare = box.folder / "bare"
     bare.mkdir()
@@ -220,7 +220,7 @@ def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
-@pytest.mark.parametrize("command", ["demo", "test", "build", "verify"])
+@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log"])
 def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
     subparsers = next(action for action in make_parser()._actions if action.dest == "command")
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}

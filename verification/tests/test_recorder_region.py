@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: each record that was written is read, and nothing else. Method: files made by hand; the bytes that the C++ test
+# holds its writer to; each damage at each place; a seeded generator that flips bytes, whose seed is in the test's name.
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import pytest
+
+from mamori.profiles.input_error import InputError
+from mamori.verification.recorder.region import MAX_BYTES, Recording, read_recording
+
+from recorder_files import HEADER_BYTES, RECORD_BYTES, make_file, make_header, make_record, write
+
+# The record of kernel/tests/flight_format_test.cpp, byte for byte.
+GOLDEN = bytes.fromhex("0807060504030201feffffffffffffff8877665544332211a4a3a2a1b2b1c2c1020000c3fb5bb52d")
+GOLDEN_SEQUENCE = 0x0102030405060708
+
+
+def read(tmp_path: Path, data: bytes) -> Recording:
+    return read_recording(write(tmp_path / "run.rec", data))
+
+
+def sequences(recording: Recording) -> list[int]:
+    return [record.sequence for record in recording.records]
+
+
+def findings(recording: Recording) -> list[tuple[str, int]]:
+    return [(finding.kind, finding.offset) for finding in recording.findings]
+
+
+@pytest.mark.verifies("SWR-REC-011", technique="back_to_back")
+def test_bytes_that_the_kernel_writes_are_read(tmp_path: Path) -> None:
+    recording = read(tmp_path, make_file(5, [GOLDEN]))
+
+    record = recording.records[0]
+    assert record.sequence == GOLDEN_SEQUENCE
+    assert (record.time_ns, record.argument, record.session) == (-2, 0x1122334455667788, 0xA1A2A3A4)
+    assert (record.source, record.code, record.severity) == (0xB1B2, 0xC1C2, "fault")
+    assert record.offset == HEADER_BYTES + RECORD_BYTES * ((GOLDEN_SEQUENCE - 1) % 5)
+
+
+@pytest.mark.verifies("SWR-REC-011")
+def test_ring_that_has_turned_is_read_in_the_order_of_its_numbers(tmp_path: Path) -> None:
+    recording = read(tmp_path, make_file(3, [make_record(number, session=2) for number in (4, 5, 6, 7)], session=2))
+
+    assert sequences(recording) == [5, 6, 7]
+    assert recording.findings == ()
+    assert (recording.capacity, recording.session, recording.overwritten) == (3, 2, 4)
+
+
+@pytest.mark.verifies("SWR-REC-011", technique="boundary_values")
+def test_recorder_without_a_record_is_in_order(tmp_path: Path) -> None:
+    recording = read(tmp_path, make_file(3, []))
+
+    assert (recording.records, recording.findings, recording.overwritten) == ((), (), 0)
+
+
+@pytest.mark.verifies("SWR-REC-011", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize("slot", range(4))
+def test_torn_and_corrupt_slots_are_named_with_their_offset_and_number(tmp_path: Path, slot: int) -> None:
+    whole = make_file(4, [make_record(number) for number in (5, 6, 3, 4)])
+    offset = HEADER_BYTES + slot * RECORD_BYTES
+    # Slot 2 was next for 7; without 6, slot 1 is next for it.
+    number = ("5", "6 or 2", "7 or 3", "4")[slot]
+    for kind, at, value in (("torn", 35, 0), ("corrupt", 35, 1), ("corrupt", 0, 77), ("corrupt", 39, 77)):
+        data = bytearray(whole)
+        data[offset + at] = value
+
+        recording = read(tmp_path, bytes(data))
+
+        assert findings(recording) == [(kind, offset)]
+        assert f"record {number}, slot {slot}" in recording.findings[0].text
+        assert len(recording.records) == 3
+
+
+@pytest.mark.verifies("SWR-REC-011", technique="fault_injection", polarity="violation")
+def test_numbers_that_are_missing_are_named_in_one_piece(tmp_path: Path) -> None:
+    recording = read(tmp_path, make_file(20, [make_record(number) for number in (1, 2, 5, 9, 10)]))
+
+    assert findings(recording) == [("missing", HEADER_BYTES + 2 * RECORD_BYTES), ("missing", HEADER_BYTES + 5 * RECORD_BYTES)]
+    assert [finding.text for finding in recording.findings] == ["records 3 to 4 are missing", "records 6 to 8 are missing"]
+
+
+@pytest.mark.verifies("SWR-REC-011", technique="fault_injection", polarity="violation")
+def test_record_of_an_earlier_turn_shows_that_its_successor_is_missing(tmp_path: Path) -> None:
+    recording = read(tmp_path, make_file(3, [make_record(number) for number in (7, 5, 9)]))
+
+    assert sequences(recording) == [5, 7, 9]
+    assert [finding.kind for finding in recording.findings] == ["stale", "missing"]
+    assert recording.findings[1].text == "record 8 is missing"
+
+
+@pytest.mark.verifies("SWR-REC-011", technique="fault_injection", polarity="violation")
+def test_whole_record_in_a_foreign_slot_is_corrupt(tmp_path: Path) -> None:
+    data = make_header(3) + make_record(2) + bytes(2 * RECORD_BYTES)
+
+    assert findings(read(tmp_path, data)) == [("corrupt", HEADER_BYTES)]
+
+
+@pytest.mark.verifies("SWR-REC-013", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize("length", [*range(HEADER_BYTES, HEADER_BYTES + 4 * RECORD_BYTES, 7)])
+def test_cut_file_gives_what_is_left(tmp_path: Path, length: int) -> None:
+    whole = make_file(4, [make_record(number) for number in (1, 2, 3, 4)])
+
+    recording = read(tmp_path, whole[:length])
+
+    assert sequences(recording) == [1, 2, 3, 4][: (length - HEADER_BYTES) // RECORD_BYTES]
+    assert ("cut", length) in findings(recording)
+
+
+@pytest.mark.verifies("SWR-REC-013", technique="fault_injection", polarity="violation")
+def test_bytes_behind_the_end_are_named(tmp_path: Path) -> None:
+    data = make_file(2, [make_record(1)])
+
+    assert findings(read(tmp_path, data + b"x")) == [("trailing", len(data))]
+
+
+@pytest.mark.verifies("SWR-REC-013", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize("place", [0, 3, 10, 12, 16, 20])
+def test_records_behind_a_damaged_header_are_read(tmp_path: Path, place: int) -> None:
+    data = bytearray(make_file(4, [make_record(number) for number in (1, 2, 3)]))
+    data[place] ^= 0x40
+
+    recording = read(tmp_path, bytes(data))
+
+    assert sequences(recording) == [1, 2, 3]
+    assert recording.findings[0].kind == "header"
+
+
+@pytest.mark.verifies("SWR-REC-013", technique="equivalence_classes", polarity="violation")
+@pytest.mark.parametrize(
+    ("data", "sentence"),
+    [
+        (b"", "is empty"),
+        (bytes(500), "zeros only"),
+        (b"PK\x03\x04" + b"\x55" * 500, "is no recorder file"),
+        (b"x", "is no recorder file"),
+        (make_header(4)[:40], "is cut in its header, after 40 bytes"),
+        (make_header(4)[:8], "is cut in its header, after 8 bytes"),
+        (make_file(4, [make_record(1)], version=2), "is of format version 2, this release reads 1"),
+    ],
+)
+def test_file_without_anything_to_print_is_refused_with_its_cause(tmp_path: Path, data: bytes, sentence: str) -> None:
+    with pytest.raises(InputError, match=sentence) as caught:
+        read(tmp_path, data)
+    assert "\n" not in str(caught.value)
+    assert str(tmp_path / "run.rec") in str(caught.value)
+
+
+@pytest.mark.verifies("SWR-REC-013", technique="boundary_values", polarity="violation")
+def test_file_that_is_too_large_is_refused_before_it_is_read(tmp_path: Path) -> None:
+    with (tmp_path / "run.rec").open("wb") as stream:
+        stream.truncate(MAX_BYTES + 1)
+
+    with pytest.raises(InputError, match="at most"):
+        read_recording(tmp_path / "run.rec")
+
+
+@pytest.mark.verifies("SWR-REC-013", technique="fault_injection", polarity="violation")
+def test_capacity_that_no_file_has_costs_no_time(tmp_path: Path) -> None:
+    data = make_header(0xFFFF_FFFF) + make_record(1)
+
+    recording = read(tmp_path, data)
+    assert sequences(recording) == [1]
+    assert [finding.kind for finding in recording.findings] == ["cut"]
+
+
+@pytest.mark.verifies("SWR-REC-013", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize("seed", range(20))
+def test_flipped_bytes_never_invent_a_record(tmp_path: Path, seed: int) -> None:
+    generator = random.Random(seed)
+    written = {number: make_record(number, session=1 + number // 9, argument=number * 7) for number in range(21, 41)}
+    whole = make_file(20, list(written.values()), session=5)
+    originals = {record.offset: record for record in read(tmp_path, whole).records}
+    assert len(originals) == 20
+
+    for _ in range(50):
+        data = bytearray(whole)
+        touched = {generator.randrange(len(data)) for _ in range(generator.randint(1, 30))}
+        for place in touched:
+            data[place] ^= generator.randint(1, 255)
+        try:
+            recording = read(tmp_path, bytes(data))
+        except InputError:
+            assert any(place < HEADER_BYTES for place in touched)
+            continue
+        spoiled = {(place - HEADER_BYTES) // RECORD_BYTES for place in touched if place >= HEADER_BYTES}
+        wanted = [record for offset, record in sorted(originals.items(), key=lambda item: item[1].sequence)
+                  if (offset - HEADER_BYTES) // RECORD_BYTES not in spoiled]  # fmt: skip
+        assert list(recording.records) == wanted, f"seed {seed}"
+        named = {(finding.offset - HEADER_BYTES) // RECORD_BYTES for finding in recording.findings
+                 if finding.kind in ("torn", "corrupt")}  # fmt: skip
+        assert named == spoiled, f"seed {seed}"
