@@ -7,6 +7,7 @@
 #include "machine.hpp"
 #include "mamori/simbody_sim/computed_torque_controller.hpp"
 #include "model_check.hpp"
+#include "run_recorder.hpp"
 #include "safe_arm_system.hpp"
 
 namespace {
@@ -46,6 +47,13 @@ int run_scenario(const safe_arm::RunOptions& options) {
     const std::string unwritable = safe_arm::claim_folder(options.out);
     if (!unwritable.empty()) {
         return fail(kExitUsage, unwritable);
+    }
+    safe_arm::RunRecorder recorder;
+    if (!options.recorder.empty()) {
+        const std::string unrecordable = recorder.begin(options.recorder, safe_arm::event_log);
+        if (!unrecordable.empty()) {
+            return fail(kExitUsage, unrecordable);
+        }
     }
     const auto motion_ns = static_cast<std::int64_t>(std::llround(track.get_duration_s() * 1.0e9));
     const Instant motion_end = Instant{} + kMotionStart + Duration{motion_ns};

@@ -19,8 +19,8 @@ std::string check_not_negative(const std::string& text) {
     return text.find('-') == std::string::npos ? std::string{} : "'" + text + "' must be 0 or more";
 }
 
-const std::vector<std::string_view> kWords{"run",     "--model", "--motion", "--out",
-                                           "--fault", "--seed",  "--frames", "--help"};
+const std::vector<std::string_view> kWords{"run",    "--model",  "--motion",   "--out", "--fault",
+                                           "--seed", "--frames", "--recorder", "--help"};
 
 /// @return the first word that is neither known nor the value of an option.
 std::string find_unknown_word(int argc, const char* const* argv) {
@@ -57,6 +57,9 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
         ->capture_default_str();
     run->add_option("--frames", options.frames, "Frames of 1 ms to run; 0: the motion plus 2 s")
         ->check(check_not_negative);
+    run->add_option("--recorder", options.recorder,
+                    "File of a flight recorder: takes the events as they happen, outlives a crash; read it "
+                    "by `mamori log`");
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {

@@ -15,6 +15,7 @@ struct RunOptions {
     std::string model;
     std::string motion;
     std::string out;
+    std::string recorder;            ///< file of the flight recorder; empty: none
     mamori::sim::FaultPlan fault{};  ///< `at` counts from the start of the motion
     std::string fault_text;          ///< as the user wrote it; empty: fault-free
     std::uint64_t seed{1U};

@@ -46,19 +46,19 @@ std::string make_series_header() {
     return header + ",state,torque_enable,brake_release\n";
 }
 
-/// What happened, with the name of its argument.
-std::string describe_event(const mamori::Event& event) {
+/// The argument by its name.
+std::string describe_argument(const mamori::Event& event) {
     switch (static_cast<ArmEvent>(event.code)) {
         case ArmEvent::kStateEntered:
-            return std::string("state_entered,") + get_name(static_cast<SafeState>(event.argument));
+            return get_name(static_cast<SafeState>(event.argument));
         case ArmEvent::kFaultLatched:
-            return std::string("fault_latched,") + kArmFaultNames[static_cast<std::size_t>(event.argument)];
+            return kArmFaultNames[static_cast<std::size_t>(event.argument)];
         case ArmEvent::kReactionBegun:
-            return std::string("reaction_begun,") + get_name(static_cast<Reaction>(event.argument));
+            return get_name(static_cast<Reaction>(event.argument));
         case ArmEvent::kWatchdogRefused:
-            return "watchdog_refused," + std::to_string(event.argument);
+            break;
     }
-    return "unknown," + std::to_string(event.argument);
+    return std::to_string(event.argument);
 }
 
 std::string make_events_text(const mamori::EventLog& events) {
@@ -69,24 +69,9 @@ std::string make_events_text(const mamori::EventLog& events) {
         text += std::to_string(event.sequence);
         append(text, to_seconds(event.time - Instant{}));
         text += std::string(",") + kSeverities[static_cast<std::size_t>(event.severity)] + ",supervisor," +
-                describe_event(event) + "\n";
+                kArmEventNames.at(event.code) + "," + describe_argument(event) + "\n";
     }
     return text;
-}
-
-/// Writes beside the wanted file and renames, so that no reader sees a part of it.
-bool replace_file(const std::filesystem::path& path, const std::string& text) {
-    const std::filesystem::path partial{path.string() + ".partial"};
-    std::ofstream file{partial, std::ios::binary};
-    file << text;
-    file.close();
-    std::error_code error;
-    if (!file.fail()) {
-        std::filesystem::rename(partial, path, error);
-        return !error;
-    }
-    std::filesystem::remove(partial, error);
-    return false;
 }
 
 /// Who noticed first: the supervisor's fault register, the gate that got no fresh permission, or the
@@ -107,6 +92,20 @@ const char* get_environment(const char* name, const char* fallback) {
 }
 
 }  // namespace
+
+bool replace_file(const std::filesystem::path& path, const std::string& text) {
+    const std::filesystem::path partial{path.string() + ".partial"};
+    std::ofstream file{partial, std::ios::binary};
+    file << text;
+    file.close();
+    std::error_code error;
+    if (!file.fail()) {
+        std::filesystem::rename(partial, path, error);
+        return !error;
+    }
+    std::filesystem::remove(partial, error);
+    return false;
+}
 
 RunRecord::RunRecord(const RunOptions& options, const mamori::sim::ArmModel& model,
                      const mamori::sim::FaultPlan& fault, Instant motion_start, Instant motion_end)

@@ -8,6 +8,7 @@
 #define EXAMPLES_SAFE_ARM_RUN_RECORD_HPP
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -35,6 +36,10 @@ struct FrameFacts {
     bool torque_enable{false};
     bool brake_release{false};
 };
+
+/// Writes beside the wanted file and renames, so that no reader sees a part of it. @return false when it
+/// could not.
+bool replace_file(const std::filesystem::path& path, const std::string& text);
 
 /// Makes the folder of a record and tries a file in it, so that a long run does not end without a place to go
 /// to.

@@ -33,6 +33,9 @@ enum class ArmEvent : std::uint16_t {
     kReactionBegun,    ///< [Reaction]
     kWatchdogRefused,  ///< [GlobalStatus]
 };
+/// Spelling of an event in logs, indexed by its code.
+inline constexpr std::array<const char*, 4U> kArmEventNames{"state_entered", "fault_latched",
+                                                            "reaction_begun", "watchdog_refused"};
 
 class SafetySupervisor final : public mamori::Component {
   public:

@@ -5,13 +5,18 @@
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <vector>
 
+#include "mamori/kernel/flight_reader.hpp"
 #include "mamori/verification/verifies.hpp"
+#include "run_recorder.hpp"
+#include "safety_supervisor.hpp"
 
 namespace safe_arm {
 namespace {
@@ -52,6 +57,28 @@ class RunTest : public ::testing::Test {
         EXPECT_NE(messages_.find(part), std::string::npos) << messages_;
         EXPECT_EQ(std::count(messages_.begin(), messages_.end(), '\n'), 1) << messages_;
         EXPECT_FALSE(fs::exists(folder_ / "out" / "run.json"));
+    }
+
+    std::string recorder_path() const { return (folder_ / "run.rec").string(); }
+    /// Every record of the recorder file, in the order of the ring's places; a damaged place is a failure.
+    std::vector<mamori::FlightRecord> read_recorder() const {
+        std::ifstream file{recorder_path(), std::ios::binary};
+        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+        mamori::FlightReader reader;
+        std::vector<mamori::FlightRecord> records;
+        if (reader.open({reinterpret_cast<const std::byte*>(text.data()), text.size()}) !=
+            mamori::Status::kOk) {
+            return records;
+        }
+        for (std::size_t slot = 0U; slot < reader.get_capacity(); ++slot) {
+            mamori::FlightRecord record{};
+            const mamori::SlotState state = reader.read(slot, record);
+            EXPECT_NE(state, mamori::SlotState::kCorrupt) << slot;
+            if (state == mamori::SlotState::kWhole) {
+                records.push_back(record);
+            }
+        }
+        return records;
     }
 
     fs::path folder_;
@@ -149,6 +176,89 @@ TEST_F(RunTest, SameRunGivesTheSameHashAndAnotherFaultAnotherOne) {
 
     ASSERT_EQ(run(arguments("--frames 1200 --fault kind=power_loss,at=0.3")), 0) << messages_;
     EXPECT_NE(read_summary()["trace_hash"], first);
+}
+
+TEST_F(RunTest, RecorderHoldsTheEventsOfTheRunAndGoesOnInTheNext) {
+    verifies("SWR-REC-014");
+    const std::string recorder = "--recorder '" + recorder_path() + "' --frames 1200 ";
+    ASSERT_EQ(run(arguments(recorder + "--fault kind=power_loss,at=0.3")), 0) << messages_;
+
+    const std::vector<mamori::FlightRecord> first = read_recorder();
+    std::ifstream events{folder_ / "out" / "events.csv"};
+    const std::string lines{std::istreambuf_iterator<char>{events}, {}};
+    ASSERT_GT(first.size(), 3U);
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(first.size()), std::count(lines.begin(), lines.end(), '\n') - 1);
+    EXPECT_EQ(first.back().session, 1U);
+    const nlohmann::json names = nlohmann::json::parse(std::ifstream{recorder_path() + ".names.json"});
+    EXPECT_EQ(names["sources"]["0"], "supervisor");
+    EXPECT_EQ(names["codes"]["1"]["name"], "fault_latched");
+    EXPECT_EQ(names["arguments"]["fault"].size(), kArmFaultCount);
+    EXPECT_EQ(names["arguments"]["state"]["8"], "Safe");
+    EXPECT_EQ(names["arguments"]["reaction"]["4"], "Sto");
+
+    ASSERT_EQ(run(arguments(recorder)), 0) << messages_;
+    const std::vector<mamori::FlightRecord> second = read_recorder();
+    ASSERT_GT(second.size(), first.size());
+    EXPECT_EQ(second[first.size()].session, 2U);
+    EXPECT_EQ(second[first.size()].sequence, first.size() + 1U);
+}
+
+TEST_F(RunTest, RecorderChangesNothingInTheRun) {
+    verifies("SWR-REC-014", Technique::kBackToBack);
+    ASSERT_EQ(run(arguments("--frames 800")), 0) << messages_;
+    const nlohmann::json without = read_summary()["trace_hash"];
+    ASSERT_EQ(run(arguments("--frames 800 --recorder '" + recorder_path() + "'")), 0) << messages_;
+
+    EXPECT_EQ(read_summary()["trace_hash"], without);
+}
+
+TEST_F(RunTest, KilledRunLeavesItsEventsInTheRecorder) {
+    verifies("SWR-REC-014", Technique::kFaultInjection, Polarity::kViolation);
+    const std::string out = (folder_ / "out").string();
+    const std::string motion = (folder_ / "motion.dat").string();
+    const std::string path = recorder_path();
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::execl(SAFE_ARM_PROGRAM, SAFE_ARM_PROGRAM, "run", "--model", SAFE_ARM_MODEL_FILE, "--motion",
+                motion.c_str(), "--out", out.c_str(), "--recorder", path.c_str(), "--frames", "100000000",
+                nullptr);
+        ::_exit(127);
+    }
+    int status = 0;
+    while (read_recorder().size() < 2U && ::waitpid(child, &status, WNOHANG) == 0) {
+    }
+    const std::size_t before = read_recorder().size();
+    ASSERT_EQ(::kill(child, SIGKILL), 0);
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_FALSE(fs::exists(folder_ / "out" / "run.json"));
+    const std::vector<mamori::FlightRecord> records = read_recorder();
+    ASSERT_GE(records.size(), before);
+    EXPECT_EQ(records[0].code, static_cast<std::uint16_t>(ArmEvent::kStateEntered));
+    EXPECT_EQ(records[0].argument, static_cast<std::int64_t>(mamori::safety::SafeState::kStandby));
+}
+
+TEST_F(RunTest, RecorderFileThatCannotBeUsedIsRefusedBeforeTheRun) {
+    verifies("SWR-REC-014", Technique::kErrorGuessing, Polarity::kViolation);
+    const auto expect_refused = [this](const std::string& path, const std::string& part) {
+        EXPECT_EQ(run(arguments("--frames 700 --recorder '" + path + "'")), 2);
+        expect_one_line(part);
+    };
+    expect_refused(folder_.string(), "no regular file");
+    expect_refused((folder_ / "gone" / "run.rec").string(), "No such file");
+    std::ofstream{folder_ / "other"} << "somebody's notes\n";
+    expect_refused((folder_ / "other").string(), "another size");
+    const std::string foreign(mamori::flight::calc_region_size(kRecorderCapacity), 'x');
+    std::ofstream{folder_ / "foreign", std::ios::binary} << foreign;
+    expect_refused((folder_ / "foreign").string(), "no recorder that can go on");
+    std::string newer = foreign;
+    for (std::size_t i = 0U; i < mamori::flight::kMagic.size(); ++i) {
+        newer[i] = static_cast<char>(mamori::flight::kMagic[i]);
+    }
+    std::ofstream{folder_ / "newer", std::ios::binary} << newer;
+    expect_refused((folder_ / "newer").string(), "another release");
+    EXPECT_FALSE(fs::exists(folder_ / "foreign.names.json"));
 }
 
 TEST_F(RunTest, BrokenInputGivesOneLineAndNoRecord) {
