@@ -173,9 +173,10 @@ def _is_counted(node: Node) -> bool:
             continue
         left, right = part.child_by_field_name("left"), part.child_by_field_name("right")
         operator = _get_text(part.child_by_field_name("operator"))
-        counts_up = operator == "<" and _get_text(left) == counter and update is not None and _is_step_up(update, counter)
-        counts_down = (operator == ">" and _get_text(left) == f"{counter}--" and update is None
-                       and MORE_THAN_ZERO.fullmatch(_get_text(right)) is not None)  # fmt: skip
+        counts_up = operator == "<" and _is_counter(left, counter) and _is_step(update, counter, "++", "+=")
+        counts_down = (operator == ">" and MORE_THAN_ZERO.fullmatch(_get_text(right)) is not None
+                       and ((_get_text(left) == f"{counter}--" and update is None)
+                            or (_get_text(left) == counter and _is_step(update, counter, "--"))))  # fmt: skip
         if (counts_up or counts_down) and not _find_changed(body) & {counter, *_find_names(right)}:
             return True
     return False
@@ -204,10 +205,18 @@ def _split_conjunction(node: Node) -> Iterator[Node]:
         yield node
 
 
-def _is_step_up(update: Node, counter: str) -> bool:
+def _is_counter(node: Node | None, counter: str) -> bool:
+    """The counter, or a constant more."""
+    text = _get_text(node)
+    more = text.removeprefix(f"{counter} + ")
+    return text == counter or (more != text and STEP.fullmatch(more) is not None)
+
+
+def _is_step(update: Node | None, counter: str, one: str, many: str = "") -> bool:
+    """One step, or where `many` allows it a constant number of them."""
     text = _get_text(update)
-    step = text.removeprefix(f"{counter} += ")
-    return text in (f"++{counter}", f"{counter}++") or (step != text and STEP.fullmatch(step) is not None)
+    step = text.removeprefix(f"{counter} {many} ")
+    return text in (f"{one}{counter}", f"{counter}{one}") or (step != text and STEP.fullmatch(step) is not None)
 
 
 def _find_names(node: Node | None) -> set[str]:

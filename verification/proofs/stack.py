@@ -24,7 +24,7 @@ from mamori.verification.proofs.call_graph import CallGraph, Finding, Rules, mak
 from mamori.verification.proofs.depth import calc_deepest_paths, find_groups, is_recursive
 from mamori.verification.proofs.image import find_includes, find_sources
 from mamori.verification.proofs.object_code import read_unit
-from mamori.verification.proofs.toolchain import CORTEX_M4, HOST, Toolchain, Unit, compile_units
+from mamori.verification.proofs.toolchain import CORTEX_M4, HOST, ProofError, Toolchain, Unit, compile_units
 
 EXECUTIVE = "mamori::Executive::"
 COMPONENT = "Component"
@@ -106,6 +106,7 @@ def write_evidence(analyses: Sequence[Analysis], folder: Path, **more: object) -
 def _find_entries(graph: CallGraph) -> list[Entry]:
     executive = {key for key, function in graph.functions.items() if function.name.startswith(EXECUTIVE)}
     inner = {target for key in executive for target in graph.calls[key]}
+    inner.update(target for call in graph.resolved for target in call.targets)  # work that it hands to its host
     # ComponentRun and other classes inside the executive are reached through it, never from outside.
     entries = [Entry("executive", key) for key in sorted(executive - inner)
                if "::" not in split_signature(graph.functions[key].name)[0].removeprefix(EXECUTIVE)]  # fmt: skip
@@ -156,8 +157,12 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description="Worst-case stack of the target image.", allow_abbrev=False)
     parser.add_argument("--out", type=Path, help="folder for stack.json and stack.txt")
     out = parser.parse_args(argv).out
-    with tempfile.TemporaryDirectory() as folder:
-        analyses = [analyse_image(toolchain, ROOT, Path(folder) / toolchain.name)[0] for toolchain in (CORTEX_M4, HOST)]
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            analyses = [analyse_image(toolchain, ROOT, Path(folder) / toolchain.name)[0] for toolchain in (CORTEX_M4, HOST)]
+    except ProofError as error:
+        print(f"stack proof: {error}", file=sys.stderr)
+        return 1
     print(make_table(analyses), end="")
     if out is not None:
         write_evidence(analyses, out)

@@ -20,6 +20,9 @@ UNBOUNDED = {
     "no bound": ("for (int i = 0; ; ++i) { n += i; }", "int i = 0; ; ++i"),
     "other end": ("for (int i = 0; i != n; ++i) {}", "int i = 0; i != n; ++i"),
     "step of unknown size": ("for (int i = 0; i < 9; i += n) {}", "int i = 0; i < 9; i += n"),
+    "wrong way down": ("for (int i = 9; i > 0; ++i) {}", "int i = 9; i > 0; ++i"),
+    "down by two": ("for (unsigned i = 9; i > 0; i -= 2) {}", "unsigned i = 9; i > 0; i -= 2"),
+    "constant less": ("for (unsigned i = 0; i - 1 < n; ++i) {}", "unsigned i = 0; i - 1 < n; ++i"),
     "wrong way": ("for (int i = 0; i < 9; --i) {}", "int i = 0; i < 9; --i"),
     "counter set back": ("for (int i = 0; i < 9; ++i) { i = 0; }", "int i = 0; i < 9; ++i"),
     "counter lent": ("for (int i = 0; i < 9; ++i) { g(&i); }", "int i = 0; i < 9; ++i"),
@@ -33,6 +36,8 @@ BOUNDED = {
     "counted": "for (int i = 0; i < n; ++i) { b[i] = 0; }",
     "counted by two": "for (int i = 0; i < 9; i += 2) {}",
     "counted, may end early": "for (int i = 0; i < n && b[i]; i++) { n2 = i; }",
+    "counted with a constant more": "for (int i = 0; n2 && i + 1 < n; ++i) {}",
+    "counted down to zero": "for (int i = n; i > 0; --i) { b[i] = 0; }",
     "counted down": "for (int i = n; i-- > 0;) { b[i] = 0; }",
 }
 

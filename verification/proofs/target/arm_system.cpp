@@ -51,16 +51,24 @@ HoldController controller;
 virtual_time::SimulatedChannel<safe_arm::TorqueCommand, 4U> channel{"channel"};
 safe_arm::DriveGate gate{outputs};
 
+// The controller is no part of the safety software: a partition of its own, reached through buffers.
+mamori::Crossing<safe_arm::JointState> state_crossing;
+mamori::Crossing<safe_arm::StopCommand> stop_crossing;
+mamori::Crossing<safe_arm::TorqueCommand> command_crossing;
+
 constexpr auto kSystem = mamori::system(
     mamori::frame(safe_arm::kFrame),
     mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
-    mamori::window("control", 300_us, 400_us, mamori::budget(350_us), mamori::run(controller)),
+    mamori::window("control", 300_us, 400_us, mamori::partition("control"), mamori::budget(350_us),
+                   mamori::run(controller)),
     mamori::window("transport", 700_us, 100_us, mamori::budget(80_us), mamori::run(channel)),
     mamori::window("act", 800_us, 100_us, mamori::budget(80_us), mamori::run(gate)),
     mamori::connect(reader.reading, monitor.reading), mamori::connect(channel.out, monitor.command),
     mamori::connect(gate.drive, monitor.drive), mamori::connect(reader.reading, supervisor.reading),
-    mamori::connect(monitor.state, supervisor.arm_state), mamori::connect(monitor.state, controller.state),
-    mamori::connect(supervisor.stop, controller.stop), mamori::connect(controller.command, channel.in),
+    mamori::connect(monitor.state, supervisor.arm_state),
+    mamori::connect(monitor.state, controller.state, mamori::through(state_crossing)),
+    mamori::connect(supervisor.stop, controller.stop, mamori::through(stop_crossing)),
+    mamori::connect(controller.command, channel.in, mamori::through(command_crossing)),
     mamori::connect(supervisor.stop, gate.stop), mamori::connect(channel.out, gate.command));
 MAMORI_CHECK(kSystem);
 static_assert(kSystem.components.size() == kComponentCount &&

@@ -52,7 +52,8 @@ int run_program() noexcept {
     std::array<mamori::Duration, 8U> durations{};
     virtual_time::VirtualHost host{durations};
     ObedientDevices devices{host};
-    virtual_time::FrameRunner runner{executive, host, devices};
+    virtual_time::SimulatedCore core{executive, host};
+    virtual_time::FrameRunner runner{{&core, 1U}, devices};
     for (std::uint64_t frame = 0U; frame < kFrameCount; ++frame) {
         runner.run_frame();
     }
