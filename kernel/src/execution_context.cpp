@@ -3,6 +3,9 @@
 
 #include "action_scope.hpp"
 #include "mamori/kernel/external_trigger.hpp"
+#include "mamori/kernel/fsm_check.hpp"
+#include "mamori/kernel/fsm_machine.hpp"
+#include "mamori/kernel/multi_mode.hpp"
 
 namespace mamori {
 namespace {
@@ -72,6 +75,11 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
         participants[i]->context_ = this;
         participants[i]->position_ = i;
     }
+    const Status verdict = judge_machines(participants, plan.kind);
+    if (verdict != Status::kOk) {
+        release_participants(participants);
+        return verdict;
+    }
     id_ = id;
     plan_ = plan;
     period_ = plan.period;
@@ -81,10 +89,40 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
     return Status::kOk;
 }
 
+Status ExecutionContext::judge_machines(Span<Component* const> participants,
+                                        ExecutionKind kind) const noexcept {
+    for (Component* component : participants) {
+        const FsmMachine* const machine = component->machine_;
+        if (machine == nullptr) {
+            continue;
+        }
+        if (kind != ExecutionKind::kEventDriven) {
+            return Status::kPreconditionNotMet;
+        }
+        const FsmTable& table = machine->get_table();
+        if (check(table).rule != FsmRule::kNone) {
+            return Status::kBadParameter;
+        }
+        for (const FsmBehavior& behavior : machine->get_profile()) {
+            const std::size_t count =
+                behavior.id.kind == FsmElement::Kind::kState ? table.states.size() : table.transitions.size();
+            if (behavior.action_component == nullptr || behavior.action_component->context_ != this ||
+                behavior.id.index >= count) {
+                return Status::kBadParameter;
+            }
+        }
+    }
+    return Status::kOk;
+}
+
 void ExecutionContext::release_participants(Span<Component* const> participants) noexcept {
     for (Component* component : participants) {
         component->context_ = nullptr;
         component->notices_ = 0U;
+        if (component->mode_switch_ != nullptr) {
+            // Nobody is left who could wait for it.
+            static_cast<void>(component->mode_switch_->take_change());
+        }
         if (component->get_state() == LifecycleState::kError) {
             component->set_state(LifecycleState::kInactive);
         }
@@ -202,6 +240,9 @@ Status ExecutionContext::activate_component(const Component& component, Instant 
     Component& participant = *participants_[index.get_value()];
     const ContextHandle handle = make_handle(now);
     const ActionScope scope{*this, index.get_value()};
+    if (participant.machine_ != nullptr) {
+        participant.machine_->restart();
+    }
     const Status result = participant.on_activated(handle);
     note(participant, ComponentAction::kActivated, result, handle);
     if (result == Status::kOk) {

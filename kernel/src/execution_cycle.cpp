@@ -3,6 +3,7 @@
 #include "action_scope.hpp"
 #include "mamori/kernel/execution_context.hpp"
 #include "mamori/kernel/external_trigger.hpp"
+#include "mamori/kernel/multi_mode.hpp"
 
 namespace mamori {
 
@@ -34,12 +35,13 @@ void ExecutionContext::execute_range(std::size_t first, std::size_t count, After
     MAMORI_REQUIRE(1, is_in_cycle());
     const Span<Component* const> range = participants_.subspan(first, count);
     const ContextHandle handle = make_handle(cycle_start_);
+    const bool is_data_flow = plan_.kind != ExecutionKind::kEventDriven;
     ActionScope scope{*this, first};
     for (std::size_t i = 0U; i < count && is_in_cycle(); ++i) {
         scope.move_to(first + i);
         Component& component = *range.data()[i];
-        if (component.get_state() != LifecycleState::kActive || component.notices_ != 0U) {
-            execute_unusual(component, handle);
+        if (!is_data_flow || component.get_state() != LifecycleState::kActive || component.notices_ != 0U) {
+            execute_unusual(component, handle, scope);
         } else {
             const Status answer = component.on_execute(handle);
             if (answer != Status::kOk) {
@@ -52,23 +54,33 @@ void ExecutionContext::execute_range(std::size_t first, std::size_t count, After
     }
 }
 
-void ExecutionContext::execute_unusual(Component& component, ContextHandle handle) noexcept {
+void ExecutionContext::execute_unusual(Component& component, ContextHandle handle,
+                                       ActionScope& scope) noexcept {
+    const bool is_data_flow = plan_.kind != ExecutionKind::kEventDriven;
     const LifecycleState state = component.get_state();
-    if (state != LifecycleState::kCreated) {
-        give_notices(component, handle);
-    }
     switch (state) {
         case LifecycleState::kError:
-            static_cast<void>(component.on_error(handle));
-            return;
-        case LifecycleState::kActive:
-            // A notice may have led to Error; then this turn is over, as after a failed on_execute.
-            if (component.get_state() == LifecycleState::kActive) {
-                judge(component, ComponentAction::kExecute, component.on_execute(handle), handle);
+            give_notices(component, handle);
+            if (is_data_flow || component.machine_ != nullptr) {
+                static_cast<void>(component.on_error(handle));
             }
             return;
-        case LifecycleState::kCreated:
+        case LifecycleState::kActive:
+            give_notices(component, handle);
+            // A notice may have led to Error; then this turn is over, as after a failed on_execute.
+            if (component.get_state() != LifecycleState::kActive) {
+                return;
+            }
+            if (is_data_flow) {
+                judge(component, ComponentAction::kExecute, component.on_execute(handle), handle);
+            } else if (component.machine_ != nullptr) {
+                serve_events(component, handle, scope);
+            }
+            return;
         case LifecycleState::kInactive:
+            give_notices(component, handle);
+            return;
+        case LifecycleState::kCreated:
             return;
     }
     MAMORI_INVARIANT(2, false);  // only a corrupted state comes here
@@ -80,6 +92,21 @@ void ExecutionContext::give_notices(Component& component, ContextHandle handle) 
     if ((notices & Component::kRateNotice) != 0U) {
         judge(component, ComponentAction::kRateChanged, component.on_rate_changed(handle), handle);
     }
+    if ((notices & Component::kModeNotice) != 0U && component.mode_switch_->take_change()) {
+        judge(component, ComponentAction::kModeChanged, component.on_mode_changed(handle), handle);
+    }
+}
+
+Status ExecutionContext::tell_mode(Component& component, Instant now) noexcept {
+    if (is_busy() || !component.is_alive() || !component.mode_switch_->take_change()) {
+        // Told in its next turn, which finds the notice; or changed back before anybody was told.
+        return Status::kOk;
+    }
+    const ContextHandle handle = make_handle(now);
+    const ActionScope scope{*this, component.position_};
+    const Status answer = component.on_mode_changed(handle);
+    judge(component, ComponentAction::kModeChanged, answer, handle);
+    return answer;
 }
 
 void ExecutionContext::judge(Component& component, ComponentAction action, Status answer,
@@ -92,6 +119,9 @@ void ExecutionContext::judge(Component& component, ComponentAction action, Statu
 
 void ExecutionContext::update_range(std::size_t first, std::size_t count) noexcept {
     MAMORI_REQUIRE(3, is_in_cycle());
+    if (plan_.kind == ExecutionKind::kEventDriven) {
+        return;
+    }
     const Span<Component* const> range = participants_.subspan(first, count);
     const ContextHandle handle = make_handle(cycle_start_);
     ActionScope scope{*this, first};

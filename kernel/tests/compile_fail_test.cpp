@@ -213,6 +213,11 @@ TEST(CompileFailTest, AFifoWithoutRoomOrWithTooMuchIsRefused) {
     expect_refused("fifo_capacity", "a FIFO has room for at most 254 entries", "-DMAMORI_BREAK=255");
 }
 
+TEST(CompileFailTest, AStateMachineWithAnUnreachableStateIsRefused) {
+    verifies("SWR-RTC-006", Technique::kInterface, Polarity::kViolation);
+    expect_refused("fsm_state_unreachable", "kStateUnreachable");
+}
+
 TEST(CompileFailTest, AStatusThatIsDroppedIsRefused) {
     verifies("SWR-KRN-001", Technique::kInterface, Polarity::kViolation);
     expect_refused("status_ignored", "nodiscard");

@@ -17,9 +17,13 @@ namespace mamori::testing_support {
 using Calls = std::vector<std::string>;
 
 /// Records "<name>.<action>" into a list that several spies may share, and the handle of each call.
-class SpyComponent final : public Component {
+/// `Base` is Component or a kind of it.
+template <typename Base>
+class SpyActions : public Base {
   public:
-    SpyComponent(const char* name, Calls& calls) : Component(name), calls_(calls) {}
+    /// @param[in] arguments those of the base's constructor.
+    template <typename... Arguments>
+    explicit SpyActions(Calls& calls, const Arguments&... arguments) : Base(arguments...), calls_(calls) {}
 
     /// Answers of actions by name; kOk for those that are not named.
     std::map<std::string, Status> answers;
@@ -42,9 +46,12 @@ class SpyComponent final : public Component {
     Status on_action(ContextHandle h) noexcept override { return record("on_action", h); }
     Status on_mode_changed(ContextHandle h) noexcept override { return record("on_mode_changed", h); }
 
+  protected:
+    ~SpyActions() = default;
+
   private:
     Status record(const std::string& action) {
-        calls_.push_back(std::string(get_name()) + "." + action);
+        calls_.push_back(std::string(this->get_name()) + "." + action);
         if (inside) {
             inside(action);
         }
@@ -57,6 +64,11 @@ class SpyComponent final : public Component {
     }
 
     Calls& calls_;
+};
+
+class SpyComponent final : public SpyActions<Component> {
+  public:
+    SpyComponent(const char* name, Calls& calls) : SpyActions(calls, name) {}
 };
 
 /// Takes the calls recorded so far out of the list.

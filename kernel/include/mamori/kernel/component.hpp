@@ -28,6 +28,8 @@ struct ContextHandle {
 
 class Component;
 class ExecutionContext;
+class FsmMachine;
+class ModeSwitch;
 
 /// Where a component stands in its context. Only the component and its context write it.
 class LifecycleRegion {
@@ -38,6 +40,8 @@ class LifecycleRegion {
   private:
     friend class Component;
     friend class ExecutionContext;
+    friend class FsmComponent;
+    friend class MultiModeComponent;
 
     static constexpr std::uint32_t kRateNotice = 1U;
     static constexpr std::uint32_t kModeNotice = 2U;
@@ -50,6 +54,8 @@ class LifecycleRegion {
     std::uint32_t notices_{0U};           ///< kRateNotice, kModeNotice: to be told before the next turn
     bool is_changing_{false};             ///< on_initialize or on_finalize is being called
     ExecutionContext* context_{nullptr};  ///< the one that it participates in
+    FsmMachine* machine_{nullptr};        ///< when it is a state machine
+    ModeSwitch* mode_switch_{nullptr};    ///< when it has modes
     ActionFailure last_failure_{};
     std::size_t position_{0U};  ///< its place there
 };

@@ -17,6 +17,7 @@
 
 #include "mamori/kernel/component.hpp"
 #include "mamori/kernel/context_plan.hpp"
+#include "mamori/kernel/fsm_table.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
@@ -43,8 +44,10 @@ class ExecutionContext final {
     /// @param[in] id           identity handed to the actions, >= 0.
     /// @param[in] participants execution order; each must be in no other context.
     /// @param[in] plan         kind, periods and policy; copied, but its spans must outlive the context.
-    /// @return kOk; kPreconditionNotMet (already attached); kBadParameter (id, no participant, a null or
-    ///         already participating one, one named twice, or a plan that contradicts what ContextPlan says).
+    /// @return kOk; kPreconditionNotMet (already attached, or a state machine in a context that is not
+    ///         kEventDriven); kBadParameter (id, no participant, a null or already participating one, one
+    ///         named twice, a plan that contradicts what ContextPlan says, or a state machine whose table
+    ///         breaks a rule or whose profile names somebody else or an element that does not exist).
     Status attach(std::int32_t id, Span<Component* const> participants, const ContextPlan& plan) noexcept;
 
     /// Gives its participants up, so that they can be finalized; one in Error becomes Inactive, since Error
@@ -108,6 +111,8 @@ class ExecutionContext final {
     /// @return true when the rate has changed; a wish waits while the context is busy.
     bool apply_pending_rate() noexcept;
 
+    /// Identity from attach(); -1 while not attached.
+    std::int32_t get_id() const noexcept { return id_; }
     bool is_running() const noexcept { return is_running_; }
     std::size_t get_participant_count() const noexcept { return participants_.size(); }
 
@@ -126,7 +131,8 @@ class ExecutionContext final {
     bool take_turn() noexcept;
     /// @return kOk; kPreconditionNotMet (Stopped, or busy).
     Status begin_cycle(Instant now) noexcept;
-    /// on_execute when Active, on_error when in Error, nothing when Inactive.
+    /// on_execute when Active, on_error when in Error, nothing when Inactive. In a kEventDriven context an
+    /// Active state machine serves its events instead, and only a machine in Error gets on_error here.
     void execute(std::size_t position) noexcept { execute_range(position, 1U); }
     /// What follows each execute() while the context still counts as acting; nothing when `function` is null.
     struct AfterStep {
@@ -135,7 +141,7 @@ class ExecutionContext final {
     };
     /// execute() of `count` positions from `first` on, each followed by `after`.
     void execute_range(std::size_t first, std::size_t count, AfterStep after = {nullptr, nullptr}) noexcept;
-    /// on_state_update when Active, so not when on_execute failed in this cycle.
+    /// on_state_update when Active, so not when on_execute failed in this cycle; nothing when kEventDriven.
     void update_state(std::size_t position) noexcept { update_range(position, 1U); }
     /// update_state() of `count` positions from `first` on.
     void update_range(std::size_t first, std::size_t count) noexcept;
@@ -143,6 +149,7 @@ class ExecutionContext final {
     /// @}
 
   private:
+    friend class MultiModeComponent;
     class ActionScope;
     static constexpr std::size_t kNoPosition = std::numeric_limits<std::size_t>::max();
 
@@ -151,10 +158,15 @@ class ExecutionContext final {
     static void release_participants(Span<Component* const> participants) noexcept;
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
-    void execute_unusual(Component& component, ContextHandle handle) noexcept;
+    void execute_unusual(Component& component, ContextHandle handle, ActionScope& scope) noexcept;
     void give_notices(Component& component, ContextHandle handle) noexcept;
     static void note(Component& component, ComponentAction action, Status answer,
                      ContextHandle handle) noexcept;
+    Status tell_mode(Component& component, Instant now) noexcept;
+    Status judge_machines(Span<Component* const> participants, ExecutionKind kind) const noexcept;
+    void serve_events(Component& component, ContextHandle handle, ActionScope& scope) noexcept;
+    void act(const FsmMachine& machine, FsmElement element, ContextHandle handle,
+             ActionScope& scope) noexcept;
     void judge(Component& component, ComponentAction action, Status answer, ContextHandle handle) noexcept;
     void enter_error(Component& component, ContextHandle handle) noexcept;
     ContextHandle make_handle(Instant now) const noexcept { return {id_, now}; }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The moving part of a state machine: its state, its queue and the step that it is taking. Its component
+/// shows it to the world, and its event-driven context moves it.
+///
+/// @satisfies SWR-RTC-006      Design: docs/design/rtc_semantics.md#state-machines
+#ifndef MAMORI_KERNEL_FSM_MACHINE_HPP
+#define MAMORI_KERNEL_FSM_MACHINE_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/fsm_event_queue.hpp"
+#include "mamori/kernel/fsm_table.hpp"
+
+namespace mamori {
+
+/// What is happening to the machine while on_action is called.
+struct FsmStep {
+    enum class Phase : std::uint8_t { kNone, kExit, kTransition, kEntry };
+    Phase phase{Phase::kNone};
+    std::size_t transition{0U};  ///< row of the table
+    FsmEvent event{};
+};
+
+/// State, queue and step of one machine. The getters mean what those of FsmComponent mean.
+///
+/// Thread safety: get_queue() and post() as the queue; the rest from the core that runs the component.
+/// Time:          O(transitions). Memory: no heap; the table, profile and cells must outlive it.
+class FsmMachine final {
+  public:
+    constexpr FsmMachine(const FsmComponent& owner, const FsmTable& table, FsmProfile profile,
+                         Span<FsmEventCell> cells) noexcept
+        : owner_(owner), table_(table), profile_(profile), queue_(cells), state_(table.initial) {}
+    FsmMachine(const FsmMachine&) = delete;
+    FsmMachine& operator=(const FsmMachine&) = delete;
+
+    const FsmTable& get_table() const noexcept { return table_; }
+    FsmProfile get_profile() const noexcept { return profile_; }
+    FsmIndex get_state() const noexcept { return state_; }
+    const FsmStep& get_step() const noexcept { return step_; }
+    std::uint32_t get_ignored_count() const noexcept { return ignored_count_; }
+    const FsmEventQueue& get_queue() const noexcept { return queue_; }
+    Status post(const FsmEvent& event) noexcept { return queue_.post(event); }
+
+  private:
+    friend class ExecutionContext;
+
+    /// Initial state, empty queue.
+    void restart() noexcept;
+    /// Transition of the current state for the event; nullptr, and counted, when there is none.
+    const FsmTransition* choose_transition(const FsmEvent& event) noexcept;
+
+    const FsmComponent& owner_;
+    const FsmTable& table_;
+    FsmProfile profile_;
+    FsmEventQueue queue_;
+    FsmStep step_{};
+    std::uint32_t ignored_count_{0U};
+    FsmIndex state_;
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_FSM_MACHINE_HPP
