@@ -90,6 +90,13 @@ TEST(FlightFormatTest, SizesFollowTheCapacity) {
     EXPECT_EQ(calc_slot(4U, 3U), 0U);
 }
 
+TEST(FlightFormatTest, PlaceOfNoRecordOrInNoRingEndsInTheAssertion) {
+    verifies("SWR-REC-005", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_DEATH(static_cast<void>(calc_slot(0U, 1U)), "");
+    EXPECT_DEATH(static_cast<void>(calc_slot(1U, 0U)), "");
+    EXPECT_EQ(calc_slot(1U, 1U), 0U);
+}
+
 // A checksum is linear: a change of bits passes when the remainders of its bits cancel. No two pairs of bits
 // have the same remainder, and no pair has that of a single bit or none, so no change of one to four bits
 // passes.
@@ -158,7 +165,8 @@ TEST(FlightFormatTest, NumbersAndSeveritiesThatNobodyWritesAreNoRecord) {
         record.sequence = sequence;
         record.severity = static_cast<Severity>(severity);
         FlightRecord read{};
-        return decode_record(encode_committed(record), calc_slot(sequence, kCapacity), kCapacity, read);
+        const std::size_t slot = sequence == 0U ? 0U : calc_slot(sequence, kCapacity);
+        return decode_record(encode_committed(record), slot, kCapacity, read);
     };
 
     EXPECT_EQ(decode(1U, 0U), SlotState::kWhole);

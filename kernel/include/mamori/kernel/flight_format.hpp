@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/assert.hpp"
 #include "mamori/kernel/event_log.hpp"
 #include "mamori/kernel/time.hpp"
 
@@ -70,8 +71,10 @@ constexpr std::size_t calc_region_size(std::size_t capacity) noexcept {
 constexpr std::size_t calc_capacity(std::size_t size) noexcept {
     return size < kHeaderSize ? 0U : (size - kHeaderSize) / kRecordSize;
 }
-/// Place of a record in the ring. @param[in] sequence from 1 on. @param[in] capacity from 1 on.
+/// Place of a record in the ring. @param[in] sequence from 1 on. @param[in] capacity from 1 on; else an own
+/// bug.
 constexpr std::size_t calc_slot(std::uint64_t sequence, std::size_t capacity) noexcept {
+    MAMORI_REQUIRE(1, sequence > 0U && capacity > 0U);
     return static_cast<std::size_t>((sequence - 1U) % capacity);
 }
 
