@@ -3,61 +3,17 @@
 // Method: each case in compile_fail/ is compiled twice by the compiler of this build: as it is, which must
 // succeed (so the case breaks nothing else), and with MAMORI_BREAK, which must fail with the expected words.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
-#include <string>
 
 #include "mamori/verification/verifies.hpp"
+#include "support/compilation.hpp"
 
 namespace mamori {
 namespace {
 
+using testing_support::expect_refused;
 using verification::Polarity;
 using verification::Technique;
 using verification::verifies;
-
-struct Compilation {
-    bool has_succeeded{false};
-    std::string output;
-};
-
-Compilation compile(const std::string& name, const std::string& option) {
-    const std::string command = std::string("'") + MAMORI_TEST_COMPILER +
-                                "' -std=c++17 -fsyntax-only -fno-exceptions -fno-rtti -Wall -Werror " +
-                                option + " -I'" + MAMORI_TEST_INCLUDE + "' '" + MAMORI_TEST_CASES + "/" +
-                                name + ".cpp' 2>&1";
-    Compilation result;
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) {
-        result.output = "cannot run: " + command;
-        return result;
-    }
-    std::array<char, 4096> buffer{};
-    while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
-        result.output += buffer.data();
-    }
-    const int status = pclose(pipe);
-    // A compiler that could not be found or that crashed is no refusal.
-    if (!WIFEXITED(status) || WEXITSTATUS(status) > 1) {
-        ADD_FAILURE() << "the compiler did not do its work: " << command << "\n" << result.output;
-    }
-    result.has_succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    return result;
-}
-
-/// The case compiles as it is, and its broken form is refused with `expected` in the message.
-void expect_refused(const std::string& name, const std::string& expected,
-                    const std::string& option = "-DMAMORI_BREAK") {
-    const Compilation control = compile(name, "");
-    const Compilation broken = compile(name, option);
-
-    ASSERT_TRUE(control.has_succeeded) << control.output;
-    EXPECT_FALSE(broken.has_succeeded);
-    EXPECT_NE(broken.output.find(expected), std::string::npos) << "expected: " << expected << "\n"
-                                                               << broken.output;
-}
 
 TEST(CompileFailTest, AConnectionOfTwoPayloadTypesIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
