@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A component with parameters for the compile-must-fail cases.
+#ifndef MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARAMETER_PARTS_HPP
+#define MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARAMETER_PARTS_HPP
+
+#include "mamori/kernel/configuration_set.hpp"
+#include "mamori/kernel/constant_init.hpp"
+
+class Axis final : public mamori::Component {
+  public:
+    constexpr Axis() noexcept : Component("axis") {}
+    mamori::Parameter<double> speed{"speed", 1.0, "0.5<=x<=3.0"};
+    mamori::Parameter<int> gain{"gain", 1};
+    using Parameters = mamori::Parameters<&Axis::speed, &Axis::gain>;
+};
+inline Axis g_axis;
+inline Axis g_second_axis;
+
+#endif  // MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARAMETER_PARTS_HPP

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Components with parameters, for the tests of configurations.
+#ifndef MAMORI_KERNEL_TESTS_CONFIGURED_COMPONENTS_HPP
+#define MAMORI_KERNEL_TESTS_CONFIGURED_COMPONENTS_HPP
+
+#include <array>
+#include <cstdint>
+
+#include "mamori/kernel/component.hpp"
+#include "mamori/kernel/parameter.hpp"
+
+namespace mamori::testing_support {
+
+/// The compiler can make one and ask it.
+class Axis final : public Component {
+  public:
+    constexpr explicit Axis(const char* name = "axis") noexcept : Component(name) {}
+
+    Parameter<double> speed{"speed", 1.0, "0.5<=x<=3.0"};
+    Parameter<std::array<std::int32_t, 3U>> gains{"gains", {1, 1, 1}, "x>0"};
+    using Parameters = mamori::Parameters<&Axis::speed, &Axis::gains>;
+};
+
+/// It needs a name, so only the object itself can be asked.
+class NamedAxis final : public Component {
+  public:
+    constexpr explicit NamedAxis(const char* name) noexcept : Component(name) {}
+
+    Parameter<std::int16_t> level{"level", 0, "-10<=x<=10"};
+    using Parameters = mamori::Parameters<&NamedAxis::level>;
+};
+
+}  // namespace mamori::testing_support
+
+#endif  // MAMORI_KERNEL_TESTS_CONFIGURED_COMPONENTS_HPP
