@@ -189,6 +189,9 @@ Status ExecutionContext::stop(Instant now) noexcept {
     Status first_failure = Status::kOk;
     const ContextHandle handle = make_handle(now);
     for (std::size_t i = 0U; i < participants_.size(); ++i) {
+        if (!participants_[i]->is_alive()) {
+            continue;  // it has left by exit()
+        }
         const ActionScope scope{*this, i};
         const Status result = participants_[i]->on_shutdown(handle);
         note(*participants_[i], ComponentAction::kShutdown, result, handle);

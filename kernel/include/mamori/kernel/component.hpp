@@ -3,7 +3,7 @@
 /// An RT component: a named object with ports as members and the actions of the OMG RTC standard, which its
 /// execution context calls. A component belongs to exactly one context; the system table proves it.
 ///
-/// @satisfies SWR-KRN-011      Design: docs/design/kernel.md#components
+/// @satisfies SWR-KRN-011, SWR-RTC-010      Design: docs/design/kernel.md#components
 /// Source:   OMG RTC 1.0, LightweightRTObject, ComponentAction, DataFlowComponentAction,
 ///           FsmParticipantAction, MultiModeComponentAction
 #ifndef MAMORI_KERNEL_COMPONENT_HPP
@@ -15,6 +15,7 @@
 
 #include "mamori/kernel/action_failure.hpp"
 #include "mamori/kernel/lifecycle.hpp"
+#include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
 
@@ -125,7 +126,32 @@ class Component : public LifecycleRegion {
     ///         on_initialize or on_finalize); else on_finalize's code.
     Status finalize() noexcept;
 
-    /// True from a successful initialize() until finalize().
+    /// Ends the component wherever it stands: deactivates it when it is Active, drops its Error, finalizes
+    /// it. Its context keeps its place, which stays empty until the next initialize(). Contexts belong to the
+    /// system table and never to a component, so none is stopped.
+    /// @param[in] now instant given to on_deactivated.
+    /// @return kOk; kPreconditionNotMet (Created, so the second time too, or its context is busy); else the
+    ///         first failing code of on_deactivated and on_finalize: it is Created anyway.
+    Status exit(Instant now) noexcept;
+
+    /// @name Contexts of the component, as the standard asks for them
+    /// @{
+    /// Those that it participates in: one or none.
+    Span<ExecutionContext* const> get_participating_contexts() const noexcept {
+        return {&context_, context_ == nullptr ? 0U : 1U};
+    }
+    /// Those that it owns: none.
+    Span<ExecutionContext* const> get_owned_contexts() const noexcept { return {}; }
+    /// The context whose handle that is. @return nullptr when it does not participate in it.
+    ExecutionContext* get_context(ContextHandle handle) const noexcept;
+    /// The handle of a context, at no instant. @return kBadParameter (it does not participate there).
+    Result<ContextHandle> get_context_handle(const ExecutionContext& context) const noexcept;
+    /// Contexts come and go with the system table. @return kUnsupported.
+    Status attach_context(ExecutionContext&) noexcept { return Status::kUnsupported; }
+    Status detach_context(ContextHandle) noexcept { return Status::kUnsupported; }
+    /// @}
+
+    /// True from a successful initialize() until finalize() or exit(), whichever context is asked.
     bool is_alive() const noexcept { return get_state() != LifecycleState::kCreated; }
 
     /// The last answer to its context that was not kOk, on_aborting and on_error left out; kept until the
@@ -141,6 +167,8 @@ class Component : public LifecycleRegion {
     ~Component() = default;
 
   private:
+    Status end_life() noexcept;
+
     const char* name_;
 };
 

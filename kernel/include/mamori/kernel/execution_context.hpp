@@ -3,7 +3,7 @@
 /// Execution context: starts and stops its participants, moves them through their life cycle and runs them
 /// once per cycle in two passes, first on_execute of all, then on_state_update of all.
 ///
-/// @satisfies SWR-KRN-012, SWR-KRN-013, SWR-KRN-014, SWR-RTC-002, SWR-RTC-003, SWR-RTC-005
+/// @satisfies SWR-KRN-012, SWR-KRN-013, SWR-KRN-014, SWR-RTC-002, SWR-RTC-003, SWR-RTC-005, SWR-RTC-011
 /// Design:   docs/design/rtc_semantics.md, docs/design/kernel.md#execution-context
 /// Source:   OMG RTC 1.0, ExecutionContext; where the text leaves a choice, the design note
 ///           says which one was taken.
@@ -54,6 +54,10 @@ class ExecutionContext final {
     /// is a state in this context only.
     /// @return kOk; kPreconditionNotMet (not attached, Running, busy, or one of them is Active).
     Status detach() noexcept;
+
+    /// Participants come and go with the system table, all at once. @return kUnsupported.
+    Status add_component(Component&) noexcept { return Status::kUnsupported; }
+    Status remove_component(Component&) noexcept { return Status::kUnsupported; }
 
     /// Stopped -> Running; on_startup of every participant. A participant that refuses keeps the context
     /// Stopped; those already started get on_shutdown.
@@ -111,6 +115,8 @@ class ExecutionContext final {
     /// @return true when the rate has changed; a wish waits while the context is busy.
     bool apply_pending_rate() noexcept;
 
+    /// True while a cycle is under way, or an action of a participant is being called or hangs.
+    bool is_busy() const noexcept;
     /// Identity from attach(); -1 while not attached.
     std::int32_t get_id() const noexcept { return id_; }
     bool is_running() const noexcept { return is_running_; }
@@ -154,7 +160,6 @@ class ExecutionContext final {
     static constexpr std::size_t kNoPosition = std::numeric_limits<std::size_t>::max();
 
     bool is_in_cycle() const noexcept { return is_in_cycle_.load(std::memory_order_relaxed); }
-    bool is_busy() const noexcept;
     static void release_participants(Span<Component* const> participants) noexcept;
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
