@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`./mamori fuzz`: which harnesses, for how long, and what came of it.
+
+@satisfies SWR-VER-010, SWR-VER-011      Design: docs/design/test_strength.md#fuzzing
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.profiles.input_error import nearest_names
+from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
+from mamori.verification.command.project import ROOT, Project
+from mamori.verification.fuzz.harness import (
+    FuzzError, Harness, Run, build_harnesses, find_harnesses, keep_inputs, run_harness)  # fmt: skip
+
+FOLDER = Path(__file__).resolve().parent
+SCHEMA = "mamori.fuzz/1"
+SHOWN_LINES = 20
+FAULT = re.compile(r"ERROR: |runtime error: |deadly signal")
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the user asked for."""
+
+    names: tuple[str, ...] = ()
+    seconds: int = 30
+    jobs: int = 1
+    keep: bool = False
+
+
+def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
+    """Runs the harnesses of `folder` against the kernel below `root`. @return exit status; 1 when one found something, did
+    nothing, or when there is none at all. @raise UsageError for a harness that does not exist."""
+    project = Project(root)
+    try:
+        harnesses = choose(find_harnesses(folder, root / "build" / "fuzz"), request.names, folder)
+        print(f"building {len(harnesses)} harnesses with address and undefined-behaviour sanitizers", flush=True)
+        sources = sorted((root / "kernel" / "src").rglob("*.cpp"))
+        build_harnesses(harnesses, sources, list_includes(root), request.jobs)
+        with ThreadPoolExecutor(request.jobs) as pool:
+            runs = list(pool.map(lambda one: run_harness(one, request.seconds, _say), harnesses))
+        kept = {run.harness.name: keep_inputs(run.harness) for run in runs if run.passed} if request.keep else {}
+    except FuzzError as error:
+        print(error, file=sys.stderr)
+        return EXIT_FAILED
+    write_json(project.evidence / "fuzz" / "fuzz.json", runs, request.seconds)
+    for line in describe(runs, kept):
+        print(line)
+    return EXIT_OK if all(run.passed for run in runs) else EXIT_FAILED
+
+
+def choose(harnesses: Sequence[Harness], names: Sequence[str], folder: Path) -> list[Harness]:
+    """@raise FuzzError when there is nothing to run. @raise UsageError for an unknown name."""
+    if not harnesses:
+        raise FuzzError(f"{folder} holds no <name>_fuzz.cpp; nothing was fuzzed")
+    known = {harness.name: harness for harness in harnesses}
+    for name in names:
+        if name not in known:
+            raise UsageError(f"fuzz: there is no harness '{name}'; {nearest_names(name, known)}")
+    return [known[name] for name in dict.fromkeys(names)] or list(harnesses)
+
+
+def list_includes(root: Path) -> list[Path]:
+    """Public headers of the layers that run on a controller."""
+    return sorted(path for layer in ("kernel", "safety", "ports") for path in (root / layer).glob("**/include"))
+
+
+def describe(runs: Sequence[Run], kept: dict[str, int]) -> list[str]:
+    """A line per harness, and for each that failed the input, its log, and the command that shows it again."""
+    lines = []
+    for run in runs:
+        rate = run.executions / run.seconds if run.seconds > 0.0 else 0.0
+        name = run.harness.name
+        line = (f"{name}: {'passed' if run.passed else 'FAILED'}: {run.executions} executions in {run.seconds:.0f} s"
+                f" ({rate:.0f}/s), {run.coverage} edges, {run.new_inputs} new inputs")  # fmt: skip
+        lines.append(line + (f", {kept[name]} kept" if name in kept else ""))
+        if not run.passed:
+            lines += [f"    | {words}" for words in read_fault(run.harness.log)]
+            lines.append(f"    {run.problem}; log: {run.harness.log}")
+            for finding in run.findings:
+                lines.append(f"    finding: {finding}")
+                lines.append(f"    again:   {shlex.join((str(run.harness.program), str(finding)))}")
+    findings = sum(len(run.findings) for run in runs)
+    lines.append(f"fuzz: {len(runs)} harnesses, {findings} findings")
+    return lines
+
+
+def read_fault(log: Path) -> list[str]:
+    """What the sanitizer said first, or else the last lines."""
+    lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+    first = next((number for number, line in enumerate(lines) if FAULT.search(line)), max(0, len(lines) - SHOWN_LINES))
+    return lines[first : first + SHOWN_LINES]
+
+
+def write_json(path: Path, runs: Sequence[Run], seconds: int) -> None:
+    """Writes the whole file or nothing."""
+    content = {
+        "schema": SCHEMA,
+        "seconds": seconds,
+        "harnesses": [
+            {"name": run.harness.name, "executions": run.executions, "edges": run.coverage, "wall_s": round(run.seconds, 1),
+             "new_inputs": run.new_inputs, "findings": [path.name for path in run.findings], "problem": run.problem}
+            for run in runs
+        ],
+    }  # fmt: skip
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_suffix(".part")
+    part.write_text(json.dumps(content, indent=1), encoding="utf-8")
+    os.replace(part, path)
+
+
+def _say(text: str) -> None:
+    print(text, flush=True)
