@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catalogue.hpp"
+
+namespace mamori::verification::bench {
+namespace {
+
+/// The first words that a reader sees are 0, 1, 0, 1 ...; a value that is lost or stale changes their sum.
+std::uint64_t calc_sum_of_words(std::uint64_t count, std::size_t) {
+    return count / 2U;
+}
+
+/// Each cycle runs each component once.
+std::uint64_t calc_component_runs(std::uint64_t count, std::size_t components) {
+    return count * components;
+}
+
+}  // namespace
+
+std::vector<Case> make_catalogue() {
+    std::vector<Case> ports;
+    for (const std::size_t size : kPortSizes) {
+        ports.push_back({"port", size, "ns per write and read", 1U, &calc_sum_of_words, {}});
+    }
+    add_mamori_port(ports);
+    add_port_floors(ports);
+    add_peers(ports);
+
+    std::vector<Case> schedulers;
+    for (const std::size_t count : kComponentCounts) {
+        schedulers.push_back(
+            {"scheduler", count, "ns per component and cycle", count, &calc_component_runs, {}});
+    }
+    add_mamori_executive(schedulers);
+    add_scheduler_floors(schedulers);
+
+    std::vector<Case> wake_ups{
+        {"wake-up", 64U, "ns per wake-up, same processor", 2U, &calc_sum_of_words, {}}};
+    add_wake_up_floor(wake_ups);
+
+    std::vector<Case> all = std::move(ports);
+    all.insert(all.end(), schedulers.begin(), schedulers.end());
+    all.insert(all.end(), wake_ups.begin(), wake_ups.end());
+    return all;
+}
+
+}  // namespace mamori::verification::bench

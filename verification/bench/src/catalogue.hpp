@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Every case that this program can measure. The peers come from the file that CMake writes, which names
+/// those it found.
+#ifndef MAMORI_VERIFICATION_BENCH_CATALOGUE_HPP
+#define MAMORI_VERIFICATION_BENCH_CATALOGUE_HPP
+
+#include <vector>
+
+#include "subject.hpp"
+
+namespace mamori::verification::bench {
+
+/// @return all cases: port write and read, scheduler, wake-up.
+std::vector<Case> make_catalogue();
+
+/// @name One function per file of subjects
+/// @{
+void add_port_floors(std::vector<Case>& ports);
+void add_mamori_port(std::vector<Case>& ports);
+void add_scheduler_floors(std::vector<Case>& schedulers);
+void add_mamori_executive(std::vector<Case>& schedulers);
+void add_wake_up_floor(std::vector<Case>& wake_ups);
+/// @}
+
+/// @name Written by CMake
+/// @{
+void add_peers(std::vector<Case>& ports);
+std::vector<AbsentPeer> get_absent_peers();
+/// @}
+
+}  // namespace mamori::verification::bench
+
+#endif  // MAMORI_VERIFICATION_BENCH_CATALOGUE_HPP

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Components that do next to nothing, for the scheduler cases. Their classes are known in one source file
+/// only, so no caller's compiler can replace a virtual call by what it would do.
+#ifndef MAMORI_VERIFICATION_BENCH_COMPONENT_POOL_HPP
+#define MAMORI_VERIFICATION_BENCH_COMPONENT_POOL_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "mamori/kernel/component.hpp"
+
+namespace mamori::verification::bench {
+
+/// Components of several classes in turn, as a system has them, side by side in memory.
+class ComponentPool {
+  public:
+    /// @param[in] count components, > 0.
+    explicit ComponentPool(std::size_t count);
+    ~ComponentPool();
+    ComponentPool(const ComponentPool&) = delete;
+    ComponentPool& operator=(const ComponentPool&) = delete;
+
+    /// @param[in] index 0 .. count - 1.
+    Component& at(std::size_t index) noexcept;
+    /// @return how often on_execute() of any of them was called.
+    std::uint64_t count_runs() const noexcept;
+
+  private:
+    struct Block;
+    std::size_t block_count_;
+    std::unique_ptr<Block[]> blocks_;
+};
+
+}  // namespace mamori::verification::bench
+
+#endif  // MAMORI_VERIFICATION_BENCH_COMPONENT_POOL_HPP

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Does one operation a given number of times, for callgrind to count. Only what runs inside the functions
+/// measured_... counts: callgrind collects while one of them is running, and zeroes what it has when
+/// begin_counting() is called, after a warm-up.
+///
+///     mamori_exact --about                     operations, compiler and C library as JSON
+///     mamori_exact OPERATION COUNT [--sealed]  --sealed: without any system call, or the process is killed
+///
+/// @satisfies SWR-BEN-006, SWR-BEN-007      Design: docs/design/bench.md#exact-counts
+#include <gnu/libc-version.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+#include "executive_rig.hpp"
+#include "mamori/kernel/data_port.hpp"
+#include "seal.hpp"
+#include "seqlock.hpp"
+#include "subject.hpp"
+
+namespace mamori::verification::bench {
+namespace {
+
+/// A port with a value to write; the value that was read last is kept so that reading is not left out.
+template <std::size_t kSize>
+struct PortRig {
+    Message<kSize> value{};
+    Message<kSize> read{};
+    OutPort<Message<kSize>> out{"out"};
+    InPort<Message<kSize>> in{"in"};
+
+    void exchange() noexcept {
+        out.write(value);
+        out.publish(Instant{});
+        touch(out);
+        in.latch(out);
+        touch(in);
+        read[0] = in.read()[0];
+    }
+};
+
+struct SeqlockRig {
+    Message<64U> value{};
+    Message<64U> read{};
+    Seqlock<Message<64U>> lock;
+};
+
+PortRig<8U> g_port_8;
+PortRig<64U> g_port_64;
+SeqlockRig g_seqlock;
+ComponentPool g_pool{1U};
+Component* g_component = &g_pool.at(0U);
+ExecutiveRig<10U, CountingClock> g_ten;
+ExecutiveRig<20U, CountingClock> g_twenty;
+ExecutiveRig<10U, CountingClock> g_supervised_ten;
+ExecutiveRig<20U, CountingClock> g_supervised_twenty;
+ExecutiveRig<10U, SystemClock> g_clocked_ten;
+ExecutiveRig<20U, SystemClock> g_clocked_twenty;
+void* volatile g_leftover;
+
+}  // namespace
+
+// The names are what callgrind is told; C linkage keeps them as they are written.
+extern "C" {
+[[gnu::noinline]] void measured_port_8() {
+    g_port_8.exchange();
+}
+[[gnu::noinline]] void measured_port_64() {
+    g_port_64.exchange();
+}
+[[gnu::noinline]] void measured_seqlock_64() {
+    g_seqlock.lock.write(g_seqlock.value);
+    touch(g_seqlock);
+    static_cast<void>(g_seqlock.lock.try_read(g_seqlock.read));
+    touch(g_seqlock);
+}
+[[gnu::noinline]] void measured_virtual_call() {
+    static_cast<void>(g_component->on_execute({0, Instant{}}));
+    touch(g_component);
+}
+[[gnu::noinline]] void measured_cycle_10() {
+    g_ten.run_cycle();
+}
+[[gnu::noinline]] void measured_cycle_20() {
+    g_twenty.run_cycle();
+}
+[[gnu::noinline]] void measured_supervised_cycle_10() {
+    g_supervised_ten.run_supervised_cycle();
+}
+[[gnu::noinline]] void measured_supervised_cycle_20() {
+    g_supervised_twenty.run_supervised_cycle();
+}
+[[gnu::noinline]] void measured_clocked_cycle_10() {
+    g_clocked_ten.run_supervised_cycle();
+}
+[[gnu::noinline]] void measured_clocked_cycle_20() {
+    g_clocked_twenty.run_supervised_cycle();
+}
+// Two faults on purpose: the checks over the others must find them.
+[[gnu::noinline]] void measured_seeded_heap() {
+    g_leftover = std::malloc(8U);
+    std::free(g_leftover);
+}
+[[gnu::noinline]] void measured_seeded_system_call() {
+    syscall(SYS_getppid);
+}
+
+/// callgrind zeroes its counts here.
+[[gnu::noinline]] void begin_counting() {
+    asm volatile("" : : : "memory");
+}
+}
+
+namespace {
+
+struct Operation {
+    const char* name;
+    void (*work)();
+};
+
+constexpr std::array<Operation, 12> kOperations{{
+    {"port_8", &measured_port_8},
+    {"port_64", &measured_port_64},
+    {"seqlock_64", &measured_seqlock_64},
+    {"virtual_call", &measured_virtual_call},
+    {"cycle_10", &measured_cycle_10},
+    {"cycle_20", &measured_cycle_20},
+    {"supervised_cycle_10", &measured_supervised_cycle_10},
+    {"supervised_cycle_20", &measured_supervised_cycle_20},
+    {"clocked_cycle_10", &measured_clocked_cycle_10},
+    {"clocked_cycle_20", &measured_clocked_cycle_20},
+    {"seeded_heap", &measured_seeded_heap},
+    {"seeded_system_call", &measured_seeded_system_call},
+}};
+
+constexpr unsigned long kWarmUpCount = 16U;
+
+int print_about() {
+    std::printf("{\"compiler\": \"%s\", \"c_library\": \"glibc %s\", \"operations\": [",
+                MAMORI_BENCH_COMPILER, gnu_get_libc_version());
+    for (std::size_t i = 0U; i < kOperations.size(); ++i) {
+        std::printf("%s\"%s\"", i == 0U ? "" : ", ", kOperations[i].name);
+    }
+    std::puts("]}");
+    return 0;
+}
+
+int fail(const char* text, const char* word) {
+    std::fprintf(stderr, "mamori_exact: %s '%s'; see mamori_exact --about\n", text, word);
+    return 2;
+}
+
+int run(const Operation& operation, unsigned long count, bool is_sealed) {
+    g_supervised_ten.supervise();
+    g_supervised_twenty.supervise();
+    g_clocked_ten.supervise();
+    g_clocked_twenty.supervise();
+    for (unsigned long i = 0U; i < kWarmUpCount; ++i) {
+        operation.work();
+    }
+    if (is_sealed && !seal_process()) {
+        std::fputs("mamori_exact: this system does not let a process give its system calls up\n", stderr);
+        return 1;
+    }
+    begin_counting();
+    for (unsigned long i = 0U; i < count; ++i) {
+        operation.work();
+    }
+    leave_sealed(0);
+}
+
+}  // namespace
+}  // namespace mamori::verification::bench
+
+int main(int argc, char** argv) {
+    using namespace mamori::verification::bench;
+    if (argc == 2 && std::strcmp(argv[1], "--about") == 0) {
+        return print_about();
+    }
+    const bool is_sealed = argc == 4 && std::strcmp(argv[3], "--sealed") == 0;
+    if (argc != 3 && !is_sealed) {
+        return fail("wants OPERATION COUNT [--sealed], not", argc > 1 ? argv[1] : "");
+    }
+    char* end = nullptr;
+    const unsigned long count = std::strtoul(argv[2], &end, 10);
+    if (count == 0U || *end != '\0') {
+        return fail("COUNT is a whole number from 1 on, not", argv[2]);
+    }
+    for (const Operation& operation : kOperations) {
+        if (std::strcmp(operation.name, argv[1]) == 0) {
+            return run(operation, count, is_sealed);
+        }
+    }
+    return fail("there is no operation", argv[1]);
+}

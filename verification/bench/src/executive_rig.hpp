@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A running system of `kCount` components that do next to nothing, in one window: what is left is the cost
+/// of the executive.
+#ifndef MAMORI_VERIFICATION_BENCH_EXECUTIVE_RIG_HPP
+#define MAMORI_VERIFICATION_BENCH_EXECUTIVE_RIG_HPP
+
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include "component_pool.hpp"
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/safety/execution_supervisor.hpp"
+#include "minimal_host.hpp"
+
+namespace mamori::verification::bench {
+
+/// Executive over `kCount` components, started. `Clock` is what its host reads.
+template <std::size_t kCount, typename Clock>
+class ExecutiveRig {
+  public:
+    ExecutiveRig() : table_(make_table(pool_, std::make_index_sequence<kCount>{})), executive_(table_) {
+        if (executive_.initialize() != Status::kOk || executive_.start() != Status::kOk) {
+            throw std::runtime_error("the executive did not start");
+        }
+    }
+
+    /// Lets a supervisor listen that judges every component. Call once.
+    void supervise() {
+        for (std::size_t i = 0U; i < kCount; ++i) {
+            if (supervisor_.watch(i, kLimits) != Status::kOk) {
+                throw std::runtime_error("a component could not be watched");
+            }
+        }
+        executive_.set_observer(&supervisor_);
+    }
+
+    /// One cycle of the window.
+    void run_cycle() noexcept { static_cast<void>(executive_.run_window(0U, host_)); }
+
+    /// One cycle, then the judgement over all components, as a supervision window does it.
+    void run_supervised_cycle() noexcept {
+        run_cycle();
+        is_healthy_ = supervisor_.step(host_.get_now()) == safety::GlobalStatus::kOk && is_healthy_;
+    }
+
+    /// @return runs of all components so far; 0 when a supervised cycle was not judged healthy.
+    std::uint64_t count_runs() const noexcept { return is_healthy_ ? pool_.count_runs() : 0U; }
+
+  private:
+    /// Wide enough for a machine that is busy with other work: nothing may expire here.
+    static constexpr Duration kFrame = Duration{3'600'000'000'000};
+    static constexpr safety::ComponentLimits kLimits{{1U, 2U}, {Duration{0}, kFrame}};
+
+    template <std::size_t... kIndex>
+    static auto make_table(ComponentPool& pool, std::index_sequence<kIndex...>) noexcept {
+        return system(frame(kFrame),
+                      window("bench", Duration{0}, kFrame, budget(kFrame), run(pool.at(kIndex)...)));
+    }
+    using Table = decltype(make_table(std::declval<ComponentPool&>(), std::make_index_sequence<kCount>{}));
+
+    ComponentPool pool_{kCount};
+    const Table table_;
+    ExecutiveFor<Table> executive_;
+    safety::ExecutionStorage<kCount> storage_{};
+    safety::ExecutionSupervisor supervisor_{storage_, kFrame};
+    MinimalHost<Clock> host_;
+    bool is_healthy_{true};
+};
+
+}  // namespace mamori::verification::bench
+
+#endif  // MAMORI_VERIFICATION_BENCH_EXECUTIVE_RIG_HPP

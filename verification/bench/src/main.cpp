@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The benchmark program: measures what is asked and writes the samples as JSON. It judges nothing;
+/// verification/bench does.
+///
+/// @satisfies SWR-BEN-001, SWR-BEN-002      Design: docs/design/bench.md#method
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "catalogue.hpp"
+#include "rounds.hpp"
+
+namespace mamori::verification::bench {
+namespace {
+
+using nlohmann::json;
+
+struct Options {
+    Effort effort{};
+    std::vector<std::string> only{};
+    std::string out{};
+};
+
+json to_json(const std::vector<AbsentPeer>& absent) {
+    json list = json::array();
+    for (const AbsentPeer& peer : absent) {
+        list.push_back({{"name", peer.name}, {"reason", peer.reason}});
+    }
+    return list;
+}
+
+json to_json(const Measured& measured) {
+    json subjects = json::array();
+    for (const Series& series : measured.series) {
+        subjects.push_back(
+            {{"name", series.name}, {"batch_count", series.batch_count}, {"rounds_ns", series.rounds}});
+    }
+    return {{"metric", measured.metric},
+            {"size", measured.size},
+            {"unit", measured.unit},
+            {"subjects", subjects},
+            {"absent", to_json(measured.absent)}};
+}
+
+std::vector<Case> select(const std::vector<std::string>& only) {
+    std::vector<Case> cases = make_catalogue();
+    const auto is_unwanted = [&only](const Case& each) {
+        return !only.empty() && std::find(only.begin(), only.end(), each.metric) == only.end();
+    };
+    cases.erase(std::remove_if(cases.begin(), cases.end(), is_unwanted), cases.end());
+    return cases;
+}
+
+int run(const Options& options) {
+    const auto tell = [](const std::string& line) { std::cout << line << std::endl; };
+    const std::vector<Measured> results = measure(select(options.only), options.effort, tell);
+    json document{{"schema", "mamori.bench.samples/1"},
+                  {"compiler", MAMORI_BENCH_COMPILER},
+                  {"flags", MAMORI_BENCH_FLAGS},
+                  {"effort",
+                   {{"rounds", options.effort.rounds},
+                    {"batches", options.effort.batches},
+                    {"batch_ns", options.effort.batch_ns}}},
+                  {"absent", to_json(get_absent_peers())},
+                  {"cases", json::array()}};
+    for (const Measured& each : results) {
+        document["cases"].push_back(to_json(each));
+    }
+    std::ofstream file(options.out);
+    file << document.dump(1) << '\n';
+    file.close();
+    if (!file) {
+        std::cerr << options.out << ": the samples could not be written; check the folder\n";
+        return 1;
+    }
+    return 0;
+}
+
+}  // namespace
+}  // namespace mamori::verification::bench
+
+int main(int argc, char** argv) {
+    mamori::verification::bench::Options options;
+    CLI::App app{"Measures Mamori's operations beside floors and peers; ./mamori bench judges the samples."};
+    app.add_option("--out", options.out, "JSON file for the samples")->required();
+    app.add_option("--rounds", options.effort.rounds, "rounds")->check(CLI::Range(1, 1000));
+    app.add_option("--batches", options.effort.batches, "batches of each subject in a round")
+        ->check(CLI::Range(1, 1000));
+    app.add_option("--batch-ns", options.effort.batch_ns, "least time of one batch [ns]")
+        ->check(CLI::Range(1, 1'000'000'000));
+    app.add_option("--only", options.only, "metrics to measure")
+        ->check(CLI::IsMember({"port", "scheduler", "wake-up"}));
+    CLI11_PARSE(app, argc, argv);
+    try {
+        return mamori::verification::bench::run(options);
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << '\n';
+        return 1;
+    }
+}

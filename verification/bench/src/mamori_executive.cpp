@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Ours in the scheduler cases: components run by the executive, without supervision and with it.
+#include "catalogue.hpp"
+#include "executive_rig.hpp"
+
+namespace mamori::verification::bench {
+namespace {
+
+template <std::size_t kCount>
+class Unsupervised final : public Subject {
+  public:
+    std::uint64_t run(std::uint64_t count) override {
+        const std::uint64_t before = rig_.count_runs();
+        for (std::uint64_t i = 0U; i < count; ++i) {
+            rig_.run_cycle();
+        }
+        return rig_.count_runs() - before;
+    }
+
+  private:
+    ExecutiveRig<kCount, CountingClock> rig_;
+};
+
+template <std::size_t kCount>
+class Supervised final : public Subject {
+  public:
+    Supervised() { rig_.supervise(); }
+
+    std::uint64_t run(std::uint64_t count) override {
+        const std::uint64_t before = rig_.count_runs();
+        for (std::uint64_t i = 0U; i < count; ++i) {
+            rig_.run_supervised_cycle();
+        }
+        return rig_.count_runs() - before;
+    }
+
+  private:
+    ExecutiveRig<kCount, SystemClock> rig_;
+};
+
+}  // namespace
+
+void add_mamori_executive(std::vector<Case>& schedulers) {
+    add_to_schedulers<Unsupervised>(schedulers, "mamori component");
+    add_to_schedulers<Supervised>(schedulers, "mamori supervised component");
+}
+
+}  // namespace mamori::verification::bench

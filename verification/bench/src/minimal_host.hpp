@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The cheapest host there can be, so that the executive is measured and not a port: it calls the work and
+/// asks the clock.
+#ifndef MAMORI_VERIFICATION_BENCH_MINIMAL_HOST_HPP
+#define MAMORI_VERIFICATION_BENCH_MINIMAL_HOST_HPP
+
+#include <time.h>
+
+#include <cstddef>
+
+#include "mamori/kernel/window_host.hpp"
+
+namespace mamori::verification::bench {
+
+/// @return the monotonic clock of the system.
+inline Instant read_clock() noexcept {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return Instant{static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec};
+}
+
+/// A clock that costs nothing: each reading is one nanosecond after the last.
+class CountingClock {
+  public:
+    Instant read() const noexcept { return Instant{++now_ns_}; }
+
+  private:
+    mutable std::int64_t now_ns_{0};
+};
+
+/// The clock that a port on Linux reads.
+class SystemClock {
+  public:
+    Instant read() const noexcept { return read_clock(); }
+};
+
+template <typename Clock>
+class MinimalHost final : public WindowHost {
+  public:
+    Instant get_now() const noexcept override { return clock_.read(); }
+
+    bool run_within(std::size_t, Work work, Instant) noexcept override {
+        work.function(work.argument);
+        return true;
+    }
+
+  private:
+    Clock clock_;
+};
+
+}  // namespace mamori::verification::bench
+
+#endif  // MAMORI_VERIFICATION_BENCH_MINIMAL_HOST_HPP

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Measures cases in rounds. In a round each case is visited once, and within a case its subjects take turns
+/// batch by batch, so that whatever disturbs the machine for longer than a few batches disturbs all of them
+/// alike.
+///
+/// @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
+#ifndef MAMORI_VERIFICATION_BENCH_ROUNDS_HPP
+#define MAMORI_VERIFICATION_BENCH_ROUNDS_HPP
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "subject.hpp"
+
+namespace mamori::verification::bench {
+
+/// How much is measured.
+struct Effort {
+    std::uint32_t rounds{9U};
+    std::uint32_t batches{21U};  ///< of each subject in a round
+    /// Least time of one batch: far below the time slice of a scheduler, so that most batches are not
+    /// interrupted.
+    std::uint64_t batch_ns{400'000U};
+};
+
+/// Times of one subject: for each round the median of its batches, in the unit of the case.
+struct Series {
+    std::string name;
+    std::uint64_t batch_count;  ///< operations in a batch
+    std::vector<double> rounds;
+};
+
+/// A measured case, and the subjects that could not be made, with the reason.
+struct Measured {
+    std::string metric;
+    std::size_t size;
+    std::string unit;
+    std::vector<Series> series;
+    std::vector<AbsentPeer> absent;
+};
+
+/// Measures `cases`. @param[in] tell takes a line of progress.
+/// @throw std::runtime_error when a subject's sum shows that it did not do its work.
+std::vector<Measured> measure(const std::vector<Case>& cases, const Effort& effort,
+                              const std::function<void(const std::string&)>& tell);
+
+}  // namespace mamori::verification::bench
+
+#endif  // MAMORI_VERIFICATION_BENCH_ROUNDS_HPP
