@@ -77,6 +77,11 @@ def make_parser(with_trace: bool = False) -> Parser:
     add("build", with_project=True).add_argument("--preset", default=RELEASE, metavar="NAME")
     add("verify", with_project=True)
     recorder_log.add_arguments(commands.add_parser("log", allow_abbrev=False))
+    bench = add("bench")
+    bench.add_argument("--only", nargs="+", default=[], metavar="NAME", action="extend")
+    bench.add_argument("--out", type=Path, metavar="DIR")
+    for option in ("--quick", "--gate", "--list", "--accept"):
+        bench.add_argument(option, action="store_true")
     if with_trace:
         from mamori.trace.command import add_arguments
 
@@ -98,10 +103,21 @@ def run(argv: list[str]) -> int:
             return jobs.verify(arguments.jobs, arguments.project)
         case "log":
             return recorder_log.run(arguments)
+        case "bench":
+            return _run_bench(arguments)
         case _:
             from mamori.trace.command import run as run_trace
 
             return run_trace(arguments)
+
+
+def _run_bench(arguments: argparse.Namespace) -> int:
+    from mamori.verification.bench.command import Request, bench, list_benches
+
+    if arguments.list:
+        return list_benches()
+    request = Request(tuple(arguments.only), arguments.quick, arguments.gate, arguments.accept, arguments.out)
+    return bench(request, arguments.jobs)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

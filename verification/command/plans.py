@@ -52,6 +52,19 @@ def proof_step(name: str, file: str, needs: tuple[str, ...] = (BUILD,), slow: bo
     )
 
 
+def benchmark_step() -> Step:
+    """Exact counts against their baseline, and a short run of the benchmarks. Times are no part of any test."""
+    return Step(
+        name="exact instruction counts",
+        commands=(
+            ("cmake", "--build", "{build}", "--target", "mamori_bench", "mamori_exact", "--parallel", "{jobs}"),
+            (*PYTEST, "verification/proofs/test_exact_counts.py", "verification/proofs/test_benchmarks.py"),
+        ),
+        needs=(BUILD,),
+        result="proof-exact_counts.xml",
+    )
+
+
 HOST_TOOLS = Step(name="tests of the host tools", commands=(PYTEST,), result="python-tools.xml")
 LAYERS = Step(name="layer check", commands=((*PYTHON, "mamori.verification.tools.check_layers"),))
 
@@ -137,6 +150,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         proof_step("stack proof", "stack", needs=()),
         proof_step("loop proof", "loops", needs=()),
         proof_step("consumer proof", "consumer"),
+        benchmark_step(),
         build_step(SANITIZED, slow=True),
         ctest_step(SANITIZED, slow=True),
         proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}"), slow=True),

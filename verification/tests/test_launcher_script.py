@@ -104,7 +104,8 @@ def test_second_run_installs_nothing(box: Box) -> None:
 @pytest.mark.parametrize(
     ("words", "wanted", "unwanted"),
     [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
-     (("build", "--preset", "host-coverage"), "clang-19", "git")],
+     (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
+     (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev")],
 )  # fmt: skip
 def test_each_command_needs_its_groups_only(box: Box, words: tuple[str, ...], wanted: str, unwanted: str) -> None:
     box.run(*words)
@@ -161,6 +162,29 @@ def test_machine_without_apt_is_told_what_it_needs(box: Box) -> None:
     assert "libsimbody-dev" in done.stderr
 
 
+@pytest.mark.verifies("SWR-BEN-002", technique="fault_injection", polarity="violation")
+def test_peers_that_cannot_be_installed_do_not_stop_the_benchmarks(box: Box) -> None:
+    box.install(*PACKAGES_OF_DEMO, "valgrind", "liblcm-dev")
+
+    done = box.run("bench", "--quick", FAKE_APT_FAILS="-y")
+
+    assert done.returncode == 0, done.stderr
+    assert "could not install libboost-dev cyclonedds-dev cyclonedds-tools" in done.stderr
+    assert "going on without them" in done.stdout
+    assert "python -P -m mamori.verification.command bench --quick" in box.take_calls()
+
+
+@pytest.mark.verifies("SWR-BEN-002")
+def test_peers_are_installed_with_the_benchmarks_only(box: Box) -> None:
+    box.install(*PACKAGES_OF_DEMO, "valgrind")
+
+    box.run("bench", "--list")
+    assert not any(call.startswith("apt-get") for call in box.take_calls())
+
+    box.run("bench")
+    assert any("install libboost-dev liblcm-dev" in call for call in box.take_calls())
+
+
 @pytest.mark.verifies("SWR-CLI-003")
 def test_environment_is_made_from_the_lock_with_hashes(box: Box) -> None:
     box.run("trace", "check")
@@ -205,7 +229,7 @@ def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004")
-@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log"])
+@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench"])
 def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
     bare = box.folder / "bare"
     bare.mkdir()
@@ -220,7 +244,7 @@ def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
-@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log"])
+@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench"])
 def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
     subparsers = next(action for action in make_parser()._actions if action.dest == "command")
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`./mamori bench`: build, measure, count, judge, show.
+
+@satisfies SWR-BEN-003, SWR-BEN-005, SWR-BEN-008      Design: docs/design/bench.md#bench
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TextIO
+
+from mamori.profiles.input_error import InputError, nearest_names
+from mamori.verification.bench import programs as tools
+from mamori.verification.bench.bars import Bars, load_bars
+from mamori.verification.bench.baseline import (FILE, Baseline, CountResult, calc_count, judge_count, load_baseline,
+                                                write_baseline)  # fmt: skip
+from mamori.verification.bench.callgrind import ask_about, makes_system_calls, run_profiles
+from mamori.verification.bench.judge import judge
+from mamori.verification.bench.programs import NORMAL, QUICK, Effort, Programs
+from mamori.verification.bench.record import Run, collect_host, make_record, write_record
+from mamori.verification.bench.samples import Samples, read_samples
+from mamori.verification.bench.table import show_run
+from mamori.verification.command.environment import collect_environment
+from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, StepError, UsageError
+from mamori.verification.command.process import Tick
+from mamori.verification.command.project import ROOT, Project
+from mamori.verification.command.steps import Context, Step, all_passed, run_steps
+
+EXACT = "exact"
+BENCHES = {
+    "port": "write and read of a port, one thread: 8 B, 64 B, 1 KB, 64 KB",
+    "scheduler": "a component per cycle, with and without supervision: 10, 100, 1000 components",
+    "wake-up": "wake-up of another thread: the floor only, until there is a real-time port",
+    EXACT: "exact instruction counts (callgrind), and no heap or system call after start",
+}
+SEALED = ("port_8", "port_64", "cycle_20", "supervised_cycle_20")
+"""Operations that may neither use the heap nor make a system call; their clocks cost nothing, since clocks belong to ports."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the user asked for. @raise UsageError from check() for a name that is none, or a folder that takes no file."""
+
+    only: tuple[str, ...] = ()
+    is_quick: bool = False
+    gates: bool = False
+    accepts: bool = False
+    out: Path | None = None
+
+    def check(self) -> None:
+        for name in self.only:
+            if name not in BENCHES:
+                raise UsageError(f"bench has no benchmark '{name}'; {nearest_names(name, BENCHES)}")
+        if self.accepts and self.only and EXACT not in self.only:
+            raise UsageError(f"bench --accept is about exact counts; leave --only out, or name '{EXACT}' with it")
+        if self.out is not None:
+            try:
+                self.out.mkdir(parents=True, exist_ok=True)
+                with tempfile.TemporaryFile(dir=self.out):
+                    pass
+            except OSError as error:
+                raise UsageError(f"{self.out}: results cannot be written there ({error.strerror}); name a folder that you "
+                                 "may write to") from error  # fmt: skip
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Benchmarks to run, in their own order."""
+        if self.accepts:
+            return (EXACT,)
+        return tuple(name for name in BENCHES if not self.only or name in self.only)
+
+    @property
+    def metrics(self) -> tuple[str, ...]:
+        return tuple(name for name in self.names if name != EXACT)
+
+    @property
+    def effort(self) -> Effort:
+        return QUICK if self.is_quick else NORMAL
+
+
+@dataclass
+class Work:
+    """The steps of one call and what they find."""
+
+    request: Request
+    bars: Bars
+    baseline: Baseline | None
+    programs: Programs
+    samples_file: Path
+    iceoryx2_reason: str = ""
+    run: Run = field(default_factory=Run)
+
+    def build(self, context: Context, tick: Tick, log: TextIO) -> None:
+        if "port" in self.request.names:
+            self.iceoryx2_reason = tools.build_iceoryx2(self.programs, tick, log)
+        targets = [*(["mamori_bench"] if self.request.metrics else []), *(["mamori_exact"] if EXACT in self.request.names else [])]
+        tools.build_programs(self.programs, targets, context.jobs, tick, log)
+
+    def measure(self, context: Context, tick: Tick, log: TextIO) -> None:
+        tools.run_bench(self.programs, self.request.metrics, self.request.effort, self.samples_file, tick, log)
+        samples = name_reason(_read(self.samples_file), self.iceoryx2_reason)
+        self.run = replace(self.run, samples=samples, ratios=judge(samples, self.bars))
+
+    def count(self, context: Context, tick: Tick, log: TextIO) -> None:
+        def tell(text: str) -> None:
+            print(text, file=log, flush=True)
+            tick(text)
+
+        counts, proofs, baseline = count_all(self.programs.exact, self.bars, self.baseline, tell)
+        self.baseline = baseline
+        self.run = replace(self.run, counts=counts, proofs=proofs)
+
+    def list_steps(self) -> tuple[Step, ...]:
+        build = Step(name="build the benchmarks", function=self.build)
+        measure = Step(name="measure", function=self.measure, needs=(build.name,))
+        count = Step(name="count instructions", function=self.count, needs=(build.name,))
+        return (build, *((measure,) if self.request.metrics else ()), *((count,) if EXACT in self.request.names else ()))
+
+
+def _read(path: Path) -> Samples:
+    try:
+        return read_samples(path)
+    except InputError as error:
+        raise StepError(str(error)) from error
+
+
+def name_reason(samples: Samples, reason: str) -> Samples:
+    """CMake only sees that iceoryx2's library is not there; the build of it knows why."""
+    if not reason or tools.ICEORYX2 not in samples.absent:
+        return samples
+    return replace(samples, absent={**samples.absent, tools.ICEORYX2: reason})
+
+
+def count_all(program: Path, bars: Bars, baseline: Baseline | None, tell: Tick
+              ) -> tuple[list[CountResult], dict[str, str], Baseline]:  # fmt: skip
+    """Counts every bar's operations. @return judged counts, heap and system calls found by operation, the counts as a baseline.
+
+    Without a baseline the counts are judged by themselves: that is how they are accepted.
+    """
+    about = ask_about(program)
+    compiler, c_library = str(about["compiler"]), str(about["c_library"])
+    operations = dict.fromkeys([name for bar in bars.counts for name in bar.operations] + list(SEALED))
+    profiles = run_profiles(program, operations, tell)
+    counts = {bar.name: calc_count(bar, profiles) for bar in bars.counts}
+    found = Baseline(compiler, c_library, counts)
+    judged = [judge_count(bar, counts[bar.name], baseline or found, compiler, c_library) for bar in bars.counts]
+    proofs = {name: describe_calls(profiles[name].heap_functions, makes_system_calls(program, name)) for name in SEALED}
+    return judged, proofs, found
+
+
+def describe_calls(heap: Sequence[str], makes_calls: bool) -> str:
+    """@return what an operation did that it must not do after start, or nothing."""
+    words = [f"uses the heap ({', '.join(heap)})"] if heap else []
+    return " and ".join([*words, *(["makes system calls"] if makes_calls else [])])
+
+
+def list_benches() -> int:
+    """Prints what can be measured, with the bars. @return exit status."""
+    bars = load_bars()
+    for name, text in BENCHES.items():
+        print(f"{name:<10} {text}")
+        for bar in bars.ratios:
+            if bar.metric == name:
+                limits = ", ".join(f"{limit:g} at {size}" for size, limit in bar.limits.items())
+                print(f"{'':<10}   {bar.id} {bar.title}: {bar.kind}, ratio to {bar.against} at most {limits}")
+        for growth in bars.growths:
+            if growth.metric == name:
+                print(f"{'':<10}   {growth.id} {growth.title}: {growth.kind}, at {growth.to_size} at most {growth.limit:g} times "
+                      f"that at {growth.from_size}")  # fmt: skip
+        for count in bars.counts if name == EXACT else ():
+            limit = "" if count.limit is None else f", at most {count.limit}"
+            print(f"{'':<10}   {count.id} {count.title}: not above the baseline{limit}")
+    return EXIT_OK
+
+
+def bench(request: Request, jobs: int) -> int:
+    """@return exit status: 1 when a step failed, or with --gate a gate."""
+    request.check()
+    project = Project(ROOT)
+    bars = load_bars()
+    baseline = load_baseline() if EXACT in request.names and not request.accepts else None
+    folder = request.out or project.evidence / "bench"
+    folder.mkdir(parents=True, exist_ok=True)
+    context = Context(project, jobs)
+    before = collect_host()
+    with tempfile.TemporaryDirectory(prefix="mamori-bench-") as scratch:
+        work = Work(request, bars, baseline, Programs(project), Path(scratch) / "samples.json")
+        outcomes = run_steps(work.list_steps(), context)
+    if not all_passed(outcomes):
+        return EXIT_FAILED
+    return show(work, context, folder, before)
+
+
+def show(work: Work, context: Context, folder: Path, before: dict[str, object]) -> int:
+    """Tables, record, picture and verdict of finished work. @return exit status."""
+    run, screen = work.run, context.screen
+    environment = collect_environment(context.project, ["./mamori", *sys.argv[1:]])
+    after = collect_host()
+    record = make_record(run, environment, before, after, work.request.effort)
+    show_run(run, screen)
+    screen.say()
+    if work.request.accepts and work.baseline is not None:
+        write_baseline(work.baseline)
+        screen.say(f"accepted: {FILE.relative_to(ROOT)} holds these counts now; say in the commit why they changed")
+    screen.say(f"record: {write_record(record, folder)}")
+    if run.samples is not None:
+        from mamori.verification.bench.picture import draw_run
+
+        subtitle = (f"{environment['cpu']}, governor {before['governor']}, load {before['load_1_min']} .. {after['load_1_min']}; "
+                    f"{run.samples.compiler} {run.samples.flags}; commit {str(environment['commit'])[:10]}; "
+                    f"{run.samples.rounds} rounds")  # fmt: skip
+        for path in draw_run(run, folder, subtitle):
+            screen.say(f"picture: {path}")
+    failed = run.failed
+    hint = "" if work.request.gates or not failed else "; status 0 all the same, --gate makes it 1"
+    screen.say(f"gates: {len(failed)} of {run.gate_count} failed{hint}", style="bold red" if failed else "")
+    return EXIT_FAILED if failed and work.request.gates else EXIT_OK

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Judges samples by the bars: each bar by the median of its per-round ratios, never by a time.
+
+@satisfies SWR-BEN-001, SWR-BEN-002, SWR-BEN-003      Design: docs/design/bench.md#bars
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from statistics import median
+
+from mamori.verification.bench.bars import Bars
+from mamori.verification.bench.samples import Samples, Series
+
+ROUNDS_MIN = 5
+"""Fewer rounds give no median worth a verdict."""
+
+PASSED, FAILED, ABSENT = "passed", "failed", "not available"
+
+
+@dataclass(frozen=True)
+class RatioResult:
+    """One bar at one size. What has no figures (`ratio` is None) says in `note` why."""
+
+    id: str
+    title: str
+    metric: str
+    size: int
+    ours: str
+    against: str
+    limit: float
+    kind: str
+    verdict: str
+    ratio: float | None = None
+    lowest: float | None = None  # over the rounds
+    highest: float | None = None
+    ours_ns: float | None = None
+    against_ns: float | None = None
+    note: str = ""
+
+
+def judge(samples: Samples, bars: Bars, floors: Sequence[str] = ("seqlock", "virtual call", "virtual call + clock")
+          ) -> list[RatioResult]:  # fmt: skip
+    """@param floors subjects that are part of the program, so that one that is missing is a failure.
+    @return one result for each bar and size whose metric was measured.
+    """
+    measured = {metric for metric, _ in samples.cases}
+    results = []
+    for bar in bars.ratios:
+        for size, limit in bar.limits.items() if bar.metric in measured else ():
+            ours = _find(samples, bar.metric, size, bar.ours)
+            against = _find(samples, bar.metric, size, bar.against)
+            base = RatioResult(bar.id, bar.title, bar.metric, size, bar.ours, bar.against, limit, bar.kind, ABSENT)
+            missing_fails = bar.against in floors or ours is None
+            results.append(_compare(base, ours, against, samples, missing_fails))
+    for growth in bars.growths:
+        if growth.metric in measured:
+            ours = _find(samples, growth.metric, growth.to_size, growth.ours)
+            before = _find(samples, growth.metric, growth.from_size, growth.ours)
+            base = RatioResult(growth.id, growth.title, growth.metric, growth.to_size, growth.ours,
+                               f"itself at {growth.from_size}", growth.limit, growth.kind, ABSENT)  # fmt: skip
+            results.append(_compare(base, ours, before, samples, missing_fails=True))
+    return results
+
+
+def list_failed_gates(results: Sequence[RatioResult]) -> list[RatioResult]:
+    return [result for result in results if result.kind == "gate" and result.verdict == FAILED]
+
+
+def _find(samples: Samples, metric: str, size: int, name: str) -> Series | None:
+    case = samples.cases.get((metric, size))
+    return case.series.get(name) if case else None
+
+
+def _compare(base: RatioResult, ours: Series | None, against: Series | None, samples: Samples, missing_fails: bool
+             ) -> RatioResult:  # fmt: skip
+    fields = dict(vars(base))
+    if ours is None or against is None:
+        name = base.ours if ours is None else base.against
+        fields["note"] = samples.absent.get(name, "was not measured")
+        fields["verdict"] = FAILED if missing_fails else ABSENT
+        return RatioResult(**fields)
+    ratios = [mine / theirs for mine, theirs in zip(ours.rounds_ns, against.rounds_ns, strict=True)]
+    ratio = median(ratios)
+    fields.update(ratio=ratio, lowest=min(ratios), highest=max(ratios), ours_ns=ours.p50_ns, against_ns=against.p50_ns,
+                  verdict=PASSED if ratio <= base.limit else FAILED)  # fmt: skip
+    if len(ratios) < ROUNDS_MIN:
+        fields.update(verdict=FAILED, note=f"{len(ratios)} rounds are too few, at least {ROUNDS_MIN} are needed")
+    return RatioResult(**fields)

@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: samples are judged by the medians of their ratios, what is missing is named, and wrong input ends early.
+# Method: samples written by hand, with figures that can be checked in the head.
+from __future__ import annotations
+
+import copy
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mamori.profiles.input_error import InputError
+from mamori.verification.bench.bars import Bars, GrowthBar, RatioBar, load_bars
+from mamori.verification.bench.command import BENCHES, list_benches, name_reason
+from mamori.verification.bench.judge import ABSENT, FAILED, PASSED, RatioResult, judge
+from mamori.verification.bench.picture import draw_run
+from mamori.verification.bench.programs import NORMAL, QUICK
+from mamori.verification.bench.record import Run, collect_host, make_record, write_record
+from mamori.verification.bench.samples import parse_samples, read_samples
+from mamori.verification.bench.table import format_ratio, format_time, show_run
+from mamori.verification.command.console import Screen
+from mamori.verification.command.main import main
+
+
+def make_case(size: int, subjects: dict[str, list[float]], metric: str = "port") -> dict[str, Any]:
+    series = [{"name": name, "batch_count": 8, "rounds_ns": times} for name, times in subjects.items()]
+    return {"metric": metric, "size": size, "unit": "ns per write and read", "absent": [], "subjects": series}
+
+
+RECORDED: dict[str, Any] = {
+    "schema": "mamori.bench.samples/1", "compiler": "GNU 12.2.0", "flags": "-O2",
+    "effort": {"rounds": 5, "batches": 3, "batch_ns": 1000},
+    "absent": [{"name": "LCM memq", "reason": "its library was not found; install liblcm-dev"}],
+    "cases": [make_case(8, {"mamori port": [2.0, 2.0, 8.0, 2.0, 2.0], "seqlock": [1.0, 1.0, 4.0, 1.0, 0.1]}),
+              make_case(64, {"mamori port": [4.0, 4.0, 5.0, 4.0, 4.0], "seqlock": [2.0] * 5})],
+}  # fmt: skip
+GROWTH = GrowthBar("P5", "cost", "port", "mamori port", 8, 64, 1.5, "gate")
+
+
+def make_bars(limit: float, kind: str = "gate", against: str = "seqlock") -> Bars:
+    return Bars((RatioBar("P1", "port", "port", "mamori port", against, {8: limit, 64: limit}, kind),), (), ())
+
+
+def judge_recorded(bars: Bars, **changes: Any) -> list[RatioResult]:
+    return judge(parse_samples({**RECORDED, **changes}), bars)
+
+
+@pytest.mark.verifies("SWR-BEN-001")
+def test_ratio_is_the_median_of_the_ratios_of_the_rounds() -> None:
+    result = judge_recorded(make_bars(3.0))[0]
+
+    assert (result.ratio, result.lowest, result.highest) == (2.0, 2.0, 20.0)
+    assert (result.ours_ns, result.against_ns) == (2.0, 1.0)
+
+
+@pytest.mark.verifies("SWR-BEN-001", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize(("rounds", "verdict"), [(5, PASSED), (4, FAILED)])
+def test_fewer_than_five_rounds_pass_nothing(rounds: int, verdict: str) -> None:
+    cases = [make_case(8, {"mamori port": [2.0] * rounds, "seqlock": [1.0] * rounds})]
+
+    result = judge_recorded(make_bars(3.0), cases=cases, effort={"rounds": rounds})[0]
+
+    assert result.verdict == verdict
+
+
+@pytest.mark.verifies("SWR-BEN-003", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize(("limit", "verdict"), [(2.0, PASSED), (1.999, FAILED)])
+def test_bar_is_met_up_to_its_limit(limit: float, verdict: str) -> None:
+    results = judge_recorded(make_bars(limit))
+
+    assert [one.verdict for one in results] == [verdict, verdict]
+    assert len(Run(ratios=results).failed) == (0 if verdict == PASSED else 2)
+
+
+@pytest.mark.verifies("SWR-BEN-003", technique="equivalence_classes")
+def test_advisory_bar_fails_no_gate() -> None:
+    results = judge_recorded(make_bars(1.0, "advisory"))
+
+    assert results[0].verdict == FAILED
+    assert Run(ratios=results).failed == []
+
+
+@pytest.mark.verifies("SWR-BEN-003")
+def test_growth_is_judged_round_by_round() -> None:
+    result = judge_recorded(Bars((), (GROWTH,), ()))[0]
+
+    assert (result.ratio, result.size, result.against) == (2.0, 64, "itself at 8")
+    assert result.verdict == FAILED
+
+
+@pytest.mark.verifies("SWR-BEN-003")
+def test_bars_of_what_was_not_measured_are_left_out() -> None:
+    bars = load_bars()
+
+    assert {one.metric for one in judge_recorded(bars)} == {"port"}
+    assert set(bars.metrics) < set(BENCHES)
+
+
+@pytest.mark.verifies("SWR-BEN-002", technique="fault_injection", polarity="violation")
+def test_absent_peer_has_its_row_and_its_reason() -> None:
+    result = judge_recorded(make_bars(0.15, against="LCM memq"))[0]
+
+    assert (result.verdict, result.note) == (ABSENT, "its library was not found; install liblcm-dev")
+    assert Run(ratios=[result]).failed == []
+
+
+@pytest.mark.verifies("SWR-BEN-002", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize("missing", ["seqlock", "mamori port"])
+def test_absent_floor_or_ours_is_a_failure(missing: str) -> None:
+    cases = copy.deepcopy(RECORDED["cases"])
+    cases[0]["subjects"] = [one for one in cases[0]["subjects"] if one["name"] != missing]
+
+    assert judge_recorded(make_bars(3.0), cases=cases)[0].verdict == FAILED
+
+
+@pytest.mark.verifies("SWR-BEN-002")
+def test_reason_of_the_build_replaces_that_of_the_configuration() -> None:
+    samples = parse_samples({**RECORDED, "absent": [{"name": "iceoryx2 local", "reason": "not built"}]})
+
+    assert name_reason(samples, "cargo is not installed").absent == {"iceoryx2 local": "cargo is not installed"}
+    assert name_reason(samples, "") == samples
+
+
+@pytest.mark.verifies("SWR-BEN-002")
+def test_absent_peer_is_on_the_screen(capsys: pytest.CaptureFixture[str]) -> None:
+    show_run(Run(samples=parse_samples(RECORDED), ratios=judge_recorded(make_bars(3.0))), Screen())
+
+    said = capsys.readouterr().out
+    assert "LCM memq: not available: its library was not found; install liblcm-dev" in said
+    assert "mamori port" in said
+    assert "\x1b" not in said
+
+
+@pytest.mark.verifies("SWR-BEN-004")
+def test_record_holds_environment_figures_and_verdicts(tmp_path: Path) -> None:
+    samples = parse_samples(RECORDED)
+    run = Run(samples=samples, ratios=judge(samples, make_bars(1.0)))
+
+    path = write_record(make_record(run, {"commit": "abc"}, collect_host(), collect_host(), QUICK), tmp_path)
+
+    record = json.loads(path.read_text(encoding="utf-8"))
+    assert record["schema"] == "mamori.bench/1"
+    assert record["environment"]["commit"] == "abc"
+    assert {"governor", "load_1_min", "clock_source"} <= set(record["host"]["before"])
+    assert record["cases"][0]["subjects"][0] == {"name": "mamori port", "p50_ns": 2.0, "rounds_ns": [2.0, 2.0, 8.0, 2.0, 2.0]}
+    assert len(record["failed_gates"]) == 2
+    assert record["absent"] == {"LCM memq": "its library was not found; install liblcm-dev"}
+    assert [entry.name for entry in tmp_path.iterdir()] == ["bench.json"]
+
+
+@pytest.mark.verifies("SWR-BEN-004")
+def test_picture_is_drawn_in_both_formats(tmp_path: Path) -> None:
+    samples = parse_samples(RECORDED)
+
+    paths = draw_run(Run(samples=samples, ratios=judge(samples, make_bars(3.0))), tmp_path, "a machine")
+
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["bench.png", "bench.svg"]
+    assert paths[1].read_bytes().startswith(b"\x89PNG")
+    assert draw_run(Run(), tmp_path, "nothing measured") == []
+
+
+@pytest.mark.verifies("SWR-BEN-004", technique="boundary_values")
+def test_figures_are_short() -> None:
+    assert [format_time(value) for value in (0.374, 9.994, 10.0, 99.94, 100.2, 38978.0)] == ["0.37", "9.99", "10.0", "99.9", "100",
+                                                                                             "38978"]  # fmt: skip
+    assert [format_ratio(value) for value in (0.0134, 0.15, 1.6, 10.0)] == ["0.013", "0.15", "1.60", "10.0"]
+
+
+@pytest.mark.verifies("SWR-BEN-005", technique="equivalence_classes", polarity="violation")
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("bench", "--only", "prot"), "bench has no benchmark 'prot'; nearest: port"),
+        (("bench", "--only", "port", "--accept"), "leave --only out, or name 'exact' with it"),
+        (("bench", "--out", "/proc/nowhere"), "/proc/nowhere: results cannot be written there"),
+        (("bench", "--qick"), "bench has no option '--qick'; nearest: --quick"),
+        (("bench", "extra"), "bench does not take 'extra'"),
+    ],
+)
+def test_wrong_word_ends_before_anything_is_built(words: tuple[str, ...], sentence: str, capsys: pytest.CaptureFixture[str]
+                                                  ) -> None:  # fmt: skip
+    assert main(words) == 2
+
+    said = capsys.readouterr().err
+    assert sentence in said
+    assert said.count("\n") == 1
+
+
+@pytest.mark.verifies("SWR-BEN-005")
+def test_list_names_every_benchmark_and_bar(capsys: pytest.CaptureFixture[str]) -> None:
+    assert list_benches() == 0
+
+    said = capsys.readouterr().out
+    assert all(name in said for name in BENCHES)
+    assert all(bar.title in said for bar in (*load_bars().ratios, *load_bars().growths, *load_bars().counts))
+
+
+@pytest.mark.verifies("SWR-BEN-005", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"schema": "other/1"}, "schema is 'other/1'"),
+        ({"cases": [make_case(8, {"seqlock": [1.0]})]}, "seqlock has 1 rounds, the run had 5"),
+        ({"cases": [make_case(8, {"seqlock": [1.0, 1.0, 1.0, 1.0, 0.0]})]}, "no positive number"),
+        ({"cases": [make_case(8, {"seqlock": [1.0, 1.0, 1.0, 1.0, float("nan")]})]}, "no positive number"),
+        ({"cases": [{}]}, "is no file of samples"),
+    ],
+)
+def test_samples_of_another_form_are_refused(tmp_path: Path, change: dict[str, Any], sentence: str) -> None:
+    path = tmp_path / "samples.json"
+    path.write_text(json.dumps({**RECORDED, **change}), encoding="utf-8")
+
+    with pytest.raises(InputError, match=sentence):
+        read_samples(path)
+
+
+@pytest.mark.verifies("SWR-BEN-005", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("ratio = 1 2", "is no TOML"),
+        ("growth = []\ncount = []", "a bar lacks its 'ratio'"),
+        ("ratio = []\ncount = []\n[[growth]]\nid='P5'\ntitle='t'\nmetric='m'\nours='o'\nfrom=1\nto=2\nlimit=0\nkind='gate'",
+         "must be greater than 0"),
+        ("ratio = []\ngrowth = []\n[[count]]\nid='P8'\nname='n'\ntitle='t'\noperations=[]", "not one or two"),
+    ],
+)  # fmt: skip
+def test_bars_of_another_form_are_refused(tmp_path: Path, text: str, sentence: str) -> None:
+    path = tmp_path / "bars.toml"
+    path.write_text(text, encoding="utf-8")
+
+    with pytest.raises(InputError, match=sentence):
+        load_bars(path)
+
+
+@pytest.mark.verifies("SWR-BEN-001", technique="boundary_values")
+def test_every_effort_has_rounds_enough() -> None:
+    assert min(NORMAL.rounds, QUICK.rounds) >= 5
