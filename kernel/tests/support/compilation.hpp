@@ -44,9 +44,10 @@ inline Compilation compile(const std::string& name, const std::string& option) {
 }
 
 /// The case compiles as it is, and its broken form is refused with `expected` in the message.
-inline void expect_refused(const std::string& name, const std::string& expected) {
+inline void expect_refused(const std::string& name, const std::string& expected,
+                           const std::string& option = "-DMAMORI_BREAK") {
     const Compilation control = compile(name, "");
-    const Compilation broken = compile(name, "-DMAMORI_BREAK");
+    const Compilation broken = compile(name, option);
 
     ASSERT_TRUE(control.has_succeeded) << control.output;
     EXPECT_FALSE(broken.has_succeeded);
