@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <stdexcept>
-#include <utility>
 
 #include "component_pool.hpp"
 #include "mamori/kernel/executive.hpp"
@@ -21,7 +20,7 @@ namespace mamori::verification::bench {
 template <std::size_t kCount, typename Clock>
 class ExecutiveRig {
   public:
-    ExecutiveRig() : table_(make_table(pool_, std::make_index_sequence<kCount>{})), executive_(table_) {
+    ExecutiveRig() : table_(make_table(pool_)), executive_(table_) {
         if (executive_.initialize() != Status::kOk || executive_.start() != Status::kOk) {
             throw std::runtime_error("the executive did not start");
         }
@@ -54,12 +53,23 @@ class ExecutiveRig {
     static constexpr Duration kFrame = Duration{3'600'000'000'000};
     static constexpr safety::ComponentLimits kLimits{{1U, 2U}, {Duration{0}, kFrame}};
 
-    template <std::size_t... kIndex>
-    static auto make_table(ComponentPool& pool, std::index_sequence<kIndex...>) noexcept {
-        return system(frame(kFrame),
-                      window("bench", Duration{0}, kFrame, budget(kFrame), run(pool.at(kIndex)...)));
+    using Table = SystemTable<1U, kCount, 0U, 0U>;
+
+    /// The rows of a window of one component, as the kernel makes them, repeated for all: a list of a
+    /// thousand arguments would be more than a compiler takes.
+    static Table make_table(ComponentPool& pool) noexcept {
+        const auto one =
+            system(frame(kFrame), window("bench", Duration{0}, kFrame, budget(kFrame), run(pool.at(0U))));
+        Table table{};
+        table.frame = one.frame;
+        table.windows[0] = one.windows[0];
+        table.windows[0].component_count = kCount;
+        table.component_rows.fill(one.component_rows[0]);
+        for (std::size_t i = 0U; i < kCount; ++i) {
+            table.components[i] = &pool.at(i);
+        }
+        return table;
     }
-    using Table = decltype(make_table(std::declval<ComponentPool&>(), std::make_index_sequence<kCount>{}));
 
     ComponentPool pool_{kCount};
     const Table table_;

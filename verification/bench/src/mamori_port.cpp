@@ -17,7 +17,7 @@ class MamoriPort final : public Subject {
             out_.write(value);
             out_.publish(now_);
             touch(out_);
-            in_.latch(out_);
+            in_.take(out_.get_published_sample());
             touch(in_);
             sum += in_.read()[0];
         }

@@ -40,9 +40,9 @@ class MinimalHost final : public WindowHost {
   public:
     Instant get_now() const noexcept override { return clock_.read(); }
 
-    bool run_within(std::size_t, Work work, Instant) noexcept override {
-        work.function(work.argument);
-        return true;
+    std::size_t run_within(const Work& work, Instant) noexcept override {
+        work.run(work.argument, work.first, work.first + work.count);
+        return work.count;
     }
 
   private:
