@@ -386,6 +386,10 @@ TEST(FsmTableTest, EachRuleIsFoundAtItsRow) {
               Found(FsmRule::kNameMissing, 2U));
     EXPECT_EQ(find([](auto&, auto&, auto& messages, auto&) { messages[1].name = ""; }),
               Found(FsmRule::kNameMissing, 4U));
+    EXPECT_EQ(find([](auto&, auto& states, auto&, auto&) { states[0].name = ""; }),
+              Found(FsmRule::kNameMissing, 0U));
+    EXPECT_EQ(find([](auto&, auto&, auto& messages, auto&) { messages[2].name = nullptr; }),
+              Found(FsmRule::kNameMissing, 5U));
     EXPECT_EQ(find([](auto&, auto& states, auto&, auto&) { states[1].name = "closed"; }),
               Found(FsmRule::kNameTwice, 1U));
     EXPECT_EQ(find([](auto&, auto&, auto& messages, auto&) { messages[2].name = "push"; }),

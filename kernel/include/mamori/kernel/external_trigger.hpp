@@ -39,11 +39,11 @@ class ExternalTrigger final {
 
     /// Ticks that wait for a window, before any overflow is taken off.
     std::uint32_t get_backlog() const noexcept;
-    /// Ticks dropped beyond the limit (saturates at 2^32 - 1).
+    /// Ticks dropped beyond the limit (wraps at 2^32).
     std::uint32_t get_overflow_count() const noexcept {
         return overflow_count_.load(std::memory_order_relaxed);
     }
-    /// Ticks ignored because the context was Stopped (saturates at 2^32 - 1).
+    /// Ticks ignored because the context was Stopped (wraps at 2^32).
     std::uint32_t get_ignored_count() const noexcept {
         return ignored_count_.load(std::memory_order_relaxed);
     }
