@@ -31,8 +31,9 @@ Status ExecutionContext::begin_cycle(Instant now) noexcept {
     return Status::kOk;
 }
 
-void ExecutionContext::execute_range(std::size_t first, std::size_t count, AfterStep after) noexcept {
-    MAMORI_REQUIRE(1, is_in_cycle());
+/// The turns of a range; `after(position, was_active)` comes after each that was not abandoned.
+template <typename After>
+void ExecutionContext::run_turns(std::size_t first, std::size_t count, const After& after) noexcept {
     const Span<Component* const> range = participants_.subspan(first, count);
     const ContextHandle handle = make_handle(cycle_start_);
     const bool is_data_flow = plan_.kind != ExecutionKind::kEventDriven;
@@ -40,18 +41,44 @@ void ExecutionContext::execute_range(std::size_t first, std::size_t count, After
     for (std::size_t i = 0U; i < count && is_in_cycle(); ++i) {
         scope.move_to(first + i);
         Component& component = *range.data()[i];
-        if (!is_data_flow || component.get_state() != LifecycleState::kActive || component.notices_ != 0U) {
-            execute_unusual(component, handle, scope);
-        } else {
+        const bool was_active = component.get_state() == LifecycleState::kActive;
+        if (was_active && component.notices_ == 0U && is_data_flow) {
             const Status answer = component.on_execute(handle);
             if (answer != Status::kOk) {
                 judge(component, ComponentAction::kExecute, answer, handle);
             }
+        } else {
+            execute_unusual(component, handle, scope);
         }
-        if (after.function != nullptr && is_in_cycle()) {
-            after.function(after.argument, first + i);
-        }
+        after(first + i, was_active);
     }
+}
+
+void ExecutionContext::execute_range(std::size_t first, std::size_t count, Follower* follower) noexcept {
+    MAMORI_REQUIRE(1, is_in_cycle());
+    if (follower == nullptr) {
+        run_turns(first, count, [](std::size_t, bool) noexcept {});
+        return;
+    }
+    run_turns(first, count, [this, follower](std::size_t position, bool was_active) noexcept {
+        if (!is_in_cycle()) {
+            return;  // abandoned: the cycle that this turn belonged to is over
+        }
+        if (follower->observer != nullptr) {
+            const Instant started = follower->step_start;
+            const Instant ended = follower->host->get_step_end();
+            follower->step_start = ended;
+            // Only on_execute is a sign of life: one in Error, or Inactive, gets its turn and does nothing
+            // for anybody.
+            if (was_active && ended <= follower->deadline) {
+                follower->observer->on_component_executed(follower->first_component + position, started,
+                                                          ended);
+            }
+        }
+        if (follower->hand_on != nullptr) {
+            follower->hand_on(follower->argument, position);
+        }
+    });
 }
 
 void ExecutionContext::execute_unusual(Component& component, ContextHandle handle,

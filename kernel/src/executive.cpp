@@ -217,50 +217,47 @@ void Executive::hand_on_outputs(std::size_t component, Instant opening) noexcept
 }
 
 void Executive::mark_inputs_read(std::size_t window, std::size_t finished_count) noexcept {
-    const std::size_t first = view_.windows[window].first_component;
-    for (std::size_t i = 0U; i < finished_count; ++i) {
-        const ComponentRow& row = view_.component_rows[first + i];
-        const LifecycleState state = windows_[window].context.get_state_at(i);
-        if (state != LifecycleState::kActive && state != LifecycleState::kError) {
+    const WindowRow& row = view_.windows[window];
+    for (const PortRow& port : view_.ports.subspan(row.first_port, row.port_count)) {
+        const std::size_t position = port.component - row.first_component;
+        if (port.input == nullptr || position >= finished_count) {
             continue;
         }
-        for (const PortRow& port : view_.ports.subspan(row.first_port, row.port_count)) {
-            if (port.input != nullptr) {
-                port.input->mark_read();
-            }
+        const LifecycleState state = windows_[window].context.get_state_at(position);
+        if (state == LifecycleState::kActive || state == LifecycleState::kError) {
+            port.input->mark_read();
         }
     }
 }
 
 void Executive::publish_outputs(std::size_t window, Instant close) noexcept {
-    const WindowRow& window_row = view_.windows[window];
-    for (std::size_t i = 0U; i < window_row.component_count; ++i) {
-        const ComponentRow& row = view_.component_rows[window_row.first_component + i];
-        for (std::size_t p = row.first_port; p < row.first_port + row.port_count; ++p) {
-            OutPortBase* const output = view_.ports[p].output;
-            if (output == nullptr || !output->publish(close)) {
-                continue;
-            }
-            trace_hash_(static_cast<std::uint64_t>(p));
-            output->hash_into(trace_hash_);
-            for (const std::size_t o : view_.outgoing_order.subspan(row.first_outgoing, row.outgoing_count)) {
-                const ConnectionRow& connection = view_.connections[o];
-                if (connection.source == output && connection.operations->deliver != nullptr) {
-                    connection.operations->deliver(*output, *connection.sink, connection.crossing);
-                }
-            }
+    const WindowRow& row = view_.windows[window];
+    for (std::size_t p = row.first_port; p < row.first_port + row.port_count; ++p) {
+        const PortRow& port = view_.ports[p];
+        if (port.output == nullptr || !port.output->publish(close)) {
+            continue;
+        }
+        trace_hash_(static_cast<std::uint64_t>(p));
+        port.output->hash_into(trace_hash_);
+        deliver(port);
+    }
+}
+
+void Executive::deliver(const PortRow& port) noexcept {
+    const ComponentRow& owner = view_.component_rows[port.component];
+    for (const std::size_t i : view_.outgoing_order.subspan(owner.first_outgoing, owner.outgoing_count)) {
+        const ConnectionRow& connection = view_.connections[i];
+        if (connection.source == port.output && connection.operations->deliver != nullptr) {
+            connection.operations->deliver(*port.output, *connection.sink, connection.crossing);
         }
     }
 }
 
 void Executive::discard_outputs(std::size_t window) noexcept {
-    const WindowRow& window_row = view_.windows[window];
-    for (std::size_t i = 0U; i < window_row.component_count; ++i) {
-        const ComponentRow& row = view_.component_rows[window_row.first_component + i];
-        for (const PortRow& port : view_.ports.subspan(row.first_port, row.port_count)) {
-            if (port.output != nullptr) {
-                port.output->discard();
-            }
+    const WindowRow& row = view_.windows[window];
+    for (const PortRow& port : view_.ports.subspan(row.first_port, row.port_count)) {
+        if (port.output != nullptr) {
+            port.output->discard();
         }
     }
 }
@@ -273,52 +270,18 @@ void Executive::report_overrun(std::size_t window, std::size_t component, Instan
 
 void Executive::execute_steps(void* argument, std::size_t first, std::size_t end) noexcept {
     detail::WindowState& state = *static_cast<detail::WindowState*>(argument);
-    const bool has_hand_on = state.executive->view_.windows[state.window].has_hand_on;
-    state.context.execute_range(first, end - first, {has_hand_on ? &hand_on_after : nullptr, argument});
+    const bool is_followed = state.follower.observer != nullptr || state.follower.hand_on != nullptr;
+    state.context.execute_range(first, end - first, is_followed ? &state.follower : nullptr);
 }
 
 void Executive::hand_on_after(void* argument, std::size_t position) noexcept {
     const detail::WindowState& state = *static_cast<const detail::WindowState*>(argument);
     Executive& self = *state.executive;
-    self.hand_on_outputs(self.view_.windows[state.window].first_component + position, self.last_release_);
+    self.hand_on_outputs(state.follower.first_component + position, self.last_release_);
 }
 
 void Executive::update_steps(void* argument, std::size_t first, std::size_t end) noexcept {
     static_cast<detail::WindowState*>(argument)->context.update_range(first, end - first);
-}
-
-/// The first pass as supervision sees it: each component's start and finish are told.
-std::size_t Executive::run_observed(std::size_t window, Instant deadline, WindowHost& host) noexcept {
-    const WindowRow& row = view_.windows[window];
-    detail::WindowState& state = windows_[window];
-    Instant now = host.get_now();
-    for (std::size_t i = 0U; i < row.component_count; ++i) {
-        const std::size_t component = row.first_component + i;
-        // Only on_execute is a sign of life: one in Error, or Inactive, gets its turn and does nothing for
-        // anybody.
-        const bool is_executing = state.context.get_state_at(i) == LifecycleState::kActive;
-        if (is_executing) {
-            observer_->on_component_started(component, now);
-        }
-        if (host.run_within({&execute_steps, &state, component, i, 1U, Pass::kExecute}, deadline) == 0U) {
-            return i;
-        }
-        now = host.get_now();
-        if (is_executing) {
-            observer_->on_component_finished(component, now);
-        }
-    }
-    return row.component_count;
-}
-
-std::size_t Executive::run_first_pass(std::size_t window, Instant deadline, WindowHost& host) noexcept {
-    if (observer_ != nullptr) {
-        return run_observed(window, deadline, host);
-    }
-    const WindowRow& row = view_.windows[window];
-    return host.run_within(
-        {&execute_steps, &windows_[window], row.first_component, 0U, row.component_count, Pass::kExecute},
-        deadline);
 }
 
 WindowOutcome Executive::run_open_window(std::size_t window, Instant release, WindowHost& host) noexcept {
@@ -346,7 +309,11 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, Wi
     // A window that opens late keeps its budget, but not beyond its planned close.
     const Instant close = release + row.length;
     const Instant deadline = opened + row.budget < close ? opened + row.budget : close;
-    const std::size_t executed_count = run_first_pass(window, deadline, host);
+    state.follower = {
+        observer_, &host, deadline, opened, row.first_component, row.has_hand_on ? &hand_on_after : nullptr,
+        &state};
+    const std::size_t executed_count = host.run_within(
+        {&execute_steps, &state, row.first_component, 0U, row.component_count, Pass::kExecute}, deadline);
     std::size_t guilty = executed_count;
     if (executed_count == row.component_count && row.has_second_pass) {
         guilty = host.run_within(

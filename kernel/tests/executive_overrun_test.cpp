@@ -77,8 +77,7 @@ TEST_F(ExecutiveOverrunTest, OneNanosecondMorePublishesNothingAndNamesTheCompone
     EXPECT_EQ(counter_.out.get_sequence(), 0U) << "not even the one that was in time";
     EXPECT_EQ(relay_.out.get_sequence(), 0U);
     EXPECT_EQ(sut_.get_trace_hash(), TraceHash{}.get_value());
-    EXPECT_EQ(observer_.heard,
-              (Heard{"start 0 @0", "finish 0 @100", "start 1 @100", "overrun window 0 component 1 @300"}));
+    EXPECT_EQ(observer_.heard, (Heard{"executed 0 @0..100", "overrun window 0 component 1 @300"}));
 }
 
 TEST_F(ExecutiveOverrunTest, AHangInTheFirstComponentKeepsTheRestOfItsWindowFromRunning) {
@@ -87,7 +86,7 @@ TEST_F(ExecutiveOverrunTest, AHangInTheFirstComponentKeepsTheRestOfItsWindowFrom
 
     EXPECT_EQ(run(0U, 0), WindowOutcome::kOverrun);
 
-    EXPECT_EQ(observer_.heard, (Heard{"start 0 @0", "overrun window 0 component 0 @300"}));
+    EXPECT_EQ(observer_.heard, (Heard{"overrun window 0 component 0 @300"}));
     EXPECT_FALSE(relay_.out.is_staged());
 }
 
@@ -217,6 +216,7 @@ class AbandoningHost final : public WindowHost {
     Instant now{};
 
     Instant get_now() const noexcept override { return now; }
+    Instant get_step_end() const noexcept override { return now; }
     std::size_t run_within(const Work& work, Instant deadline) noexcept override {
         const auto run_all = [work] { work.run(work.argument, work.first, work.first + work.count); };
         if (work.component != 0U || !component_.is_to_hang) {
@@ -268,9 +268,9 @@ TEST(ExecutiveAbandonedWorkTest, WorkThatHangsIsNamedEachFrameAndNeverPublishesW
     hanging.out.write(7);  // as an activation would
     EXPECT_EQ(sut.run_window(0U, Instant{2000}, host), WindowOutcome::kCompleted);
     EXPECT_EQ(hanging.out.get_published(), 7) << "only what was written late is thrown away";
-    EXPECT_EQ(observer.heard, (Heard{"start 0 @0", "overrun window 0 component 0 @300", "start 1 @400",
-                                     "finish 1 @400", "overrun window 0 component 0 @1000", "start 0 @2000",
-                                     "finish 0 @2000", "start 0 @2000", "finish 0 @2000"}));
+    EXPECT_EQ(observer.heard, (Heard{"overrun window 0 component 0 @300", "executed 1 @400..400",
+                                     "overrun window 0 component 0 @1000", "executed 0 @2000..2000",
+                                     "executed 0 @2000..2000"}));
     EXPECT_EQ(other.out.get_sequence(), 1U);
 }
 

@@ -148,9 +148,8 @@ TEST_F(ExecutiveTest, ALateReleaseIsReportedAndChangesNoData) {
     EXPECT_EQ(sut_.run_window(1U, Instant{400}, host_), WindowOutcome::kCompleted);
 
     EXPECT_EQ(observer.heard,
-              (std::vector<std::string>{"late window 0 by 7 @7", "start 0 @7", "finish 0 @7", "start 1 @7",
-                                        "finish 1 @7", "late window 1 by 3 @403", "start 2 @403",
-                                        "finish 2 @403"}));
+              (std::vector<std::string>{"late window 0 by 7 @7", "executed 0 @7..7", "executed 1 @7..7",
+                                        "late window 1 by 3 @403", "executed 2 @403..403"}));
     EXPECT_EQ(sink_.notes[0].now, Instant{400}) << "the planned opening";
     EXPECT_EQ(sink_.notes[0].age, 0_ns) << "published at the planned close";
 }
@@ -164,8 +163,8 @@ TEST_F(ExecutiveTest, TheObserverHearsEachRunInOrderWithItsInstants) {
 
     run_frame(sut_, host_, 0);
 
-    EXPECT_EQ(observer.heard, (std::vector<std::string>{"start 0 @0", "finish 0 @30", "start 1 @30",
-                                                        "finish 1 @70", "start 2 @400", "finish 2 @400"}));
+    EXPECT_EQ(observer.heard,
+              (std::vector<std::string>{"executed 0 @0..30", "executed 1 @30..70", "executed 2 @400..400"}));
 }
 
 TEST_F(ExecutiveTest, AComponentInErrorOrInactiveGivesNoSignOfLife) {
@@ -178,7 +177,7 @@ TEST_F(ExecutiveTest, AComponentInErrorOrInactiveGivesNoSignOfLife) {
 
     run_frame(sut_, host_, 1);
 
-    EXPECT_EQ(observer.heard, (std::vector<std::string>{"start 1 @1000", "finish 1 @1000"}));
+    EXPECT_EQ(observer.heard, (std::vector<std::string>{"executed 1 @1000..1000"}));
 }
 
 TEST_F(ExecutiveTest, WithoutAnObserverNothingChanges) {
@@ -202,7 +201,7 @@ TEST_F(ExecutiveTest, WithoutAnObserverNothingChanges) {
     observed.set_observer(nullptr);
     run_frame(observed, host, 1);
 
-    EXPECT_EQ(observer.heard.size(), 6U);
+    EXPECT_EQ(observer.heard.size(), 3U);
     run_frame(sut_, host_, 1);
     EXPECT_EQ(observed.get_trace_hash(), sut_.get_trace_hash());
 }

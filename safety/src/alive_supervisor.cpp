@@ -6,29 +6,6 @@ namespace {
 
 using State = AliveSlot::State;
 
-/// The worst condition is judged first, so that equal limits give the severer answer.
-AliveVerdict calc_verdict(const AliveSlot& slot) noexcept {
-    if (slot.state == State::kExpired) {
-        return AliveVerdict::kExpired;
-    }
-    if (slot.state != State::kActive || slot.silent_cycles < slot.limits.late_cycles) {
-        return AliveVerdict::kHealthy;
-    }
-    return AliveVerdict::kLate;
-}
-
-void end_cycle(AliveSlot& slot) noexcept {
-    if (slot.state != State::kActive) {
-        return;
-    }
-    // The count cannot wrap: it stops when it reaches the limit.
-    slot.silent_cycles = slot.has_reported ? 0U : slot.silent_cycles + 1U;
-    slot.has_reported = false;
-    if (slot.silent_cycles >= slot.limits.expired_cycles) {
-        slot.state = State::kExpired;
-    }
-}
-
 void start_afresh(AliveSlot& slot) noexcept {
     slot.silent_cycles = 0U;
     slot.has_reported = false;
@@ -96,20 +73,12 @@ Status AliveSupervisor::acknowledge(std::size_t index) noexcept {
 
 AliveVerdict AliveSupervisor::step() noexcept {
     AliveVerdict worst = AliveVerdict::kHealthy;
-    for (AliveSlot& slot : slots_) {
-        end_cycle(slot);
-        const AliveVerdict verdict = calc_verdict(slot);
+    for (std::size_t i = 0U; i < slots_.size(); ++i) {
+        end_cycle(i);
+        const AliveVerdict verdict = get_verdict(i);
         worst = verdict > worst ? verdict : worst;
     }
     return worst;
-}
-
-AliveVerdict AliveSupervisor::get_verdict(std::size_t index) const noexcept {
-    return calc_verdict(slots_[index]);
-}
-
-bool AliveSupervisor::is_active(std::size_t index) const noexcept {
-    return slots_[index].state == State::kActive;
 }
 
 }  // namespace mamori::safety

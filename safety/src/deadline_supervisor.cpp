@@ -22,10 +22,6 @@ void latch(DeadlineSlot& slot, DeadlineViolation violation) noexcept {
 
 }  // namespace
 
-bool DeadlineSupervisor::is_watched(std::size_t index) const noexcept {
-    return index < slots_.size() && slots_[index].is_watched;
-}
-
 Status DeadlineSupervisor::watch(std::size_t index, DeadlineLimits limits) noexcept {
     if (index >= slots_.size() || !is_valid(limits)) {
         return Status::kBadParameter;
@@ -78,13 +74,22 @@ Status DeadlineSupervisor::acknowledge(std::size_t index) noexcept {
     return Status::kOk;
 }
 
+void DeadlineSupervisor::judge_ends(std::size_t index, Instant started, Instant finished) noexcept {
+    static_cast<void>(start(index, started));
+    static_cast<void>(finish(index, finished));
+}
+
+void DeadlineSupervisor::judge(DeadlineSlot& slot, Instant now) noexcept {
+    if (slot.is_running && is_over(slot.started_at, now, slot.limits.longest)) {
+        latch(slot, DeadlineViolation::kMissingFinish);
+    }
+    slot.is_expired = slot.is_expired || slot.violation != DeadlineViolation::kNone;
+}
+
 bool DeadlineSupervisor::step(Instant now) noexcept {
     bool has_expired = false;
     for (DeadlineSlot& slot : slots_) {
-        if (slot.is_running && is_over(slot.started_at, now, slot.limits.longest)) {
-            latch(slot, DeadlineViolation::kMissingFinish);
-        }
-        slot.is_expired = slot.is_expired || slot.violation != DeadlineViolation::kNone;
+        judge(slot, now);
         has_expired = has_expired || slot.is_expired;
     }
     return has_expired;

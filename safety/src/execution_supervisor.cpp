@@ -69,20 +69,30 @@ void ExecutionSupervisor::judge(std::size_t component, Instant now) noexcept {
 }
 
 GlobalStatus ExecutionSupervisor::step(Instant now) noexcept {
-    static_cast<void>(alive_.step());
-    // The cycle's own run began after the cycle did: it is judged at the latest instant that was observed.
-    static_cast<void>(deadline_.step(now < observed_at_ ? observed_at_ : now));
     bool is_anything_proven = false;
     GlobalStatus worst = is_release_late_ ? GlobalStatus::kFailed : GlobalStatus::kOk;
     is_release_late_ = false;
     for (std::size_t i = 0U; i < components_.size(); ++i) {
-        judge(i, now);
-        const ComponentSlot& slot = components_[i];
-        if (slot.scope == SupervisionScope::kGlobal) {
-            const GlobalStatus status = to_global(slot.status);
-            worst = status > worst ? status : worst;
-            is_anything_proven = is_anything_proven || alive_.is_active(i);
+        const ComponentSlot& slot = components_.data()[i];
+        // The way of nearly every cycle: a sign of life, and nothing that would have to be weighed.
+        const bool is_inconspicuous = slot.status == LocalStatus::kOk && deadline_.is_clean(i) &&
+                                      !slot.is_overrun_pending.load(std::memory_order_acquire) &&
+                                      alive_.end_lively_cycle(i);
+        if (!is_inconspicuous) {
+            alive_.end_cycle(i);
+            deadline_.end_cycle(i, now);
+            judge(i, now);
         }
+        if (slot.scope != SupervisionScope::kGlobal) {
+            continue;
+        }
+        if (is_inconspicuous) {
+            is_anything_proven = true;
+            continue;
+        }
+        const GlobalStatus status = to_global(slot.status);
+        worst = status > worst ? status : worst;
+        is_anything_proven = is_anything_proven || alive_.is_active(i);
     }
     if (worst == GlobalStatus::kOk && !is_anything_proven) {
         worst = GlobalStatus::kFailed;
@@ -103,17 +113,13 @@ std::size_t ExecutionSupervisor::get_first_expired() const noexcept {
     return first;
 }
 
-void ExecutionSupervisor::on_component_started(std::size_t component, Instant now) noexcept {
+void ExecutionSupervisor::on_component_executed(std::size_t component, Instant started,
+                                                Instant finished) noexcept {
     MAMORI_REQUIRE(1, component < components_.size());
-    observed_at_ = now;
-    static_cast<void>(deadline_.start(component, now));  // refused for a component that is not watched
-}
-
-void ExecutionSupervisor::on_component_finished(std::size_t component, Instant now) noexcept {
-    MAMORI_REQUIRE(2, component < components_.size());
-    observed_at_ = now;
-    static_cast<void>(deadline_.finish(component, now));
-    static_cast<void>(alive_.report_alive(component));
+    if (deadline_.is_watched(component)) {
+        deadline_.observe(component, started, finished);
+        alive_.note_life(component);
+    }
 }
 
 void ExecutionSupervisor::on_budget_overrun(std::size_t, std::size_t component, Instant) noexcept {

@@ -51,12 +51,10 @@ class SafetySupervisorTest : public ::testing::Test {
     /// supervisor decides.
     StopCommand step() {
         if (is_other_running_) {
-            supervision_.on_component_started(kOther, now_);
-            supervision_.on_component_finished(kOther, now_ + 10_us);
+            supervision_.on_component_executed(kOther, now_, now_ + 10_us);
         }
         if (is_controller_running_) {
-            supervision_.on_component_started(kController, now_);
-            supervision_.on_component_finished(kController, now_ + 10_us);
+            supervision_.on_component_executed(kController, now_, now_ + 10_us);
         }
         if (is_reader_running_) {
             feed(sut_.reading, reading_);

@@ -23,17 +23,20 @@ class FakeHost final : public WindowHost {
     /// Work of these is not called and runs out of budget.
     std::map<std::pair<std::size_t, Pass>, bool> hangs;
     std::vector<Instant> deadlines;
+    Instant step_end{};
 
     Instant get_now() const noexcept override { return now; }
+    Instant get_step_end() const noexcept override { return step_end; }
 
     std::size_t run_within(const Work& work, Instant deadline) noexcept override {
         deadlines.push_back(deadline);
         for (std::size_t i = 0U; i < work.count; ++i) {
             const auto key = std::make_pair(work.component + i, work.pass);
+            const Instant end = now + durations[key];
+            step_end = end;
             if (!hangs[key]) {
                 work.run(work.argument, work.first + i, work.first + i + 1U);
             }
-            const Instant end = now + durations[key];
             const bool is_in_time = !hangs[key] && end <= deadline;
             now = is_in_time ? end : deadline;
             if (!is_in_time) {
@@ -48,11 +51,9 @@ class SpyObserver final : public ExecutionObserver {
   public:
     std::vector<std::string> heard;
 
-    void on_component_started(std::size_t component, Instant now) noexcept override {
-        heard.push_back("start " + std::to_string(component) + " @" + std::to_string(now.ns));
-    }
-    void on_component_finished(std::size_t component, Instant now) noexcept override {
-        heard.push_back("finish " + std::to_string(component) + " @" + std::to_string(now.ns));
+    void on_component_executed(std::size_t component, Instant started, Instant finished) noexcept override {
+        heard.push_back("executed " + std::to_string(component) + " @" + std::to_string(started.ns) + ".." +
+                        std::to_string(finished.ns));
     }
     void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override {
         heard.push_back("overrun window " + std::to_string(window) + " component " +

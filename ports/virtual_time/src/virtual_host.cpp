@@ -11,15 +11,18 @@ std::size_t VirtualHost::run_within(const Work& work, Instant deadline) noexcept
         const bool is_modelled = work.pass == Pass::kExecute && component < durations_.size();
         const Duration duration = is_modelled ? durations_[component] : Duration{0};
         MAMORI_REQUIRE(2, duration >= Duration{0});
+        // Written without the sum, which could overflow.
+        const bool is_in_time = duration != kNever && duration <= deadline - now_;
+        const Instant cut_off = deadline > now_ ? deadline : now_;
+        step_end_ = is_in_time ? now_ + duration : cut_off + Duration{1};
         if (duration != kNever) {
             work.run(work.argument, work.first + i, work.first + i + 1U);
         }
-        // Written without the sum, which could overflow.
-        if (duration == kNever || duration > deadline - now_) {
-            advance_to(deadline > now_ ? deadline : now_);
+        if (!is_in_time) {
+            advance_to(cut_off);
             return i;
         }
-        now_ = now_ + duration;
+        now_ = step_end_;
     }
     return work.count;
 }

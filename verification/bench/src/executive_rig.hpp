@@ -64,6 +64,8 @@ class ExecutiveRig {
         table.frame = one.frame;
         table.windows[0] = one.windows[0];
         table.windows[0].component_count = kCount;
+        // The table cannot see through the references of the pool that no component has a second pass.
+        table.windows[0].has_second_pass = false;
         table.component_rows.fill(one.component_rows[0]);
         for (std::size_t i = 0U; i < kCount; ++i) {
             table.components[i] = &pool.at(i);

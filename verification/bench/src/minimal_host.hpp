@@ -39,6 +39,7 @@ template <typename Clock>
 class MinimalHost final : public WindowHost {
   public:
     Instant get_now() const noexcept override { return clock_.read(); }
+    Instant get_step_end() const noexcept override { return clock_.read(); }
 
     std::size_t run_within(const Work& work, Instant) noexcept override {
         work.run(work.argument, work.first, work.first + work.count);

@@ -17,10 +17,12 @@
 
 #include "mamori/kernel/component.hpp"
 #include "mamori/kernel/context_plan.hpp"
+#include "mamori/kernel/execution_observer.hpp"
 #include "mamori/kernel/fsm_table.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
+#include "mamori/kernel/window_host.hpp"
 
 namespace mamori {
 
@@ -140,13 +142,18 @@ class ExecutionContext final {
     /// on_execute when Active, on_error when in Error, nothing when Inactive. In a kEventDriven context an
     /// Active state machine serves its events instead, and only a machine in Error gets on_error here.
     void execute(std::size_t position) noexcept { execute_range(position, 1U); }
-    /// What follows each execute() while the context still counts as acting; nothing when `function` is null.
-    struct AfterStep {
-        void (*function)(void* argument, std::size_t position) noexcept;
+    /// Whoever follows a range step by step, while the context still counts as acting.
+    struct Follower {
+        ExecutionObserver* observer;  ///< hears of each participant that was Active and in time; may be null
+        WindowHost* host;             ///< tells when a step ends; needed with an observer
+        Instant deadline;             ///< of the range
+        Instant step_start;           ///< of the first step; moves on with each
+        std::size_t first_component;  ///< number of position 0 for the observer
+        void (*hand_on)(void* argument, std::size_t position) noexcept;  ///< after each step; may be null
         void* argument;
     };
-    /// execute() of `count` positions from `first` on, each followed by `after`.
-    void execute_range(std::size_t first, std::size_t count, AfterStep after = {nullptr, nullptr}) noexcept;
+    /// execute() of `count` positions from `first` on. @param[in,out] follower may be null.
+    void execute_range(std::size_t first, std::size_t count, Follower* follower = nullptr) noexcept;
     /// on_state_update when Active, so not when on_execute failed in this cycle; nothing when kEventDriven.
     void update_state(std::size_t position) noexcept { update_range(position, 1U); }
     /// update_state() of `count` positions from `first` on.
@@ -163,6 +170,8 @@ class ExecutionContext final {
     static void release_participants(Span<Component* const> participants) noexcept;
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
+    template <typename After>
+    void run_turns(std::size_t first, std::size_t count, const After& after) noexcept;
     void execute_unusual(Component& component, ContextHandle handle, ActionScope& scope) noexcept;
     void give_notices(Component& component, ContextHandle handle) noexcept;
     static void note(Component& component, ComponentAction action, Status answer,

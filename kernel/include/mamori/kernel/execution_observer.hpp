@@ -20,12 +20,13 @@ namespace mamori {
 /// are refused while it calls.
 class ExecutionObserver {
   public:
-    /// Component `component` is Active and about to run its first pass (on_execute) in this window. Never
-    /// called for one that is Inactive or in Error: its turn passes, but it does not do its work.
-    virtual void on_component_started(std::size_t component, Instant now) noexcept = 0;
-    /// Component `component` came through its on_execute within the budget. Never called for one that did
-    /// not.
-    virtual void on_component_finished(std::size_t component, Instant now) noexcept = 0;
+    /// Component `component` was Active and came through its first pass (on_execute) within the budget. Never
+    /// called for one that is Inactive or in Error: its turn passes, but it does not do its work; nor for one
+    /// that was cut off, of which on_budget_overrun() tells.
+    /// @param[in] started  instant at which its turn began: the window's opening or the end of the turn
+    /// before.
+    /// @param[in] finished instant at which its turn ended.
+    virtual void on_component_executed(std::size_t component, Instant started, Instant finished) noexcept = 0;
     /// Window `window` used its budget up while `component` was running, in either pass, or could not begin
     /// because `component` still hangs from an earlier cycle; its outputs are not published.
     virtual void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept = 0;

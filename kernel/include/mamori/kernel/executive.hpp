@@ -36,7 +36,8 @@ struct WindowState {
     ExecutionContext context{};
     Executive* executive{nullptr};  ///< set while a cycle runs; work reaches its executive through it
     std::size_t window{0U};
-    bool has_abandoned_outputs{false};  ///< hanging work may still write; discard once it has returned
+    ExecutionContext::Follower follower{};  ///< of the cycle that runs or ran last
+    bool has_abandoned_outputs{false};      ///< hanging work may still write; discard once it has returned
 };
 }  // namespace detail
 
@@ -116,8 +117,6 @@ class Executive {
     Status stop_all() noexcept;
     void begin_frame(Instant release) noexcept;
     WindowOutcome run_open_window(std::size_t window, Instant release, WindowHost& host) noexcept;
-    std::size_t run_first_pass(std::size_t window, Instant deadline, WindowHost& host) noexcept;
-    std::size_t run_observed(std::size_t window, Instant deadline, WindowHost& host) noexcept;
     static void execute_steps(void* argument, std::size_t first, std::size_t end) noexcept;
     static void hand_on_after(void* argument, std::size_t position) noexcept;
     static void update_steps(void* argument, std::size_t first, std::size_t end) noexcept;
@@ -126,6 +125,7 @@ class Executive {
     void hand_on_outputs(std::size_t component, Instant opening) noexcept;
     void mark_inputs_read(std::size_t window, std::size_t finished_count) noexcept;
     void publish_outputs(std::size_t window, Instant close) noexcept;
+    void deliver(const PortRow& port) noexcept;
     void discard_outputs(std::size_t window) noexcept;
 
     SystemView view_;

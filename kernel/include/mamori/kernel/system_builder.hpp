@@ -28,6 +28,14 @@ template <typename... Ts, typename... Us, typename... Rest>
 struct Concat<TypeList<Ts...>, TypeList<Us...>, Rest...> {
     using Type = typename Concat<TypeList<Ts..., Us...>, Rest...>::Type;
 };
+/// Eight at a time, so that a window of a thousand components stays within the compiler's template depth.
+template <typename... As, typename... Bs, typename... Cs, typename... Ds, typename... Es, typename... Fs,
+          typename... Gs, typename... Hs, typename... Rest>
+struct Concat<TypeList<As...>, TypeList<Bs...>, TypeList<Cs...>, TypeList<Ds...>, TypeList<Es...>,
+              TypeList<Fs...>, TypeList<Gs...>, TypeList<Hs...>, Rest...> {
+    using Type =
+        typename Concat<TypeList<As..., Bs..., Cs..., Ds..., Es..., Fs..., Gs..., Hs...>, Rest...>::Type;
+};
 
 /// What a part contributes to the table, in types: components, their ports, connections, faults, reactions.
 template <typename ComponentList = TypeList<>, typename PortList = TypeList<>,
@@ -127,6 +135,8 @@ struct TableBuilder {
         row.period = part.row.period == Duration{0} ? table.frame : part.row.period;
         row.first_component = component_count;
         row.component_count = part.list.components.size();
+        row.first_port = port_count;
+        row.port_count = part.list.ports.size();
         std::size_t next_port = 0U;
         for (std::size_t i = 0U; i < row.component_count; ++i) {
             ComponentRow& component = table.component_rows[component_count];

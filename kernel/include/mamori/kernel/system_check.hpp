@@ -98,6 +98,7 @@ constexpr bool is_range_in(std::size_t first, std::size_t count, std::size_t siz
 constexpr bool is_window_valid(const SystemView& view, const WindowRow& row) noexcept {
     return row.name != nullptr && row.partition != nullptr && row.period > Duration{0} &&
            is_range_in(row.first_component, row.component_count, view.components.size()) &&
+           is_range_in(row.first_port, row.port_count, view.ports.size()) &&
            is_range_in(row.first_latch, row.latch_count, view.latch_order.size()) &&
            row.alternative_count <= kAlternativeRateMax;
 }

@@ -41,6 +41,8 @@ struct WindowRow {
     const char* partition{""};  ///< name; equal names are one partition
     std::size_t first_component{0U};
     std::size_t component_count{0U};
+    std::size_t first_port{0U};  ///< of all its components, one after the other
+    std::size_t port_count{0U};
     std::size_t first_latch{0U};  ///< connections into this window, places of `latch_order`
     std::size_t latch_count{0U};
     ExecutionKind kind{ExecutionKind::kPeriodic};

@@ -37,6 +37,11 @@ class WindowHost {
     /// @return the time on the port's line; never goes back.
     virtual Instant get_now() const noexcept = 0;
 
+    /// @return the instant at which the step that is just returning ends; asked from within a step. A host
+    /// that
+    ///         models execution times answers with the modelled end, which its clock has not reached yet.
+    virtual Instant get_step_end() const noexcept = 0;
+
     /// Runs the steps of `work`, each at most once and in order, together or one by one.
     /// @param[in] deadline instant at which the window's budget is used up; may have passed already.
     /// @return how many of them returned by the deadline; less than count when the budget ran out

@@ -66,8 +66,10 @@ struct ComponentTypes {
     using Type = C;
     using PortList = typename PortMembers<C, typename PortsOf<C>::Type>::Type;
     static constexpr std::size_t kPortCount = PortList::kSize;
-    /// An inherited member pointer has the type of the base: the component does not override the action.
+    /// An inherited member pointer has the type of the base: the component does not override the action. Of a
+    /// type that is not final nobody knows what a derived one does.
     static constexpr bool kHasSecondPass =
+        !std::is_final_v<C> ||
         !std::is_same_v<decltype(&C::on_state_update), decltype(&Component::on_state_update)>;
 };
 template <typename C>

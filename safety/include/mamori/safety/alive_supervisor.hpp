@@ -70,6 +70,10 @@ class AliveSupervisor final {
     /// @return kOk; kBadParameter (not watched).
     Status report_alive(std::size_t index) noexcept;
 
+    /// report_alive() for a caller that knows that entity `index` is watched; not checked again here, nor by
+    /// end_lively_cycle().
+    void note_life(std::size_t index) noexcept { slots_.data()[index].has_reported = true; }
+
     /// Takes an expired entity back under supervision, active. Only for a deliberate reset.
     /// @return kOk; kBadParameter (not watched); kPreconditionNotMet (not expired).
     Status acknowledge(std::size_t index) noexcept;
@@ -77,12 +81,47 @@ class AliveSupervisor final {
     /// Ends one supervision cycle.
     /// @return the worst verdict over all slots in use; kHealthy when no slot is in use.
     [[nodiscard]] AliveVerdict step() noexcept;
+    /// The same for entity `index` alone, 0 .. capacity - 1, when it is active and has reported.
+    /// @return false when it is not or has not, and nothing was done.
+    bool end_lively_cycle(std::size_t index) noexcept {
+        AliveSlot& slot = slots_.data()[index];
+        if (slot.state != AliveSlot::State::kActive || !slot.has_reported) {
+            return false;
+        }
+        slot.silent_cycles = 0U;
+        slot.has_reported = false;
+        return true;
+    }
+    /// The same for entity `index` alone, whatever it did.
+    void end_cycle(std::size_t index) noexcept {
+        AliveSlot& slot = slots_[index];
+        if (slot.state != AliveSlot::State::kActive) {
+            return;
+        }
+        // The count cannot wrap: it stops when it reaches the limit.
+        slot.silent_cycles = slot.has_reported ? 0U : slot.silent_cycles + 1U;
+        slot.has_reported = false;
+        if (slot.silent_cycles >= slot.limits.expired_cycles) {
+            slot.state = AliveSlot::State::kExpired;
+        }
+    }
 
     /// @param[in] index 0 .. capacity - 1. @return verdict of the last step(); kHealthy when not supervised.
-    AliveVerdict get_verdict(std::size_t index) const noexcept;
+    AliveVerdict get_verdict(std::size_t index) const noexcept {
+        const AliveSlot& slot = slots_[index];
+        // The worst condition is judged first, so that equal limits give the severer answer.
+        if (slot.state == AliveSlot::State::kExpired) {
+            return AliveVerdict::kExpired;
+        }
+        const bool is_late =
+            slot.state == AliveSlot::State::kActive && slot.silent_cycles >= slot.limits.late_cycles;
+        return is_late ? AliveVerdict::kLate : AliveVerdict::kHealthy;
+    }
 
     /// @param[in] index 0 .. capacity - 1. @return true while silence of this entity would be noticed.
-    bool is_active(std::size_t index) const noexcept;
+    bool is_active(std::size_t index) const noexcept {
+        return slots_[index].state == AliveSlot::State::kActive;
+    }
 
   private:
     bool is_watched(std::size_t index) const noexcept;

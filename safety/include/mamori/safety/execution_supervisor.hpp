@@ -111,9 +111,7 @@ class ExecutionSupervisor final : public ExecutionObserver {
     Status acknowledge(std::size_t component) noexcept;
 
     /// Ends one supervision cycle and judges all components, worst condition first.
-    /// @param[in] now start of the cycle, as in ContextHandle::now; runs that began later are judged at the
-    /// latest
-    ///                instant that the executive told.
+    /// @param[in] now start of the cycle, as in ContextHandle::now.
     /// @return kExpired: a component of global scope is expired. kFailed: one is late, a window was released
     ///         too late in this cycle, or no component of global scope is active, so that nothing is proven.
     [[nodiscard]] GlobalStatus step(Instant now) noexcept;
@@ -138,8 +136,7 @@ class ExecutionSupervisor final : public ExecutionObserver {
     const LateRelease& get_late_release() const noexcept { return late_release_; }
     void acknowledge_late_release() noexcept { late_release_ = LateRelease{}; }
 
-    void on_component_started(std::size_t component, Instant now) noexcept override;
-    void on_component_finished(std::size_t component, Instant now) noexcept override;
+    void on_component_executed(std::size_t component, Instant started, Instant finished) noexcept override;
     void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override;
     void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override;
 
@@ -153,7 +150,6 @@ class ExecutionSupervisor final : public ExecutionObserver {
     LateRelease late_release_{};
     bool is_release_late_{false};
     GlobalStatus global_status_{GlobalStatus::kFailed};
-    Instant observed_at_{};  ///< last instant that the executive told
 };
 
 }  // namespace mamori::safety

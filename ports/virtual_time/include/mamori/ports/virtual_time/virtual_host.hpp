@@ -32,6 +32,8 @@ class VirtualHost final : public WindowHost {
     explicit VirtualHost(Span<Duration> durations) noexcept : durations_(durations) {}
 
     Instant get_now() const noexcept override { return now_; }
+    /// The modelled end of the step; for one that is cut off an instant after its deadline.
+    Instant get_step_end() const noexcept override { return step_end_; }
 
     /// Work whose modelled time fits runs and the clock moves on by it. Work that does not fit is cut off at
     /// the deadline: a late one still has its effect on its component, a hanging one has none.
@@ -49,6 +51,7 @@ class VirtualHost final : public WindowHost {
   private:
     Span<Duration> durations_;
     Instant now_{};
+    Instant step_end_{};
 };
 
 }  // namespace mamori::ports::virtual_time
