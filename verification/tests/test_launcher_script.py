@@ -18,7 +18,7 @@ from mamori.verification.command.main import make_parser
 from mamori.verification.command.project import ROOT
 
 PACKAGES_OF_DEMO = ("python3 python3-venv g++ cmake ninja-build libsimbody-dev liborocos-kdl-dev libeigen3-dev "
-                    "libyaml-cpp-dev libgtest-dev libcli11-dev nlohmann-json3-dev").split()  # fmt: skip
+                    "libyaml-cpp-dev libgtest-dev relacy-dev libcli11-dev nlohmann-json3-dev").split()  # fmt: skip
 
 TOOLS = {
     "id": 'echo "${FAKE_UID:-0}"',
