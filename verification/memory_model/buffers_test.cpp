@@ -52,8 +52,8 @@ template <typename Suite>
 std::string find_defect() {
     return search<Suite>().result;
 }
-const std::string kRace = rl::test_result_str(rl::test_result_data_race);
-const std::string kWrong = rl::test_result_str(rl::test_result_user_assert_failed);
+constexpr const char* kRace = "DATA RACE";
+constexpr const char* kWrong = "USER ASSERT FAILED";
 
 /// Thread 0 writes, thread 1 reads; after() runs when both have ended.
 template <typename Orders>

@@ -47,7 +47,7 @@ template <typename T, typename Orders = AsWritten>
 class RelaxedWord {
   public:
     using value_type = T;
-    static constexpr bool is_always_lock_free = true;
+    static constexpr bool is_always_lock_free = true;                            // NOLINT: as std::atomic
     RelaxedWord(T value = T{}) { word_.store(value, rl::mo_relaxed, RL_INFO); }  // NOLINT: as std::atomic
 
     T load(std::memory_order order) const { return word_.load(get(order), RL_INFO); }

@@ -57,7 +57,7 @@ class SanitizerFiber {
 class Side {
   public:
     Side() {
-        getcontext(&own_);
+        static_cast<void>(getcontext(&own_));  // it has no way to fail
         own_.uc_stack.ss_sp = stack_.data();
         own_.uc_stack.ss_size = stack_.size();
         own_.uc_link = nullptr;
@@ -77,7 +77,7 @@ class Side {
         running() = this;
         caller_fiber_ = SanitizerFiber::current();
         fiber_.announce();
-        swapcontext(&caller_, &own_);
+        static_cast<void>(swapcontext(&caller_, &own_));
         running() = nullptr;
     }
     bool is_done() const { return is_done_; }
@@ -105,14 +105,14 @@ class Side {
     }
     void pause() {
         caller_fiber_.announce();
-        swapcontext(&own_, &caller_);
+        static_cast<void>(swapcontext(&own_, &caller_));
     }
 
     ucontext_t own_{};
     ucontext_t caller_{};
     SanitizerFiber fiber_{SanitizerFiber::create()};
     SanitizerFiber caller_fiber_{SanitizerFiber::current()};
-    std::vector<char> stack_ = std::vector<char>(256U * 1024U);
+    std::vector<char> stack_ = std::vector<char>(std::size_t{256U} * 1024U);
     std::function<void()> body_;
     bool is_done_{true};
 };
@@ -173,7 +173,7 @@ template <typename T>
 class SteppedAtomic {
   public:
     using value_type = T;
-    static constexpr bool is_always_lock_free = true;
+    static constexpr bool is_always_lock_free = true;                   // NOLINT: as std::atomic
     constexpr SteppedAtomic(T value = T{}) noexcept : value_(value) {}  // NOLINT: as std::atomic
     SteppedAtomic(const SteppedAtomic&) = delete;
     SteppedAtomic& operator=(const SteppedAtomic&) = delete;

@@ -4,7 +4,7 @@
 /// writer's, one the reader's, and one waits in a shared word. Each side swaps its slot for the waiting one,
 /// so no slot ever has two owners and neither side ever waits.
 ///
-/// @satisfies SWR-BUF-001, SWR-BUF-002      Design: docs/design/buffers.md#triple-buffer
+/// @satisfies SWR-BUF-001, SWR-BUF-002, SWR-BUF-008      Design: docs/design/buffers.md#triple-buffer
 #ifndef MAMORI_KERNEL_TRIPLE_BUFFER_HPP
 #define MAMORI_KERNEL_TRIPLE_BUFFER_HPP
 
