@@ -82,6 +82,16 @@ def make_parser(with_trace: bool = False) -> Parser:
     bench.add_argument("--out", type=Path, metavar="DIR")
     for option in ("--quick", "--gate", "--list", "--accept"):
         bench.add_argument(option, action="store_true")
+    mutate = add("mutate")
+    mutate.add_argument("files", nargs="*", metavar="FILE")
+    mutate.add_argument("--sample", type=at_least_one, metavar="N")
+    mutate.add_argument("--seed", type=int, default=1, metavar="S")
+    mutate.add_argument("--list", action="store_true")
+    mutate.add_argument("--store", action="store_true")
+    fuzz = add("fuzz")
+    fuzz.add_argument("names", nargs="*", metavar="NAME")
+    fuzz.add_argument("--seconds", type=at_least_one, default=30, metavar="N")
+    fuzz.add_argument("--keep", action="store_true")
     if with_trace:
         from mamori.trace.command import add_arguments
 
@@ -105,6 +115,17 @@ def run(argv: list[str]) -> int:
             return recorder_log.run(arguments)
         case "bench":
             return _run_bench(arguments)
+        case "mutate":
+            from mamori.verification.mutation import command as mutation
+
+            return mutation.mutate(
+                mutation.Request(tuple(arguments.files), arguments.sample, arguments.seed, arguments.jobs, arguments.list,
+                                 arguments.store)
+            )  # fmt: skip
+        case "fuzz":
+            from mamori.verification.fuzz import command as fuzzing
+
+            return fuzzing.fuzz(fuzzing.Request(tuple(arguments.names), arguments.seconds, arguments.jobs, arguments.keep))
         case _:
             from mamori.trace.command import run as run_trace
 

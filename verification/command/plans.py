@@ -121,6 +121,20 @@ def trace_steps(*options: str) -> tuple[Step, ...]:
     )
 
 
+def strength_steps() -> tuple[Step, ...]:
+    """How strong the tests are: what they reach, which faults they find, and what random bytes find (test_strength.md)."""
+    folder = "verification"
+    return (
+        Step(name="MC/DC of the kernel", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
+             result="strength-coverage.xml", slow=True),
+        Step(name="mutation sample", commands=((*PYTEST, f"{folder}/mutation/test_mutation.py"),),
+             result="strength-mutation.xml", slow=True),
+        Step(name="fuzz 30 s", commands=((*PYTEST, f"{folder}/fuzz/test_fuzz.py"),
+                                         (*COMMAND, "fuzz", "--seconds", "30", "--jobs", "{jobs}")),
+             result="strength-fuzz.xml", slow=True),
+    )  # fmt: skip
+
+
 def campaign_step(campaign: Action) -> Step:
     return Step(name="fault campaign", function=campaign, needs=(BUILD,))
 
@@ -154,6 +168,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         build_step(SANITIZED, slow=True),
         ctest_step(SANITIZED, slow=True),
         proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}"), slow=True),
+        *strength_steps(),
         campaign_step(campaign),
         *trace_steps(*(("--allow-missing",) if quick else ())),
     )

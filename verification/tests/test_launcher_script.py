@@ -105,6 +105,7 @@ def test_second_run_installs_nothing(box: Box) -> None:
     ("words", "wanted", "unwanted"),
     [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
      (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
+     (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
      (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev")],
 )  # fmt: skip
 def test_each_command_needs_its_groups_only(box: Box, words: tuple[str, ...], wanted: str, unwanted: str) -> None:

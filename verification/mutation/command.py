@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`./mamori mutate`: arguments of the command, what it prints, and when it fails.
+
+@satisfies SWR-VER-004, SWR-VER-006, SWR-VER-007      Design: docs/design/test_strength.md#score
+"""
+
+from __future__ import annotations
+
+import datetime
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.profiles.input_error import nearest_names
+from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
+from mamori.verification.command.project import ROOT, Project
+from mamori.verification.mutation import baseline
+from mamori.verification.mutation.equivalent import read_list
+from mamori.verification.mutation.operators import make_mutants
+from mamori.verification.mutation.run import Plan, Report, Selection, make_plan, make_table, run_plan, write_json
+from mamori.verification.mutation.score import BAR
+from mamori.verification.mutation.sources import MutationError, Sources, read_sources
+from mamori.verification.mutation.workbench import SURVIVED, Result
+
+PROGRESS_S = 10.0
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the user asked for."""
+
+    files: tuple[str, ...] = ()
+    sample: int | None = None
+    seed: int = 1
+    jobs: int = 1
+    only_list: bool = False
+    store: bool = False
+
+
+def mutate(request: Request) -> int:
+    """@return exit status. @raise UsageError for files that are none of the kernel's."""
+    project = Project(ROOT)
+    if request.store and request.sample is not None:
+        raise UsageError("mutate: --store keeps the result of all mutants; leave --sample out")
+    known = Sources(project.root, ()).list_files()
+    selection = Selection(choose_files(request.files, known), request.sample, request.seed)
+    try:
+        plan = make_plan(project.root, selection, read_list())
+        if request.only_list:
+            return show_plan(plan)
+        report = run_kernel(project.root, plan, request.jobs, Progress(plan))
+    except MutationError as error:
+        print(error, file=sys.stderr)
+        return EXIT_FAILED
+    write_json(project.evidence / "mutation" / "mutation.json", report, selection)
+    print(make_table(report.files))
+    for line in describe(report):
+        print(line)
+    if request.store:
+        store(project.root, report)
+    return EXIT_OK if report.passed else EXIT_FAILED
+
+
+def run_kernel(root: Path, plan: Plan, jobs: int, progress: Callable[[Result, int, int], None]) -> Report:
+    """Tries `plan` in a folder of its own, so that two runs do not meet. @raise MutationError."""
+    folder = root / "build" / "mutation"
+    sources = read_sources(root, folder / "cmake")
+    with tempfile.TemporaryDirectory(prefix="work-", dir=folder) as work:
+        return run_plan(sources, plan, Path(work), jobs, progress)
+
+
+def choose_files(wanted: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
+    """@return the files of the kernel that were named, or all. @raise UsageError for one that is none."""
+    for name in wanted:
+        if _normalise(name) not in known:
+            raise UsageError(f"mutate: '{name}' is no source or header of the kernel; {nearest_names(name, known)}")
+    return tuple(_normalise(name) for name in wanted) or tuple(known)
+
+
+def _normalise(name: str) -> str:
+    path = Path(name).absolute()
+    return path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else name
+
+
+class Progress:
+    """Tells of every survivor at once, and of the rest now and then."""
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+        self._told = time.monotonic()
+        self._survived = 0
+
+    def __call__(self, result: Result, done: int, total: int) -> None:
+        if result.verdict == SURVIVED:
+            self._survived += 1
+            print(result.mutant.make_diff(self._plan.sources[result.mutant.file]), flush=True)
+        if done == total or time.monotonic() - self._told >= PROGRESS_S:
+            self._told = time.monotonic()
+            print(f"[{done}/{total}] mutants tried, {self._survived} survived", flush=True)
+
+
+def show_plan(plan: Plan) -> int:
+    """One line per mutant, without running anything."""
+    for mutant in plan.mutants:
+        source = plan.sources[mutant.file]
+        before, after = mutant.get_change(source)
+        print(f"{mutant.file}:{mutant.get_line(source)}: {mutant.operator}: {before}  ->  {after}")
+    print(f"mutants: {len(plan.mutants)}; files: {len(plan.sources)}")
+    return EXIT_OK
+
+
+def describe(report: Report) -> list[str]:
+    """What is to be mended, and the closing line."""
+    total = report.total
+    lines = [f"equivalent.toml: row names no mutant any more, remove it: {row}" for row in report.plan.unused]
+    lines += [f"equivalent.toml: {result.killer} kills this mutant, so it is not equivalent: {row}"
+              for row, result in report.wrong_rows]  # fmt: skip
+    for result in report.survivors:
+        line = result.mutant.get_line(report.plan.sources[result.mutant.file])
+        before, after = result.mutant.get_change(report.plan.sources[result.mutant.file])
+        lines.append(f"{result.mutant.file}:{line}: survived: {before}  ->  {after}")
+    kind = f"sample of {len(report.results)}" if report.plan.is_sample else "all mutants"
+    lines.append(f"mutation score: {total.score:.1%} ({total.killed} of {total.valid} killed; {kind}; {BAR:.0%} is the bar)")
+    return lines
+
+
+def store(root: Path, report: Report) -> None:
+    """Puts the counts of the files of this run into the stored result, and drops files that are gone."""
+    entries = baseline.read_store()
+    argv = ("git", "-C", str(root), "rev-parse", "--short=12", "HEAD")
+    commit = subprocess.run(argv, capture_output=True, text=True, check=False)
+    date = datetime.datetime.now(datetime.UTC).date().isoformat()
+    for file, counts in report.files.items():
+        mark = baseline.fingerprint(report.plan.sources[file])
+        entries[file] = baseline.Entry(mark, commit.stdout.strip() or "unknown", date, counts)
+    baseline.write_store({file: entry for file, entry in entries.items() if (root / file).is_file()})
+    print(f"stored: {baseline.STORE.relative_to(root)}")
+
+
+def read_mutated(root: Path) -> dict[str, bytes]:
+    """Files of the kernel that have mutants."""
+    sources = {file: (root / file).read_bytes() for file in Sources(root, ()).list_files()}
+    return {file: source for file, source in sources.items() if make_mutants(file, source)}

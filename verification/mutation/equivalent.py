@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The checked list of mutants that no test can kill, each with its reason.
+
+@satisfies SWR-VER-007      Design: docs/design/test_strength.md#equivalent-mutants
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.verification.mutation.operators import Mutant
+from mamori.verification.mutation.sources import MutationError
+
+LIST = Path(__file__).resolve().with_name("equivalent.toml")
+KEYS = {"file", "before", "after", "reason"}
+
+
+@dataclass(frozen=True)
+class Row:
+    """A mutant named by its changed line, without indentation, so that a row outlives changes elsewhere in its file."""
+
+    file: str
+    before: str
+    after: str
+    reason: str
+
+    def __str__(self) -> str:
+        return f"{self.file}: '{self.before}' -> '{self.after}'"
+
+
+def read_list(path: Path = LIST) -> list[Row]:
+    """@raise MutationError for a row that is not whole, gives no reason, or stands there twice."""
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8")).get("mutant", [])
+    except tomllib.TOMLDecodeError as error:
+        raise MutationError(f"{path}: {error}") from error
+    rows: list[Row] = []
+    for number, table in enumerate(tables, start=1):
+        if set(table) != KEYS:
+            raise MutationError(f"{path}: row {number} needs {', '.join(sorted(KEYS))}; it has {', '.join(sorted(table))}")
+        row = Row(table["file"], table["before"].strip(), table["after"].strip(), table["reason"].strip())
+        if not row.reason:
+            raise MutationError(f"{path}: row {number} ({row}) gives no reason")
+        if any(str(row) == str(other) for other in rows):
+            raise MutationError(f"{path}: row {number} ({row}) is there twice")
+        rows.append(row)
+    return rows
+
+
+def match(rows: Sequence[Row], mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> tuple[dict[Mutant, Row], list[Row]]:
+    """@return the row of each mutant that has one, and the rows of `sources` that name no mutant any more."""
+    by_change = {(row.file, row.before, row.after): row for row in rows}
+    found: dict[Mutant, Row] = {}
+    for mutant in mutants:
+        row = by_change.get((mutant.file, *mutant.get_change(sources[mutant.file])))
+        if row is not None:
+            found[mutant] = row
+    used = set(map(str, found.values()))
+    return found, [row for row in rows if row.file in sources and str(row) not in used]

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One run: chooses mutants, tries them on several benches at once, writes the evidence.
+
+@satisfies SWR-VER-004, SWR-VER-005, SWR-VER-006      Design: docs/design/test_strength.md#score
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import queue
+import random
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+from mamori.verification.mutation.equivalent import Row, match
+from mamori.verification.mutation.operators import Mutant, make_mutants
+from mamori.verification.mutation.score import LISTED, Counts, add_up, count, is_met
+from mamori.verification.mutation.sources import Sources
+from mamori.verification.mutation.workbench import KILLED, SURVIVED, TEST_TIMEOUT_S, Baseline, Bench, Result
+
+SCHEMA = "mamori.mutation/1"
+Progress = Callable[[Result, int, int], None]
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Which mutants are tried. `size` None: all of them."""
+
+    files: tuple[str, ...]
+    size: int | None = None
+    seed: int = 1
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a selection means for the sources as they are."""
+
+    sources: dict[str, bytes]
+    mutants: tuple[Mutant, ...]
+    listed: dict[Mutant, Row]
+    unused: tuple[Row, ...]
+    is_sample: bool
+
+
+@dataclass(frozen=True)
+class Report:
+    """What came of a plan."""
+
+    plan: Plan
+    results: tuple[Result, ...]
+    wrong_rows: tuple[tuple[Row, Result], ...]  # listed as equivalent, and yet killed
+
+    @property
+    def files(self) -> dict[str, Counts]:
+        return count(self.results)
+
+    @property
+    def total(self) -> Counts:
+        return add_up(self.files)
+
+    @property
+    def survivors(self) -> list[Result]:
+        return [result for result in self.results if result.verdict == SURVIVED]
+
+    @property
+    def passed(self) -> bool:
+        return is_met(self.total, self.plan.is_sample) and not self.plan.unused and not self.wrong_rows
+
+
+def make_plan(root: Path, selection: Selection, rows: Sequence[Row]) -> Plan:
+    """The same sources and selection give the same plan."""
+    sources = {file: (root / file).read_bytes() for file in sorted(selection.files)}
+    everything = [mutant for file, source in sources.items() for mutant in make_mutants(file, source)]
+    listed, unused = match(rows, everything, sources)
+    chosen = everything
+    is_sample = selection.size is not None and selection.size < len(everything)
+    if is_sample:
+        chosen = sorted(random.Random(selection.seed).sample(everything, selection.size or 0))
+    return Plan(sources, tuple(chosen), listed, tuple(unused), is_sample)
+
+
+def run_plan(
+    sources: Sources, plan: Plan, folder: Path, jobs: int, progress: Progress, test_timeout_s: float = TEST_TIMEOUT_S
+) -> Report:
+    """Tries every mutant of the plan. @raise MutationError when the tests do not pass as they are."""
+    baseline = Baseline(sources, folder, jobs, test_timeout_s)
+    benches: queue.SimpleQueue[Bench] = queue.SimpleQueue()
+    for number in range(jobs):
+        benches.put(Bench(baseline, f"bench-{number}"))
+
+    def try_one(mutant: Mutant) -> Result:
+        bench = benches.get()
+        try:
+            return bench.try_mutant(mutant, plan.sources[mutant.file])
+        finally:
+            benches.put(bench)
+
+    results: list[Result] = []
+    wrong: list[tuple[Row, Result]] = []
+    with ThreadPoolExecutor(jobs) as pool:
+        try:
+            for done, tried in enumerate(pool.map(try_one, plan.mutants), start=1):
+                row = plan.listed.get(tried.mutant)
+                if row is not None and tried.verdict == KILLED:
+                    wrong.append((row, tried))
+                result = replace(tried, verdict=LISTED) if row is not None and tried.verdict == SURVIVED else tried
+                results.append(result)
+                progress(result, done, len(plan.mutants))
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return Report(plan, tuple(results), tuple(wrong))
+
+
+def make_table(files: dict[str, Counts]) -> str:
+    """One line per file and one for all."""
+    width = max((len(file) for file in files), default=0)
+    lines = [f"{'file':{width}}    score  killed  survived  listed  same code  not compiled"]
+    for file, counts in (*files.items(), ("all files", add_up(files))):
+        score = f"{counts.score:.1%}" if counts.valid else "-"
+        lines.append(f"{file:{width}}  {score:>7}  {counts.killed:>6}  {counts.survived:>8}  {counts.listed:>6}"
+                     f"  {counts.same_code:>9}  {counts.invalid:>12}")  # fmt: skip
+    return "\n".join(lines)
+
+
+def write_json(path: Path, report: Report, selection: Selection) -> None:
+    """Writes the whole file or nothing."""
+    total = report.total
+    content = {
+        "schema": SCHEMA,
+        "passed": report.passed,
+        "sample": {"size": len(report.results), "seed": selection.seed} if report.plan.is_sample else None,
+        "total": {**asdict(total), "score": total.score},
+        "files": [{"file": file, **asdict(counts), "score": counts.score} for file, counts in report.files.items()],
+        "mutants": [_describe(result, report.plan) for result in report.results],
+    }
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_suffix(".part")
+    part.write_text(json.dumps(content, indent=1), encoding="utf-8")
+    os.replace(part, path)
+
+
+def _describe(result: Result, plan: Plan) -> dict[str, object]:
+    mutant, source = result.mutant, plan.sources[result.mutant.file]
+    row: dict[str, object] = {"file": mutant.file, "line": mutant.get_line(source), "operator": mutant.operator,
+                              "verdict": result.verdict, "killer": result.killer}  # fmt: skip
+    if result.verdict in (SURVIVED, LISTED):
+        row["diff"] = mutant.make_diff(source)
+    if result.mutant in plan.listed:
+        row["reason"] = plan.listed[result.mutant].reason
+    return row

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From verdicts to a score, and from a score to yes or no.
+
+@satisfies SWR-VER-005, SWR-VER-006      Design: docs/design/test_strength.md#score
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from mamori.verification.mutation.workbench import EQUIVALENT, INVALID, KILLED, SURVIVED, Result
+
+BAR = 0.90
+DOUBT = 0.05  # a sample is believed to contradict the bar when so good a kernel would give it this rarely
+LISTED = "listed as equivalent"
+
+
+@dataclass
+class Counts:
+    """Verdicts of the mutants of one file, or of all."""
+
+    killed: int = 0
+    survived: int = 0
+    listed: int = 0
+    same_code: int = 0
+    invalid: int = 0
+
+    @property
+    def valid(self) -> int:
+        """Mutants that a test could tell from the original."""
+        return self.killed + self.survived
+
+    @property
+    def score(self) -> float:
+        """Share of the valid mutants that were killed; 1 when there was none."""
+        return self.killed / self.valid if self.valid else 1.0
+
+    def add(self, verdict: str) -> None:
+        name = {KILLED: "killed", SURVIVED: "survived", LISTED: "listed", EQUIVALENT: "same_code", INVALID: "invalid"}[verdict]
+        setattr(self, name, getattr(self, name) + 1)
+
+    def __add__(self, other: Counts) -> Counts:
+        return Counts(self.killed + other.killed, self.survived + other.survived, self.listed + other.listed,
+                      self.same_code + other.same_code, self.invalid + other.invalid)  # fmt: skip
+
+
+def count(results: Iterable[Result]) -> dict[str, Counts]:
+    """Counts per file, by name."""
+    files: dict[str, Counts] = {}
+    for result in sorted(results, key=lambda result: result.mutant):
+        files.setdefault(result.mutant.file, Counts()).add(result.verdict)
+    return files
+
+
+def add_up(files: dict[str, Counts]) -> Counts:
+    return sum(files.values(), Counts())
+
+
+def is_met(counts: Counts, is_sample: bool) -> bool:
+    """A whole run is held against the bar itself. A sample may fall short of it by chance: it fails when a kernel that just
+    meets the bar would leave so many survivors in it with a probability below DOUBT."""
+    if not is_sample:
+        return counts.score >= BAR
+    return calc_chance(counts.survived, counts.valid) >= DOUBT
+
+
+def calc_chance(survived: int, valid: int) -> float:
+    """Probability of at least `survived` survivors among `valid` mutants when each survives with probability 1 - BAR."""
+    return math.fsum(math.comb(valid, k) * (1.0 - BAR) ** k * BAR ** (valid - k) for k in range(survived, valid + 1))

@@ -1,0 +1,371 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: the tests of the kernel find most small faults, and what this tool says about that is true.
+# Method: the stored result and a sample of the shipped kernel; a small project with one mutant of each fate.
+from __future__ import annotations
+
+import os
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from mamori.verification.command.errors import UsageError
+from mamori.verification.command.project import ROOT, Project
+from mamori.verification.mutation import baseline
+from mamori.verification.mutation.command import choose_files, describe, read_mutated, run_kernel
+from mamori.verification.mutation.equivalent import Row, read_list
+from mamori.verification.mutation.operators import make_mutants
+from mamori.verification.mutation.run import Plan, Report, Selection, make_plan, make_table, run_plan, write_json
+from mamori.verification.mutation.score import LISTED, Counts, is_met
+from mamori.verification.mutation.sources import MutationError, Sources, Unit, keep_flags
+from mamori.verification.mutation.workbench import EQUIVALENT, INVALID, KILLED, SURVIVED, TIMED_OUT, Baseline, Bench, Result
+
+SAMPLE = 60
+SEED = 1
+TIMEOUT_S = 2.0  # of a test that needs a few milliseconds
+
+HEADER = "kernel/include/limit.hpp"
+SOURCE = "kernel/src/limit.cpp"
+FILES = {
+    HEADER: """\
+constexpr int calc_limit(int scale) { return 10 * scale; }
+bool is_allowed(int value);
+int keep(int value);
+unsigned count_to(unsigned end);
+""",
+    SOURCE: """\
+#include "limit.hpp"
+bool is_allowed(int value) { return value < calc_limit(1); }
+int keep(int value) { const int nothing = 0 * value; return value + nothing; }
+unsigned count_to(unsigned end) {
+    unsigned i = 0U;
+    while (i != end) { ++i; }
+    return i;
+}
+enum Code { kFirst = 1 };
+int pick(Code code) { switch (code) { case kFirst: return 1; case 2 - 0: return 2; } return 3; }
+""",
+    "kernel/tests/limit_test.cpp": """\
+#include "limit.hpp"
+static_assert(calc_limit(2) == 20);
+TEST(Limit, Holds) {
+    EXPECT_TRUE(is_allowed(0));
+    EXPECT_FALSE(is_allowed(100));
+    EXPECT_EQ(keep(5), 5);
+    EXPECT_EQ(count_to(3U), 3U);
+}
+""",
+}
+FLAGS = ("-std=c++17", "-fno-exceptions")
+LIMIT_LINE = 2
+
+
+def make_sources(root: Path) -> Sources:
+    """A project with one header, one source and a test that never looks at the limit itself."""
+    for name, text in FILES.items():
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(text, encoding="utf-8")
+    flags = (*FLAGS, f"-I{root / 'kernel' / 'include'}")
+    units = tuple(Unit(path, flags) for path in ("src/limit.cpp", "tests/limit_test.cpp"))
+    return Sources(root, units, prefix_header="gtest/gtest.h")
+
+
+@pytest.fixture
+def sources(tmp_path: Path) -> Sources:
+    return make_sources(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def weak(tmp_path_factory: pytest.TempPathFactory) -> Report:
+    """The whole run of that project."""
+    return run_all(make_sources(tmp_path_factory.mktemp("weak")))
+
+
+def strengthen(sources: Sources) -> None:
+    """Gives the test the limit that it leaves out."""
+    test = sources.folder / "tests" / "limit_test.cpp"
+    test.write_text(test.read_text(encoding="utf-8").replace("is_allowed(100)", "is_allowed(10)"), encoding="utf-8")
+
+
+def run_all(sources: Sources, *rows: Row, file: str = SOURCE, line: int | None = None) -> Report:
+    """@param line try the mutants of this line only."""
+    plan = make_plan(sources.root, Selection((file,)), rows)
+    if line is not None:
+        plan = replace(plan, mutants=tuple(each for each in plan.mutants if each.get_line(plan.sources[file]) == line))
+    return run_plan(sources, plan, Path(tempfile.mkdtemp(dir=sources.root)), 2, lambda *_: None, TIMEOUT_S)
+
+
+def find(report: Report, before: str, after: str) -> Result:
+    """The result of the mutant whose changed line holds `after` in place of `before`."""
+    for result in report.results:
+        change = result.mutant.get_change(report.plan.sources[result.mutant.file])
+        if change[0].replace(before, after, 1) == change[1]:
+            return result
+    raise AssertionError(f"no mutant turns {before} into {after}")
+
+
+def list_changes(text: str) -> list[str]:
+    source = text.encode("utf-8")
+    return [mutant.apply(source).decode("utf-8") for mutant in make_mutants("a.cpp", source)]
+
+
+# ---- Mutants ----------------------------------------------------------------------------------------------------------
+
+CHANGES = {
+    "bool f(int a) { return a < b; }": ["a <= b", "a >= b"],
+    "bool f(int a) { return a == b; }": ["a != b"],
+    "void f() { if (a && b()) { g(); } }": ["if (a || b())", "if (!(a) && b())", "if (a && !(b()))", "{ ; }"],
+    "void f() { while (a) {} }": ["while (!(a))"],
+    "int f() { return a + 2; }": ["a - 2", "a + 3", "a + 1", "(a + 2) + 1"],
+    "int g{0};": ["g{1}"],
+    "double f() { return 1.5; }": ["(1.5 + 1.0)"],
+    "void f() { ++a; }": ["--a", "{ ; }"],
+    "void f() { a += b; }": ["a -= b", "{ ; }"],
+    "bool f() { return !a; }": ["return a;"],
+    "bool f() { return true; }": ["return false;"],
+    "bool f() { return g(); }": ["return !(g());"],
+    "Status f() { return Status::kOk; }": ["return Status::kError;"],
+    "Status f() { return g(); }": ["return Status::kOk;"],
+    "void f() { for (;;) { break; } }": ["{ ; }"],
+    'const char* f() { return "name"; }': ['return "";'],
+    "void f() { MAMORI_REQUIRE(7, a < b); }": ["(7, a <= b)", "(7, a >= b)", "{ ; }"],
+}
+
+
+@pytest.mark.parametrize("text", CHANGES)
+@pytest.mark.verifies("SWR-VER-004", technique="equivalence_classes")
+def test_each_operator_makes_its_changes_and_no_others(text: str) -> None:
+    changes = list_changes(text)
+
+    assert len(changes) == len(CHANGES[text])
+    assert [wanted for wanted in CHANGES[text] if not any(wanted in change for change in changes)] == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["// a < b\n", "#define LIMIT 3\n", '#include "a.hpp"\n', "static_assert(1 < 2);", "template <int N = 3> struct A;",
+     "std::array<int, 8U> a;", "bool operator<(A a, A b);"],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-VER-004", technique="error_guessing")
+def test_text_that_decides_nothing_at_run_time_is_left_alone(text: str) -> None:
+    assert list_changes(text) == []
+
+
+@pytest.mark.verifies("SWR-VER-004", technique="interface")
+def test_change_keeps_the_number_of_lines() -> None:
+    text = "void f() {\n    call(a,\n         b);\n    if (a ||\n        b()) {\n        return;\n    }\n}\n"
+
+    assert {change.count("\n") for change in list_changes(text)} == {text.count("\n")}
+
+
+@pytest.mark.verifies("SWR-VER-004")
+def test_one_seed_gives_one_sample_and_another_seed_another(sources: Sources) -> None:
+    def choose(seed: int, size: int | None = 8) -> Plan:
+        return make_plan(sources.root, Selection((SOURCE, HEADER), size, seed), ())
+
+    everything = choose(1, None)
+    assert choose(1).mutants == choose(1).mutants
+    assert choose(1).mutants != choose(2).mutants
+    assert set(choose(1).mutants) < set(everything.mutants)
+    assert (len(choose(1).mutants), choose(1).is_sample) == (8, True)
+    assert (choose(1, 1000).mutants, choose(1, 1000).is_sample) == (everything.mutants, False)
+
+
+@pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")
+def test_file_that_is_none_of_the_kernels_is_refused_with_the_nearest() -> None:
+    with pytest.raises(UsageError, match=r"'kernel/src/event_lock.cpp' is no source.*kernel/src/event_log.cpp"):
+        choose_files(("kernel/src/event_lock.cpp",), ("kernel/src/event_log.cpp", "kernel/src/assert.cpp"))
+
+
+# ---- What becomes of a mutant ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.verifies("SWR-VER-005")
+def test_each_mutant_meets_its_fate(weak: Report) -> None:
+    assert find(weak, "value < calc_limit", "value <= calc_limit").verdict == SURVIVED
+    assert find(weak, "value < calc_limit", "value >= calc_limit").verdict == KILLED
+    assert find(weak, "value + nothing", "value - nothing").verdict == EQUIVALENT
+    assert find(weak, "case 2 - 0", "case 1 - 0").verdict == INVALID
+    total = weak.total
+    assert (total.valid, total.same_code > 0, total.invalid > 0) == (total.killed + total.survived, True, True)
+
+
+@pytest.mark.verifies("SWR-VER-005")
+def test_mutant_of_a_header_is_compiled_into_its_tests(sources: Sources) -> None:
+    result = find(run_all(sources, file=HEADER), "10 * scale", "10 / scale")
+
+    assert (result.verdict, result.killer) == (KILLED, "compiler, tests/limit_test.cpp")
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="error_guessing", polarity="violation")
+def test_tests_that_fail_by_themselves_kill_nothing(sources: Sources) -> None:
+    test = sources.folder / "tests" / "limit_test.cpp"
+    test.write_text(FILES["kernel/tests/limit_test.cpp"].replace("keep(5), 5", "keep(5), 6"), encoding="utf-8")
+
+    with pytest.raises(MutationError, match=r"must pass its tests before it is mutated:\n.*limit_test"):
+        run_all(sources)
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="interface")
+def test_sources_are_left_as_they_were(sources: Sources) -> None:
+    run_all(sources, line=LIMIT_LINE)
+
+    assert {name: (sources.root / name).read_text(encoding="utf-8") for name in FILES} == FILES
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="interface")
+def test_only_flags_that_decide_the_meaning_are_kept() -> None:
+    command = ["/usr/bin/c++", "-DA=1", "-I/i", "-isystem", "/s", "-O2", "-g", "-Wall", "-Werror", "-std=c++17", "-fno-rtti",
+               "-MD", "-MF", "a.d", "-o", "a.o", "-c", "/a.cpp"]  # fmt: skip
+
+    assert keep_flags(command) == ("-DA=1", "-I/i", "-isystem", "/s", "-std=c++17", "-fno-rtti")
+
+
+@pytest.mark.verifies("SWR-VER-008", technique="fault_injection", polarity="violation")
+def test_mutant_that_never_ends_is_killed_in_time(sources: Sources) -> None:
+    original = Baseline(sources, sources.root / "work", 1, test_timeout_s=TIMEOUT_S)
+    source = (sources.root / SOURCE).read_bytes()
+    endless = next(mutant for mutant in make_mutants(SOURCE, source) if mutant.get_change(source)[1] == "while (i != end) { ; }")
+
+    result = Bench(original, "bench").try_mutant(endless, source)
+
+    assert (result.verdict, result.killer) == (KILLED, f"tests/limit_test.cpp {TIMED_OUT}")
+
+
+@pytest.mark.verifies("SWR-VER-008")
+def test_tests_of_a_sound_kernel_are_given_their_time(sources: Sources) -> None:
+    original = Baseline(sources, sources.root / "work", 1)
+
+    assert [Bench(original, "bench").check_original(test) for test in original.tests] == [""]
+
+
+# ---- Score -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.verifies("SWR-VER-006", technique="fault_injection", polarity="violation")
+def test_survivor_is_shown_with_its_change_and_fails_a_score_below_the_bar(weak: Report) -> None:
+    assert not weak.passed
+    lines = describe(weak)
+    limit = "bool is_allowed(int value) { return value < calc_limit(1); }"
+    assert f"{SOURCE}:2: survived: {limit}  ->  {limit.replace('<', '<=')}" in lines
+    survivor = find(weak, "value < calc_limit", "value <= calc_limit").mutant
+    diff = survivor.make_diff(weak.plan.sources[SOURCE])
+    assert f"\n-{limit}\n+{limit.replace('<', '<=')}\n" in diff
+
+
+@pytest.mark.verifies("SWR-VER-006")
+def test_stronger_test_raises_the_score(sources: Sources) -> None:
+    weak = run_all(sources, line=LIMIT_LINE).total
+    strengthen(sources)
+    strong = run_all(sources, line=LIMIT_LINE).total
+
+    assert weak.score < strong.score == 1.0
+    assert strong.valid == weak.valid
+
+
+@pytest.mark.parametrize(
+    ("killed", "survived", "is_sample", "wanted"),
+    [(90, 10, False, True), (899, 101, False, False), (0, 0, False, True), (60, 0, True, True), (50, 10, True, True),
+     (49, 11, True, False)],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-VER-006", technique="boundary_values", polarity="violation")
+def test_bar_is_held_on_both_sides(killed: int, survived: int, is_sample: bool, wanted: bool) -> None:
+    assert is_met(Counts(killed, survived), is_sample) == wanted
+
+
+@pytest.mark.verifies("SWR-VER-006")
+def test_stored_result_of_the_kernel_meets_the_bar() -> None:
+    assert baseline.check_store(baseline.read_store(), read_mutated(ROOT)) == []
+
+
+@pytest.mark.verifies("SWR-VER-006")
+def test_sample_of_the_kernel_does_not_contradict_the_bar() -> None:
+    project = Project(ROOT)
+    selection = Selection(tuple(Sources(ROOT, ()).list_files()), SAMPLE, SEED)
+    plan = make_plan(ROOT, selection, read_list())
+    report = run_kernel(ROOT, plan, os.cpu_count() or 1, lambda *_: None)
+    write_json(project.evidence / "mutation" / "mutation.json", report, selection)
+    changed = baseline.list_changed(baseline.read_store(), read_mutated(ROOT))
+    told = [make_table(report.files), *describe(report), *(f"changed since its whole run: {file}" for file in changed)]
+    (project.evidence / "mutation" / "mutation.txt").write_text("\n".join(told) + "\n", encoding="utf-8")
+
+    assert report.passed, "\n".join(told)
+
+
+@pytest.mark.verifies("SWR-VER-006", technique="fault_injection", polarity="violation")
+def test_stored_result_is_judged_as_a_whole_and_by_file(tmp_path: Path) -> None:
+    path = tmp_path / "baseline.toml"
+    entry = baseline.Entry(baseline.fingerprint(b"a"), "0123", "2026-11-22", Counts(89, 11))
+    baseline.write_store({"a.cpp": entry}, path)
+    stored = baseline.read_store(path)
+
+    assert stored == {"a.cpp": entry}
+    assert baseline.check_store(stored, {"a.cpp": b"a"}) == ["the stored mutation score is 89.0% (89 of 100); 90% is the bar"]
+    assert "b.cpp was never mutated" in baseline.check_store(stored, {"a.cpp": b"a", "b.cpp": b"b"})[0]
+    assert "a.cpp is stored but gives no mutants" in baseline.check_store(stored, {})[0]
+    assert baseline.list_changed(stored, {"a.cpp": b"a"}) == []
+    assert baseline.list_changed(stored, {"a.cpp": b"b"}) == ["a.cpp"]
+
+
+@pytest.mark.verifies("SWR-VER-006", technique="error_guessing", polarity="violation")
+def test_stored_result_that_is_none_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "baseline.toml"
+    path.write_text('["a.cpp"]\ncounts = {killed = 1}\n', encoding="utf-8")
+
+    with pytest.raises(MutationError, match="is no stored result"):
+        baseline.read_store(path)
+
+
+# ---- Equivalent mutants ------------------------------------------------------------------------------------------------
+
+LIMIT_ROW = Row(SOURCE, "bool is_allowed(int value) { return value < calc_limit(1); }",
+                "bool is_allowed(int value) { return value <= calc_limit(1); }", "Only a sample of the limit.")  # fmt: skip
+
+
+@pytest.mark.verifies("SWR-VER-007")
+def test_listed_mutant_does_not_count(sources: Sources) -> None:
+    report = run_all(sources, LIMIT_ROW, line=LIMIT_LINE)
+
+    assert find(report, "value < calc_limit", "value <= calc_limit").verdict == LISTED
+    assert report.total.listed == 1
+    assert report.wrong_rows == ()
+
+
+@pytest.mark.verifies("SWR-VER-007", technique="fault_injection", polarity="violation")
+def test_listed_mutant_that_a_test_kills_fails(sources: Sources) -> None:
+    strengthen(sources)
+
+    report = run_all(sources, LIMIT_ROW, line=LIMIT_LINE)
+
+    assert not report.passed
+    assert any("tests/limit_test.cpp kills this mutant, so it is not equivalent" in line for line in describe(report))
+
+
+@pytest.mark.verifies("SWR-VER-007", technique="fault_injection", polarity="violation")
+def test_row_that_names_no_mutant_fails(sources: Sources) -> None:
+    row = Row(SOURCE, "return old < new;", "return old <= new;", "It was so.")
+    plan = make_plan(sources.root, Selection((SOURCE,)), [row])
+
+    report = Report(plan, (), ())
+
+    assert not report.passed
+    assert describe(report)[0] == f"equivalent.toml: row names no mutant any more, remove it: {row}"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('[[mutant]]\nfile = "a"\nbefore = "b"\nafter = "c"\n', "row 1 needs after, before, file, reason"),
+        ('[[mutant]]\nfile = "a"\nbefore = "b"\nafter = "c"\nreason = ""\n', "gives no reason"),
+        ('[[mutant]]\nfile = "a"\nbefore = "b"\nafter = "c"\nreason = "r"\n' * 2, "is there twice"),
+        ("[[mutant]\n", "equivalent.toml"),
+    ],
+)
+@pytest.mark.verifies("SWR-VER-007", technique="equivalence_classes", polarity="violation")
+def test_list_that_is_not_whole_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "equivalent.toml"
+    path.write_text(text, encoding="utf-8")
+
+    with pytest.raises(MutationError, match=message):
+        read_list(path)

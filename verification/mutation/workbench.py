@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Compiles mutants of a private copy of the kernel and runs its tests on them, in bounded time and memory.
+
+Each test file is a program of its own, so that the one that most likely finds the fault is compiled and run first and the
+others need not be built once it has.
+
+@satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#mutants-that-count
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import shutil
+import signal
+import subprocess
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.verification.mutation.operators import Mutant
+from mamori.verification.mutation.sources import COMPILER, MutationError, Sources, Unit
+
+KILLED = "killed"
+SURVIVED = "survived"
+INVALID = "does not compile"
+EQUIVALENT = "same object code"
+
+COMPILE_TIMEOUT_S = 120.0
+TEST_TIMEOUT_S = 20.0
+MEMORY_KIB = 4 * 1024 * 1024
+FILE_BLOCKS = 64 * 1024  # of 512 bytes, that a test may write
+LIBRARIES = ("-lgtest_main", "-lgtest", "-lpthread")
+TEST_FLAGS = ("-O0", "-w", "-UNDEBUG", "-ffp-contract=off")
+COMPARED_FLAGS = ("-O2", "-g0", "-w", "-fno-ident", "-UNDEBUG", "-ffp-contract=off")
+
+# The compiler evaluates tables and checks of tables: a mutant that it refuses for their sake was found by a check.
+COMPILE_TIME_CHECK = re.compile(
+    r"static assertion failed|static assertion expression is not an integral constant"
+    r"|must be initialized by a constant expression|is not a constant expression"
+)
+FIRST_ERROR = re.compile(r"error: (?P<text>[^\n]*)")
+
+
+@dataclass(frozen=True)
+class Result:
+    """What became of one mutant, and who killed it."""
+
+    mutant: Mutant
+    verdict: str
+    killer: str = ""
+
+
+class Baseline:
+    """The kernel as it is: its objects, what each unit includes, and the order of the tests. Shared by all benches."""
+
+    def __init__(self, sources: Sources, folder: Path, jobs: int, test_timeout_s: float = TEST_TIMEOUT_S) -> None:
+        """Compiles every unit and runs every test. @param folder empty or new. @raise MutationError when a test does not
+        pass as it is."""
+        self.sources = sources
+        self.folder = folder
+        self.test_timeout_s = test_timeout_s
+        self.includes: dict[str, frozenset[str]] = {}
+        self._assembler: dict[str, str] = {}
+        (folder / "objects").mkdir(parents=True)
+        self._make_prefix()
+        bench = Bench(self, "original")
+        with ThreadPoolExecutor(jobs) as pool:
+            problems = [words for words in pool.map(lambda unit: self._compile(unit, bench), sources.units) if words]
+        problems = problems or [problem for test in self.tests if (problem := bench.check_original(test))]
+        if problems:
+            raise MutationError("the kernel must pass its tests before it is mutated:\n" + "\n".join(problems))
+        self._bench = bench
+
+    @property
+    def tests(self) -> list[Unit]:
+        return [unit for unit in self.sources.units if unit.is_test]
+
+    def get_object(self, unit: Unit) -> Path:
+        return self.folder / "objects" / (unit.path.replace("/", "_") + ".o")
+
+    def order_tests(self, file: str) -> list[Unit]:
+        """Tests by how likely they find a fault in `file`: named after it, after its beginning, naming it, including it."""
+        stem = Path(file).stem
+        header = f"/{stem}.hpp"
+        include = re.compile(rf'#include "[^"]*{re.escape(header)}"')
+
+        def rank(test: Unit) -> tuple[int, str]:
+            marks = (
+                test.stem == f"{stem}_test",
+                test.stem.startswith(stem),
+                include.search((self.sources.folder / test.path).read_text(encoding="utf-8")) is not None,
+                any(name.endswith(header) for name in self.includes[test.path]),
+            )
+            return next((place for place, mark in enumerate(marks) if mark), len(marks)), test.path
+
+        return sorted(self.tests, key=rank)
+
+    def find_units(self, name: str) -> list[Unit]:
+        """Units that are or include the file `name` (relative to the layer): sources first."""
+        found = [unit for unit in self.sources.units if unit.path == name or name in self.includes[unit.path]]
+        return sorted(found, key=lambda unit: unit.is_test)
+
+    def find_bound(self) -> list[Unit]:
+        """Units that are told by a definition where the layer lies: tests that call the compiler themselves."""
+        place = str(self.sources.folder)
+        return [unit for unit in self.sources.units if any(flag.startswith("-D") and place in flag for flag in unit.flags)]
+
+    def get_assembler(self, unit: Unit) -> str:
+        """Fingerprint of the optimised code of the original. Two benches may both compute it; it is the same."""
+        if unit.path not in self._assembler:
+            self._assembler[unit.path] = self._bench.hash_assembler(unit)
+        return self._assembler[unit.path]
+
+    def _make_prefix(self) -> None:
+        """The headers that every test begins with, compiled once."""
+        self.prefix = self.folder / "prefix.pch"
+        header = self.folder / "prefix.hpp"
+        header.write_text(f'#include "{self.sources.prefix_header}"\n', encoding="utf-8")
+        flags = self.tests[0].flags
+        argv = (COMPILER, *flags, *TEST_FLAGS, "-fpch-instantiate-templates", "-x", "c++-header", str(header),
+                "-o", str(self.prefix))  # fmt: skip
+        _, words = _run(argv, COMPILE_TIMEOUT_S)
+        if not self.prefix.exists():
+            raise MutationError(f"{self.sources.prefix_header} does not compile:\n{words}")
+
+    def _compile(self, unit: Unit, bench: Bench) -> str:
+        depends = self.get_object(unit).with_suffix(".d")
+        status, words = bench.compile(unit, self.get_object(unit), "-MD", "-MF", str(depends))
+        if status != 0:
+            return f"{unit.path}: {words}"
+        self.includes[unit.path] = bench.read_includes(depends)
+        return ""
+
+
+class Bench:
+    """A private copy of the layer in which one mutant at a time is tried."""
+
+    def __init__(self, baseline: Baseline, name: str) -> None:
+        self._baseline = baseline
+        self._sources = baseline.sources
+        self._folder = baseline.folder / name
+        self._layer = self._folder / self._sources.layer
+        shutil.copytree(self._sources.folder, self._layer)
+
+    def try_mutant(self, mutant: Mutant, source: bytes) -> Result:
+        """Runs the tests until one fails; compares object code when none did."""
+        path = self._folder / mutant.file
+        path.write_bytes(mutant.apply(source))
+        try:
+            return self._judge(mutant)
+        finally:
+            path.write_bytes(source)
+
+    def compile(self, unit: Unit, output: Path, *options: str) -> tuple[int, str]:
+        """@return status and the compiler's words."""
+        prefix = ("-include-pch", str(self._baseline.prefix)) if unit.is_test else ()
+        return _run((COMPILER, *self._map(unit), *TEST_FLAGS, *prefix, *options, "-c", str(self._layer / unit.path),
+                     "-o", str(output)), COMPILE_TIMEOUT_S)  # fmt: skip
+
+    def check_original(self, test: Unit) -> str:
+        """@return what is wrong with the test of the unchanged kernel, or nothing."""
+        status, words = self._run_test(test, {}, [])
+        return "" if status == 0 else f"{test.path}: {words.strip()[-500:] or f'status {status}'}"
+
+    def hash_assembler(self, unit: Unit) -> str:
+        """Fingerprint of the optimised code of a unit; empty when it does not compile."""
+        output = self._folder / "compared.s"
+        output.unlink(missing_ok=True)
+        _run((COMPILER, *self._map(unit), *COMPARED_FLAGS, "-S", str(self._layer / unit.path), "-o", str(output)),
+             COMPILE_TIMEOUT_S)  # fmt: skip
+        if not output.exists():
+            return ""
+        lines = output.read_bytes().split(b"\n")
+        return hashlib.sha256(b"\n".join(line for line in lines if not line.lstrip().startswith(b".file"))).hexdigest()
+
+    def read_includes(self, depends: Path) -> frozenset[str]:
+        """Files of the layer that a unit includes, relative to the layer."""
+        words = depends.read_text(encoding="utf-8").replace("\\\n", " ").split()[1:]
+        paths = [Path(word) for word in words]
+        return frozenset(path.relative_to(self._layer).as_posix() for path in paths if path.is_relative_to(self._layer))
+
+    def _map(self, unit: Unit) -> Iterable[str]:
+        """Flags that point into this copy. File names in checks must not tell one copy from another."""
+        original = str(self._sources.folder)
+        return (*(flag.replace(original, str(self._layer)) for flag in unit.flags), f"-ffile-prefix-map={self._folder}/=")
+
+    def _judge(self, mutant: Mutant) -> Result:
+        name = Path(mutant.file).relative_to(self._sources.layer).as_posix()
+        units = self._baseline.find_units(name)
+        changed: dict[str, Path] = {}
+        for unit in units:
+            if not unit.is_test:
+                if refusal := self._recompile(unit, changed, mutant):
+                    return refusal
+        bound = self._baseline.find_bound() if name.endswith(".hpp") else []
+        concerned = {unit.path for unit in (*units, *bound)}
+        objects = [changed.get(unit.path, self._baseline.get_object(unit)) for unit in self._sources.units if not unit.is_test]
+        for test in self._baseline.order_tests(mutant.file):
+            if test.path in concerned and (refusal := self._recompile(test, changed, mutant)):
+                return refusal
+            status, words = self._run_test(test, changed, objects)
+            if status != 0:
+                return Result(mutant, KILLED, f"{test.path} {words}".strip() if words == TIMED_OUT else test.path)
+        if all(self.hash_assembler(unit) == self._baseline.get_assembler(unit) for unit in units):
+            return Result(mutant, EQUIVALENT)
+        return Result(mutant, SURVIVED)
+
+    def _recompile(self, unit: Unit, changed: dict[str, Path], mutant: Mutant) -> Result | None:
+        output = self._folder / (unit.path.replace("/", "_") + ".o")
+        status, words = self.compile(unit, output)
+        if status == 0:
+            changed[unit.path] = output
+            return None
+        error = FIRST_ERROR.search(words)
+        if error is not None and COMPILE_TIME_CHECK.search(error["text"]):
+            return Result(mutant, KILLED, f"compiler, {unit.path}")
+        return Result(mutant, INVALID)
+
+    def _run_test(self, test: Unit, changed: dict[str, Path], objects: list[Path]) -> tuple[int, str]:
+        """@return status, and why when it is not 0."""
+        program = self._folder / "test_program"
+        objects = objects or [self._baseline.get_object(unit) for unit in self._sources.units if not unit.is_test]
+        own = changed.get(test.path, self._baseline.get_object(test))
+        status, words = _run((COMPILER, str(own), *map(str, objects), *LIBRARIES, "-o", str(program)), COMPILE_TIMEOUT_S)
+        if status != 0:
+            return status, words
+        return _run((str(program), "--gtest_fail_fast", "--gtest_brief=1"), self._baseline.test_timeout_s, cwd=self._folder)
+
+
+TIMED_OUT = "timed out"
+
+
+def _run(argv: Iterable[str], timeout_s: float, cwd: Path | None = None) -> tuple[int, str]:
+    """Runs a program with bounded memory and files in a session of its own, all of which ends with it.
+
+    @return status and output; status 124 and TIMED_OUT when it did not end."""
+    limited = ("/bin/sh", "-c", f'ulimit -v {MEMORY_KIB} -c 0 -f {FILE_BLOCKS}; exec "$@"', "sh", *argv)
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("GTEST_")}
+    with subprocess.Popen(limited, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=cwd,
+                          start_new_session=True, env=environment) as child:  # fmt: skip
+        try:
+            output, _ = child.communicate(timeout=timeout_s)
+        except subprocess.TimeoutExpired:
+            _end_session(child)
+            return 124, TIMED_OUT
+        except BaseException:
+            _end_session(child)
+            raise
+    return child.returncode, output.decode("utf-8", errors="replace")
+
+
+def _end_session(child: subprocess.Popen[bytes]) -> None:
+    try:
+        os.killpg(child.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+    child.communicate()
