@@ -41,6 +41,27 @@ def ctest_step(preset: str, slow: bool = False) -> Step:
     )
 
 
+def race_steps() -> tuple[Step, ...]:
+    """What two cores share, under the thread sanitizer: these programs alone, since nothing else has threads."""
+    preset, targets = "host-tsan", ("kernel_crossing_test",)
+    build = Step(
+        name=f"build {preset}",
+        commands=(
+            ("cmake", "-S", str(ROOT), "--preset", preset, "-DMAMORI_WITH_SIMBODY_SIM=OFF"),
+            ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}", "--target", *targets),
+        ),
+        slow=True,
+    )
+    run = Step(
+        name=f"tests {preset}",
+        commands=(("ctest", "--preset", preset, "--no-tests=error", "--tests-regex", "|".join(targets)),),
+        needs=(build.name,),
+        junit=f"build/{preset}/evidence/junit",
+        slow=True,
+    )
+    return build, run
+
+
 def proof_step(name: str, file: str, needs: tuple[str, ...] = (BUILD,), slow: bool = False) -> Step:
     """One proof: a pytest file of verification/proofs."""
     return Step(
@@ -167,6 +188,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         benchmark_step(),
         build_step(SANITIZED, slow=True),
         ctest_step(SANITIZED, slow=True),
+        *race_steps(),
         proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}"), slow=True),
         *strength_steps(),
         campaign_step(campaign),
