@@ -34,7 +34,7 @@ struct Forty {
 };
 /// Names that the macro could use itself.
 struct Awkward {
-    std::int32_t value, call, self, field, kDeclared;
+    std::int32_t value, call, self, field;
 };
 struct Bounded {
     BoundedSequence<Inner, 3> inner;
@@ -60,7 +60,7 @@ MAMORI_FIELDS(mamori::Inner, small, large)
 MAMORI_FIELDS(mamori::Outer, flag, inner, mode, nothing)
 MAMORI_FIELDS(mamori::Forty, a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, b0, b1, b2, b3, b4, b5, b6, b7, b8, b9,
               c0, c1, c2, c3, c4, c5, c6, c7, c8, c9, d0, d1, d2, d3, d4, d5, d6, d7, d8, d9)
-MAMORI_FIELDS(mamori::Awkward, value, call, self, field, kDeclared)
+MAMORI_FIELDS(mamori::Awkward, value, call, self, field)
 MAMORI_FIELDS(mamori::Bounded, inner, name, names, last)
 MAMORI_FIELDS(mamori::One, only)
 MAMORI_FIELDS(mamori::NotCopyable, value)
@@ -107,7 +107,7 @@ TEST(FieldsTest, AListHoldsOneFieldOrFortyWhateverTheyAreCalled) {
     Fields<Forty>::apply(forty, number);
     visit_scalars(forty, of_forty);
     visit_scalars(One{5}, of_one);
-    visit_scalars(Awkward{1, 2, 3, 4, 5}, of_awkward);
+    visit_scalars(Awkward{1, 2, 3, 4}, of_awkward);
 
     for (int i = 0; i < 40; ++i) {
         expected.push_back(i);
@@ -115,7 +115,7 @@ TEST(FieldsTest, AListHoldsOneFieldOrFortyWhateverTheyAreCalled) {
     EXPECT_EQ(forty.d9, 39);
     EXPECT_EQ(of_forty.values, expected);
     EXPECT_EQ(of_one.values, std::vector<double>{5});
-    EXPECT_EQ(of_awkward.values, (std::vector<double>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(of_awkward.values, (std::vector<double>{1, 2, 3, 4}));
 }
 
 TEST(FieldsTest, ASequenceIsItsLengthAndTheElementsInUse) {

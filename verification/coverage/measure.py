@@ -35,7 +35,7 @@ def measure(root: Path, jobs: int) -> dict[str, Any]:
     build.mkdir(parents=True, exist_ok=True)
     flush = build / "flush_on_death.o"
     run((COMPILER, "-std=c++17", "-O1", "-c", str(FLUSH), "-o", str(flush)))
-    run(("cmake", "-S", str(root), "--preset", PRESET, "-DMAMORI_WITH_SIMBODY_SIM=OFF", "-DMAMORI_BUILD_EXAMPLES=OFF",
+    run(("cmake", "-S", str(root), "--preset", PRESET, "-DMAMORI_WITH_SIMBODY_SIM=OFF", "-DMAMORI_BUILD_EXAMPLES=OFF", "-DMAMORI_BENCH_CYCLONEDDS=OFF",
          f"-DCMAKE_EXE_LINKER_FLAGS={flush} {WRAPPED}"))  # fmt: skip
     # From scratch: what clang cannot measure it tells while compiling, and only then.
     refuse_unmeasured(run(("cmake", "--build", str(build), "--clean-first", "--target", f"{LAYER}/all", "--parallel", str(jobs))))

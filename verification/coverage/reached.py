@@ -97,8 +97,10 @@ def _read_conditions(entry: dict[str, Any], source: _Source) -> Iterator[tuple[t
     for record in entry["mcdc_records"]:
         shown = record[-1]
         file_id = _find_file(branches, _span(record))
-        taken, branches[file_id] = branches[file_id][: len(shown)], branches[file_id][len(shown) :]
-        for number, (branch, is_shown) in enumerate(zip(taken, shown, strict=True), start=1):
+        if file_id is None:
+            continue  # a fold over constants, which the compiler has decided
+        taken = _take_within(branches[file_id], _span(record), len(shown))
+        for number, (branch, is_shown) in enumerate(zip(taken, _fit(shown, taken), strict=True), start=1):
             site, text = _describe(entry, source, _span(branch), file_id)
             if file_id != MAIN_FILE:
                 text = f"condition {number} of {text}"
@@ -106,12 +108,32 @@ def _read_conditions(entry: dict[str, Any], source: _Source) -> Iterator[tuple[t
                    Condition(site[0], text, branch[4] > 0, branch[5] > 0, is_alone=False, is_effect_shown=is_shown))
 
 
-def _find_file(branches: dict[int, list[list[int]]], span: Span) -> int:
-    """The file whose next decision lies in `span`: the export names the file of a branch, but not that of a decision."""
+def _take_within(left: list[list[int]], span: Span, most: int) -> list[list[int]]:
+    """Takes the conditions of the decision at `span` off the front of `left`. A condition that is a constant in this
+    instantiation of a template has no entry."""
+    count = 0
+    while count < min(most, len(left)) and span[:2] <= _span(left[count])[:2] and _span(left[count])[2:] <= span[2:]:
+        count += 1
+    taken = left[:count]
+    del left[:count]
+    return taken
+
+
+def _fit(shown: list[bool], taken: list[list[int]]) -> list[bool]:
+    """Which of `taken` were shown to decide alone. llvm-cov judges no decision with a constant in it: a single condition
+    that is left decides by itself, of several nothing is known."""
+    if len(taken) == len(shown):
+        return shown
+    return [len(taken) == 1 and branch[4] > 0 and branch[5] > 0 for branch in taken]
+
+
+def _find_file(branches: dict[int, list[list[int]]], span: Span) -> int | None:
+    """The file whose next decision lies in `span`: the export names the file of a branch, but not that of a decision.
+    None: no condition is left in it."""
     for file_id, left in sorted(branches.items()):
         if left and span[:2] <= _span(left[0])[:2] and _span(left[0])[2:] <= span[2:]:
             return file_id
-    raise ValueError(f"no conditions for the decision at {span}; this export is not that of llvm-cov 19")
+    return None
 
 
 def _describe(entry: dict[str, Any], source: _Source, span: Span, file_id: int) -> tuple[Span, str]:
