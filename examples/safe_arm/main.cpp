@@ -9,6 +9,7 @@
 #include "model_check.hpp"
 #include "run_recorder.hpp"
 #include "safe_arm_system.hpp"
+#include "table_output.hpp"
 
 namespace {
 
@@ -99,9 +100,17 @@ int run_scenario(const safe_arm::RunOptions& options) {
     return reason.empty() ? kExitOk : fail(kExitFailed, reason);
 }
 
+int write_table(const std::string& path) {
+    const std::string reason = safe_arm::save_table(path);
+    return reason.empty() ? kExitOk : fail(kExitUsage, reason);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     const safe_arm::ParsedCommand command = safe_arm::parse_command(argc, argv);
-    return command.exit_code >= 0 ? command.exit_code : run_scenario(command.options);
+    if (command.exit_code >= 0) {
+        return command.exit_code;
+    }
+    return command.table.empty() ? run_scenario(command.options) : write_table(command.table);
 }

@@ -19,8 +19,8 @@ std::string check_not_negative(const std::string& text) {
     return text.find('-') == std::string::npos ? std::string{} : "'" + text + "' must be 0 or more";
 }
 
-const std::vector<std::string_view> kWords{"run",    "--model",  "--motion",   "--out", "--fault",
-                                           "--seed", "--frames", "--recorder", "--help"};
+const std::vector<std::string_view> kWords{"run",     "table",  "--model",  "--motion",   "--out",
+                                           "--fault", "--seed", "--frames", "--recorder", "--help"};
 
 /// @return the first word that is neither known nor the value of an option.
 std::string find_unknown_word(int argc, const char* const* argv) {
@@ -60,6 +60,8 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
     run->add_option("--recorder", options.recorder,
                     "File of a flight recorder: takes the events as they happen, outlives a crash; read it "
                     "by `mamori log`");
+    CLI::App* table = app.add_subcommand("table", "Write the system table as JSON; `mamori table` shows it.");
+    table->add_option("--out", result.table, "File for the table")->required();
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {

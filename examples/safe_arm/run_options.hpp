@@ -26,6 +26,7 @@ struct RunOptions {
 /// or one line with the error).
 struct ParsedCommand {
     RunOptions options;
+    std::string table;  ///< file for the system table; not empty: write it instead of running
     int exit_code{-1};
 };
 

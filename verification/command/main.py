@@ -21,6 +21,7 @@ from mamori.verification.command.errors import EXIT_INTERRUPTED, EXIT_USAGE, Usa
 from mamori.verification.command.process import end_children, raise_on_signals
 from mamori.verification.command.project import RELEASE
 from mamori.verification.recorder import command as recorder_log
+from mamori.verification.table_dump import command as table_dump
 
 PROGRAM = "mamori"
 
@@ -77,6 +78,7 @@ def make_parser(with_trace: bool = False) -> Parser:
     add("build", with_project=True).add_argument("--preset", default=RELEASE, metavar="NAME")
     add("verify", with_project=True)
     recorder_log.add_arguments(commands.add_parser("log", allow_abbrev=False))
+    table_dump.add_arguments(commands.add_parser("table", allow_abbrev=False))
     bench = add("bench")
     bench.add_argument("--only", nargs="+", default=[], metavar="NAME", action="extend")
     bench.add_argument("--out", type=Path, metavar="DIR")
@@ -113,6 +115,8 @@ def run(argv: list[str]) -> int:
             return jobs.verify(arguments.jobs, arguments.project)
         case "log":
             return recorder_log.run(arguments)
+        case "table":
+            return table_dump.run(arguments)
         case "bench":
             return _run_bench(arguments)
         case "mutate":

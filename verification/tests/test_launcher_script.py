@@ -106,7 +106,8 @@ def test_second_run_installs_nothing(box: Box) -> None:
     [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
      (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
-     (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev")],
+     (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev"),
+     (("table", "t.json", "--text"), "python3-venv", "graphviz"), (("table", "t.json", "--out", "d"), "graphviz", "cmake")],
 )  # fmt: skip
 def test_each_command_needs_its_groups_only(box: Box, words: tuple[str, ...], wanted: str, unwanted: str) -> None:
     box.run(*words)
@@ -230,7 +231,7 @@ def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004")
-@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench"])
+@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench", "table"])
 def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
     bare = box.folder / "bare"
     bare.mkdir()
@@ -245,7 +246,7 @@ def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
-@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench"])
+@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench", "table"])
 def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
     subparsers = next(action for action in make_parser()._actions if action.dest == "command")
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The system table of the example for people: `safe_arm table --out FILE`, shown by `mamori table FILE`.
+///
+/// Design: docs/design/table_dump.md#library
+#ifndef EXAMPLES_SAFE_ARM_TABLE_OUTPUT_HPP
+#define EXAMPLES_SAFE_ARM_TABLE_OUTPUT_HPP
+
+#include <string>
+
+namespace safe_arm {
+
+/// Writes windows, components and connections of the static table, and the reactions of the safety layer.
+/// @return empty when done, else one sentence with the path and the cause.
+[[nodiscard]] std::string save_table(const std::string& path);
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_TABLE_OUTPUT_HPP

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the example's table leaves the program as it is, with the reactions of its faults. Method: read back
+// as JSON.
+#include "table_output.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "arm_faults.hpp"
+#include "mamori/verification/verifies.hpp"
+#include "safe_arm_system.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::verification::Polarity;
+using mamori::verification::Technique;
+using mamori::verification::verifies;
+
+TEST(TableOutputTest, TheWholeTableIsWrittenWithTheReactionOfEachFault) {
+    verifies("SWR-TAB-001");
+    const std::string path = ::testing::TempDir() + "safe_arm_table.json";
+
+    ASSERT_EQ(save_table(path), "");
+    const nlohmann::json table = nlohmann::json::parse(std::ifstream{path});
+    EXPECT_EQ(table["windows"].size(), 4U);
+    EXPECT_EQ(table["components"].size(), kComponentCount);
+    EXPECT_EQ(table["connections"].size(), 10U);
+    EXPECT_EQ(table["reactions"].size(), kArmFaultCount);
+    EXPECT_EQ(table["faults"][0]["name"], "EncoderImplausible");
+    EXPECT_EQ(table["reactions"][0]["reaction"], "Ss1");
+    EXPECT_EQ(table["findings"], nlohmann::json::array());
+}
+
+TEST(TableOutputTest, AFileThatCannotBeWrittenIsNamed) {
+    verifies("SWR-TAB-002", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_NE(save_table("/nowhere/table.json").find("/nowhere/table.json: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace safe_arm

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <sstream>
+
+#include "element_names.hpp"
+#include "mamori/table_dump/table_dump.hpp"
+
+namespace mamori::table_dump {
+namespace {
+
+std::string quote(const std::string& name) {
+    return "'" + name + "'";
+}
+
+std::string format_rate(double rate_hz) {
+    std::ostringstream text;
+    text << rate_hz << " Hz";
+    return text.str();
+}
+
+std::string describe_alternatives(const WindowRow& row) {
+    std::string text;
+    for (std::size_t i = 0U; i < row.alternative_count && i < kAlternativeRateMax; ++i) {
+        text += (i == 0U ? "" : ", ") + format(row.alternative_periods[i]);
+    }
+    return text;
+}
+
+std::string describe_worst_cases(const SystemView& view, const WindowRow& row) {
+    std::string text;
+    for (std::size_t i = 0U; i < std::min(row.component_count, view.components.size()); ++i) {
+        const std::size_t component = row.first_component + i;
+        text += (i == 0U ? "" : ", ") + get_component_name(view, component) + " " +
+                format(get_row(view.component_rows, component).worst_case);
+    }
+    return text;
+}
+
+/// The window rules, without the name of the window in front.
+std::string describe_window(const Finding& finding, const SystemView& view) {
+    const WindowRow row = get_row(view.windows, finding.element);
+    switch (finding.rule) {
+        case Rule::kWindowRowInvalid:
+            return "row " + std::to_string(finding.element) +
+                   " needs a name, a partition, a positive period and components and connections of the "
+                   "table";
+        case Rule::kPeriodNotInFrame:
+            return "its period of " + format(row.period) + " does not divide the frame of " +
+                   format(view.frame);
+        case Rule::kWindowOutsideFrame:
+            return "it opens at " + format(row.offset) + " for " + format(row.length) +
+                   " and does not lie inside its period of " + format(row.period);
+        case Rule::kWindowsOverlap:
+            return "it overlaps window " + quote(get_window_name(view, finding.other)) + " on core " +
+                   std::to_string(row.core);
+        case Rule::kBudgetExceedsWindow:
+            return "its budget of " + format(row.budget) + " is not in 1 ns .. its length of " +
+                   format(row.length);
+        case Rule::kWorstCasesExceedBudget:
+            return "the worst cases of its components are longer than its budget of " + format(row.budget) +
+                   ": " + describe_worst_cases(view, row);
+        case Rule::kRateNotOccurrences:
+            return "its rate of " + format_rate(row.rate_hz) + " is not that of its openings, every " +
+                   format(row.period);
+        case Rule::kRateNotReachable:
+            return "a slower period is no whole multiple of its period of " + format(row.period) + ": " +
+                   describe_alternatives(row);
+        default:
+            return {};
+    }
+}
+
+/// The rules over inputs and connections.
+std::string describe_wiring(const Finding& finding, const SystemView& view) {
+    const std::string connection = "connection " + quote(get_connection_name(view, finding.element));
+    const ConnectionRow row = get_row(view.connections, finding.element);
+    switch (finding.rule) {
+        case Rule::kConnectionRowInvalid:
+            return connection + ": row " + std::to_string(finding.element) +
+                   " needs two ends, operations and windows of the table";
+        case Rule::kPortOfUnknownComponent:
+            return connection + ": one end belongs to no component that a window runs";
+        case Rule::kInputNotConnected:
+            return "input " + quote(get_input_name(view, finding.element)) +
+                   " is mandatory and nothing feeds it";
+        case Rule::kInputHasTwoWriters:
+            return "input " + quote(get_input_name(view, finding.element)) +
+                   " is fed by more than one connection";
+        case Rule::kCrossingWithoutBuffer:
+            return connection + " leaves its core or partition without through(...) a Crossing or a queue";
+        case Rule::kCrossingUsedTwice:
+            return connection + " uses the Crossing of " + quote(get_connection_name(view, finding.other));
+        case Rule::kCrossingNotOrdered:
+            return connection + ": window " + quote(get_window_name(view, row.sink_window)) +
+                   " may open while window " + quote(get_window_name(view, row.source_window)) +
+                   " on another core is open";
+        default:
+            return {};
+    }
+}
+
+std::string describe_reactions(const Finding& finding, const SystemView& view) {
+    const std::string fault = "fault " + std::to_string(get_row(view.faults, finding.element).fault);
+    const std::string reaction =
+        "the reaction to fault " + std::to_string(get_row(view.reactions, finding.element).fault);
+    switch (finding.rule) {
+        case Rule::kFaultWithoutReaction:
+            return fault + " has no reaction";
+        case Rule::kFaultWithTwoReactions:
+            return fault + " has more than one reaction";
+        case Rule::kReactionWithoutTime:
+            return reaction + " has " + format(get_row(view.reactions, finding.element).within) +
+                   " and needs a positive time";
+        case Rule::kReactionToUnknownFault:
+            return reaction + " answers a fault that is not declared";
+        default:
+            return {};
+    }
+}
+
+}  // namespace
+
+std::string describe(const Finding& finding, const SystemView& view) {
+    switch (finding.rule) {
+        case Rule::kNone:
+            return "the table keeps every rule";
+        case Rule::kFrameNotPositive:
+            return "the frame of " + format(view.frame) + " is not positive";
+        case Rule::kWindowRowInvalid:
+        case Rule::kPeriodNotInFrame:
+        case Rule::kWindowOutsideFrame:
+        case Rule::kWindowsOverlap:
+        case Rule::kBudgetExceedsWindow:
+        case Rule::kWorstCasesExceedBudget:
+        case Rule::kRateNotOccurrences:
+        case Rule::kRateNotReachable:
+            return "window " + quote(get_window_name(view, finding.element)) + ": " +
+                   describe_window(finding, view);
+        case Rule::kComponentRowInvalid:
+            return "component " + quote(get_component_name(view, finding.element)) + ": row " +
+                   std::to_string(finding.element) + " needs a component and windows and ports of the table";
+        case Rule::kPortRowInvalid:
+            return "port " + quote(get_input_name(view, finding.element)) + ": row " +
+                   std::to_string(finding.element) + " needs exactly one of input and output";
+        case Rule::kComponentInTwoPlaces:
+            return "component " + quote(get_component_name(view, finding.element)) + " runs in window " +
+                   quote(get_window_name(view, get_row(view.component_rows, finding.other).window)) +
+                   " and again in window " +
+                   quote(get_window_name(view, get_row(view.component_rows, finding.element).window));
+        case Rule::kConnectionRowInvalid:
+        case Rule::kPortOfUnknownComponent:
+        case Rule::kInputNotConnected:
+        case Rule::kInputHasTwoWriters:
+        case Rule::kCrossingWithoutBuffer:
+        case Rule::kCrossingUsedTwice:
+        case Rule::kCrossingNotOrdered:
+            return describe_wiring(finding, view);
+        case Rule::kFaultWithoutReaction:
+        case Rule::kFaultWithTwoReactions:
+        case Rule::kReactionWithoutTime:
+        case Rule::kReactionToUnknownFault:
+            return describe_reactions(finding, view);
+    }
+    return "no rule has the number " + std::to_string(static_cast<int>(finding.rule));
+}
+
+std::vector<std::string> describe_all(const SystemView& view) {
+    std::vector<Finding> findings(check_all(view, {}));
+    static_cast<void>(check_all(view, {findings.data(), findings.size()}));
+    std::vector<std::string> sentences;
+    for (const Finding& finding : findings) {
+        sentences.push_back(describe(finding, view));
+    }
+    return sentences;
+}
+
+}  // namespace mamori::table_dump

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Names of a table's elements for people, whatever the rows hold.
+#ifndef MAMORI_TABLE_DUMP_SRC_ELEMENT_NAMES_HPP
+#define MAMORI_TABLE_DUMP_SRC_ELEMENT_NAMES_HPP
+
+#include <string>
+
+#include "mamori/kernel/system_table.hpp"
+
+namespace mamori::table_dump {
+
+inline std::string to_text(const char* name) {
+    return name == nullptr ? "?" : name;
+}
+
+/// Element `index` of `rows`, or `otherwise` where the table has no such row.
+template <typename Row>
+Row get_row(Span<const Row> rows, std::size_t index, Row otherwise = {}) {
+    return index < rows.size() ? rows[index] : otherwise;
+}
+
+inline std::string get_window_name(const SystemView& view, std::size_t index) {
+    return to_text(get_row(view.windows, index).name);
+}
+
+inline std::string get_component_name(const SystemView& view, std::size_t index) {
+    const Component* component = index < view.components.size() ? view.components[index] : nullptr;
+    return component == nullptr ? "?" : to_text(component->get_name());
+}
+
+inline std::string get_port_name(const PortRow& row) {
+    return row.input != nullptr ? to_text(row.input->get_name())
+                                : (row.output != nullptr ? to_text(row.output->get_name()) : "?");
+}
+
+/// `component.port`
+inline std::string get_input_name(const SystemView& view, std::size_t port) {
+    const PortRow row = get_row(view.ports, port);
+    return (row.owner == nullptr ? "?" : to_text(row.owner->get_name())) + "." + get_port_name(row);
+}
+
+/// `component.port -> component.port`
+inline std::string get_connection_name(const SystemView& view, std::size_t connection) {
+    const ConnectionRow row = get_row(view.connections, connection);
+    return get_component_name(view, row.source_component) + "." +
+           (row.source == nullptr ? "?" : to_text(row.source->get_name())) + " -> " +
+           get_component_name(view, row.sink_component) + "." +
+           (row.sink == nullptr ? "?" : to_text(row.sink->get_name()));
+}
+
+/// In the largest unit that needs no fraction, for example `300 us`.
+inline std::string format(Duration time) {
+    if (time.ns % 1'000'000'000 == 0 && time.ns != 0) {
+        return std::to_string(time.ns / 1'000'000'000) + " s";
+    }
+    if (time.ns % 1'000'000 == 0 && time.ns != 0) {
+        return std::to_string(time.ns / 1'000'000) + " ms";
+    }
+    if (time.ns % 1'000 == 0 && time.ns != 0) {
+        return std::to_string(time.ns / 1'000) + " us";
+    }
+    return std::to_string(time.ns) + " ns";
+}
+
+}  // namespace mamori::table_dump
+
+#endif  // MAMORI_TABLE_DUMP_SRC_ELEMENT_NAMES_HPP

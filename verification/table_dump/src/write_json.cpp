@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <locale>
+#include <ostream>
+#include <sstream>
+#include <string_view>
+
+#include "element_names.hpp"
+#include "mamori/table_dump/table_dump.hpp"
+
+namespace mamori::table_dump {
+namespace {
+
+constexpr const char* kSchema = "mamori.table/1";
+
+std::string quote(std::string_view text) {
+    std::string result{"\""};
+    for (const char letter : text) {
+        const auto code = static_cast<unsigned char>(letter);
+        if (letter == '"' || letter == '\\') {
+            result += {'\\', letter};
+        } else if (code < 0x20U) {
+            std::array<char, 8U> escape{};
+            static_cast<void>(std::snprintf(escape.data(), escape.size(), "\\u%04x", unsigned{code}));
+            result += escape.data();
+        } else {
+            result += letter;
+        }
+    }
+    return result + "\"";
+}
+
+/// The shortest text that reads back as the same number; JSON has no infinite ones.
+std::string format_number(double value) {
+    if (!std::isfinite(value)) {
+        return "null";
+    }
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(std::numeric_limits<double>::max_digits10);
+    text << value;
+    return text.str();
+}
+
+/// An index of the table, or null where the table has no such row.
+std::string format_index(std::size_t index, std::size_t count) {
+    return index < count ? std::to_string(index) : "null";
+}
+
+std::string get_name_of(const std::vector<std::string>& names, std::uint32_t number) {
+    return number < names.size() ? names[number] : std::to_string(number);
+}
+
+/// `"key": [` rows `]`, one row per line.
+template <typename MakeRow>
+void write_rows(std::ostream& out, const char* key, std::size_t count, const MakeRow& make_row) {
+    out << ",\n \"" << key << "\": [";
+    for (std::size_t i = 0U; i < count; ++i) {
+        out << (i == 0U ? "\n  " : ",\n  ") << make_row(i);
+    }
+    out << (count == 0U ? "]" : "\n ]");
+}
+
+const char* get_name(ExecutionKind kind) {
+    switch (kind) {
+        case ExecutionKind::kPeriodic:
+            return "periodic";
+        case ExecutionKind::kEventDriven:
+            return "event_driven";
+        case ExecutionKind::kOther:
+            return "triggered";
+    }
+    return "invalid";
+}
+
+std::string make_window(const SystemView& view, std::size_t index) {
+    const WindowRow& row = view.windows[index];
+    std::string slower;
+    for (std::size_t i = 0U; i < std::min(row.alternative_count, kAlternativeRateMax); ++i) {
+        slower += (i == 0U ? "" : ", ") + std::to_string(row.alternative_periods[i].ns);
+    }
+    return "{\"name\": " + quote(to_text(row.name)) + ", \"core\": " + std::to_string(row.core) +
+           ", \"partition\": " + quote(to_text(row.partition)) + ", \"kind\": \"" + get_name(row.kind) +
+           "\", \"offset_ns\": " + std::to_string(row.offset.ns) +
+           ", \"length_ns\": " + std::to_string(row.length.ns) +
+           ", \"period_ns\": " + std::to_string(row.period.ns) +
+           ", \"budget_ns\": " + std::to_string(row.budget.ns) +
+           ", \"rate_hz\": " + (row.rate_hz == 0.0 ? "null" : format_number(row.rate_hz)) +
+           ", \"slower_periods_ns\": [" + slower + "], \"events_per_cycle\": " +
+           (row.kind == ExecutionKind::kEventDriven ? std::to_string(row.events_per_cycle) : "null") + "}";
+}
+
+std::string make_component(const SystemView& view, std::size_t index) {
+    const ComponentRow row = get_row(view.component_rows, index);
+    std::string ports;
+    for (std::size_t i = 0U; i < view.ports.size(); ++i) {
+        const PortRow& port = view.ports[i];
+        if (port.owner != view.components[index] || port.owner == nullptr || port.component != index) {
+            continue;
+        }
+        ports += (ports.empty() ? "" : ", ") + ("{\"name\": " + quote(get_port_name(port))) +
+                 ", \"direction\": \"" + (port.input != nullptr ? "in" : "out") +
+                 "\", \"mandatory\": " + (port.is_mandatory ? "true" : "false") + "}";
+    }
+    return "{\"name\": " + quote(get_component_name(view, index)) +
+           ", \"window\": " + format_index(row.window, view.windows.size()) +
+           ", \"worst_case_ns\": " + (row.worst_case.ns == 0 ? "null" : std::to_string(row.worst_case.ns)) +
+           ", \"ports\": [" + ports + "]}";
+}
+
+/// Exact up to 2^53 ns; sums of absurd rows do not overflow.
+double to_number(Duration time) {
+    return static_cast<double>(time.ns);
+}
+
+/// When the sink sees what its source wrote in the first opening of a frame.
+const char* get_way(const SystemView& view, const ConnectionRow& row) {
+    if (row.operations != nullptr && !row.operations->is_latest) {
+        return "queue";
+    }
+    if (row.crossing != nullptr) {
+        return "crossing";
+    }
+    if (row.is_forward_in_window) {
+        return "same_window";
+    }
+    const WindowRow source = get_row(view.windows, row.source_window);
+    const WindowRow sink = get_row(view.windows, row.sink_window);
+    const double close = to_number(source.offset) + to_number(source.length);
+    const double last_opening = to_number(sink.offset) + to_number(view.frame) - to_number(sink.period);
+    return close <= last_opening ? "later_window" : "next_frame";
+}
+
+std::string make_end(const SystemView& view, std::size_t component, const char* port) {
+    return "{\"component\": " + format_index(component, view.components.size()) +
+           ", \"port\": " + quote(to_text(port)) + "}";
+}
+
+std::string make_connection(const SystemView& view, std::size_t index) {
+    const ConnectionRow& row = view.connections[index];
+    return "{\"from\": " +
+           make_end(view, row.source_component, row.source == nullptr ? nullptr : row.source->get_name()) +
+           ", \"to\": " +
+           make_end(view, row.sink_component, row.sink == nullptr ? nullptr : row.sink->get_name()) +
+           ", \"way\": \"" + get_way(view, row) + "\", \"fresh_within_ns\": " +
+           (row.age_max == kNoAgeLimit ? "null" : std::to_string(row.age_max.ns)) + "}";
+}
+
+std::string make_reaction(const SystemView& view, const Names& names, std::size_t index) {
+    const ReactionRow& row = view.reactions[index];
+    return "{\"fault\": " + std::to_string(row.fault) +
+           ", \"reaction\": " + quote(get_name_of(names.reactions, row.reaction)) +
+           ", \"within_ns\": " + std::to_string(row.within.ns) + "}";
+}
+
+}  // namespace
+
+void write_json(std::ostream& out, const SystemView& view, const Names& names) {
+    const std::vector<std::string> findings = describe_all(view);
+    out << "{\"schema\": \"" << kSchema << "\",\n \"frame_ns\": " << std::to_string(view.frame.ns)
+        << ",\n \"abort_policy\": \""
+        << (view.abort_policy == AbortPolicy::kSpecOnly ? "spec_only" : "openrtm_compat") << '"';
+    write_rows(out, "windows", view.windows.size(), [&](std::size_t i) { return make_window(view, i); });
+    write_rows(out, "components", view.components.size(),
+               [&](std::size_t i) { return make_component(view, i); });
+    write_rows(out, "connections", view.connections.size(),
+               [&](std::size_t i) { return make_connection(view, i); });
+    write_rows(out, "faults", view.faults.size(), [&](std::size_t i) {
+        return "{\"number\": " + std::to_string(view.faults[i].fault) +
+               ", \"name\": " + quote(get_name_of(names.faults, view.faults[i].fault)) + "}";
+    });
+    write_rows(out, "reactions", view.reactions.size(),
+               [&](std::size_t i) { return make_reaction(view, names, i); });
+    write_rows(out, "findings", findings.size(), [&](std::size_t i) { return quote(findings[i]); });
+    out << "\n}\n";
+}
+
+std::string save_json(const std::string& path, const SystemView& view, const Names& names) {
+    const std::string partial = path + ".part";
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
+        return path + ": is a folder; name the file for the table itself";
+    }
+    {
+        std::ofstream out{partial, std::ios::binary};
+        write_json(out, view, names);
+        out.flush();
+        if (out) {
+            out.close();
+            std::filesystem::rename(partial, path, error);
+            if (!error) {
+                return {};
+            }
+        }
+    }
+    std::filesystem::remove(partial, error);
+    return path + ": the table cannot be written; check the folder, its permissions and its room";
+}
+
+}  // namespace mamori::table_dump

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Components for tables that are dumped and described.
+#ifndef MAMORI_TABLE_DUMP_TESTS_PARTS_HPP
+#define MAMORI_TABLE_DUMP_TESTS_PARTS_HPP
+
+#include "mamori/kernel/queue_in_port.hpp"
+#include "mamori/kernel/system.hpp"
+
+namespace mamori::table_dump::testing_support {
+
+class Source final : public Component {
+  public:
+    constexpr explicit Source(const char* name) noexcept : Component(name) {}
+    OutPort<double> out{"out"};
+    using Ports = mamori::Ports<&Source::out>;
+};
+class Filter final : public Component {
+  public:
+    constexpr explicit Filter(const char* name) noexcept : Component(name) {}
+    InPort<double> in{"in"};
+    InPort<double, Need::kOptional> hint{"hint"};
+    OutPort<double> out{"out"};
+    using Ports = mamori::Ports<&Filter::in, &Filter::hint, &Filter::out>;
+};
+class Logger final : public Component {
+  public:
+    constexpr explicit Logger(const char* name) noexcept : Component(name) {}
+    QueueInPort<double, 4U> in{"in"};
+    using Ports = mamori::Ports<&Logger::in>;
+};
+
+enum class Fault { kOverspeed, kTrackingLost };
+enum class Reaction { kNone, kSs1, kSto };
+
+}  // namespace mamori::table_dump::testing_support
+
+#endif  // MAMORI_TABLE_DUMP_TESTS_PARTS_HPP
