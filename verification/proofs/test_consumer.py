@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -67,6 +68,46 @@ def test_shipped_example_builds_against_the_package_and_gives_the_same_hash(
         assert ran.returncode == 0, ran.stderr
         hashes.add(json.loads((out / "run.json").read_text(encoding="utf-8"))["trace_hash"])
     assert len(hashes) == 1
+
+
+@pytest.mark.verifies("SWR-TAB-009", technique="back_to_back")
+def test_first_system_builds_against_the_package_and_prints_what_the_manual_says(
+    project: Project, prefix: Path, tmp_path: Path
+) -> None:
+    folder = tmp_path / "minimal"
+    configured = configure(project, prefix, folder, "examples/minimal")
+    assert configured.returncode == 0, configured.stderr
+    built = run("cmake", "--build", folder / "build")
+    assert built.returncode == 0, built.stdout
+
+    page = (project.root / "docs" / "manual" / "first_system.md").read_text(encoding="utf-8")
+    shown = "".join(f"{line.strip()}\n" for line in page.splitlines() if line.startswith("    after "))
+    assert shown.count("\n") == 5
+    for program in (folder / "build" / "minimal", project.build / "examples" / "minimal" / "minimal"):
+        ran = run(program)
+        assert (ran.returncode, ran.stdout) == (0, shown)
+
+
+@pytest.mark.verifies("SWR-TAB-001", technique="interface")
+def test_program_of_a_user_writes_its_table_and_the_command_shows_it(project: Project, prefix: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "minimal"
+    configure(project, prefix, folder, "examples/minimal")
+    source, lists = folder / "main.cpp", folder / "CMakeLists.txt"
+    text = source.read_text(encoding="utf-8")
+    save = 'return mamori::table_dump::save_json("table.json", mamori::make_view(kSystem)).empty() ? 0 : 1;'
+    source.write_text('#include "mamori/table_dump/table_dump.hpp"\n' + text[: text.index("int main")] + f"int main() {{ {save} }}\n",
+                      encoding="utf-8")  # fmt: skip
+    lists.write_text(lists.read_text(encoding="utf-8").replace("mamori::virtual_time)", "mamori::virtual_time mamori::table_dump)"),
+                     encoding="utf-8")  # fmt: skip
+
+    built = run("cmake", "--build", folder / "build")
+    assert built.returncode == 0, built.stdout
+    ran = run("env", "-C", tmp_path, folder / "build" / "minimal")
+    assert ran.returncode == 0
+    shown = run(sys.executable, "-P", "-m", "mamori.verification.command", "table", tmp_path / "table.json")
+    assert shown.returncode == 0, shown.stderr
+    assert "wheel.speed    monitor.speed  later window" in shown.stdout
+    assert "monitor.brake  wheel.brake    next frame" in shown.stdout
 
 
 @pytest.mark.verifies("SWR-PRF-004", technique="error_guessing", polarity="violation")

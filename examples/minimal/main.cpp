@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// A wheel and a monitor that brakes it: two components, one table, 200 ms of virtual time.
+#include <array>
+#include <cstdio>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/ports/virtual_time/frame_runner.hpp"
+
+using mamori::Status;
+using namespace mamori::literals;  // NOLINT: units of the times below
+
+/// Speeds up by 1 rad/s in each cycle, and slows down by as much while the brake is on.
+class Wheel final : public mamori::Component {
+  public:
+    constexpr Wheel() noexcept : Component("wheel") {}
+    mamori::InPort<bool, mamori::Need::kOptional> brake{"brake"};
+    mamori::OutPort<double> speed{"speed"};  // [rad/s]
+    using Ports = mamori::Ports<&Wheel::brake, &Wheel::speed>;
+
+    Status on_execute(mamori::ContextHandle) noexcept override {
+        speed_rad_s_ += brake.read() ? -1.0 : 1.0;
+        speed.write(speed_rad_s_);
+        return Status::kOk;
+    }
+
+  private:
+    double speed_rad_s_{0.0};
+};
+
+/// Brakes from 8 rad/s on, until the wheel is slower than 4 rad/s.
+class Monitor final : public mamori::Component {
+  public:
+    constexpr Monitor() noexcept : Component("monitor") {}
+    mamori::InPort<double> speed{"speed"};
+    mamori::OutPort<bool> brake{"brake"};
+    using Ports = mamori::Ports<&Monitor::speed, &Monitor::brake>;
+
+    Status on_execute(mamori::ContextHandle) noexcept override {
+        brake.write(speed.read() >= (brake.get_published() ? 4.0 : 8.0));
+        return Status::kOk;
+    }
+};
+
+static Wheel wheel;
+static Monitor monitor;
+static constexpr auto kSystem =
+    mamori::system(mamori::frame(10_ms),  // everything repeats after it
+                   mamori::window("drive", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(wheel)),
+                   mamori::window("watch", 2_ms, 2_ms, mamori::budget(1_ms), mamori::run(monitor)),
+                   mamori::connect(wheel.speed, monitor.speed), mamori::connect(monitor.brake, wheel.brake));
+MAMORI_CHECK(kSystem);
+static mamori::ExecutiveFor executive{kSystem};
+
+/// What surrounds the components: here a printer, elsewhere sensors and motors.
+class Printer final : public mamori::ports::virtual_time::FrameDevices {
+    void begin_frame(std::uint64_t, mamori::Instant) noexcept override {}
+    void end_frame(std::uint64_t frame, mamori::Instant, mamori::Duration) noexcept override {
+        if (frame % 4U == 3U) {
+            std::printf("after %3u ms: %.0f rad/s, brake %s\n", static_cast<unsigned>(frame + 1U) * 10U,
+                        wheel.speed.get_published(), monitor.brake.get_published() ? "on" : "off");
+        }
+    }
+};
+
+int main() {
+    std::array<mamori::Duration, 2U> execution_times{100_us, 200_us};
+    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::SimulatedCore core{executive, host};
+    Printer printer;
+    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, printer};
+    const bool is_well = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
+    for (int frame = 0; is_well && frame < 20; ++frame) {
+        runner.run_frame();
+    }
+    return is_well && executive.stop() == Status::kOk ? 0 : 1;
+}
