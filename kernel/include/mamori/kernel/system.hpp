@@ -7,7 +7,7 @@
 ///         mamori::frame(10_ms),
 ///         mamori::window("sense", 0_us, 200_us, mamori::every(1_ms), mamori::rate(1000_hz),
 ///                        mamori::budget(150_us), mamori::run(encoder, mamori::worst_case(monitor, 40_us))),
-///         mamori::window("plan", 1_ms, 8_ms, mamori::core(1), mamori::budget(7_ms), mamori::run(planner)),
+///         mamori::window("plan", 1200_us, 8_ms, mamori::core(1), mamori::budget(7_ms), mamori::run(planner)),
 ///         mamori::connect(encoder.joints, monitor.joints, mamori::fresh_within(2_ms)),
 ///         mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner)),
 ///         mamori::faults<Fault::kOverspeed>(),
