@@ -305,7 +305,9 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, Wi
         discard_outputs(window);
         state.has_abandoned_outputs = false;
     }
-    latch_inputs(window, release);
+    if (row.latch_count != 0U) {
+        latch_inputs(window, release);
+    }
     // A window that opens late keeps its budget, but not beyond its planned close.
     const Instant close = release + row.length;
     const Instant deadline = opened + row.budget < close ? opened + row.budget : close;
@@ -321,9 +323,13 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, Wi
             deadline);
     }
     state.context.end_cycle();
-    mark_inputs_read(window, executed_count);
+    if (row.port_count != 0U) {
+        mark_inputs_read(window, executed_count);
+    }
     if (guilty == row.component_count) {
-        publish_outputs(window, close);
+        if (row.port_count != 0U) {
+            publish_outputs(window, close);
+        }
         return WindowOutcome::kCompleted;
     }
     report_overrun(window, row.first_component + guilty, host.get_now());
@@ -336,11 +342,10 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, Wi
 
 /// What changes for all windows of the core at once changes here, before the first window of a frame.
 void Executive::begin_frame(Instant release) noexcept {
-    const std::int64_t number = release.ns / view_.frame.ns;
-    if (number == frame_number_) {
+    if (release >= frame_start_ && release - frame_start_ < view_.frame) {
         return;
     }
-    frame_number_ = number;
+    frame_start_ = Instant{release.ns / view_.frame.ns * view_.frame.ns};
     for (detail::WindowState& state : windows_) {
         static_cast<void>(state.context.apply_pending_rate());
     }

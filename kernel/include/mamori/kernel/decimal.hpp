@@ -80,6 +80,13 @@ constexpr bool take_exponent(TextCursor& cursor, DigitCollector& collector) noex
     return true;
 }
 
+/// Takes the digits at `cursor`, as many as there are.
+constexpr void take_digits(TextCursor& cursor, DigitCollector& collector, bool is_fraction) noexcept {
+    while (cursor.is_at_digit()) {
+        collector.add(cursor.take_digit(), is_fraction);
+    }
+}
+
 }  // namespace detail
 
 /// Takes a number from `cursor`: sign, digits with at most one point, exponent (`-12`, `.5`, `1e-3`).
@@ -91,13 +98,9 @@ constexpr Result<Decimal> take_decimal(TextCursor& cursor) noexcept {
     if (!collector.number.is_negative) {
         static_cast<void>(cursor.take('+'));
     }
-    while (cursor.is_at_digit()) {
-        collector.add(cursor.take_digit(), false);
-    }
+    detail::take_digits(cursor, collector, false);
     if (cursor.take('.')) {
-        while (cursor.is_at_digit()) {
-            collector.add(cursor.take_digit(), true);
-        }
+        detail::take_digits(cursor, collector, true);
     }
     if (!collector.has_digit || !detail::take_exponent(cursor, collector)) {
         return Status::kBadParameter;

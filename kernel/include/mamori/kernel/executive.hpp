@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "mamori/kernel/execution_context.hpp"
 #include "mamori/kernel/execution_observer.hpp"
@@ -133,7 +134,8 @@ class Executive {
     ExecutionObserver* observer_{nullptr};
     TraceHash trace_hash_{};
     Instant last_release_{};
-    std::int64_t frame_number_{-1};  ///< of the window that ran last; -1: none since start()
+    /// Start of the frame that the window of the last run lies in; at first one that no window lies in.
+    Instant frame_start_{std::numeric_limits<std::int64_t>::max()};
     std::size_t core_;
     std::size_t failed_component_{kNoIndex};
     bool is_initialized_{false};

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Parts of the kernel that the arm does not use, in the image so that the proofs look at them too.
+#ifndef MAMORI_VERIFICATION_PROOFS_TARGET_OTHER_PARTS_HPP
+#define MAMORI_VERIFICATION_PROOFS_TARGET_OTHER_PARTS_HPP
+
+#include "mamori/kernel/status.hpp"
+
+namespace proof {
+
+/// @return kOk; else what the first of them refused with.
+mamori::Status prepare_other_parts() noexcept;
+
+}  // namespace proof
+
+#endif  // MAMORI_VERIFICATION_PROOFS_TARGET_OTHER_PARTS_HPP
