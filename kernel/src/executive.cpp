@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/executive.hpp"
 
+#include "mamori/kernel/introspection.hpp"
 #include "mamori/kernel/system_check.hpp"
 
 namespace mamori {
 
 using Pass = WindowHost::Pass;
+
+void detail::TurnMeter::on_component_executed(std::size_t component, Instant started,
+                                              Instant finished) noexcept {
+    introspection->note_used(component, finished - started);
+    observer->on_component_executed(component, started, finished);
+}
+void detail::TurnMeter::on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept {
+    observer->on_budget_overrun(window, component, now);
+}
+void detail::TurnMeter::on_late_release(std::size_t window, Duration lateness, Instant now) noexcept {
+    observer->on_late_release(window, lateness, now);
+}
 
 bool Executive::is_any_running() const noexcept {
     for (const detail::WindowState& state : windows_) {
@@ -87,6 +100,7 @@ Status Executive::initialize() noexcept {
     }
     is_initialized_ = result == Status::kOk;
     is_busy_ = false;
+    show_windows();
     return result;
 }
 
@@ -132,6 +146,7 @@ Status Executive::start() noexcept {
         static_cast<void>(stop_all());
     }
     is_busy_ = false;
+    show_windows();
     return result;
 }
 
@@ -164,6 +179,7 @@ Status Executive::stop() noexcept {
     is_busy_ = true;
     const Status result = stop_all();
     is_busy_ = false;
+    show_windows();
     return result;
 }
 
@@ -195,7 +211,44 @@ Status Executive::finalize() noexcept {
         }
     }
     is_busy_ = false;
+    show_windows();
     return first_failure;
+}
+
+void Executive::set_introspection(Introspection* introspection) noexcept {
+    MAMORI_REQUIRE(4, !is_busy_);
+    MAMORI_REQUIRE(5, introspection == nullptr || introspection->is_of(view_));
+    introspection_ = introspection;
+    meter_.introspection = introspection;
+    choose_observer();
+    show_windows();
+}
+
+void Executive::set_observer(ExecutionObserver* observer) noexcept {
+    meter_.observer = observer;
+    choose_observer();
+}
+
+void Executive::choose_observer() noexcept {
+    const bool is_metered = introspection_ != nullptr && meter_.observer != nullptr;
+    observer_ = is_metered ? &meter_ : meter_.observer;
+}
+
+void Executive::show_windows() noexcept {
+    if (introspection_ == nullptr) {
+        return;
+    }
+    for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
+        if (is_own(w)) {
+            introspection_->publish_window(w, windows_[w].context, last_release_, trace_hash_.get_value());
+        }
+    }
+}
+
+void Executive::show_opening(std::size_t window, Instant release, Instant opened, WindowOutcome outcome,
+                             const WindowHost& host) noexcept {
+    introspection_->note_opening(window, opened - release, host.get_now() - opened, outcome);
+    introspection_->publish_window(window, windows_[window].context, release, trace_hash_.get_value());
 }
 
 void Executive::latch_inputs(std::size_t window, Instant opening) noexcept {
@@ -284,10 +337,10 @@ void Executive::update_steps(void* argument, std::size_t first, std::size_t end)
     static_cast<detail::WindowState*>(argument)->context.update_range(first, end - first);
 }
 
-WindowOutcome Executive::run_open_window(std::size_t window, Instant release, WindowHost& host) noexcept {
+WindowOutcome Executive::run_open_window(std::size_t window, Instant release, Instant opened,
+                                         WindowHost& host) noexcept {
     const WindowRow& row = view_.windows[window];
     detail::WindowState& state = windows_[window];
-    const Instant opened = host.get_now();
     if (observer_ != nullptr && opened > release) {
         observer_->on_late_release(window, opened - release, opened);
     }
@@ -326,6 +379,9 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, Wi
     if (row.port_count != 0U) {
         mark_inputs_read(window, executed_count);
     }
+    if (introspection_ != nullptr) {
+        introspection_->note_turns(window, executed_count, state.context);
+    }
     if (guilty == row.component_count) {
         if (row.port_count != 0U) {
             publish_outputs(window, close);
@@ -353,15 +409,19 @@ void Executive::begin_frame(Instant release) noexcept {
 
 WindowOutcome Executive::run_window(std::size_t index, Instant release, WindowHost& host) noexcept {
     MAMORI_REQUIRE(2, !is_busy_);
-    MAMORI_REQUIRE(3, release <= host.get_now());
-    if (!windows_[index].context.is_running()) {
-        return WindowOutcome::kStopped;
+    const Instant opened = host.get_now();
+    MAMORI_REQUIRE(3, release <= opened);
+    WindowOutcome outcome = WindowOutcome::kStopped;
+    if (windows_[index].context.is_running()) {
+        is_busy_ = true;
+        last_release_ = release;
+        begin_frame(release);
+        outcome = run_open_window(index, release, opened, host);
+        is_busy_ = false;
     }
-    is_busy_ = true;
-    last_release_ = release;
-    begin_frame(release);
-    const WindowOutcome outcome = run_open_window(index, release, host);
-    is_busy_ = false;
+    if (introspection_ != nullptr) {
+        show_opening(index, release, opened, outcome, host);
+    }
     return outcome;
 }
 

@@ -35,6 +35,15 @@ inline constexpr Duration kNoAgeLimit{std::numeric_limits<std::int64_t>::max()};
 /// Must an input be fed by a connection? The system table refuses a mandatory one that is not.
 enum class Need : std::uint8_t { kMandatory, kOptional };
 
+/// What an input that queues has counted; 0 for one that keeps the latest value. Counts wrap at 2^32.
+struct QueueCounts {
+    std::uint32_t capacity{0U};
+    std::uint32_t high_water_mark{0U};  ///< most values that ever waited, 0 .. capacity
+    std::uint32_t rejected{0U};         ///< values that were refused because the queue was full
+    std::uint32_t overwritten{0U};      ///< values that gave way before they were read
+    std::uint32_t empty_reads{0U};      ///< reads that found none waiting
+};
+
 /// Type-free part of an output, for the executive and the table.
 class OutPortBase {
   public:
@@ -96,6 +105,9 @@ class InPortBase {
     /// True when the value arrived since the last cycle in which its owner was Active or in Error and came
     /// through its first pass within the budget. A value that the owner had no chance to use stays new.
     bool is_new() const noexcept { return is_new_; }
+    /// Instant at which the value was published, or handed on within the window; without meaning before
+    /// has_value().
+    Instant get_published_at() const noexcept { return published_at_; }
     /// Time since the value was published, or handed on within the window; without meaning before
     /// has_value(). @param[in] now start of the window, as in ContextHandle::now.
     Duration calc_age(Instant now) const noexcept { return now - published_at_; }
@@ -124,6 +136,11 @@ class InPortBase {
     bool has_value_{false};
     bool is_new_{false};
 };
+
+/// The counts of an input that keeps the latest value.
+inline QueueCounts count_no_queue(const InPortBase&) noexcept {
+    return {};
+}
 
 /// Output of type T. The value is a trivially copyable payload with a field list (or a plain number).
 ///

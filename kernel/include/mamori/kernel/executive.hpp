@@ -30,6 +30,7 @@ enum class WindowOutcome : std::uint8_t {
 };
 
 class Executive;
+class Introspection;
 
 namespace detail {
 /// What the executive keeps for each window while the system runs.
@@ -39,6 +40,17 @@ struct WindowState {
     std::size_t window{0U};
     ExecutionContext::Follower follower{};  ///< of the cycle that runs or ran last
     bool has_abandoned_outputs{false};      ///< hanging work may still write; discard once it has returned
+};
+
+/// Stands before an observer while an introspection is attached, and notes the turns that pass by.
+class TurnMeter final : public ExecutionObserver {
+  public:
+    Introspection* introspection{nullptr};
+    ExecutionObserver* observer{nullptr};
+
+    void on_component_executed(std::size_t component, Instant started, Instant finished) noexcept override;
+    void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override;
+    void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override;
 };
 }  // namespace detail
 
@@ -99,7 +111,12 @@ class Executive {
     std::size_t get_failed_component() const noexcept { return failed_component_; }
 
     /// @param[in] observer listens to the course of execution, or nullptr; must outlive the executive.
-    void set_observer(ExecutionObserver* observer) noexcept { observer_ = observer; }
+    void set_observer(ExecutionObserver* observer) noexcept;
+    /// Shows the course of execution to tools from now on: at the end of each opening of a window, and after
+    /// initialize(), start(), stop() and finalize(). No hash and no window depends on it.
+    /// @param[in] introspection of the same table, else an own bug; or nullptr; must outlive the executive.
+    ///            Not to be called from within an action or from the observer (own bug).
+    void set_introspection(Introspection* introspection) noexcept;
     /// Hash of every publication so far: port row, sequence, instant and value.
     std::uint64_t get_trace_hash() const noexcept { return trace_hash_.get_value(); }
 
@@ -117,7 +134,12 @@ class Executive {
     Status start_all() noexcept;
     Status stop_all() noexcept;
     void begin_frame(Instant release) noexcept;
-    WindowOutcome run_open_window(std::size_t window, Instant release, WindowHost& host) noexcept;
+    WindowOutcome run_open_window(std::size_t window, Instant release, Instant opened,
+                                  WindowHost& host) noexcept;
+    void choose_observer() noexcept;
+    void show_windows() noexcept;
+    void show_opening(std::size_t window, Instant release, Instant opened, WindowOutcome outcome,
+                      const WindowHost& host) noexcept;
     static void execute_steps(void* argument, std::size_t first, std::size_t end) noexcept;
     static void hand_on_after(void* argument, std::size_t position) noexcept;
     static void update_steps(void* argument, std::size_t first, std::size_t end) noexcept;
@@ -131,7 +153,9 @@ class Executive {
 
     SystemView view_;
     Span<detail::WindowState> windows_;
-    ExecutionObserver* observer_{nullptr};
+    ExecutionObserver* observer_{nullptr};  ///< who is told: the user's observer, or the meter before it
+    Introspection* introspection_{nullptr};
+    detail::TurnMeter meter_{};
     TraceHash trace_hash_{};
     Instant last_release_{};
     /// Start of the frame that the window of the last run lies in; at first one that no window lies in.

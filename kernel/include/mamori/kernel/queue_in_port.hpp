@@ -65,6 +65,13 @@ class QueueInPort final : public InPortBase {
     /// Calls of read() that found none waiting.
     std::uint32_t get_empty_read_count() const noexcept { return empty_read_count_; }
 
+    /// All of the above at once, of an input that is such a queue. For the system table.
+    static QueueCounts count(const InPortBase& base) noexcept {
+        const auto& self = static_cast<const QueueInPort&>(base);
+        return {static_cast<std::uint32_t>(kCapacity), self.get_high_water_mark(), self.get_rejected_count(),
+                self.get_overwritten_count(), self.get_empty_read_count()};
+    }
+
     /// For connections, on the source's core: appends a sample when it comes from a later write than the
     /// last one. A full queue counts what it refuses; nothing waits.
     void push(const typename OutPort<T>::Sample& sample) noexcept {

@@ -69,7 +69,8 @@ class SnapshotCell final {
             // The acquires above keep this load behind them.
             const Unit after = shared_sequence_.load(std::memory_order_relaxed);
             if (before == after && before % 2U == 0U) {
-                __builtin_memcpy(&value, copy.data(), sizeof(T));
+                // As bytes: a payload with default member initialisers is trivially copyable all the same.
+                __builtin_memcpy(static_cast<void*>(&value), copy.data(), sizeof(T));
                 return Status::kOk;
             }
         }

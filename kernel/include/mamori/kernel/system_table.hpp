@@ -70,6 +70,8 @@ struct PortRow {
     bool is_mandatory{false};
     std::size_t window{kNoIndex};
     std::size_t component{kNoIndex};  ///< its owner's place in the table
+    /// What an input that queues has counted.
+    QueueCounts (*count_queue)(const InPortBase&) noexcept {&count_no_queue};
 };
 
 struct ConnectionRow {
@@ -115,6 +117,7 @@ struct SystemTable {
 
     static constexpr std::size_t kWindowCount = kWindows;
     static constexpr std::size_t kComponentCount = kComponents;
+    static constexpr std::size_t kPortCount = kPorts;
 };
 
 /// The same rows without their sizes in the type; refers to the table, which must outlive it.

@@ -85,6 +85,9 @@ constexpr PortRow make_port_row(C& component, Port& port) noexcept {
         static_assert(std::is_base_of_v<InPortBase, Port>, "Ports<...> names members that are ports");
         row.input = &port;
         row.is_mandatory = Port::kIsMandatory;
+        if constexpr (Port::kIsQueue) {
+            row.count_queue = &Port::count;
+        }
     }
     return row;
 }
