@@ -185,6 +185,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         proof_step("stack proof", "stack", needs=()),
         proof_step("loop proof", "loops", needs=()),
         proof_step("consumer proof", "consumer"),
+        proof_step("scale proof", "scale"),
         benchmark_step(),
         build_step(SANITIZED, slow=True),
         ctest_step(SANITIZED, slow=True),

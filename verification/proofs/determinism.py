@@ -52,10 +52,12 @@ class Inputs:
                 "--seed", str(self.seed), "--frames", str(self.frames)]  # fmt: skip
 
 
-def build_variant(root: Path, build: Path, variant: Variant, target: str, jobs: int) -> None:
-    """Configures and builds only `target`, without tests."""
+def build_variant(
+    root: Path, build: Path, variant: Variant, target: str, jobs: int, options: Sequence[str] = ("-DMAMORI_BUILD_TESTS=OFF",)
+) -> None:
+    """Configures and builds only `target`, without tests unless `options` say otherwise."""
     configure = ["cmake", "-S", str(root), "-B", str(build), "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={variant.compiler}",
-                 f"-DCMAKE_CXX_FLAGS={variant.flags}", "-DMAMORI_BUILD_TESTS=OFF"]  # fmt: skip
+                 f"-DCMAKE_CXX_FLAGS={variant.flags}", *options]  # fmt: skip
     for argv in (configure, ["cmake", "--build", str(build), "--parallel", str(jobs), "--target", target]):
         done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
         if done.returncode != 0:

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scale_system.hpp"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "mamori/kernel/constant_init.hpp"
+#include "mamori/kernel/introspection.hpp"
+#include "mamori/kernel/queue_in_port.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/ports/virtual_time/frame_runner.hpp"
+
+namespace mamori::verification::integration {
+
+/// What components pass on.
+struct Sample {
+    std::uint64_t mix{0U};
+    double level{0.0};
+    std::uint32_t step{0U};
+};
+
+}  // namespace mamori::verification::integration
+
+MAMORI_FIELDS(mamori::verification::integration::Sample, mix, level, step)
+
+namespace mamori::verification::integration {
+namespace {
+
+using ports::virtual_time::FrameDevices;
+using ports::virtual_time::FrameRunner;
+using ports::virtual_time::SimulatedCore;
+using ports::virtual_time::VirtualHost;
+
+/// A value that depends on every bit of what came before, in integers and in real numbers.
+class Mixture {
+  public:
+    constexpr explicit Mixture(std::uint64_t seed) noexcept { sample_.mix = seed; }
+    void add(const Sample& other) noexcept {
+        sample_.mix =
+            (sample_.mix ^ (other.mix >> 17U) ^ (other.mix << 5U)) * 0x9E3779B97F4A7C15U + other.step;
+        const double fresh = static_cast<double>(sample_.mix >> 40U) * 0x1p-24;
+        sample_.level = 0.5 * sample_.level + 0.375 * other.level + 0.1 * fresh;
+    }
+    const Sample& step() noexcept {
+        ++sample_.step;
+        return sample_;
+    }
+
+  private:
+    Sample sample_{};
+};
+
+/// Mixes the latest values of two others into its own.
+class Stage final : public Component {
+  public:
+    constexpr explicit Stage(std::uint64_t seed) noexcept : Component("stage"), mixture_(seed) {}
+    InPort<Sample, Need::kOptional> in{"in"};
+    InPort<Sample, Need::kOptional> second{"second"};
+    OutPort<Sample> out{"out"};
+    using Ports = mamori::Ports<&Stage::in, &Stage::second, &Stage::out>;
+
+    Status on_execute(ContextHandle) noexcept override {
+        mixture_.add(in.read());
+        if (second.is_new()) {
+            mixture_.add(second.read());
+        }
+        out.write(mixture_.step());
+        return Status::kOk;
+    }
+
+  private:
+    Mixture mixture_;
+};
+
+/// Mixes what waits in its queue, at most three values in a cycle.
+template <FullPolicy kFull>
+class Collector final : public Component {
+  public:
+    constexpr Collector() noexcept : Component("collector") {}
+    QueueInPort<Sample, 8U, kFull, EmptyPolicy::kDoNothing> in{"in"};
+    OutPort<Sample> out{"out"};
+    using Ports = mamori::Ports<&Collector::in, &Collector::out>;
+
+    Status on_execute(ContextHandle) noexcept override {
+        Sample sample{};
+        for (int i = 0; i < 3 && in.read(sample) == Status::kOk; ++i) {
+            mixture_.add(sample);
+        }
+        out.write(mixture_.step());
+        return Status::kOk;
+    }
+
+  private:
+    Mixture mixture_{1U};
+};
+
+template <std::size_t... kSeeds>
+constexpr std::array<Stage, sizeof...(kSeeds)> make_stages(std::index_sequence<kSeeds...>) noexcept {
+    return {{Stage(kSeeds)...}};
+}
+
+// Stages 0 .. 47 run on core 0, 48 .. 95 on core 1, each half in four windows.
+constexpr std::size_t kHalf = 48U;
+constexpr std::size_t kFastCount = 10U;
+constexpr std::size_t kControlCount = 11U;
+constexpr std::size_t kPlanCount = 13U;
+constexpr std::size_t kWatchCount = 14U;
+static_assert(kFastCount + kControlCount + kPlanCount + kWatchCount == kHalf);
+constexpr std::size_t kControlFirst = kFastCount;
+constexpr std::size_t kPlanFirst = kControlFirst + kControlCount;
+constexpr std::size_t kWatchFirst = kPlanFirst + kPlanCount;
+
+MAMORI_CONSTINIT std::array<Stage, 2U * kHalf> g_stages = make_stages(std::make_index_sequence<2U * kHalf>{});
+MAMORI_CONSTINIT Collector<FullPolicy::kOverwrite> g_near_0;
+MAMORI_CONSTINIT Collector<FullPolicy::kOverwrite> g_near_1;
+MAMORI_CONSTINIT Collector<FullPolicy::kDoNothing> g_far_0;
+MAMORI_CONSTINIT Collector<FullPolicy::kOverwrite> g_far_1;
+MAMORI_CONSTINIT Crossing<Sample> g_fast_to_1;
+MAMORI_CONSTINIT Crossing<Sample> g_fast_to_0;
+MAMORI_CONSTINIT Crossing<Sample> g_slow_to_1;
+MAMORI_CONSTINIT Crossing<Sample> g_slow_to_0;
+
+template <std::size_t kFirst, std::size_t... kIndices, typename... Others>
+constexpr auto run_stages(std::index_sequence<kIndices...>, Others&... others) noexcept {
+    return run(g_stages[kFirst + kIndices]..., others...);
+}
+template <std::size_t kFirst, std::size_t kCount, typename... Others>
+constexpr auto run_stages(Others&... others) noexcept {
+    return run_stages<kFirst>(std::make_index_sequence<kCount>{}, others...);
+}
+
+/// Each stage feeds the next one of its core.
+template <std::size_t... kLinks>
+constexpr auto make_system(std::index_sequence<kLinks...>) noexcept {
+    return system(
+        frame(10_ms),
+        window("fast 0", 0_us, 200_us, every(1_ms), rate(1000_hz), budget(150_us),
+               run_stages<0U, kFastCount>()),
+        window("control 0", 200_us, 200_us, every(2_ms), rate(500_hz), budget(150_us),
+               run_stages<kControlFirst, kControlCount>(g_near_0)),
+        window("plan 0", 400_us, 200_us, every(5_ms), rate(200_hz), budget(150_us),
+               run_stages<kPlanFirst, kPlanCount>(g_far_0)),
+        window("watch 0", 600_us, 300_us, rate(100_hz), budget(250_us),
+               run_stages<kWatchFirst, kWatchCount>()),
+        window("fast 1", 0_us, 200_us, every(1_ms), rate(1000_hz), core(1), budget(150_us),
+               run_stages<kHalf, kFastCount>()),
+        window("control 1", 200_us, 200_us, every(2_ms), rate(500_hz), core(1), budget(150_us),
+               run_stages<kHalf + kControlFirst, kControlCount>(g_near_1)),
+        window("plan 1", 400_us, 200_us, every(5_ms), rate(200_hz), core(1), budget(150_us),
+               run_stages<kHalf + kPlanFirst, kPlanCount>(g_far_1)),
+        window("watch 1", 600_us, 300_us, rate(100_hz), core(1), budget(250_us),
+               run_stages<kHalf + kWatchFirst, kWatchCount>()),
+        connect(g_stages[kLinks].out, g_stages[kLinks + 1U].in)...,
+        connect(g_stages[kHalf + kLinks].out, g_stages[kHalf + kLinks + 1U].in)...,
+        connect(g_stages[kHalf - 1U].out, g_stages[kHalf].in, through(g_slow_to_1)),
+        connect(g_stages[2U * kHalf - 1U].out, g_stages[0].in, through(g_slow_to_0)),
+        connect(g_stages[kFastCount - 1U].out, g_stages[kHalf + kControlFirst].second, through(g_fast_to_1)),
+        connect(g_stages[kHalf + kFastCount - 1U].out, g_stages[kControlFirst].second, through(g_fast_to_0)),
+        connect(g_stages[0].out, g_near_0.in), connect(g_stages[kHalf].out, g_near_1.in),
+        connect(g_stages[kHalf + 1U].out, g_far_0.in), connect(g_stages[1].out, g_far_1.in),
+        connect(g_near_0.out, g_stages[kWatchFirst].second),
+        connect(g_far_0.out, g_stages[kWatchFirst + 1U].second),
+        connect(g_near_1.out, g_stages[kHalf + kWatchFirst].second),
+        connect(g_far_1.out, g_stages[kHalf + kWatchFirst + 1U].second));
+}
+constexpr auto kSystem = make_system(std::make_index_sequence<kHalf - 1U>{});
+MAMORI_CHECK(kSystem);
+using Table = std::remove_const_t<decltype(kSystem)>;
+static_assert(Table::kComponentCount == 100U);
+
+MAMORI_CONSTINIT ExecutiveFor<Table> g_core_0{kSystem, 0U};
+MAMORI_CONSTINIT ExecutiveFor<Table> g_core_1{kSystem, 1U};
+MAMORI_CONSTINIT IntrospectionFor<Table> g_introspection{kSystem};
+
+/// No device; looks at the whole system `kCyclesPerFrame` times in a frame of as many milliseconds, if asked.
+class Watcher final : public FrameDevices {
+  public:
+    explicit Watcher(bool is_watching) noexcept : is_watching_(is_watching) {}
+    std::uint64_t row_count{0U};
+
+    void begin_frame(std::uint64_t, Instant) noexcept override {}
+    void end_frame(std::uint64_t, Instant, Duration) noexcept override {
+        for (std::uint64_t i = 0U; is_watching_ && i < kCyclesPerFrame; ++i) {
+            const auto count = [this](std::size_t, const auto&) noexcept { ++row_count; };
+            static_cast<void>(g_introspection.for_each_window(count));
+            static_cast<void>(g_introspection.for_each_component(count));
+            static_cast<void>(g_introspection.for_each_port(count));
+        }
+    }
+
+  private:
+    bool is_watching_;
+};
+
+void start(Executive& executive, bool is_watched) {
+    executive.set_introspection(is_watched ? &g_introspection : nullptr);
+    MAMORI_REQUIRE(1, executive.initialize() == Status::kOk);
+    MAMORI_REQUIRE(2, executive.start() == Status::kOk);
+}
+
+std::uint64_t count_lost() noexcept {
+    std::uint64_t count = 0U;
+    for (const PortRow& port : kSystem.ports) {
+        if (port.input != nullptr) {
+            const QueueCounts counts = port.count_queue(*port.input);
+            count += counts.rejected + counts.overwritten;
+        }
+    }
+    return count;
+}
+
+}  // namespace
+
+ScaleResult run_scale(std::uint64_t frames, bool is_watched) {
+    std::array<Duration, Table::kComponentCount> durations{};
+    durations.fill(2_us);
+    VirtualHost host_0{durations};
+    VirtualHost host_1{durations};
+    start(g_core_0, is_watched);
+    start(g_core_1, is_watched);
+    std::array<SimulatedCore, 2U> cores{SimulatedCore{g_core_0, host_0}, SimulatedCore{g_core_1, host_1}};
+    Watcher watcher{is_watched};
+    FrameRunner runner{cores, watcher};
+    for (std::uint64_t i = 0U; i < frames; ++i) {
+        runner.run_frame();
+    }
+    TraceHash hash{};
+    hash(g_core_0.get_trace_hash());
+    hash(g_core_1.get_trace_hash());
+    return {hash.get_value(), runner.get_overrun_count(), count_lost(), watcher.row_count};
+}
+
+}  // namespace mamori::verification::integration

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the system of 100 components in virtual time, as several compilers made it and under load, and records what it did.
+
+@satisfies SWR-INS-006, SWR-INS-007      Design: docs/design/introspection.md#scale
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from mamori.verification.proofs.determinism import HASH, ProofError, Variant
+
+PROGRAM = Path("verification") / "integration" / "scale_run"
+TARGET = PROGRAM.name
+OPTIONS = ("-DMAMORI_BUILD_TESTS=ON", "-DMAMORI_BUILD_EXAMPLES=OFF", "-DMAMORI_WITH_SIMBODY_SIM=OFF")
+RUN_TIMEOUT_S = 300
+
+# With the release build, g++ -O2, each compiler at each level.
+VARIANTS = (
+    Variant("gcc-O0", "g++", "-O0"),
+    Variant("gcc-Os", "g++", "-Os"),
+    Variant("clang-O0", "clang++-19", "-O0"),
+    Variant("clang-O2", "clang++-19", "-O2"),
+    Variant("clang-Os", "clang++-19", "-Os"),
+)
+
+# Ends by itself, so that nothing is left behind when the proof is killed.
+BUSY = "import time\nend = time.monotonic() + 60\nwhile time.monotonic() < end:\n    pass"
+
+
+@dataclass(frozen=True)
+class Run:
+    """What scale_run says of itself."""
+
+    components: int
+    cores: int
+    cycles: int
+    virtual_s: float
+    wall_s: float
+    overruns: int
+    lost: int
+    rows_read: int
+    trace_hash: str
+
+    @property
+    def speed(self) -> float:
+        """Seconds of virtual time per second on the wall clock; 0 when the clock was too coarse to tell."""
+        return self.virtual_s / self.wall_s if self.wall_s > 0.0 else 0.0
+
+
+def run_scale(program: Path, cycles: int, *options: str) -> Run:
+    """One run, which must be of as many cycles as asked for, without an overrun."""
+    if not program.is_file():
+        raise ProofError(f"{program} is missing; run ./mamori build")
+    argv = [str(program), "--cycles", str(cycles), *options]
+    done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
+                          timeout=RUN_TIMEOUT_S)  # fmt: skip
+    if done.returncode != 0:
+        raise ProofError(f"{' '.join(argv)} ended with status {done.returncode}: {(done.stderr or done.stdout).strip()}")
+    try:
+        run = Run(**json.loads(done.stdout))
+    except (ValueError, TypeError) as error:
+        raise ProofError(f"{' '.join(argv)}: no whole record: {error}") from error
+    if not HASH.fullmatch(run.trace_hash):
+        raise ProofError(f"{' '.join(argv)}: '{run.trace_hash}' is no trace hash of 16 hexadecimal digits")
+    if run.cycles != cycles:
+        raise ProofError(f"{' '.join(argv)}: {run.cycles} cycles were run, {cycles} were asked for")
+    return run
+
+
+@contextmanager
+def busy_machine() -> Iterator[None]:
+    """All processors have something else to do."""
+    loops = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range(os.cpu_count() or 1)]
+    try:
+        yield
+    finally:
+        for loop in loops:
+            loop.kill()
+            loop.wait()
+
+
+def write_record(path: Path, runs: Sequence[tuple[str, Run]]) -> None:
+    """Writes the named runs with their speed, whole or not at all."""
+    record = {"runs": [{"name": name, **asdict(run), "times_real_time": round(run.speed, 1)} for name, run in runs]}
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_suffix(".part")
+    part.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    part.replace(path)
