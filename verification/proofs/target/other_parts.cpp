@@ -53,9 +53,13 @@ MAMORI_CHECK_CONFIGURATION(kConfiguration);
 static Door door;
 static mamori::ConfigurationAdmin configuration_admin{mamori::make_view(kConfiguration)};
 
-mamori::Status prepare_other_parts() noexcept {
+mamori::Status prepare_other_parts(const char* set_name) noexcept {
     const mamori::Status result = door.initialize();
-    return result == mamori::Status::kOk ? configuration_admin.switch_at_frame_boundary() : result;
+    if (result != mamori::Status::kOk) {
+        return result;
+    }
+    const mamori::Status asked = configuration_admin.activate_configuration_set(mamori::make_text(set_name));
+    return asked == mamori::Status::kOk ? configuration_admin.switch_at_frame_boundary() : asked;
 }
 
 }  // namespace proof

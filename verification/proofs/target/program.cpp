@@ -46,8 +46,9 @@ bool is_refused(mamori::Status status, const char* what) noexcept {
 
 int run_program() noexcept {
     mamori::set_assertion_handler(&on_failed_check);
-    if (is_refused(prepare_other_parts(), "prepare the other parts") || is_refused(prepare(), "prepare") ||
-        is_refused(executive.initialize(), "initialize") || is_refused(executive.start(), "start")) {
+    if (is_refused(prepare_other_parts("slow"), "prepare the other parts") ||
+        is_refused(prepare(), "prepare") || is_refused(executive.initialize(), "initialize") ||
+        is_refused(executive.start(), "start")) {
         return kNotStarted;
     }
     std::array<mamori::Duration, 8U> durations{};
