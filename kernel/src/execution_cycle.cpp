@@ -3,6 +3,7 @@
 #include "action_scope.hpp"
 #include "mamori/kernel/execution_context.hpp"
 #include "mamori/kernel/external_trigger.hpp"
+#include "mamori/kernel/introspection.hpp"
 #include "mamori/kernel/multi_mode.hpp"
 
 namespace mamori {
@@ -73,6 +74,9 @@ void ExecutionContext::execute_range(std::size_t first, std::size_t count, Follo
             if (was_active && ended <= follower->deadline) {
                 follower->observer->on_component_executed(follower->first_component + position, started,
                                                           ended);
+                if (follower->introspection != nullptr) {
+                    follower->introspection->note_used(follower->first_component + position, ended - started);
+                }
             }
         }
         if (follower->hand_on != nullptr) {

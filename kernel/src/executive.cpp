@@ -8,18 +8,6 @@ namespace mamori {
 
 using Pass = WindowHost::Pass;
 
-void detail::TurnMeter::on_component_executed(std::size_t component, Instant started,
-                                              Instant finished) noexcept {
-    introspection->note_used(component, finished - started);
-    observer->on_component_executed(component, started, finished);
-}
-void detail::TurnMeter::on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept {
-    observer->on_budget_overrun(window, component, now);
-}
-void detail::TurnMeter::on_late_release(std::size_t window, Duration lateness, Instant now) noexcept {
-    observer->on_late_release(window, lateness, now);
-}
-
 bool Executive::is_any_running() const noexcept {
     for (const detail::WindowState& state : windows_) {
         if (state.context.is_running()) {
@@ -219,19 +207,7 @@ void Executive::set_introspection(Introspection* introspection) noexcept {
     MAMORI_REQUIRE(4, !is_busy_);
     MAMORI_REQUIRE(5, introspection == nullptr || introspection->is_of(view_));
     introspection_ = introspection;
-    meter_.introspection = introspection;
-    choose_observer();
     show_windows();
-}
-
-void Executive::set_observer(ExecutionObserver* observer) noexcept {
-    meter_.observer = observer;
-    choose_observer();
-}
-
-void Executive::choose_observer() noexcept {
-    const bool is_metered = introspection_ != nullptr && meter_.observer != nullptr;
-    observer_ = is_metered ? &meter_ : meter_.observer;
 }
 
 void Executive::show_windows() noexcept {
@@ -364,9 +340,14 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, In
     // A window that opens late keeps its budget, but not beyond its planned close.
     const Instant close = release + row.length;
     const Instant deadline = opened + row.budget < close ? opened + row.budget : close;
-    state.follower = {
-        observer_, &host, deadline, opened, row.first_component, row.has_hand_on ? &hand_on_after : nullptr,
-        &state};
+    state.follower = {observer_,
+                      introspection_,
+                      &host,
+                      deadline,
+                      opened,
+                      row.first_component,
+                      row.has_hand_on ? &hand_on_after : nullptr,
+                      &state};
     const std::size_t executed_count = host.run_within(
         {&execute_steps, &state, row.first_component, 0U, row.component_count, Pass::kExecute}, deadline);
     std::size_t guilty = executed_count;

@@ -26,6 +26,8 @@
 
 namespace mamori {
 
+class Introspection;
+
 /// Runs the components of one window.
 ///
 /// The context is busy while a cycle is under way and while an action of a participant is being called (or
@@ -144,11 +146,12 @@ class ExecutionContext final {
     void execute(std::size_t position) noexcept { execute_range(position, 1U); }
     /// Whoever follows a range step by step, while the context still counts as acting.
     struct Follower {
-        ExecutionObserver* observer;  ///< hears of each participant that was Active and in time; may be null
-        WindowHost* host;             ///< tells when a step ends; needed with an observer
-        Instant deadline;             ///< of the range
-        Instant step_start;           ///< of the first step; moves on with each
-        std::size_t first_component;  ///< number of position 0 for the observer
+        ExecutionObserver* observer;   ///< hears of each participant that was Active and in time; may be null
+        Introspection* introspection;  ///< notes how long they took, as far as an observer hears; may be null
+        WindowHost* host;              ///< tells when a step ends; needed with an observer
+        Instant deadline;              ///< of the range
+        Instant step_start;            ///< of the first step; moves on with each
+        std::size_t first_component;   ///< number of position 0 for the observer
         void (*hand_on)(void* argument, std::size_t position) noexcept;  ///< after each step; may be null
         void* argument;
     };

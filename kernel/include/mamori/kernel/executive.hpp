@@ -41,17 +41,6 @@ struct WindowState {
     ExecutionContext::Follower follower{};  ///< of the cycle that runs or ran last
     bool has_abandoned_outputs{false};      ///< hanging work may still write; discard once it has returned
 };
-
-/// Stands before an observer while an introspection is attached, and notes the turns that pass by.
-class TurnMeter final : public ExecutionObserver {
-  public:
-    Introspection* introspection{nullptr};
-    ExecutionObserver* observer{nullptr};
-
-    void on_component_executed(std::size_t component, Instant started, Instant finished) noexcept override;
-    void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override;
-    void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override;
-};
 }  // namespace detail
 
 /// Size-free executive of one core; instantiate ExecutiveFor.
@@ -111,7 +100,7 @@ class Executive {
     std::size_t get_failed_component() const noexcept { return failed_component_; }
 
     /// @param[in] observer listens to the course of execution, or nullptr; must outlive the executive.
-    void set_observer(ExecutionObserver* observer) noexcept;
+    void set_observer(ExecutionObserver* observer) noexcept { observer_ = observer; }
     /// Shows the course of execution to tools from now on: at the end of each opening of a window, and after
     /// initialize(), start(), stop() and finalize(). No hash and no window depends on it.
     /// @param[in] introspection of the same table, else an own bug; or nullptr; must outlive the executive.
@@ -136,7 +125,6 @@ class Executive {
     void begin_frame(Instant release) noexcept;
     WindowOutcome run_open_window(std::size_t window, Instant release, Instant opened,
                                   WindowHost& host) noexcept;
-    void choose_observer() noexcept;
     void show_windows() noexcept;
     void show_opening(std::size_t window, Instant release, Instant opened, WindowOutcome outcome,
                       const WindowHost& host) noexcept;
@@ -153,9 +141,8 @@ class Executive {
 
     SystemView view_;
     Span<detail::WindowState> windows_;
-    ExecutionObserver* observer_{nullptr};  ///< who is told: the user's observer, or the meter before it
+    ExecutionObserver* observer_{nullptr};
     Introspection* introspection_{nullptr};
-    detail::TurnMeter meter_{};
     TraceHash trace_hash_{};
     Instant last_release_{};
     /// Start of the frame that the window of the last run lies in; at first one that no window lies in.
