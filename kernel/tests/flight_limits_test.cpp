@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a region for more records than a header can count is refused before a byte of it is touched, and the
+// table of the checksum is the same whoever computes it.
+// Method: both sides of the limit; a size alone decides, so that the memory behind it need not exist.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "mamori/kernel/crc32.hpp"
+#include "mamori/kernel/flight_reader.hpp"
+#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+constexpr std::size_t kMostRecords = std::numeric_limits<std::uint32_t>::max();
+
+TEST(FlightLimitsTest, AReaderRefusesMoreRecordsThanAHeaderCanCount) {
+    verifies("SWR-REC-005", Technique::kBoundaryValues, Polarity::kViolation);
+    const flight::HeaderBytes header = flight::encode_header(std::numeric_limits<std::uint32_t>::max());
+    std::array<std::byte, flight::kHeaderSize> bytes{};
+    for (std::size_t i = 0U; i < bytes.size(); ++i) {
+        bytes[i] = static_cast<std::byte>(header[i]);
+    }
+    FlightReader sut;
+
+    EXPECT_EQ(sut.open({bytes.data(), flight::calc_region_size(kMostRecords + 1U)}), Status::kBadParameter);
+    EXPECT_EQ(sut.get_capacity(), 0U);
+    EXPECT_EQ(sut.open({bytes.data(), flight::calc_region_size(kMostRecords)}), Status::kOk)
+        << "opening reads the header only";
+    EXPECT_EQ(sut.get_capacity(), kMostRecords);
+}
+
+TEST(FlightLimitsTest, ARegionForMoreRecordsThanAHeaderCanCountIsNotFormatted) {
+    verifies("SWR-REC-007", Technique::kBoundaryValues, Polarity::kViolation);
+    std::array<std::byte, 1U> bytes{std::byte{7}};
+
+    EXPECT_EQ(FlightRecorder::format({bytes.data(), flight::calc_region_size(kMostRecords + 1U)}),
+              Status::kBadParameter);
+    EXPECT_EQ(bytes[0], std::byte{7});
+}
+
+TEST(FlightLimitsTest, TheChecksumTableComputedWhileRunningIsThatOfTheCompiler) {
+    verifies("SWR-REC-001", Technique::kBackToBack);
+
+    EXPECT_EQ(detail::make_crc32_table(), detail::kCrc32Table);
+}
+
+}  // namespace
+}  // namespace mamori
