@@ -126,14 +126,19 @@ TEST(FlowLimitsTest, EveryActionHasANameOfItsOwn) {
     EXPECT_EQ(names.count("invalid_action"), 1U) << "what is no action";
 }
 
+template <typename T>
+void expect_no_success(Status status) {
+    const Result<T> result{status};
+    EXPECT_FALSE(result.has_value());
+    EXPECT_EQ(result.get_status(), status == Status::kOk ? Status::kError : status);
+}
 TEST(FlowLimitsTest, AResultWithoutAValueIsNeverASuccess) {
     verifies("SWR-KRN-001", Technique::kBoundaryValues);
 
     for (const Status status :
          std::vector<Status>{Status::kOk, Status::kError, Status::kPreconditionNotMet}) {
-        const Result<int> result{status};
-        EXPECT_FALSE(result.has_value());
-        EXPECT_EQ(result.get_status(), status == Status::kOk ? Status::kError : status);
+        expect_no_success<int>(status);
+        expect_no_success<Instant>(status);
     }
 }
 

@@ -84,6 +84,8 @@ TEST(TextLimitsTest, AZeroHasNoSignAndNoFractionWhateverItsExponentIs) {
     EXPECT_EQ(from_whole<std::int8_t>({0U, true}).get_value(), 0);
     EXPECT_EQ(from_whole<std::int8_t>({1U, true}).get_value(), -1);
     EXPECT_EQ(from_whole<std::int8_t>({1U, false}).get_value(), 1);
+    EXPECT_TRUE(from_whole<std::uint8_t>({0U, true}).has_value());
+    EXPECT_EQ(from_whole<std::uint8_t>({1U, true}).get_status(), Status::kBadParameter);
 }
 
 TEST(TextLimitsTest, ARealNumberThatFloatRoundsUpOrDownIsRefused) {
