@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stored result of the whole run, per file: what the claim of the mutation score rests on between two whole runs.
 
-@satisfies SWR-VER-006      Design: docs/design/test_strength.md#stored-result
+@satisfies SWR-VER-006, SWR-VER-009      Design: docs/design/test_strength.md#stored-result
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ STORE = Path(__file__).resolve().with_name("baseline.toml")
 HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
 # Mutation score of the kernel, file by file, as `./mamori mutate --store` found it. Written by that command only.
-# `fingerprint` is that of the mutated file: a file that has changed since is reported, and its row stands until the next run.
+# `fingerprint` is that of the mutated file: the row of a file that has changed since counts for nothing until its next run.
 """
 
 
@@ -32,6 +32,57 @@ class Entry:
     commit: str
     date: str
     counts: Counts
+
+
+@dataclass(frozen=True)
+class Mutated:
+    """What a file of the kernel is now."""
+
+    fingerprint: str
+    mutants: int
+
+
+@dataclass(frozen=True)
+class Standing:
+    """What the stored result says of the kernel as it is now: `measured` files, and those that no whole run has tried as they
+    are, because they are new or have changed since."""
+
+    measured: Mapping[str, Counts]
+    open_mutants: Mapping[str, int]
+    gone: tuple[str, ...]
+
+    @property
+    def total(self) -> Counts:
+        return add_up(dict(self.measured))
+
+    @property
+    def findings(self) -> list[str]:
+        """What is wrong; nothing when the measured files together meet the bar."""
+        found = [f"{file} is stored but gives no mutants any more; remove its table" for file in self.gone]
+        if self.total.score < BAR:
+            found.append(f"the stored mutation score is {self.total.score:.1%} ({self.total.killed} of {self.total.valid});"
+                         f" {BAR:.0%} is the bar")  # fmt: skip
+        return found
+
+    def describe(self) -> list[str]:
+        """Lines for the reader: the sum, then each file that was not measured."""
+        total, tried, left = self.total, sum(map(_tried, self.measured.values())), sum(self.open_mutants.values())
+        lines = [f"stored whole runs: {total.score:.1%} ({total.killed} of {total.valid} killed; {len(self.measured)} files,"
+                 f" {tried} mutants)",
+                 f"not measured as a whole: {len(self.open_mutants)} files, {left} mutants"]  # fmt: skip
+        return lines + [f"not measured: {file} ({count} mutants)" for file, count in self.open_mutants.items()]
+
+    def to_json(self) -> dict[str, object]:
+        """The same for programs."""
+        return {
+            "measured": {file: asdict(counts) for file, counts in self.measured.items()},
+            "total": {**asdict(self.total), "score": self.total.score if self.measured else None},
+            "not_measured": {"files": dict(self.open_mutants), "mutants": sum(self.open_mutants.values())},
+        }
+
+
+def _tried(counts: Counts) -> int:
+    return sum(asdict(counts).values())
 
 
 def fingerprint(source: bytes) -> str:
@@ -63,16 +114,14 @@ def write_store(entries: Mapping[str, Entry], path: Path = STORE) -> None:
     os.replace(part, path)
 
 
-def check_store(entries: Mapping[str, Entry], mutated: Mapping[str, bytes]) -> list[str]:
-    """@param mutated sources that have mutants. @return what is wrong; nothing when the store meets the bar."""
-    findings = [f"{file} was never mutated; run ./mamori mutate --store {file}" for file in mutated if file not in entries]
-    findings += [f"{file} is stored but gives no mutants any more; remove its table" for file in entries if file not in mutated]
-    total = add_up({file: entry.counts for file, entry in entries.items()})
-    if total.score < BAR:
-        findings.append(f"the stored mutation score is {total.score:.1%} ({total.killed} of {total.valid}); {BAR:.0%} is the bar")
-    return findings
+def judge_store(entries: Mapping[str, Entry], mutated: Mapping[str, Mutated]) -> Standing:
+    """A row counts when it is of the file as it is, and of as many mutants as the file gives now.
 
-
-def list_changed(entries: Mapping[str, Entry], mutated: Mapping[str, bytes]) -> list[str]:
-    """Files that are not those whose result is stored."""
-    return [file for file, source in mutated.items() if file in entries and entries[file].fingerprint != fingerprint(source)]
+    @param mutated files of the kernel that have mutants."""
+    measured = {
+        file: entries[file].counts
+        for file, now in mutated.items()
+        if file in entries and (entries[file].fingerprint, _tried(entries[file].counts)) == (now.fingerprint, now.mutants)
+    }
+    left = {file: now.mutants for file, now in mutated.items() if file not in measured}
+    return Standing(measured, left, tuple(file for file in entries if file not in mutated))

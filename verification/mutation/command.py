@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`./mamori mutate`: arguments of the command, what it prints, and when it fails.
 
-@satisfies SWR-VER-004, SWR-VER-006, SWR-VER-007      Design: docs/design/test_strength.md#score
+@satisfies SWR-VER-004, SWR-VER-006, SWR-VER-007, SWR-VER-009      Design: docs/design/test_strength.md#score
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +23,7 @@ from mamori.verification.mutation import baseline
 from mamori.verification.mutation.equivalent import read_list
 from mamori.verification.mutation.operators import make_mutants
 from mamori.verification.mutation.run import Plan, Report, Selection, make_plan, make_table, run_plan, write_json
-from mamori.verification.mutation.score import BAR
+from mamori.verification.mutation.score import BAR, Counts, calc_interval, count
 from mamori.verification.mutation.sources import MutationError, Sources, read_sources
 from mamori.verification.mutation.workbench import SURVIVED, Result
 
@@ -52,16 +53,17 @@ def mutate(request: Request) -> int:
         plan = make_plan(project.root, selection, read_list())
         if request.only_list:
             return show_plan(plan)
-        report = run_kernel(project.root, plan, request.jobs, Progress(plan))
+        tell = Progress(plan)
+        report = run_kernel(project.root, plan, request.jobs, Keeper(project.root, plan, tell) if request.store else tell)
+        standing = read_standing(project.root)
     except MutationError as error:
         print(error, file=sys.stderr)
         return EXIT_FAILED
-    write_json(project.evidence / "mutation" / "mutation.json", report, selection)
-    print(make_table(report.files))
-    for line in describe(report):
+    write_json(project.evidence / "mutation" / "mutation.json", report, selection, standing)
+    for line in (make_table(report.files), *standing.describe(), *describe(report)):
         print(line)
     if request.store:
-        store(project.root, report)
+        print(f"stored: {baseline.STORE.relative_to(project.root)}")
     return EXIT_OK if report.passed else EXIT_FAILED
 
 
@@ -103,6 +105,25 @@ class Progress:
             print(f"[{done}/{total}] mutants tried, {self._survived} survived", flush=True)
 
 
+class Keeper:
+    """Stores the row of each file as soon as its last mutant has been tried, so that a run that is stopped keeps what it has."""
+
+    def __init__(self, root: Path, plan: Plan, tell: Callable[[Result, int, int], None]) -> None:
+        self._root = root
+        self._plan = plan
+        self._tell = tell
+        self._left = Counter(mutant.file for mutant in plan.mutants)
+        self._results: list[Result] = []
+
+    def __call__(self, result: Result, done: int, total: int) -> None:
+        self._tell(result, done, total)
+        file = result.mutant.file
+        self._results.append(result)
+        self._left[file] -= 1
+        if self._left[file] == 0:
+            store(self._root, file, self._plan.sources[file], count(self._results)[file])
+
+
 def show_plan(plan: Plan) -> int:
     """One line per mutant, without running anything."""
     for mutant in plan.mutants:
@@ -123,25 +144,30 @@ def describe(report: Report) -> list[str]:
         line = result.mutant.get_line(report.plan.sources[result.mutant.file])
         before, after = result.mutant.get_change(report.plan.sources[result.mutant.file])
         lines.append(f"{result.mutant.file}:{line}: survived: {before}  ->  {after}")
-    kind = f"sample of {len(report.results)}" if report.plan.is_sample else "all mutants"
+    kind = "all mutants"
+    if report.plan.is_sample:
+        low, high = calc_interval(total.killed, total.valid)
+        kind = f"sample of {len(report.results)}, 95 % interval {low:.1%} to {high:.1%}"
     lines.append(f"mutation score: {total.score:.1%} ({total.killed} of {total.valid} killed; {kind}; {BAR:.0%} is the bar)")
     return lines
 
 
-def store(root: Path, report: Report) -> None:
-    """Puts the counts of the files of this run into the stored result, and drops files that are gone."""
+def store(root: Path, file: str, source: bytes, counts: Counts) -> None:
+    """Puts the counts of one file into the stored result, and drops files that are gone."""
     entries = baseline.read_store()
     argv = ("git", "-C", str(root), "rev-parse", "--short=12", "HEAD")
     commit = subprocess.run(argv, capture_output=True, text=True, check=False)
     date = datetime.datetime.now(datetime.UTC).date().isoformat()
-    for file, counts in report.files.items():
-        mark = baseline.fingerprint(report.plan.sources[file])
-        entries[file] = baseline.Entry(mark, commit.stdout.strip() or "unknown", date, counts)
-    baseline.write_store({file: entry for file, entry in entries.items() if (root / file).is_file()})
-    print(f"stored: {baseline.STORE.relative_to(root)}")
+    entries[file] = baseline.Entry(baseline.fingerprint(source), commit.stdout.strip() or "unknown", date, counts)
+    baseline.write_store({name: entry for name, entry in entries.items() if (root / name).is_file()})
 
 
-def read_mutated(root: Path) -> dict[str, bytes]:
-    """Files of the kernel that have mutants."""
+def read_standing(root: Path) -> baseline.Standing:
+    """What the stored result is worth for the kernel as it is. @raise MutationError when there is no such file of results."""
     sources = {file: (root / file).read_bytes() for file in Sources(root, ()).list_files()}
-    return {file: source for file, source in sources.items() if make_mutants(file, source)}
+    mutated = {
+        file: baseline.Mutated(baseline.fingerprint(source), len(mutants))
+        for file, source in sources.items()
+        if (mutants := make_mutants(file, source))
+    }
+    return baseline.judge_store(baseline.read_store(), mutated)

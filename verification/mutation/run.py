@@ -15,13 +15,14 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
+from mamori.verification.mutation.baseline import Standing
 from mamori.verification.mutation.equivalent import Row, match
 from mamori.verification.mutation.operators import Mutant, make_mutants
-from mamori.verification.mutation.score import LISTED, Counts, add_up, count, is_met
+from mamori.verification.mutation.score import LISTED, Counts, add_up, calc_interval, count, is_met
 from mamori.verification.mutation.sources import Sources
 from mamori.verification.mutation.workbench import KILLED, SURVIVED, TEST_TIMEOUT_S, Baseline, Bench, Result
 
-SCHEMA = "mamori.mutation/1"
+SCHEMA = "mamori.mutation/2"
 Progress = Callable[[Result, int, int], None]
 
 
@@ -126,14 +127,15 @@ def make_table(files: dict[str, Counts]) -> str:
     return "\n".join(lines)
 
 
-def write_json(path: Path, report: Report, selection: Selection) -> None:
-    """Writes the whole file or nothing."""
+def write_json(path: Path, report: Report, selection: Selection, stored: Standing) -> None:
+    """Writes the whole file or nothing. @param stored what whole runs said, beside which this run stands."""
     total = report.total
     content = {
         "schema": SCHEMA,
         "passed": report.passed,
         "sample": {"size": len(report.results), "seed": selection.seed} if report.plan.is_sample else None,
-        "total": {**asdict(total), "score": total.score},
+        "total": {**asdict(total), "score": total.score, "interval": calc_interval(total.killed, total.valid)},
+        "stored": stored.to_json(),
         "files": [{"file": file, **asdict(counts), "score": counts.score} for file, counts in report.files.items()],
         "mutants": [_describe(result, report.plan) for result in report.results],
     }

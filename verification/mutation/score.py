@@ -14,6 +14,7 @@ from mamori.verification.mutation.workbench import EQUIVALENT, INVALID, KILLED, 
 
 BAR = 0.90
 DOUBT = 0.05  # a sample is believed to contradict the bar when so good a kernel would give it this rarely
+NORMAL_975 = 1.959964  # two-sided 95 % of the normal distribution
 LISTED = "listed as equivalent"
 
 
@@ -69,3 +70,14 @@ def is_met(counts: Counts, is_sample: bool) -> bool:
 def calc_chance(survived: int, valid: int) -> float:
     """Probability of at least `survived` survivors among `valid` mutants when each survives with probability 1 - BAR."""
     return math.fsum(math.comb(valid, k) * (1.0 - BAR) ** k * BAR ** (valid - k) for k in range(survived, valid + 1))
+
+
+def calc_interval(killed: int, valid: int) -> tuple[float, float]:
+    """Wilson's 95 % interval of the share of mutants that the tests kill, from a sample. Source: E. B. Wilson, Probable
+    inference, the law of succession, and statistical inference, J. Am. Stat. Assoc. 22 (1927). All of [0, 1] without a mutant."""
+    if valid == 0:
+        return 0.0, 1.0
+    share, spread = killed / valid, NORMAL_975**2 / valid
+    middle = (share + spread / 2.0) / (1.0 + spread)
+    half = math.sqrt(spread * share * (1.0 - share) + spread**2 / 4.0) / (1.0 + spread)
+    return max(0.0, middle - half), min(1.0, middle + half)

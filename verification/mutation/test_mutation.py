@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import tempfile
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -13,11 +14,11 @@ import pytest
 from mamori.verification.command.errors import UsageError
 from mamori.verification.command.project import ROOT, Project
 from mamori.verification.mutation import baseline
-from mamori.verification.mutation.command import choose_files, describe, read_mutated, run_kernel
+from mamori.verification.mutation.command import Keeper, choose_files, describe, read_standing, run_kernel
 from mamori.verification.mutation.equivalent import Row, read_list
 from mamori.verification.mutation.operators import make_mutants
 from mamori.verification.mutation.run import Plan, Report, Selection, make_plan, make_table, run_plan, write_json
-from mamori.verification.mutation.score import LISTED, Counts, is_met
+from mamori.verification.mutation.score import LISTED, Counts, calc_interval, is_met
 from mamori.verification.mutation.sources import MutationError, Sources, Unit, keep_flags
 from mamori.verification.mutation.workbench import EQUIVALENT, INVALID, KILLED, SURVIVED, TIMED_OUT, Baseline, Bench, Result
 
@@ -208,6 +209,37 @@ def test_tests_that_fail_by_themselves_kill_nothing(sources: Sources) -> None:
 
 
 @pytest.mark.verifies("SWR-VER-005", technique="interface")
+def test_test_whose_program_is_the_same_is_not_run(sources: Sources) -> None:
+    """The second test takes nothing of limit.cpp, so only the first may kill its mutants; those of the header reach both."""
+    other = "tests/other_test.cpp"
+    (sources.folder / other).write_text("TEST(Other, Holds) { EXPECT_TRUE(true); }\n", encoding="utf-8")
+    units = (*sources.units, Unit(other, sources.units[0].flags))
+    original = Baseline(replace(sources, units=units), sources.root / "work", 2)
+
+    assert original.links == {"tests/limit_test.cpp": {"src/limit.cpp"}, other: frozenset()}
+    ran: list[str] = []
+    bench = Bench(original, "bench")
+    run = bench.run_test
+    bench.run_test = lambda test, *rest: (ran.append(test.path), run(test, *rest))[1]  # type: ignore[method-assign]
+    source = (sources.root / SOURCE).read_bytes()
+    survivor = next(mutant for mutant in make_mutants(SOURCE, source) if "value <= calc" in mutant.get_change(source)[1])
+    assert bench.try_mutant(survivor, source).verdict == SURVIVED
+    assert ran == ["tests/limit_test.cpp"]
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="interface")
+def test_likely_killers_come_first(sources: Sources) -> None:
+    names = ("tests/another_test.cpp", "tests/limit_life_test.cpp", "tests/limited_test.cpp")
+    for name in names:
+        (sources.folder / name).write_text("TEST(Other, Holds) { EXPECT_TRUE(true); }\n", encoding="utf-8")
+    units = (*sources.units, *(Unit(name, sources.units[0].flags) for name in names))
+
+    original = Baseline(replace(sources, units=units), sources.root / "work", 2)
+
+    assert [test.stem for test in original.order_tests(SOURCE)] == ["limit_test", "limit_life_test", "limited_test", "another_test"]
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="interface")
 def test_sources_are_left_as_they_were(sources: Sources) -> None:
     run_all(sources, line=LIMIT_LINE)
 
@@ -276,7 +308,7 @@ def test_bar_is_held_on_both_sides(killed: int, survived: int, is_sample: bool, 
 
 @pytest.mark.verifies("SWR-VER-006")
 def test_stored_result_of_the_kernel_meets_the_bar() -> None:
-    assert baseline.check_store(baseline.read_store(), read_mutated(ROOT)) == []
+    assert read_standing(ROOT).findings == []
 
 
 @pytest.mark.verifies("SWR-VER-006")
@@ -285,27 +317,72 @@ def test_sample_of_the_kernel_does_not_contradict_the_bar() -> None:
     selection = Selection(tuple(Sources(ROOT, ()).list_files()), SAMPLE, SEED)
     plan = make_plan(ROOT, selection, read_list())
     report = run_kernel(ROOT, plan, os.cpu_count() or 1, lambda *_: None)
-    write_json(project.evidence / "mutation" / "mutation.json", report, selection)
-    changed = baseline.list_changed(baseline.read_store(), read_mutated(ROOT))
-    told = [make_table(report.files), *describe(report), *(f"changed since its whole run: {file}" for file in changed)]
+    standing = read_standing(ROOT)
+    write_json(project.evidence / "mutation" / "mutation.json", report, selection, standing)
+    told = [make_table(report.files), *standing.describe(), *describe(report)]
     (project.evidence / "mutation" / "mutation.txt").write_text("\n".join(told) + "\n", encoding="utf-8")
 
     assert report.passed, "\n".join(told)
 
 
-@pytest.mark.verifies("SWR-VER-006", technique="fault_injection", polarity="violation")
-def test_stored_result_is_judged_as_a_whole_and_by_file(tmp_path: Path) -> None:
-    path = tmp_path / "baseline.toml"
-    entry = baseline.Entry(baseline.fingerprint(b"a"), "0123", "2026-11-22", Counts(89, 11))
-    baseline.write_store({"a.cpp": entry}, path)
-    stored = baseline.read_store(path)
+def judge(now: dict[str, tuple[bytes, int]], *, killed: int = 89) -> baseline.Standing:
+    """A store with one row, of 100 mutants of a.cpp when it was b"a", beside the sources and numbers of mutants of `now`."""
+    entry = baseline.Entry(baseline.fingerprint(b"a"), "0123", "2026-11-22", Counts(killed, 100 - killed))
+    mutated = {file: baseline.Mutated(baseline.fingerprint(source), mutants) for file, (source, mutants) in now.items()}
+    return baseline.judge_store({"a.cpp": entry}, mutated)
 
-    assert stored == {"a.cpp": entry}
-    assert baseline.check_store(stored, {"a.cpp": b"a"}) == ["the stored mutation score is 89.0% (89 of 100); 90% is the bar"]
-    assert "b.cpp was never mutated" in baseline.check_store(stored, {"a.cpp": b"a", "b.cpp": b"b"})[0]
-    assert "a.cpp is stored but gives no mutants" in baseline.check_store(stored, {})[0]
-    assert baseline.list_changed(stored, {"a.cpp": b"a"}) == []
-    assert baseline.list_changed(stored, {"a.cpp": b"b"}) == ["a.cpp"]
+
+@pytest.mark.verifies("SWR-VER-006", technique="fault_injection", polarity="violation")
+def test_stored_result_below_the_bar_or_of_a_file_that_is_gone_fails() -> None:
+    assert judge({"a.cpp": (b"a", 100)}).findings == ["the stored mutation score is 89.0% (89 of 100); 90% is the bar"]
+    assert judge({"a.cpp": (b"a", 100)}, killed=90).findings == []
+    assert "a.cpp is stored but gives no mutants" in judge({}).findings[0]
+
+
+@pytest.mark.parametrize("now", [(b"b", 100), (b"a", 101)], ids=["file changed", "operators changed"])
+@pytest.mark.verifies("SWR-VER-009", technique="equivalence_classes", polarity="violation")
+def test_row_of_another_state_of_its_file_counts_for_nothing(now: tuple[bytes, int]) -> None:
+    standing = judge({"a.cpp": now})
+
+    assert (standing.total.valid, standing.findings) == (0, [])
+    assert standing.describe()[-2:] == [f"not measured as a whole: 1 files, {now[1]} mutants",
+                                        f"not measured: a.cpp ({now[1]} mutants)"]  # fmt: skip
+    assert standing.to_json()["not_measured"] == {"files": {"a.cpp": now[1]}, "mutants": now[1]}
+
+
+@pytest.mark.verifies("SWR-VER-009", technique="interface")
+def test_file_without_a_row_is_named_beside_the_measured_ones() -> None:
+    standing = judge({"a.cpp": (b"a", 100), "b.cpp": (b"b", 7)}, killed=95)
+
+    assert standing.describe() == ["stored whole runs: 95.0% (95 of 100 killed; 1 files, 100 mutants)",
+                                   "not measured as a whole: 1 files, 7 mutants",
+                                   "not measured: b.cpp (7 mutants)"]  # fmt: skip
+    assert standing.findings == []
+
+
+@pytest.mark.verifies("SWR-VER-009", technique="interface")
+def test_row_of_each_file_is_stored_when_its_last_mutant_was_tried(
+    sources: Sources, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(baseline, "read_store", partial(baseline.read_store, tmp_path / "stored.toml"))
+    write = baseline.write_store
+    monkeypatch.setattr(baseline, "write_store", lambda entries: write(entries, tmp_path / "stored.toml"))
+    plan = make_plan(sources.root, Selection((HEADER, SOURCE)), ())
+    keep = Keeper(sources.root, plan, lambda *_: None)
+    first = [mutant for mutant in plan.mutants if mutant.file == HEADER]
+
+    for mutant in first[:-1]:
+        keep(Result(mutant, KILLED), 1, len(plan.mutants))
+    assert baseline.read_store() == {}
+    keep(Result(first[-1], SURVIVED), len(first), len(plan.mutants))
+
+    assert {file: entry.counts for file, entry in baseline.read_store().items()} == {HEADER: Counts(len(first) - 1, 1)}
+
+
+@pytest.mark.parametrize(("killed", "valid", "low", "high"), [(54, 60, 0.7985, 0.9534), (60, 60, 0.9398, 1.0), (0, 0, 0.0, 1.0)])
+@pytest.mark.verifies("SWR-VER-006", technique="equivalence_classes")
+def test_sample_is_shown_with_its_interval(killed: int, valid: int, low: float, high: float) -> None:
+    assert calc_interval(killed, valid) == pytest.approx((low, high), abs=1e-4)
 
 
 @pytest.mark.verifies("SWR-VER-006", technique="error_guessing", polarity="violation")

@@ -15,7 +15,8 @@ import re
 import shutil
 import signal
 import subprocess
-from collections.abc import Iterable
+import time
+from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,7 +30,9 @@ INVALID = "does not compile"
 EQUIVALENT = "same object code"
 
 COMPILE_TIMEOUT_S = 120.0
-TEST_TIMEOUT_S = 20.0
+TEST_TIMEOUT_S = 10.0  # added to what a test may need
+TEST_PATIENCE = 5.0  # times what the test took on the unchanged kernel
+SLOWEST_TEST_S = 240.0  # of the unchanged kernel, on a busy machine
 MEMORY_KIB = 4 * 1024 * 1024
 FILE_BLOCKS = 64 * 1024  # of 512 bytes, that a test may write
 LIBRARIES = ("-lgtest_main", "-lgtest", "-lpthread")
@@ -54,7 +57,8 @@ class Result:
 
 
 class Baseline:
-    """The kernel as it is: its objects, what each unit includes, and the order of the tests. Shared by all benches."""
+    """The kernel as it is: its objects, what each unit includes, what each test links and how long it takes, and the order
+    of the tests. Shared by all benches."""
 
     def __init__(self, sources: Sources, folder: Path, jobs: int, test_timeout_s: float = TEST_TIMEOUT_S) -> None:
         """Compiles every unit and runs every test. @param folder empty or new. @raise MutationError when a test does not
@@ -63,13 +67,18 @@ class Baseline:
         self.folder = folder
         self.test_timeout_s = test_timeout_s
         self.includes: dict[str, frozenset[str]] = {}
+        self.links: dict[str, frozenset[str]] = {}
+        self.archive = folder / "liblayer.a"
+        self._took_s: dict[str, float] = {}
         self._assembler: dict[str, str] = {}
         (folder / "objects").mkdir(parents=True)
         self._make_prefix()
         bench = Bench(self, "original")
         with ThreadPoolExecutor(jobs) as pool:
             problems = [words for words in pool.map(lambda unit: self._compile(unit, bench), sources.units) if words]
-        problems = problems or [problem for test in self.tests if (problem := bench.check_original(test))]
+            if not problems:
+                self._make_archive()
+                problems = [words for words in pool.map(lambda test: self._measure(test, bench), self.tests) if words]
         if problems:
             raise MutationError("the kernel must pass its tests before it is mutated:\n" + "\n".join(problems))
         self._bench = bench
@@ -82,26 +91,33 @@ class Baseline:
         return self.folder / "objects" / (unit.path.replace("/", "_") + ".o")
 
     def order_tests(self, file: str) -> list[Unit]:
-        """Tests by how likely they find a fault in `file`: named after it, after its beginning, naming it, including it."""
+        """Tests by how likely they find a fault in `file`: named after it, after its beginning, naming it, after its first
+        word, including it. Of equals the quick ones come first."""
         stem = Path(file).stem
         header = f"/{stem}.hpp"
         include = re.compile(rf'#include "[^"]*{re.escape(header)}"')
 
-        def rank(test: Unit) -> tuple[int, str]:
+        def rank(test: Unit) -> tuple[int, int, str]:
             marks = (
                 test.stem == f"{stem}_test",
                 test.stem.startswith(stem),
                 include.search((self.sources.folder / test.path).read_text(encoding="utf-8")) is not None,
+                test.stem.partition("_")[0] == stem.partition("_")[0],
                 any(name.endswith(header) for name in self.includes[test.path]),
             )
-            return next((place for place, mark in enumerate(marks) if mark), len(marks)), test.path
+            place = next((place for place, mark in enumerate(marks) if mark), len(marks))
+            return place, int(self._took_s.get(test.path, 0.0)), test.path
 
         return sorted(self.tests, key=rank)
 
     def find_units(self, name: str) -> list[Unit]:
-        """Units that are or include the file `name` (relative to the layer): sources first."""
-        found = [unit for unit in self.sources.units if unit.path == name or name in self.includes[unit.path]]
-        return sorted(found, key=lambda unit: unit.is_test)
+        """Units that are or include the file `name` (relative to the layer): sources first, then tests in their order."""
+        order = [unit for unit in self.sources.units if not unit.is_test] + self.order_tests(name)
+        return [unit for unit in order if unit.path == name or name in self.includes[unit.path]]
+
+    def calc_timeout(self, test: Unit) -> float:
+        """Seconds after which a test of a mutant is taken for one that never ends."""
+        return self.test_timeout_s + TEST_PATIENCE * self._took_s[test.path]
 
     def find_bound(self) -> list[Unit]:
         """Units that are told by a definition where the layer lies: tests that call the compiler themselves."""
@@ -134,6 +150,22 @@ class Baseline:
         self.includes[unit.path] = bench.read_includes(depends)
         return ""
 
+    def _make_archive(self) -> None:
+        """All sources in one library, of which the linker takes what a test needs."""
+        objects = [str(self.get_object(unit)) for unit in self.sources.units if not unit.is_test]
+        status, words = _run(("ar", "rcs", str(self.archive), *objects), COMPILE_TIMEOUT_S)
+        if status != 0:
+            raise MutationError(f"the objects of {self.sources.folder} do not go into a library:\n{words}")
+
+    def _measure(self, test: Unit, bench: Bench) -> str:
+        """Notes what a test links and how long it runs. @return what is wrong with it, or nothing."""
+        taken = bench.trace_link(test)
+        self.links[test.path] = frozenset(unit.path for unit in self.sources.units if self.get_object(unit).name in taken)
+        began = time.monotonic()
+        problem = bench.check_original(test)
+        self._took_s[test.path] = time.monotonic() - began
+        return problem
+
 
 class Bench:
     """A private copy of the layer in which one mutant at a time is tried."""
@@ -162,7 +194,7 @@ class Bench:
 
     def check_original(self, test: Unit) -> str:
         """@return what is wrong with the test of the unchanged kernel, or nothing."""
-        status, words = self._run_test(test, {}, [])
+        status, words = self.run_test(test, {}, SLOWEST_TEST_S)
         return "" if status == 0 else f"{test.path}: {words.strip()[-500:] or f'status {status}'}"
 
     def hash_assembler(self, unit: Unit) -> str:
@@ -196,12 +228,15 @@ class Bench:
                 if refusal := self._recompile(unit, changed, mutant):
                     return refusal
         bound = self._baseline.find_bound() if name.endswith(".hpp") else []
-        concerned = {unit.path for unit in (*units, *bound)}
-        objects = [changed.get(unit.path, self._baseline.get_object(unit)) for unit in self._sources.units if not unit.is_test]
+        recompiled = {unit.path for unit in (*units, *bound)}
+        sources = frozenset(changed)
         for test in self._baseline.order_tests(mutant.file):
-            if test.path in concerned and (refusal := self._recompile(test, changed, mutant)):
-                return refusal
-            status, words = self._run_test(test, changed, objects)
+            if test.path in recompiled:
+                if refusal := self._recompile(test, changed, mutant):
+                    return refusal
+            elif self._baseline.links[test.path].isdisjoint(sources):
+                continue  # not a byte of this program changed
+            status, words = self.run_test(test, changed, self._baseline.calc_timeout(test))
             if status != 0:
                 return Result(mutant, KILLED, f"{test.path} {words}".strip() if words == TIMED_OUT else test.path)
         if all(self.hash_assembler(unit) == self._baseline.get_assembler(unit) for unit in units):
@@ -219,15 +254,28 @@ class Bench:
             return Result(mutant, KILLED, f"compiler, {unit.path}")
         return Result(mutant, INVALID)
 
-    def _run_test(self, test: Unit, changed: dict[str, Path], objects: list[Path]) -> tuple[int, str]:
-        """@return status, and why when it is not 0."""
-        program = self._folder / "test_program"
-        objects = objects or [self._baseline.get_object(unit) for unit in self._sources.units if not unit.is_test]
-        own = changed.get(test.path, self._baseline.get_object(test))
-        status, words = _run((COMPILER, str(own), *map(str, objects), *LIBRARIES, "-o", str(program)), COMPILE_TIMEOUT_S)
+    def trace_link(self, test: Unit) -> set[str]:
+        """@return names of the objects that the test takes from the library of the unchanged kernel."""
+        _, words = self._link(test, {}, "-Wl,-t,-t")
+        return set(re.findall(rf"^\({re.escape(str(self._baseline.archive))}\)(\S+)$", words, re.MULTILINE))
+
+    def run_test(self, test: Unit, changed: Mapping[str, Path], timeout_s: float) -> tuple[int, str]:
+        """Links and runs one test. @param changed objects that take the place of the original ones.
+        @return status, and why when it is not 0."""
+        status, words = self._link(test, changed)
         if status != 0:
             return status, words
-        return _run((str(program), "--gtest_fail_fast", "--gtest_brief=1"), self._baseline.test_timeout_s, cwd=self._folder)
+        return _run((str(self._program(test)), "--gtest_fail_fast", "--gtest_brief=1"), timeout_s, cwd=self._folder)
+
+    def _link(self, test: Unit, changed: Mapping[str, Path], *options: str) -> tuple[int, str]:
+        own = changed.get(test.path, self._baseline.get_object(test))
+        others = [str(path) for name, path in changed.items() if not name.startswith("tests/")]
+        return _run((COMPILER, str(own), *others, str(self._baseline.archive), *LIBRARIES, *options,
+                     "-o", str(self._program(test))), COMPILE_TIMEOUT_S)  # fmt: skip
+
+    def _program(self, test: Unit) -> Path:
+        """One for each test: tests of the unchanged kernel run at the same time."""
+        return self._folder / f"{test.stem}.program"
 
 
 TIMED_OUT = "timed out"
