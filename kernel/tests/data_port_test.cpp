@@ -202,6 +202,29 @@ TEST_F(DataPortTest, NothingIsHandedOnWhenNothingWasWritten) {
     EXPECT_FALSE(in_.has_value());
 }
 
+TEST_F(DataPortTest, AValueIsTooOldOnceItIsOlderThanTheLimit) {
+    verifies("SWR-KRN-016", Technique::kBoundaryValues, Polarity::kViolation);
+    in_.set_age_max(Duration{50});
+    EXPECT_EQ(in_.calc_status(Instant{0}), PortStatus::kBufferEmpty);
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    in_.take(out_.get_published_sample());
+
+    EXPECT_EQ(in_.calc_status(Instant{150}), PortStatus::kOk);
+    EXPECT_EQ(in_.calc_status(Instant{151}), PortStatus::kBufferTimeout);
+}
+
+TEST(PortStatusTest, NumbersAreThoseOfTheStandard) {
+    verifies("SWR-KRN-016", Technique::kInterface);
+
+    EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kOk), 0U);
+    EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kError), 1U);
+    EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kBufferFull), 2U);
+    EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kBufferEmpty), 3U);
+    EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kBufferTimeout), 4U);
+    EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kUnknownError), 5U);
+}
+
 TEST(PortNeedTest, AnInputIsMandatoryUnlessItSaysOtherwise) {
     verifies("SWR-KRN-016", Technique::kInterface);
 

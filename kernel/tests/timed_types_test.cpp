@@ -53,6 +53,12 @@ std::vector<double> list(const T& value) {
     return notes.values;
 }
 
+/// Are all numbers of new values of these types 0?
+template <typename... T>
+bool are_zero() {
+    return (... && (list(T{}) == std::vector<double>(count_doubles<T>(), 0.0)));
+}
+
 TEST(TimedTypesTest, BasicTypesHaveTheSizesOfTheOriginals) {
     verifies("SWR-CDR-005");
 
@@ -80,6 +86,15 @@ TEST(TimedTypesTest, ExtendedTypesHaveAsManyNumbersAsTheOriginals) {
               (std::vector<std::size_t>{3, 3, 3, 6, 6, 3, 3, 3, 12, 3, 9, 21, 4, 9, 4}));
     EXPECT_EQ((sizes<TimedPose2D, TimedPose3D, TimedGeometry3D, TimedCovariance3D, TimedQuaternion>()),
               (std::vector<std::size_t>{32, 56, 80, 176, 40}));
+}
+
+TEST(TimedTypesTest, NewValuesOfExtendedTypesAreZero) {
+    verifies("SWR-CDR-005", Technique::kInterface);
+
+    EXPECT_TRUE((are_zero<RGBColour, PoseVel2D, Vector2D, Acceleration2D, Geometry2D, Covariance2D,
+                          PointCovariance2D, Carlike, SpeedHeading2D>()));
+    EXPECT_TRUE((are_zero<PoseVel3D, AngularVelocity3D, Acceleration3D, AngularAcceleration3D, Geometry3D,
+                          Covariance3D, SpeedHeading3D, OAP, Quaternion>()));
 }
 
 TEST(TimedTypesTest, FieldsAreInTheOrderOfTheOriginals) {

@@ -221,33 +221,38 @@ class Bench:
 
     def _judge(self, mutant: Mutant) -> Result:
         name = Path(mutant.file).relative_to(self._sources.layer).as_posix()
-        units = self._baseline.find_units(name)
+        left = {unit.path: unit for unit in self._baseline.find_units(name)}
+        bound = {unit.path for unit in self._baseline.find_bound()} if name.endswith(".hpp") else set()
         changed: dict[str, Path] = {}
-        for unit in units:
-            if not unit.is_test:
+        differing: list[Unit] = []
+        for test in self._baseline.order_tests(mutant.file):
+            parts = {test.path, *self._baseline.links[test.path]}
+            if test.path in bound:
+                left[test.path] = test
+            for unit in [left.pop(path) for path in sorted(parts & left.keys())]:
                 if refusal := self._recompile(unit, changed, mutant):
                     return refusal
-        bound = self._baseline.find_bound() if name.endswith(".hpp") else []
-        recompiled = {unit.path for unit in (*units, *bound)}
-        sources = frozenset(changed)
-        for test in self._baseline.order_tests(mutant.file):
-            if test.path in recompiled:
-                if refusal := self._recompile(test, changed, mutant):
-                    return refusal
-            elif self._baseline.links[test.path].isdisjoint(sources):
+                differing += [unit] if unit.path in changed else []
+            if test.path not in bound and parts.isdisjoint(changed):
                 continue  # not a byte of this program changed
             status, words = self.run_test(test, changed, self._baseline.calc_timeout(test))
             if status != 0:
                 return Result(mutant, KILLED, f"{test.path} {words}".strip() if words == TIMED_OUT else test.path)
-        if all(self.hash_assembler(unit) == self._baseline.get_assembler(unit) for unit in units):
+        for unit in left.values():
+            if refusal := self._recompile(unit, changed, mutant):
+                return refusal
+            differing += [unit] if unit.path in changed else []
+        if all(self.hash_assembler(unit) == self._baseline.get_assembler(unit) for unit in differing if unit.path not in bound):
             return Result(mutant, EQUIVALENT)
         return Result(mutant, SURVIVED)
 
     def _recompile(self, unit: Unit, changed: dict[str, Path], mutant: Mutant) -> Result | None:
+        """Compiles `unit` and notes the object in `changed` when it is another one. @return the verdict when it is refused."""
         output = self._folder / (unit.path.replace("/", "_") + ".o")
         status, words = self.compile(unit, output)
         if status == 0:
-            changed[unit.path] = output
+            if output.read_bytes() != self._baseline.get_object(unit).read_bytes():
+                changed[unit.path] = output
             return None
         error = FIRST_ERROR.search(words)
         if error is not None and COMPILE_TIME_CHECK.search(error["text"]):
