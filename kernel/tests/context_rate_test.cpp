@@ -114,6 +114,24 @@ TEST_F(ContextRateTest, ARestartBeginsWithACycleAndANewContextWithThePlan) {
     EXPECT_DOUBLE_EQ(sut_.get_rate(), 1000.0);
 }
 
+TEST_F(ContextRateTest, TheFirstContextOfASystemHasARateUntilItIsDetached) {
+    verifies("SWR-RTC-003", Technique::kBoundaryValues);
+    ASSERT_EQ(sut_.detach(), Status::kOk);
+    ASSERT_EQ(sut_.attach(0, participants_, plan_), Status::kOk);
+    EXPECT_DOUBLE_EQ(sut_.get_rate(), 1000.0);
+    ASSERT_EQ(sut_.set_rate(500.0), Status::kOk);
+    ASSERT_TRUE(sut_.apply_pending_rate());
+    EXPECT_DOUBLE_EQ(sut_.get_rate(), 500.0);
+
+    ASSERT_EQ(sut_.detach(), Status::kOk);
+
+    EXPECT_LT(sut_.get_rate(), 0.0);
+    EXPECT_EQ(sut_.get_period(), 0_ns);
+    EXPECT_EQ(sut_.get_divisor(), 1);
+    EXPECT_FALSE(sut_.apply_pending_rate());
+    EXPECT_EQ(sut_.set_rate(1000.0), Status::kUnsupported);
+}
+
 TEST_F(ContextRateTest, WhatIsNoRateOrNotDeclaredIsRefusedAndTheWishKept) {
     verifies("SWR-RTC-003", Technique::kBoundaryValues, Polarity::kViolation);
     using Limits = std::numeric_limits<double>;

@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -20,7 +21,8 @@ KEYS = {"file", "before", "after", "reason"}
 
 @dataclass(frozen=True)
 class Row:
-    """A mutant named by its changed line, without indentation, so that a row outlives changes elsewhere in its file."""
+    """A mutant named by the code of its changed line, so that a row outlives changes elsewhere in its file. Neither the comment
+    at the end of the line nor how its words are set apart matters."""
 
     file: str
     before: str
@@ -52,11 +54,15 @@ def read_list(path: Path = LIST) -> list[Row]:
 
 def match(rows: Sequence[Row], mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> tuple[dict[Mutant, Row], list[Row]]:
     """@return the row of each mutant that has one, and the rows of `sources` that name no mutant any more."""
-    by_change = {(row.file, row.before, row.after): row for row in rows}
+    by_change = {(row.file, _keep_code(row.before), _keep_code(row.after)): row for row in rows}
     found: dict[Mutant, Row] = {}
     for mutant in mutants:
-        row = by_change.get((mutant.file, *mutant.get_change(sources[mutant.file])))
+        row = by_change.get((mutant.file, *map(_keep_code, mutant.get_change(sources[mutant.file]))))
         if row is not None:
             found[mutant] = row
     used = set(map(str, found.values()))
     return found, [row for row in rows if row.file in sources and str(row) not in used]
+
+
+def _keep_code(line: str) -> str:
+    return " ".join(re.sub(r"\s//.*", "", line).split())

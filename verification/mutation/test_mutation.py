@@ -419,6 +419,16 @@ def test_listed_mutant_that_a_test_kills_fails(sources: Sources) -> None:
     assert any("tests/limit_test.cpp kills this mutant, so it is not equivalent" in line for line in describe(report))
 
 
+@pytest.mark.verifies("SWR-VER-007", technique="interface")
+def test_row_outlives_another_comment_and_other_spacing(sources: Sources) -> None:
+    text = FILES[SOURCE].replace("value < calc_limit(1); }", "value  <  calc_limit(1); }  ///< below the limit")
+    (sources.root / SOURCE).write_text(text, encoding="utf-8")
+
+    plan = make_plan(sources.root, Selection((SOURCE,)), [LIMIT_ROW])
+
+    assert (list(plan.listed.values()), plan.unused) == ([LIMIT_ROW], ())
+
+
 @pytest.mark.verifies("SWR-VER-007", technique="fault_injection", polarity="violation")
 def test_row_that_names_no_mutant_fails(sources: Sources) -> None:
     row = Row(SOURCE, "return old < new;", "return old <= new;", "It was so.")
