@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mamori/kernel/connection.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {
@@ -212,6 +213,22 @@ TEST_F(DataPortTest, AValueIsTooOldOnceItIsOlderThanTheLimit) {
 
     EXPECT_EQ(in_.calc_status(Instant{150}), PortStatus::kOk);
     EXPECT_EQ(in_.calc_status(Instant{151}), PortStatus::kBufferTimeout);
+}
+
+TEST_F(DataPortTest, ACrossingThatNothingWentThroughBringsNoValue) {
+    verifies("SWR-KRN-016", Technique::kBoundaryValues, Polarity::kViolation);
+    Crossing<std::int32_t> crossing;
+
+    crossing.latch(in_, Instant{0});
+    EXPECT_FALSE(in_.has_value());
+
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    crossing.deliver(out_);
+    crossing.latch(in_, Instant{99});
+    EXPECT_FALSE(in_.has_value()) << "published after the opening";
+    crossing.latch(in_, Instant{100});
+    EXPECT_TRUE(in_.has_value());
 }
 
 TEST(PortStatusTest, NumbersAreThoseOfTheStandard) {
