@@ -8,7 +8,8 @@
 
 namespace proof {
 
-/// @param[in] set_name configuration set to begin with. @return kOk; else what the first of them refused with.
+/// @param[in] set_name configuration set to begin with. @return kOk; else what the first of them refused
+/// with.
 mamori::Status prepare_other_parts(const char* set_name) noexcept;
 
 }  // namespace proof

@@ -37,7 +37,7 @@ template <typename T>
 struct Elements {
     using Element = T;
     static constexpr std::size_t kCount = 1U;
-    static constexpr const T& get(const T& value, std::size_t) noexcept { return value; }
+    static constexpr T get(const T& value, std::size_t) noexcept { return value; }
     static constexpr void set(T& value, std::size_t, T element) noexcept { value = element; }
 };
 template <typename S, std::size_t N>
