@@ -231,7 +231,7 @@ void Executive::latch_inputs(std::size_t window, Instant opening) noexcept {
     const WindowRow& row = view_.windows[window];
     for (const std::size_t i : view_.latch_order.subspan(row.first_latch, row.latch_count)) {
         const ConnectionRow& connection = view_.connections[i];
-        connection.operations->latch(*connection.source, *connection.sink, connection.crossing, opening);
+        connection.operations.latch(*connection.source, *connection.sink, connection.crossing, opening);
     }
 }
 
@@ -239,8 +239,8 @@ void Executive::hand_on_outputs(std::size_t component, Instant opening) noexcept
     const ComponentRow& row = view_.component_rows[component];
     for (const std::size_t i : view_.outgoing_order.subspan(row.first_outgoing, row.outgoing_count)) {
         const ConnectionRow& connection = view_.connections[i];
-        if (connection.is_forward_in_window && connection.operations->hand_on != nullptr) {
-            connection.operations->hand_on(*connection.source, *connection.sink, opening);
+        if (connection.is_forward_in_window && connection.operations.hand_on != nullptr) {
+            connection.operations.hand_on(*connection.source, *connection.sink, opening);
         }
     }
 }
@@ -276,8 +276,8 @@ void Executive::deliver(const PortRow& port) noexcept {
     const ComponentRow& owner = view_.component_rows[port.component];
     for (const std::size_t i : view_.outgoing_order.subspan(owner.first_outgoing, owner.outgoing_count)) {
         const ConnectionRow& connection = view_.connections[i];
-        if (connection.source == port.output && connection.operations->deliver != nullptr) {
-            connection.operations->deliver(*port.output, *connection.sink, connection.crossing);
+        if (connection.source == port.output && connection.operations.deliver != nullptr) {
+            connection.operations.deliver(*port.output, *connection.sink, connection.crossing);
         }
     }
 }

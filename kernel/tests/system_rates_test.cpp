@@ -240,7 +240,7 @@ TEST(RunTimeTableTest, RowsThatAreInvalidInThemselvesHideWhatReliesOnThem) {
               Rules{Rule::kConnectionRowInvalid});
     EXPECT_EQ(list_broken([](auto& t) { t.connections[0].sink = nullptr; }),
               Rules{Rule::kConnectionRowInvalid});
-    EXPECT_EQ(list_broken([](auto& t) { t.connections[0].operations = nullptr; }),
+    EXPECT_EQ(list_broken([](auto& t) { t.connections[0].operations = {}; }),
               Rules{Rule::kConnectionRowInvalid});
     EXPECT_EQ(list_broken([](auto& t) { t.connections[0].source_window = 1U; }),
               Rules{Rule::kConnectionRowInvalid});

@@ -121,7 +121,7 @@ double to_number(Duration time) {
 
 /// When the sink sees what its source wrote in the first opening of a frame.
 const char* get_way(const SystemView& view, const ConnectionRow& row) {
-    if (row.operations != nullptr && !row.operations->is_latest) {
+    if (row.operations.is_set && !row.operations.is_latest) {
         return "queue";
     }
     if (row.crossing != nullptr) {

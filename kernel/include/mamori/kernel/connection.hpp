@@ -67,13 +67,16 @@ class Crossing final : public CrossingBase {
 /// What the executive calls for a connection; one constant per pair of port types. nullptr: nothing to do.
 struct ConnectionOperations {
     /// After a publication of the source.
-    void (*deliver)(OutPortBase&, InPortBase&, CrossingBase*) noexcept;
+    void (*deliver)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};
     /// At the opening of the sink's window.
-    void (*latch)(OutPortBase&, InPortBase&, CrossingBase*, Instant opening) noexcept;
+    void (*latch)(OutPortBase&, InPortBase&, CrossingBase*, Instant opening) noexcept {nullptr};
     /// After the source's cycle in a window in which the sink comes later.
-    void (*hand_on)(OutPortBase&, InPortBase&, Instant opening) noexcept;
-    bool may_leave_core;  ///< source and sink may run on two cores or in two partitions
-    bool is_latest;       ///< only the newest value is kept, so the order of writer and reader matters
+    void (*hand_on)(OutPortBase&, InPortBase&, Instant opening) noexcept {nullptr};
+    bool may_leave_core{false};  ///< source and sink may run on two cores or in two partitions
+    bool is_latest{false};       ///< only the newest value is kept, so the order of writer and reader matters
+    /// By connect(). A flag, since under some sanitizers g++ does not compare the addresses with nullptr in a
+    /// constant expression.
+    bool is_set{false};
 };
 
 namespace detail {
@@ -87,7 +90,7 @@ struct LatestConnection {
     static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
         static_cast<Sink&>(sink).take(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
     }
-    static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, false, true};
+    static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, false, true, true};
 };
 
 /// The same through a buffer.
@@ -99,7 +102,7 @@ struct CrossingConnection {
     static void latch(OutPortBase&, InPortBase& sink, CrossingBase* crossing, Instant opening) noexcept {
         static_cast<Crossing<T>*>(crossing)->latch(static_cast<Sink&>(sink), opening);
     }
-    static constexpr ConnectionOperations kOperations{&deliver, &latch, nullptr, true, true};
+    static constexpr ConnectionOperations kOperations{&deliver, &latch, nullptr, true, true, true};
 };
 
 /// A sink that queues every publication; the queue itself may lie between two cores.
@@ -114,7 +117,8 @@ struct QueueConnection {
     static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
         static_cast<Sink&>(sink).push(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
     }
-    static constexpr ConnectionOperations kOperations{&deliver, &latch, &hand_on, Sink::kMayLeaveCore, false};
+    static constexpr ConnectionOperations kOperations{&deliver, &latch, &hand_on, Sink::kMayLeaveCore,
+                                                      false,    true};
 };
 
 }  // namespace detail

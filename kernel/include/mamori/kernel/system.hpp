@@ -71,7 +71,7 @@ constexpr void apply(ConnectionRow& row, Through<U> option) noexcept {
     static_assert(std::is_same_v<T, U>, "the Crossing of a connection carries its payload type");
     static_assert(!Sink::kIsQueue, "a queue is its own buffer; connect it without through(...)");
     row.crossing = &option.crossing;
-    row.operations = &CrossingConnection<T, Sink>::kOperations;
+    row.operations = CrossingConnection<T, Sink>::kOperations;
 }
 
 }  // namespace detail
@@ -88,7 +88,7 @@ constexpr ConnectionPart connect(OutPort<T>& source, Sink& sink, Options... opti
     if constexpr (std::is_same_v<T, typename Sink::Payload>) {
         using Connection = std::conditional_t<Sink::kIsQueue, detail::QueueConnection<T, Sink>,
                                               detail::LatestConnection<T, Sink>>;
-        part.row.operations = &Connection::kOperations;
+        part.row.operations = Connection::kOperations;
         (detail::apply<T, Sink>(part.row, options), ...);
     }
     return part;

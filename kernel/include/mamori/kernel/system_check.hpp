@@ -113,7 +113,7 @@ constexpr bool is_component_valid(const SystemView& view, std::size_t i) noexcep
 }
 
 constexpr bool is_connection_valid(const SystemView& view, const ConnectionRow& row) noexcept {
-    return row.source != nullptr && row.sink != nullptr && row.operations != nullptr &&
+    return row.source != nullptr && row.sink != nullptr && row.operations.is_set &&
            (row.source_window == kNoIndex || row.source_window < view.windows.size()) &&
            (row.sink_window == kNoIndex || row.sink_window < view.windows.size());
 }
@@ -241,10 +241,10 @@ constexpr void check_crossing(const SystemView& view, std::size_t i, FindingList
     const WindowRow& writer = view.windows[row.source_window];
     const WindowRow& reader = view.windows[row.sink_window];
     const bool leaves_core = writer.core != reader.core;
-    if ((leaves_core || !are_equal(writer.partition, reader.partition)) && !row.operations->may_leave_core) {
+    if ((leaves_core || !are_equal(writer.partition, reader.partition)) && !row.operations.may_leave_core) {
         findings.add(Rule::kCrossingWithoutBuffer, i);
     }
-    if (leaves_core && row.operations->is_latest && calc_distance(writer, reader) < writer.length) {
+    if (leaves_core && row.operations.is_latest && calc_distance(writer, reader) < writer.length) {
         findings.add(Rule::kCrossingNotOrdered, i);
     }
     for (std::size_t j = 0U; j < i && row.crossing != nullptr; ++j) {

@@ -78,7 +78,7 @@ struct ConnectionRow {
     OutPortBase* source{nullptr};
     InPortBase* sink{nullptr};
     CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
-    const ConnectionOperations* operations{nullptr};
+    ConnectionOperations operations{};
     Duration age_max{kNoAgeLimit};
     std::size_t source_window{kNoIndex};
     std::size_t sink_window{kNoIndex};
