@@ -75,28 +75,51 @@ Result<ParameterBase*> ConfigurationAdmin::find(Text component, Text parameter) 
     return Status::kBadParameter;
 }
 
-Status ConfigurationAdmin::switch_to(std::uint32_t set) noexcept {
+std::size_t ConfigurationAdmin::take_requested_set() noexcept {
+    return requested_.exchange(kNone, std::memory_order_acq_rel);
+}
+
+ConfigurationFinding ConfigurationAdmin::judge_set(std::size_t set) const noexcept {
     const Span<const AssignmentRow> rows = view_.get_assignments(view_.sets[set]);
     for (std::size_t a = 0U; a < rows.size(); ++a) {
         if (rows[a].parameter->check(view_.get_values(rows[a])) != Status::kOk) {
-            last_finding_ = {ConfigurationRule::kValueOutsideConstraint, set, a};
-            return Status::kBadParameter;
+            return {ConfigurationRule::kValueOutsideConstraint, set, a};
         }
     }
-    for (const AssignmentRow& row : rows) {
-        const Status result = row.parameter->activate(view_.get_values(row));
-        MAMORI_ENSURE(2, result == Status::kOk);
+    return {};
+}
+
+void ConfigurationAdmin::activate_set(std::size_t set, Span<const ParameterRow> parameters) noexcept {
+    for (const AssignmentRow& row : view_.get_assignments(view_.sets[set])) {
+        for (const ParameterRow& own : parameters) {
+            if (own.parameter == row.parameter) {
+                const Status result = row.parameter->activate(view_.get_values(row));
+                MAMORI_ENSURE(2, result == Status::kOk);
+            }
+        }
     }
-    active_.store(set, std::memory_order_release);
-    return Status::kOk;
+    active_.store(static_cast<std::uint32_t>(set), std::memory_order_release);
+}
+
+void ConfigurationAdmin::commit(Span<const ParameterRow> parameters) noexcept {
+    for (const ParameterRow& row : parameters) {
+        static_cast<void>(row.parameter->commit());
+    }
 }
 
 Status ConfigurationAdmin::switch_at_frame_boundary() noexcept {
-    const std::uint32_t set = requested_.exchange(kNone, std::memory_order_acq_rel);
-    const Status result = set == kNone ? Status::kOk : switch_to(set);
-    for (const ParameterRow& row : view_.parameters) {
-        static_cast<void>(row.parameter->commit());
+    const std::size_t set = take_requested_set();
+    Status result = Status::kOk;
+    if (set != kNoConfigurationSet) {
+        const ConfigurationFinding finding = judge_set(set);
+        if (finding.rule == ConfigurationRule::kNone) {
+            activate_set(set, view_.parameters);
+        } else {
+            last_finding_ = finding;
+            result = Status::kBadParameter;
+        }
     }
+    commit(view_.parameters);
     return result;
 }
 

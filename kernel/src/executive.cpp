@@ -79,7 +79,10 @@ Status Executive::initialize() noexcept {
         return Status::kBadParameter;
     }
     is_busy_ = true;
-    Status result = initialize_components();
+    Status result = prepare_parameters();
+    if (result == Status::kOk) {
+        result = initialize_components();
+    }
     if (result == Status::kOk) {
         result = attach_contexts();
     }
@@ -112,6 +115,9 @@ Status Executive::start_all() noexcept {
         ExecutionContext& context = windows_[w].context;
         for (std::size_t i = row.first_component; is_own(w) && i < row.first_component + row.component_count;
              ++i) {
+            if ((view_.component_rows[i].modes & held_modes_) != held_modes_) {
+                continue;
+            }
             const Status result = context.activate_component(*view_.components[i], last_release_);
             if (result != Status::kOk) {
                 failed_component_ = i;
@@ -128,7 +134,12 @@ Status Executive::start() noexcept {
     }
     is_busy_ = true;
     failed_component_ = kNoIndex;
-    const Status result = start_all();
+    Status result = join_modes();
+    if (result != Status::kOk) {
+        is_busy_ = false;
+        return result;
+    }
+    result = start_all();
     if (result != Status::kOk) {
         // The refusal is what the caller must hear; a second failure would only hide it.
         static_cast<void>(stop_all());
@@ -156,6 +167,10 @@ Status Executive::stop_all() noexcept {
         if (context.is_running()) {
             note(context.stop(last_release_));
         }
+    }
+    if (has_joined_) {
+        has_joined_ = false;
+        modes_->leave(core_);
     }
     return first_failure;
 }
@@ -203,43 +218,23 @@ Status Executive::finalize() noexcept {
     return first_failure;
 }
 
-void Executive::set_introspection(Introspection* introspection) noexcept {
-    MAMORI_REQUIRE(4, !is_busy_);
-    MAMORI_REQUIRE(5, introspection == nullptr || introspection->is_of(view_));
-    introspection_ = introspection;
-    show_windows();
-}
-
-void Executive::show_windows() noexcept {
-    if (introspection_ == nullptr) {
-        return;
-    }
-    for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
-        if (is_own(w)) {
-            introspection_->publish_window(w, windows_[w].context, last_release_, trace_hash_.get_value());
+void Executive::latch_inputs(std::size_t window, Instant opening) noexcept {
+    const WindowRow& row = view_.windows[window];
+    const ModeMask held = windows_[window].held_modes;
+    for (const std::size_t i : view_.latch_order.subspan(row.first_latch, row.latch_count)) {
+        const ConnectionRow& connection = view_.connections[i];
+        if (is_held(connection, held)) {
+            connection.operations.latch(*connection.source, *connection.sink, connection.crossing, opening);
         }
     }
 }
 
-void Executive::show_opening(std::size_t window, Instant release, Instant opened, WindowOutcome outcome,
-                             const WindowHost& host) noexcept {
-    introspection_->note_opening(window, opened - release, host.get_now() - opened, outcome);
-    introspection_->publish_window(window, windows_[window].context, release, trace_hash_.get_value());
-}
-
-void Executive::latch_inputs(std::size_t window, Instant opening) noexcept {
-    const WindowRow& row = view_.windows[window];
-    for (const std::size_t i : view_.latch_order.subspan(row.first_latch, row.latch_count)) {
-        const ConnectionRow& connection = view_.connections[i];
-        connection.operations.latch(*connection.source, *connection.sink, connection.crossing, opening);
-    }
-}
-
-void Executive::hand_on_outputs(std::size_t component, Instant opening) noexcept {
+void Executive::hand_on_outputs(std::size_t component, Instant opening, ModeMask held) noexcept {
     const ComponentRow& row = view_.component_rows[component];
     for (const std::size_t i : view_.outgoing_order.subspan(row.first_outgoing, row.outgoing_count)) {
         const ConnectionRow& connection = view_.connections[i];
-        if (connection.is_forward_in_window && connection.operations.hand_on != nullptr) {
+        if (connection.is_forward_in_window && connection.operations.hand_on != nullptr &&
+            is_held(connection, held)) {
             connection.operations.hand_on(*connection.source, *connection.sink, opening);
         }
     }
@@ -268,15 +263,16 @@ void Executive::publish_outputs(std::size_t window, Instant close) noexcept {
         }
         trace_hash_(static_cast<std::uint64_t>(p));
         port.output->hash_into(trace_hash_);
-        deliver(port);
+        deliver(port, windows_[window].held_modes);
     }
 }
 
-void Executive::deliver(const PortRow& port) noexcept {
+void Executive::deliver(const PortRow& port, ModeMask held) noexcept {
     const ComponentRow& owner = view_.component_rows[port.component];
     for (const std::size_t i : view_.outgoing_order.subspan(owner.first_outgoing, owner.outgoing_count)) {
         const ConnectionRow& connection = view_.connections[i];
-        if (connection.source == port.output && connection.operations.deliver != nullptr) {
+        if (connection.source == port.output && connection.operations.deliver != nullptr &&
+            is_held(connection, held)) {
             connection.operations.deliver(*port.output, *connection.sink, connection.crossing);
         }
     }
@@ -284,6 +280,15 @@ void Executive::deliver(const PortRow& port) noexcept {
 
 void Executive::discard_outputs(std::size_t window) noexcept {
     const WindowRow& row = view_.windows[window];
+    for (const PortRow& port : view_.ports.subspan(row.first_port, row.port_count)) {
+        if (port.output != nullptr) {
+            port.output->discard();
+        }
+    }
+}
+
+void Executive::discard_outputs_of(std::size_t component) noexcept {
+    const ComponentRow& row = view_.component_rows[component];
     for (const PortRow& port : view_.ports.subspan(row.first_port, row.port_count)) {
         if (port.output != nullptr) {
             port.output->discard();
@@ -306,7 +311,7 @@ void Executive::execute_steps(void* argument, std::size_t first, std::size_t end
 void Executive::hand_on_after(void* argument, std::size_t position) noexcept {
     const detail::WindowState& state = *static_cast<const detail::WindowState*>(argument);
     Executive& self = *state.executive;
-    self.hand_on_outputs(state.follower.first_component + position, self.last_release_);
+    self.hand_on_outputs(state.follower.first_component + position, self.last_release_, state.held_modes);
 }
 
 void Executive::update_steps(void* argument, std::size_t first, std::size_t end) noexcept {
@@ -325,21 +330,45 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, In
         report_overrun(window, row.first_component + hanging.get_value(), opened);
         return WindowOutcome::kOverrun;
     }
-    if (!state.context.take_turn()) {
-        return WindowOutcome::kNotDue;
-    }
-    const Status begun = state.context.begin_cycle(release);
-    MAMORI_INVARIANT(1, begun == Status::kOk);
     if (state.has_abandoned_outputs) {
         discard_outputs(window);
         state.has_abandoned_outputs = false;
     }
-    if (row.latch_count != 0U) {
-        latch_inputs(window, release);
-    }
     // A window that opens late keeps its budget, but not beyond its planned close.
     const Instant close = release + row.length;
     const Instant deadline = opened + row.budget < close ? opened + row.budget : close;
+    cross_boundary(window);
+    std::size_t guilty = leave_components(window, deadline, host);
+    const bool is_due = guilty == kNoIndex && state.context.take_turn();
+    if (is_due) {
+        guilty = run_cycle(window, release, opened, deadline, host);
+    }
+    if (guilty == kNoIndex) {
+        guilty = enter_components(window, deadline, host);
+    }
+    if (guilty != kNoIndex) {
+        return end_overrun(window, guilty, host);
+    }
+    if (!is_due) {
+        return WindowOutcome::kNotDue;
+    }
+    if (row.port_count != 0U) {
+        publish_outputs(window, close);
+    }
+    return WindowOutcome::kCompleted;
+}
+
+/// @return the component that used the budget up; kNoIndex when both passes came through.
+std::size_t Executive::run_cycle(std::size_t window, Instant release, Instant opening, Instant deadline,
+                                 WindowHost& host) noexcept {
+    const WindowRow& row = view_.windows[window];
+    detail::WindowState& state = windows_[window];
+    const Status begun = state.context.begin_cycle(release);
+    MAMORI_INVARIANT(1, begun == Status::kOk);
+    if (row.latch_count != 0U) {
+        latch_inputs(window, release);
+    }
+    const Instant opened = last_step_end_ > opening ? last_step_end_ : opening;
     state.follower = {observer_,
                       introspection_,
                       &host,
@@ -350,9 +379,9 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, In
                       &state};
     const std::size_t executed_count = host.run_within(
         {&execute_steps, &state, row.first_component, 0U, row.component_count, Pass::kExecute}, deadline);
-    std::size_t guilty = executed_count;
+    std::size_t finished_count = executed_count;
     if (executed_count == row.component_count && row.has_second_pass) {
-        guilty = host.run_within(
+        finished_count = host.run_within(
             {&update_steps, &state, row.first_component, 0U, row.component_count, Pass::kStateUpdate},
             deadline);
     }
@@ -363,13 +392,12 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, In
     if (introspection_ != nullptr) {
         introspection_->note_turns(window, executed_count, state.context);
     }
-    if (guilty == row.component_count) {
-        if (row.port_count != 0U) {
-            publish_outputs(window, close);
-        }
-        return WindowOutcome::kCompleted;
-    }
-    report_overrun(window, row.first_component + guilty, host.get_now());
+    return finished_count == row.component_count ? kNoIndex : row.first_component + finished_count;
+}
+
+WindowOutcome Executive::end_overrun(std::size_t window, std::size_t component, WindowHost& host) noexcept {
+    detail::WindowState& state = windows_[window];
+    report_overrun(window, component, host.get_now());
     state.has_abandoned_outputs = state.context.get_acting_position().has_value();
     if (!state.has_abandoned_outputs) {
         discard_outputs(window);
@@ -386,6 +414,9 @@ void Executive::begin_frame(Instant release) noexcept {
     for (detail::WindowState& state : windows_) {
         static_cast<void>(state.context.apply_pending_rate());
     }
+    if (has_joined_) {
+        begin_modes(frame_start_.ns / view_.frame.ns);
+    }
 }
 
 WindowOutcome Executive::run_window(std::size_t index, Instant release, WindowHost& host) noexcept {
@@ -393,11 +424,14 @@ WindowOutcome Executive::run_window(std::size_t index, Instant release, WindowHo
     const Instant opened = host.get_now();
     MAMORI_REQUIRE(3, release <= opened);
     WindowOutcome outcome = WindowOutcome::kStopped;
-    if (windows_[index].context.is_running()) {
+    const bool is_running = windows_[index].context.is_running();
+    if (is_running || has_joined_) {
         is_busy_ = true;
         last_release_ = release;
         begin_frame(release);
-        outcome = run_open_window(index, release, opened, host);
+        if (is_running) {
+            outcome = run_open_window(index, release, opened, host);
+        }
         is_busy_ = false;
     }
     if (introspection_ != nullptr) {

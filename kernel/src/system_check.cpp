@@ -1,60 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/system_check.hpp"
 
+#include <array>
+
 namespace mamori {
+namespace {
+
+/// In the order of Rule.
+constexpr std::array<const char*, 39> kNames{{
+    "None",
+    "FrameNotPositive",
+    "WindowRowInvalid",
+    "ComponentRowInvalid",
+    "PortRowInvalid",
+    "ConnectionRowInvalid",
+    "PeriodNotInFrame",
+    "WindowOutsideFrame",
+    "WindowsOverlap",
+    "BudgetExceedsWindow",
+    "WorstCasesExceedBudget",
+    "RateNotOccurrences",
+    "RateNotReachable",
+    "ComponentInTwoPlaces",
+    "PortOfUnknownComponent",
+    "InputNotConnected",
+    "InputHasTwoWriters",
+    "CrossingWithoutBuffer",
+    "CrossingUsedTwice",
+    "CrossingNotOrdered",
+    "FaultWithoutReaction",
+    "FaultWithTwoReactions",
+    "ReactionWithoutTime",
+    "ReactionToUnknownFault",
+    "ConfigurationRefused",
+    "ModeRowInvalid",
+    "ModeNamedTwice",
+    "ModeOfUnknownComponent",
+    "ModeOfUnknownSet",
+    "ComponentInNoMode",
+    "InputNotFedInMode",
+    "ConnectionOfUnknownMode",
+    "TransitionOfUnknownMode",
+    "TransitionAmbiguous",
+    "ModeUnreachable",
+    "NoSafeMode",
+    "TwoSafeModes",
+    "SafeModeIsLeft",
+    "SafeModeActivates",
+}};
+static_assert(kNames.size() == static_cast<std::size_t>(Rule::kSafeModeActivates) + 1U,
+              "each rule has a name");
+
+}  // namespace
 
 const char* get_name(Rule rule) noexcept {
-    switch (rule) {
-        case Rule::kNone:
-            return "None";
-        case Rule::kFrameNotPositive:
-            return "FrameNotPositive";
-        case Rule::kWindowRowInvalid:
-            return "WindowRowInvalid";
-        case Rule::kComponentRowInvalid:
-            return "ComponentRowInvalid";
-        case Rule::kPortRowInvalid:
-            return "PortRowInvalid";
-        case Rule::kConnectionRowInvalid:
-            return "ConnectionRowInvalid";
-        case Rule::kPeriodNotInFrame:
-            return "PeriodNotInFrame";
-        case Rule::kWindowOutsideFrame:
-            return "WindowOutsideFrame";
-        case Rule::kWindowsOverlap:
-            return "WindowsOverlap";
-        case Rule::kBudgetExceedsWindow:
-            return "BudgetExceedsWindow";
-        case Rule::kWorstCasesExceedBudget:
-            return "WorstCasesExceedBudget";
-        case Rule::kRateNotOccurrences:
-            return "RateNotOccurrences";
-        case Rule::kRateNotReachable:
-            return "RateNotReachable";
-        case Rule::kComponentInTwoPlaces:
-            return "ComponentInTwoPlaces";
-        case Rule::kPortOfUnknownComponent:
-            return "PortOfUnknownComponent";
-        case Rule::kInputNotConnected:
-            return "InputNotConnected";
-        case Rule::kInputHasTwoWriters:
-            return "InputHasTwoWriters";
-        case Rule::kCrossingWithoutBuffer:
-            return "CrossingWithoutBuffer";
-        case Rule::kCrossingUsedTwice:
-            return "CrossingUsedTwice";
-        case Rule::kCrossingNotOrdered:
-            return "CrossingNotOrdered";
-        case Rule::kFaultWithoutReaction:
-            return "FaultWithoutReaction";
-        case Rule::kFaultWithTwoReactions:
-            return "FaultWithTwoReactions";
-        case Rule::kReactionWithoutTime:
-            return "ReactionWithoutTime";
-        case Rule::kReactionToUnknownFault:
-            return "ReactionToUnknownFault";
-    }
-    return "Invalid";  // only a corrupted value comes here
+    const auto index = static_cast<std::size_t>(rule);
+    return index < kNames.size() ? kNames[index] : "Invalid";  // only a corrupted value is beyond
 }
 
 }  // namespace mamori

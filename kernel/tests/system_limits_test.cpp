@@ -243,7 +243,7 @@ TEST(SystemLimitsTest, TheCheckOfAConstantTableAnswersWhileRunningToo) {
 
 TEST(SystemLimitsTest, EveryRuleHasANameOfItsOwn) {
     verifies("SWR-KRN-025", Technique::kInterface);
-    const int rule_count = static_cast<int>(Rule::kReactionToUnknownFault) + 1;
+    const int rule_count = static_cast<int>(Rule::kSafeModeActivates) + 1;
     std::set<std::string> names;
 
     for (int rule = 0; rule <= rule_count; ++rule) {

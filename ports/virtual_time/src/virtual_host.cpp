@@ -8,7 +8,7 @@ namespace mamori::ports::virtual_time {
 std::size_t VirtualHost::run_within(const Work& work, Instant deadline) noexcept {
     for (std::size_t i = 0U; i < work.count; ++i) {
         const std::size_t component = work.component + i;
-        const bool is_modelled = work.pass == Pass::kExecute && component < durations_.size();
+        const bool is_modelled = work.pass != Pass::kStateUpdate && component < durations_.size();
         const Duration duration = is_modelled ? durations_[component] : Duration{0};
         MAMORI_REQUIRE(2, duration >= Duration{0});
         // Written without the sum, which could overflow.

@@ -2,15 +2,12 @@
 #include <algorithm>
 #include <sstream>
 
+#include "describe_modes.hpp"
 #include "element_names.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 
 namespace mamori::table_dump {
 namespace {
-
-std::string quote(const std::string& name) {
-    return "'" + name + "'";
-}
 
 std::string format_rate(double rate_hz) {
     std::ostringstream text;
@@ -160,6 +157,22 @@ std::string describe(const Finding& finding, const SystemView& view) {
         case Rule::kReactionWithoutTime:
         case Rule::kReactionToUnknownFault:
             return describe_reactions(finding, view);
+        case Rule::kConfigurationRefused:
+        case Rule::kModeRowInvalid:
+        case Rule::kModeNamedTwice:
+        case Rule::kModeOfUnknownComponent:
+        case Rule::kModeOfUnknownSet:
+        case Rule::kComponentInNoMode:
+        case Rule::kInputNotFedInMode:
+        case Rule::kConnectionOfUnknownMode:
+        case Rule::kTransitionOfUnknownMode:
+        case Rule::kTransitionAmbiguous:
+        case Rule::kModeUnreachable:
+        case Rule::kNoSafeMode:
+        case Rule::kTwoSafeModes:
+        case Rule::kSafeModeIsLeft:
+        case Rule::kSafeModeActivates:
+            return describe_modes(finding, view);
     }
     return "no rule has the number " + std::to_string(static_cast<int>(finding.rule));
 }

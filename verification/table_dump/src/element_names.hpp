@@ -49,6 +49,10 @@ inline std::string get_connection_name(const SystemView& view, std::size_t conne
            (row.sink == nullptr ? "?" : to_text(row.sink->get_name()));
 }
 
+inline std::string get_mode_name(const SystemView& view, std::size_t index) {
+    return to_text(get_row(view.modes.modes, index).name);
+}
+
 /// In the largest unit that needs no fraction, for example `300 us`.
 inline std::string format(Duration time) {
     if (time.ns % 1'000'000'000 == 0 && time.ns != 0) {

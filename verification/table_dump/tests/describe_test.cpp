@@ -172,7 +172,7 @@ TEST_F(DescribeTest, RowsThatPointNowhereAreDescribedToo) {
 TEST_F(DescribeTest, EachRuleAndEachElementGivesASentence) {
     verifies("SWR-TAB-003", Technique::kBoundaryValues, Polarity::kViolation);
     table_.windows[1].component_count = std::numeric_limits<std::size_t>::max();
-    for (int rule = 0; rule <= static_cast<int>(Rule::kReactionToUnknownFault) + 1; ++rule) {
+    for (int rule = 0; rule <= static_cast<int>(Rule::kSafeModeActivates) + 1; ++rule) {
         for (const std::size_t element : {std::size_t{0U}, std::size_t{1U}, kNoIndex}) {
             const std::string text =
                 describe({static_cast<Rule>(rule), element, kNoIndex}, make_view(table_));

@@ -28,8 +28,7 @@ inline constexpr std::size_t kNoConfigurationSet = std::numeric_limits<std::uint
 ///     mamori::ConfigurationAdmin admin{mamori::make_view(kConfiguration)};
 ///
 /// Thread safety: the requests, find() and get_active_configuration_set() from any thread, without waiting;
-///                switch_at_frame_boundary() and get_last_finding() only from the context that runs the
-///                components.
+///                the switch and get_last_finding() only from the context that runs the components.
 /// Time:          a request for a set by its name O(sets), for a value O(parameters); a switch
 ///                O(parameters + values of the set). Nothing blocks.
 /// Memory:        no heap; refers to the table.
@@ -74,18 +73,29 @@ class ConfigurationAdmin final {
     ///         request is gone and get_last_finding() names it). Single values are switched in either case.
     Status switch_at_frame_boundary() noexcept;
 
+    /// @name The same in parts, for executives that share the parameters of one table: each switches those of
+    /// its own components, all at the same frame
+    /// @{
+    /// Takes the request for a set. @return kNoConfigurationSet when there is none.
+    std::size_t take_requested_set() noexcept;
+    /// Judges every value of a set. @return the first one that is refused, or kNone.
+    ConfigurationFinding judge_set(std::size_t set) const noexcept;
+    /// Makes the values of a set active that belong to these parameters. Call it after judge_set().
+    void activate_set(std::size_t set, Span<const ParameterRow> parameters) noexcept;
+    /// Makes the single values active that were asked for.
+    static void commit(Span<const ParameterRow> parameters) noexcept;
+    /// @}
+
     /// Set that was switched last; kNoConfigurationSet before the first one.
     std::size_t get_active_configuration_set() const noexcept {
         return active_.load(std::memory_order_acquire);
     }
-    /// What refused the last set that was not switched.
+    /// What refused the last set that switch_at_frame_boundary() did not switch.
     const ConfigurationFinding& get_last_finding() const noexcept { return last_finding_; }
     const ConfigurationView& get_view() const noexcept { return view_; }
 
   private:
     bool is_known(const ParameterBase& parameter) const noexcept;
-    Status switch_to(std::uint32_t set) noexcept;
-
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
     ConfigurationView view_;

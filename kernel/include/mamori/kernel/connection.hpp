@@ -45,12 +45,13 @@ class Crossing final : public CrossingBase {
         buffer_.publish();
     }
     /// For the executive of the reading core, at the opening of its window. A value whose publication lies
-    /// after `opening` is left for the next one: the reader is late, and takes what it would have found.
+    /// after `opening` is left for the next one: the reader is late, and takes what it would have found. One
+    /// from before the sink's last restart() is of another mode.
     template <typename Sink>
     void latch(Sink& sink, Instant opening) noexcept {
         static_cast<void>(buffer_.update());
         const Slot& slot = buffer_.get_read_slot();
-        if (slot.published_at <= opening) {
+        if (slot.published_at <= opening && slot.published_at > sink.get_restarted_at()) {
             sink.take({slot.value, slot.revision, slot.published_at});
         }
     }

@@ -55,6 +55,8 @@ class OutPortBase {
     std::uint32_t get_sequence() const noexcept { return sequence_; }
     /// Instant of the last publication; without meaning before the first.
     Instant get_published_at() const noexcept { return published_at_; }
+    /// Number of the write that is published; 0: none.
+    std::uint64_t get_published_revision() const noexcept { return published_revision_; }
     /// True when a value was written since the last publication.
     bool is_staged() const noexcept { return is_staged_; }
 
@@ -122,6 +124,19 @@ class InPortBase {
     }
     /// For the executive, after the owner's cycle.
     void mark_read() noexcept { is_new_ = false; }
+    /// For the executive: another connection feeds this input from `boundary` on, or none. It has no value
+    /// until one arrives that was published later.
+    /// @param[in] revision last one that the source published; 0 for a source on another core, whose values
+    /// are
+    ///                     judged by their instants.
+    void restart(Instant boundary, std::uint64_t revision) noexcept {
+        restarted_at_ = boundary;
+        revision_ = revision;
+        has_value_ = false;
+        is_new_ = false;
+    }
+    /// Instant of the last restart(); before the first one before every other instant.
+    Instant get_restarted_at() const noexcept { return restarted_at_; }
     /// For the executive. @param[in] age_max limit of the connection that feeds this input, >= 0.
     void set_age_max(Duration age_max) noexcept { age_max_ = age_max; }
 
@@ -132,6 +147,7 @@ class InPortBase {
     const char* name_;
     Instant published_at_{};
     Duration age_max_{kNoAgeLimit};
+    Instant restarted_at_{std::numeric_limits<std::int64_t>::min()};
     std::uint64_t revision_{0U};  ///< write of the source that is held here
     bool has_value_{false};
     bool is_new_{false};

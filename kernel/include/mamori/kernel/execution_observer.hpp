@@ -3,12 +3,14 @@
 /// What an executive tells about its own course: windows, component runs, lateness and overruns.
 /// Supervision listens here, so that it does not depend on the help of the code it supervises.
 ///
-/// @satisfies SWR-KRN-020      Design: docs/design/kernel.md#observation
+/// @satisfies SWR-KRN-020, SWR-MOD-005      Design: docs/design/kernel.md#observation
 #ifndef MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
 #define MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
 
 #include <cstddef>
 
+#include "mamori/kernel/configuration_table.hpp"
+#include "mamori/kernel/mode_step.hpp"
 #include "mamori/kernel/time.hpp"
 
 namespace mamori {
@@ -33,6 +35,23 @@ class ExecutionObserver {
     /// Window `window` opened `lateness` (> 0) after its place in the frame; called before its components
     /// run.
     virtual void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept = 0;
+    /// This core begins a step of a switch. @param[in] index mode, or configuration set of kSet.
+    virtual void on_mode_step(ModeStep step, std::size_t index, Instant now) noexcept {
+        static_cast<void>(step);
+        static_cast<void>(index);
+        static_cast<void>(now);
+    }
+    /// A step of a switch failed on this core; a system with modes goes to its safe mode.
+    virtual void on_mode_failure(const ModeFailure& failure, Instant now) noexcept {
+        static_cast<void>(failure);
+        static_cast<void>(now);
+    }
+    /// A configuration set was refused at a frame boundary: no value of it was switched. A checked table can
+    /// only show that when memory is corrupted.
+    virtual void on_configuration_refused(const ConfigurationFinding& finding, Instant now) noexcept {
+        static_cast<void>(finding);
+        static_cast<void>(now);
+    }
 
   protected:
     ~ExecutionObserver() = default;

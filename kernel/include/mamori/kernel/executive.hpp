@@ -3,8 +3,8 @@
 /// Runs the windows of a system table: latches inputs when a window opens, runs its components in order under
 /// a budget that the port enforces, hands values on within the window, and publishes outputs when it closes.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026      Design:
-/// docs/design/kernel.md#windows
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026, SWR-MOD-008, SWR-MOD-009
+/// Design:   docs/design/kernel.md#windows, docs/design/modes.md#the-switch
 #ifndef MAMORI_KERNEL_EXECUTIVE_HPP
 #define MAMORI_KERNEL_EXECUTIVE_HPP
 
@@ -15,6 +15,7 @@
 
 #include "mamori/kernel/execution_context.hpp"
 #include "mamori/kernel/execution_observer.hpp"
+#include "mamori/kernel/system_modes.hpp"
 #include "mamori/kernel/system_table.hpp"
 #include "mamori/kernel/trace_hash.hpp"
 #include "mamori/kernel/window_host.hpp"
@@ -40,6 +41,11 @@ struct WindowState {
     std::size_t window{0U};
     ExecutionContext::Follower follower{};  ///< of the cycle that runs or ran last
     bool has_abandoned_outputs{false};      ///< hanging work may still write; discard once it has returned
+    Instant crossed_at{std::numeric_limits<std::int64_t>::max()};  ///< frame boundary that it crossed last
+    ModeMask held_modes{0U};       ///< connections that hold in all of them are served
+    ModePlan prepared{};           ///< plan whose parameters and connections it has
+    ModePlan done{};               ///< plan whose components it has activated or deactivated
+    std::size_t next_leaving{0U};  ///< position of the component that this plan looks at next
 };
 }  // namespace detail
 
@@ -56,17 +62,22 @@ class Executive {
     Executive& operator=(const Executive&) = delete;
 
     /// Initialises every component of its core that is not alive yet and attaches it to the context of its
-    /// window, in table order. After a refusal no context is attached, and a second call goes on where the
-    /// first ended.
-    /// @return kOk; kPreconditionNotMet (done before, or called from an action); kBadParameter (the table
-    ///         breaks a rule, see check_all(), or a component participates elsewhere); else the code of the
-    ///         on_initialize that refused.
+    /// window, in table order. Parameters have the values of the first mode or initial set before. After a
+    /// refusal no context is attached, and a second call goes on where the first ended.
+    /// @return kOk; kPreconditionNotMet (done before, called from an action, or the table has modes or sets
+    /// but
+    ///         the executive no SystemModes); kBadParameter (the table breaks a rule, see check_all(), a
+    ///         value of the first set is refused, a component participates elsewhere, or the SystemModes is
+    ///         that of another table or has no room for this core); else the code of the on_initialize that
+    ///         refused.
     Status initialize() noexcept;
 
-    /// Starts every context, then activates every component, in table order. After a refusal everything is
-    /// stopped again, as by stop().
-    /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is in Error, or
-    ///         called from an action); else the code of the on_startup or on_activated that refused.
+    /// Starts every context, then activates every component that the current mode runs, in table order. After
+    /// a refusal everything is stopped again, as by stop().
+    /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is in Error,
+    /// other
+    ///         cores are switching modes, or called from an action); kBadParameter (a value of the current
+    ///         set is refused); else the code of the on_startup or on_activated that refused.
     Status start() noexcept;
 
     /// Deactivates every Active component and stops every running context, in reverse order.
@@ -110,8 +121,9 @@ class Executive {
     std::uint64_t get_trace_hash() const noexcept { return trace_hash_.get_value(); }
 
   protected:
-    constexpr Executive(const SystemView& view, Span<detail::WindowState> windows, std::size_t core) noexcept
-        : view_(view), windows_(windows), core_(core) {}
+    constexpr Executive(const SystemView& view, Span<detail::WindowState> windows, std::size_t core,
+                        SystemModes* modes) noexcept
+        : view_(view), windows_(windows), modes_(modes), core_(core) {}
     ~Executive() = default;
 
   private:
@@ -123,6 +135,25 @@ class Executive {
     Status start_all() noexcept;
     Status stop_all() noexcept;
     void begin_frame(Instant release) noexcept;
+    Status prepare_parameters() noexcept;
+    Status join_modes() noexcept;
+    static bool is_held(const ConnectionRow& connection, ModeMask modes) noexcept {
+        return (connection.modes & modes) == modes;
+    }
+    void begin_modes(std::int64_t frame) noexcept;
+    void take_plan(ModePlan plan, bool is_late) noexcept;
+    bool take_set(std::size_t set) noexcept;
+    void report_plan() noexcept;
+    void fail_step(ModeFailureCause cause, std::size_t component) noexcept;
+    void cross_boundary(std::size_t window) noexcept;
+    void restart_inputs(std::size_t window) noexcept;
+    std::size_t leave_components(std::size_t window, Instant deadline, WindowHost& host) noexcept;
+    std::size_t enter_components(std::size_t window, Instant deadline, WindowHost& host) noexcept;
+    bool take_step(std::size_t window, std::size_t position, Instant deadline, WindowHost& host) noexcept;
+    static void step_components(void* argument, std::size_t first, std::size_t end) noexcept;
+    WindowOutcome end_overrun(std::size_t window, std::size_t component, WindowHost& host) noexcept;
+    std::size_t run_cycle(std::size_t window, Instant release, Instant opening, Instant deadline,
+                          WindowHost& host) noexcept;
     WindowOutcome run_open_window(std::size_t window, Instant release, Instant opened,
                                   WindowHost& host) noexcept;
     void show_windows() noexcept;
@@ -133,20 +164,30 @@ class Executive {
     static void update_steps(void* argument, std::size_t first, std::size_t end) noexcept;
     void report_overrun(std::size_t window, std::size_t component, Instant now) noexcept;
     void latch_inputs(std::size_t window, Instant opening) noexcept;
-    void hand_on_outputs(std::size_t component, Instant opening) noexcept;
+    void hand_on_outputs(std::size_t component, Instant opening, ModeMask held) noexcept;
     void mark_inputs_read(std::size_t window, std::size_t finished_count) noexcept;
     void publish_outputs(std::size_t window, Instant close) noexcept;
-    void deliver(const PortRow& port) noexcept;
+    void deliver(const PortRow& port, ModeMask held) noexcept;
     void discard_outputs(std::size_t window) noexcept;
+    void discard_outputs_of(std::size_t component) noexcept;
 
     SystemView view_;
     Span<detail::WindowState> windows_;
+    SystemModes* modes_;
     ExecutionObserver* observer_{nullptr};
     Introspection* introspection_{nullptr};
     TraceHash trace_hash_{};
     Instant last_release_{};
     /// Start of the frame that the window of the last run lies in; at first one that no window lies in.
     Instant frame_start_{std::numeric_limits<std::int64_t>::max()};
+    Instant last_step_end_{};         ///< of a mode step; the cycle of its window begins there
+    ModePlan plan_{};                 ///< taken last
+    ModeStep step_{ModeStep::kNone};  ///< of it, as far as this core carries it out
+    std::size_t set_{kNoIndex};       ///< that this step makes active
+    ModeMask held_modes_{0U};         ///< the mode; two of them between leaving one and entering the other
+    bool is_plan_open_{false};        ///< taken and not reported
+    bool has_step_failed_{false};
+    bool has_joined_{false};  ///< takes part in what the cores agree on: from start() to stop()
     std::size_t core_;
     std::size_t failed_component_{kNoIndex};
     bool is_initialized_{false};
@@ -162,13 +203,18 @@ struct WindowStorage {
 }  // namespace detail
 
 /// Executive with the storage that `Table` needs:  inline mamori::ExecutiveFor executive{kSystem};
+/// A table with modes or configuration sets needs a SystemModes as well.
 template <typename Table>
 class ExecutiveFor final : private detail::WindowStorage<Table::kWindowCount>, public Executive {
   public:
     /// @param[in] table must outlive the executive; check it with MAMORI_CHECK.
     /// @param[in] core  whose windows it runs; each core of a system has an executive of its own.
     constexpr explicit ExecutiveFor(const Table& table, std::size_t core = 0U) noexcept
-        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core) {}
+        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core, nullptr) {}
+    /// @param[in] modes one for all cores of the table; must outlive the executive.
+    constexpr ExecutiveFor(const Table& table, SystemModes& modes, std::size_t core = 0U) noexcept
+        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core, &modes) {}
+    explicit ExecutiveFor(const Table&& table, SystemModes& modes, std::size_t core = 0U) = delete;
     explicit ExecutiveFor(const Table&& table, std::size_t core = 0U) = delete;
 };
 

@@ -88,6 +88,9 @@ class QueueInPort final : public InPortBase {
     /// For connections, at the opening of the owner's window: what is published later waits for a later one.
     void open(Instant opening) noexcept {
         opening_ = opening;
+        for (std::size_t i = 0U; i < kCapacity && is_front_too_old(); ++i) {
+            buffer_.drop();
+        }
         is_new_ = has_waiting();
     }
 
@@ -97,6 +100,9 @@ class QueueInPort final : public InPortBase {
         Instant published_at{};
     };
 
+    bool is_front_too_old() noexcept {
+        return buffer_.peek() == Status::kOk && buffer_.get_front().published_at < restarted_at_;
+    }
     bool is_readable_again() const noexcept { return kEmpty == EmptyPolicy::kReadback && has_value_; }
 
     Status fetch() noexcept {

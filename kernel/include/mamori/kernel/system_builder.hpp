@@ -9,53 +9,10 @@
 #include <array>
 #include <cstddef>
 
+#include "mamori/kernel/configuration_set.hpp"
 #include "mamori/kernel/system_table.hpp"
-#include "mamori/kernel/type_list.hpp"
 
 namespace mamori::detail {
-
-template <typename... Lists>
-struct Concat;
-template <>
-struct Concat<> {
-    using Type = TypeList<>;
-};
-template <typename... Ts>
-struct Concat<TypeList<Ts...>> {
-    using Type = TypeList<Ts...>;
-};
-template <typename... Ts, typename... Us, typename... Rest>
-struct Concat<TypeList<Ts...>, TypeList<Us...>, Rest...> {
-    using Type = typename Concat<TypeList<Ts..., Us...>, Rest...>::Type;
-};
-/// Eight at a time, so that a window of a thousand components stays within the compiler's template depth.
-template <typename... As, typename... Bs, typename... Cs, typename... Ds, typename... Es, typename... Fs,
-          typename... Gs, typename... Hs, typename... Rest>
-struct Concat<TypeList<As...>, TypeList<Bs...>, TypeList<Cs...>, TypeList<Ds...>, TypeList<Es...>,
-              TypeList<Fs...>, TypeList<Gs...>, TypeList<Hs...>, Rest...> {
-    using Type =
-        typename Concat<TypeList<As..., Bs..., Cs..., Ds..., Es..., Fs..., Gs..., Hs...>, Rest...>::Type;
-};
-
-/// What a part contributes to the table, in types: components, their ports, connections, faults, reactions.
-template <typename ComponentList = TypeList<>, typename PortList = TypeList<>,
-          typename FaultList = TypeList<>, std::size_t kWindowCountOfPart = 0U,
-          std::size_t kConnectionCountOfPart = 0U, std::size_t kReactionCountOfPart = 0U>
-struct PartTypes {
-    using Components = ComponentList;
-    using Ports = PortList;
-    using Faults = FaultList;
-    static constexpr std::size_t kWindows = kWindowCountOfPart;
-    static constexpr std::size_t kConnections = kConnectionCountOfPart;
-    static constexpr std::size_t kReactions = kReactionCountOfPart;
-};
-
-template <typename... Parts>
-using JoinedTypes =
-    PartTypes<typename Concat<typename Parts::Types::Components...>::Type,
-              typename Concat<typename Parts::Types::Ports...>::Type,
-              typename Concat<typename Parts::Types::Faults...>::Type, (Parts::Types::kWindows + ... + 0U),
-              (Parts::Types::kConnections + ... + 0U), (Parts::Types::kReactions + ... + 0U)>;
 
 /// Indices 0 .. n - 1 in the order of their keys; equal keys keep their order.
 template <std::size_t N, typename Key>
@@ -120,7 +77,16 @@ constexpr void sort_connections(Table& table) noexcept {
 /// Appends rows in the order in which parts are added.
 template <typename Table>
 struct TableBuilder {
+    using Types = typename Table::Types;
+
     Table table{};
+    ConfigurationBuilder<Types::kParameters, Types::kSets, Types::kAssignments, Types::kValues>
+        configuration{};
+    std::size_t parameter_count{0U};
+    std::size_t mode_count{0U};
+    std::size_t member_count{0U};
+    std::size_t transition_count{0U};
+    std::size_t connection_mode_count{0U};
     std::size_t window_count{0U};
     std::size_t component_count{0U};
     std::size_t port_count{0U};
@@ -137,6 +103,10 @@ struct TableBuilder {
         row.component_count = part.list.components.size();
         row.first_port = port_count;
         row.port_count = part.list.ports.size();
+        row.first_parameter = parameter_count;
+        row.parameter_count = part.list.parameters.declarations.size();
+        parameter_count += row.parameter_count;
+        configuration.add(part.list.parameters);
         std::size_t next_port = 0U;
         for (std::size_t i = 0U; i < row.component_count; ++i) {
             ComponentRow& component = table.component_rows[component_count];
@@ -155,7 +125,23 @@ struct TableBuilder {
         }
         ++window_count;
     }
-    constexpr void add(const ConnectionRow& row) noexcept { table.connections[connection_count++] = row; }
+    template <typename Part>
+    constexpr void add_connection(const Part& part) noexcept {
+        for (const char* name : part.modes) {
+            table.modes.connection_modes[connection_mode_count++] = {name, connection_count, kNoIndex};
+        }
+        table.connections[connection_count++] = part.row;
+    }
+    template <typename Part>
+    constexpr void add_mode(const Part& part) noexcept {
+        for (Component* member : part.members) {
+            table.modes.members[member_count++] = {member, mode_count, kNoIndex};
+        }
+        table.modes.modes[mode_count++] = part.row;
+    }
+    constexpr void add(const ModeTransitionRow& row) noexcept {
+        table.modes.transitions[transition_count++] = row;
+    }
     constexpr void add(const FaultRow& row) noexcept { table.faults[fault_count++] = row; }
     constexpr void add(const ReactionRow& row) noexcept { table.reactions[reaction_count++] = row; }
     constexpr void add(AbortPolicy policy) noexcept { table.abort_policy = policy; }

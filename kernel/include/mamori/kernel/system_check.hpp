@@ -11,67 +11,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/mode_check.hpp"
+#include "mamori/kernel/system_finding.hpp"
 #include "mamori/kernel/system_table.hpp"
 
 namespace mamori {
 
-/// Why a table is refused. `Finding::element` is the index of the row named here.
-enum class Rule {
-    kNone,                  ///< the table keeps every rule
-    kFrameNotPositive,      ///< no row: element is 0
-    kWindowRowInvalid,      ///< window without a name or a positive period, or with rows that are not in the
-                            ///< table
-    kComponentRowInvalid,   ///< component that is null, or with rows that are not in the table
-    kPortRowInvalid,        ///< port row that names not exactly one port
-    kConnectionRowInvalid,  ///< connection with a null end or without operations, or of a window beyond the
-                            ///< table
-    kPeriodNotInFrame,      ///< window whose period does not divide the frame
-    kWindowOutsideFrame,    ///< window that does not lie inside its period
-    kWindowsOverlap,        ///< window; `other` is the earlier listed one of the same core
-    kBudgetExceedsWindow,   ///< window whose budget is not in 1 ns .. its length
-    kWorstCasesExceedBudget,  ///< window whose declared worst cases are longer than its budget
-    kRateNotOccurrences,      ///< window whose declared rate is not that of its openings
-    kRateNotReachable,        ///< window with an alternative rate that does not divide its first
-    kComponentInTwoPlaces,    ///< component, second place
-    kPortOfUnknownComponent,  ///< connection that names a port of no component in the table
-    kInputNotConnected,       ///< port row: mandatory input without a connection
-    kInputHasTwoWriters,      ///< port row: input with more than one connection
-    kCrossingWithoutBuffer,   ///< connection that leaves its core or partition without a Crossing
-    kCrossingUsedTwice,       ///< connection; `other` is the earlier one through the same Crossing
-    kCrossingNotOrdered,      ///< connection whose reader may open while its writer's window is open
-    kFaultWithoutReaction,    ///< fault that no reaction names
-    kFaultWithTwoReactions,   ///< fault that more than one reaction names
-    kReactionWithoutTime,     ///< reaction whose time is not positive
-    kReactionToUnknownFault,  ///< reaction to a fault that is not declared
-};
-
-struct Finding {
-    Rule rule{Rule::kNone};
-    std::size_t element{0U};
-    std::size_t other{0U};
-};
-
-/// Spelling of a rule for tools; never nullptr.
-const char* get_name(Rule rule) noexcept;
-
 namespace detail {
-
-/// Keeps as many findings as it has room for and counts them all.
-class FindingList final {
-  public:
-    constexpr explicit FindingList(Span<Finding> storage) noexcept : storage_(storage) {}
-    constexpr void add(Rule rule, std::size_t element, std::size_t other = 0U) noexcept {
-        if (count_ < storage_.size()) {
-            storage_[count_] = {rule, element, other};
-        }
-        ++count_;
-    }
-    constexpr std::size_t get_count() const noexcept { return count_; }
-
-  private:
-    Span<Finding> storage_;
-    std::size_t count_{0U};
-};
 
 constexpr std::int64_t calc_gcd(std::int64_t a, std::int64_t b) noexcept {
     while (b != 0) {  // at most 92 steps: the numbers fall at least as fast as Fibonacci's
@@ -100,6 +46,7 @@ constexpr bool is_window_valid(const SystemView& view, const WindowRow& row) noe
            is_range_in(row.first_component, row.component_count, view.components.size()) &&
            is_range_in(row.first_port, row.port_count, view.ports.size()) &&
            is_range_in(row.first_latch, row.latch_count, view.latch_order.size()) &&
+           is_range_in(row.first_parameter, row.parameter_count, view.configuration.parameters.size()) &&
            row.alternative_count <= kAlternativeRateMax;
 }
 
@@ -215,15 +162,13 @@ constexpr void check_inputs(const SystemView& view, FindingList& findings) noexc
         if (row.input == nullptr) {
             continue;
         }
-        std::size_t writer_count = 0U;
-        for (const ConnectionRow& connection : view.connections) {
-            writer_count += connection.sink == row.input ? 1U : 0U;
-        }
-        if (writer_count > 1U) {
+        if (has_two_writers(view, row)) {
             findings.add(Rule::kInputHasTwoWriters, i);
         }
-        if (writer_count == 0U && row.is_mandatory) {
+        if (row.is_mandatory && !is_connected(view, row)) {
             findings.add(Rule::kInputNotConnected, i);
+        } else if (row.is_mandatory) {
+            check_feeding(view, i, findings);
         }
     }
 }
@@ -294,9 +239,9 @@ constexpr void check_reactions(const SystemView& view, FindingList& findings) no
 
 }  // namespace detail
 
-/// Finds every rule that a table breaks, in the order of `Rule` groups: windows, components, inputs,
-/// connections, reactions. Rows that are invalid in themselves hide the rest: nothing else can be judged
-/// then. Constant expression for a constexpr table; O(rows squared).
+/// Finds every rule that a table breaks, in the order of `Rule` groups: windows, components, modes,
+/// inputs, connections, reactions, configuration. Rows that are invalid in themselves hide the rest: nothing
+/// else can be judged then. Constant expression for a constexpr table; O(rows squared).
 /// @param[out] storage the first findings; may be shorter than their number.
 /// @return number of findings; 0: the table keeps every rule.
 constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) noexcept {
@@ -309,13 +254,18 @@ constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) n
         detail::check_window_load(view, i, findings);
     }
     detail::check_components(view, findings);
+    detail::check_modes(view, findings);
     detail::check_inputs(view, findings);
     detail::check_connections(view, findings);
     detail::check_reactions(view, findings);
+    const ConfigurationFinding configuration = check(view.configuration);
+    if (configuration.rule != ConfigurationRule::kNone) {
+        findings.add(Rule::kConfigurationRefused, configuration.set, configuration.assignment);
+    }
     return findings.get_count();
 }
 
-/// First finding, or one with Rule::kNone.
+/// First finding of the table, or one with Rule::kNone.
 constexpr Finding check(const SystemView& view) noexcept {
     std::array<Finding, 1U> first{};
     static_cast<void>(check_all(view, first));

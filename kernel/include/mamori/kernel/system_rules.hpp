@@ -109,6 +109,60 @@ struct ReactionAnswersADeclaredFault {
     static_assert(kKept<Reaction>, "a reaction answers a declared fault, in a positive time");
 };
 
+template <typename ModeName>
+struct ModeHasANameOfItsOwn {
+    static_assert(kKept<ModeName>, "each mode has a name of its own");
+};
+template <typename ModeName, typename C>
+struct ModeRunsComponentsOfTheTable {
+    static_assert(kKept<ModeName>, "a mode runs components that a window runs");
+};
+template <typename ModeName, typename SetName>
+struct ModeHasAKnownConfigurationSet {
+    static_assert(kKept<ModeName>, "the parameters of a mode are a configuration_set of the table");
+};
+template <typename C, std::size_t kInstance>
+struct ComponentRunsInSomeMode {
+    static_assert(kKept<C>, "each component runs in at least one mode");
+};
+template <typename ModeName, typename Input>
+struct InputIsFedInEachModeOfItsComponent {
+    static_assert(kKept<ModeName>,
+                  "in each mode that runs its component, a mandatory input is fed by a component that runs");
+};
+template <typename ModeName>
+struct ConnectionHoldsInKnownModes {
+    static_assert(kKept<ModeName>, "only_in(...) names modes of the table");
+};
+template <typename SourceName, typename TargetName>
+struct TransitionJoinsKnownModes {
+    static_assert(kKept<SourceName>, "a transition leads from a mode of the table to a mode of the table");
+};
+template <typename SourceName, std::size_t kEvent>
+struct EventLeadsToOneMode {
+    static_assert(kKept<SourceName>, "an event has at most one transition in each mode");
+};
+template <typename ModeName>
+struct ModeIsReachable {
+    static_assert(kKept<ModeName>, "transitions lead from the first mode to each other one");
+};
+template <typename FirstMode>
+struct SystemHasASafeMode {
+    static_assert(kKept<FirstMode>, "a system with modes has a safe_mode(...)");
+};
+template <typename ModeName>
+struct SystemHasOneSafeMode {
+    static_assert(kKept<ModeName>, "a system has one safe_mode(...)");
+};
+template <typename TargetName>
+struct SafeModeIsLeftByResetOnly {
+    static_assert(kKept<TargetName>, "no transition leaves the safe mode");
+};
+template <typename C, typename ModeName>
+struct SafeModeActivatesNobody {
+    static_assert(kKept<C>, "each component of the safe mode runs in every mode");
+};
+
 }  // namespace rules
 
 namespace detail {
@@ -137,11 +191,53 @@ constexpr std::size_t calc_length(const char* text) noexcept {
     return length;
 }
 
-template <const auto& kTable, std::size_t kWindow, std::size_t... kLetters>
-Name<kTable.windows[kWindow].name[kLetters]...> spell(std::index_sequence<kLetters...>) noexcept;
+// Where a name is found in a table.
+struct OfWindow {
+    template <typename Table>
+    static constexpr const char* get(const Table& table, std::size_t i) noexcept {
+        return table.windows[i].name;
+    }
+};
+struct OfMode {
+    template <typename Table>
+    static constexpr const char* get(const Table& table, std::size_t i) noexcept {
+        return table.modes.modes[i].name;
+    }
+};
+struct OfSetOfMode {
+    template <typename Table>
+    static constexpr const char* get(const Table& table, std::size_t i) noexcept {
+        return table.modes.modes[i].set_name;
+    }
+};
+struct OfSource {
+    template <typename Table>
+    static constexpr const char* get(const Table& table, std::size_t i) noexcept {
+        return table.modes.transitions[i].source_name;
+    }
+};
+struct OfTarget {
+    template <typename Table>
+    static constexpr const char* get(const Table& table, std::size_t i) noexcept {
+        return table.modes.transitions[i].target_name;
+    }
+};
+struct OfConnectionMode {
+    template <typename Table>
+    static constexpr const char* get(const Table& table, std::size_t i) noexcept {
+        return table.modes.connection_modes[i].mode_name;
+    }
+};
+
+template <const auto& kTable, typename Of, std::size_t kIndex, std::size_t... kLetters>
+Name<Of::get(kTable, kIndex)[kLetters]...> spell(std::index_sequence<kLetters...>) noexcept;
+template <const auto& kTable, typename Of, std::size_t kIndex>
+using NameOf =
+    decltype(spell<kTable, Of, kIndex>(std::make_index_sequence<calc_length(Of::get(kTable, kIndex))>{}));
 template <const auto& kTable, std::size_t kWindow>
-using WindowName =
-    decltype(spell<kTable, kWindow>(std::make_index_sequence<calc_length(kTable.windows[kWindow].name)>{}));
+using WindowName = NameOf<kTable, OfWindow, kWindow>;
+template <const auto& kTable, std::size_t kMode>
+using ModeName = NameOf<kTable, OfMode, kMode>;
 
 /// How many components of the same type the table lists before component `kIndex`.
 template <typename Components, std::size_t kIndex, std::size_t... kBefore>
@@ -177,6 +273,48 @@ using OfPort = RuleOf<typename PortAt<kTable, kPort>::Owner, PortAt<kTable, kPor
                       calc_instance<kTable, kTable.ports[kPort].component>()>;
 template <template <typename, auto, std::size_t> class RuleOf, const auto& kTable, std::size_t kConnection>
 using OfSink = OfPort<RuleOf, kTable, find_input(kTable, kTable.connections[kConnection].sink)>;
+
+/// The same for a rule of the modes.
+template <const auto& kTable, Rule kRule, std::size_t kElement, std::size_t kOther>
+constexpr std::size_t refuse_modes() noexcept {
+    if constexpr (kRule == Rule::kModeNamedTwice) {
+        return sizeof(rules::ModeHasANameOfItsOwn<ModeName<kTable, kElement>>);
+    } else if constexpr (kRule == Rule::kModeOfUnknownComponent) {
+        return sizeof(
+            rules::ModeRunsComponentsOfTheTable<ModeName<kTable, kTable.modes.members[kElement].mode>,
+                                                At<typename TypesOf<kTable>::Members, kElement>>);
+    } else if constexpr (kRule == Rule::kModeOfUnknownSet) {
+        return sizeof(rules::ModeHasAKnownConfigurationSet<ModeName<kTable, kElement>,
+                                                           NameOf<kTable, OfSetOfMode, kElement>>);
+    } else if constexpr (kRule == Rule::kComponentInNoMode) {
+        return sizeof(
+            rules::ComponentRunsInSomeMode<ComponentAt<kTable, kElement>, calc_instance<kTable, kElement>()>);
+    } else if constexpr (kRule == Rule::kInputNotFedInMode) {
+        return sizeof(
+            rules::InputIsFedInEachModeOfItsComponent<ModeName<kTable, kOther>, PortAt<kTable, kElement>>);
+    } else if constexpr (kRule == Rule::kConnectionOfUnknownMode) {
+        return sizeof(rules::ConnectionHoldsInKnownModes<NameOf<kTable, OfConnectionMode, kElement>>);
+    } else if constexpr (kRule == Rule::kTransitionOfUnknownMode) {
+        return sizeof(rules::TransitionJoinsKnownModes<NameOf<kTable, OfSource, kElement>,
+                                                       NameOf<kTable, OfTarget, kElement>>);
+    } else if constexpr (kRule == Rule::kTransitionAmbiguous) {
+        return sizeof(rules::EventLeadsToOneMode<NameOf<kTable, OfSource, kElement>,
+                                                 kTable.modes.transitions[kElement].event>);
+    } else if constexpr (kRule == Rule::kModeUnreachable) {
+        return sizeof(rules::ModeIsReachable<ModeName<kTable, kElement>>);
+    } else if constexpr (kRule == Rule::kNoSafeMode) {
+        return sizeof(rules::SystemHasASafeMode<ModeName<kTable, kElement>>);
+    } else if constexpr (kRule == Rule::kTwoSafeModes) {
+        return sizeof(rules::SystemHasOneSafeMode<ModeName<kTable, kElement>>);
+    } else if constexpr (kRule == Rule::kSafeModeIsLeft) {
+        return sizeof(rules::SafeModeIsLeftByResetOnly<NameOf<kTable, OfTarget, kElement>>);
+    } else if constexpr (kRule == Rule::kSafeModeActivates) {
+        return sizeof(
+            rules::SafeModeActivatesNobody<ComponentAt<kTable, kElement>, ModeName<kTable, kOther>>);
+    } else {
+        return sizeof(rules::RowIsValid<rules::Row<kElement>>);
+    }
+}
 
 /// Size of the rule that is broken, with its guilty element as arguments: asking for it ends the compilation.
 template <const auto& kTable, Rule kRule, std::size_t kElement, std::size_t kOther>
@@ -216,8 +354,10 @@ constexpr std::size_t refuse() noexcept {
         return sizeof(rules::FaultHasReaction<At<typename TypesOf<kTable>::Faults, kElement>::kValue>);
     } else if constexpr (kRule == Rule::kReactionWithoutTime || kRule == Rule::kReactionToUnknownFault) {
         return sizeof(rules::ReactionAnswersADeclaredFault<rules::Row<kElement>>);
+    } else if constexpr (kRule == Rule::kConfigurationRefused) {
+        return sizeof(ConfigurationKeeps<check(make_view(kTable.configuration)).rule, kElement, kOther>);
     } else {
-        return sizeof(rules::RowIsValid<rules::Row<kElement>>);
+        return refuse_modes<kTable, kRule, kElement, kOther>();
     }
 }
 

@@ -10,19 +10,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "mamori/kernel/component.hpp"
+#include "mamori/kernel/configuration_table.hpp"
 #include "mamori/kernel/connection.hpp"
 #include "mamori/kernel/context_plan.hpp"
 #include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/mode_table.hpp"
 #include "mamori/kernel/span.hpp"
+#include "mamori/kernel/table_index.hpp"
 #include "mamori/kernel/time.hpp"
 
 namespace mamori {
 
-/// Index that no row has.
-inline constexpr std::size_t kNoIndex = std::numeric_limits<std::size_t>::max();
 /// Rates beside the first that one window can declare.
 inline constexpr std::size_t kAlternativeRateMax = 4U;
 
@@ -45,6 +45,8 @@ struct WindowRow {
     std::size_t port_count{0U};
     std::size_t first_latch{0U};  ///< connections into this window, places of `latch_order`
     std::size_t latch_count{0U};
+    std::size_t first_parameter{0U};  ///< parameters of its components, rows of the configuration
+    std::size_t parameter_count{0U};
     ExecutionKind kind{ExecutionKind::kPeriodic};
     ExternalTrigger* trigger{nullptr};  ///< whose ticks release the cycles of kind kOther
     std::size_t events_per_cycle{1U};   ///< bound of kind kEventDriven
@@ -60,6 +62,7 @@ struct ComponentRow {
     std::size_t port_count{0U};
     std::size_t first_outgoing{0U};  ///< connections from its outputs, places of `outgoing_order`
     std::size_t outgoing_count{0U};
+    ModeMask modes{kEveryMode};  ///< in which it is Active
 };
 
 /// Either `input` or `output` is set.
@@ -86,6 +89,7 @@ struct ConnectionRow {
     std::size_t sink_component{kNoIndex};
     /// Source and sink run in one window, the source first: the value is handed on within the window.
     bool is_forward_in_window{false};
+    ModeMask modes{kEveryMode};  ///< in which it holds and both of its components run
 };
 
 /// A fault that the system declares, by its number in the application's enumeration.
@@ -101,7 +105,9 @@ struct ReactionRow {
 
 /// Rows with their sizes in the type.
 template <std::size_t kWindows, std::size_t kComponents, std::size_t kPorts, std::size_t kConnections,
-          std::size_t kFaults = 0U, std::size_t kReactions = 0U>
+          std::size_t kFaults = 0U, std::size_t kReactions = 0U,
+          typename Configuration = ConfigurationTable<0U, 0U, 0U, 0U>,
+          typename Modes = ModeTable<0U, 0U, 0U, 0U>>
 struct SystemTable {
     Duration frame{};
     std::array<WindowRow, kWindows> windows{};
@@ -113,6 +119,8 @@ struct SystemTable {
     std::array<std::size_t, kConnections> outgoing_order{};  ///< connections by component of their source
     std::array<FaultRow, kFaults> faults{};
     std::array<ReactionRow, kReactions> reactions{};
+    Configuration configuration{};  ///< parameters of all components, and the sets of their values
+    Modes modes{};
     AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
 
     static constexpr std::size_t kWindowCount = kWindows;
@@ -132,14 +140,30 @@ struct SystemView {
     Span<const std::size_t> outgoing_order{};
     Span<const FaultRow> faults{};
     Span<const ReactionRow> reactions{};
+    ConfigurationView configuration{};
+    ModeView modes{};
     AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
 };
 
-template <std::size_t kW, std::size_t kC, std::size_t kP, std::size_t kN, std::size_t kF, std::size_t kR>
-constexpr SystemView make_view(const SystemTable<kW, kC, kP, kN, kF, kR>& table) noexcept {
-    return {table.frame,  table.windows,     table.components,  table.component_rows,
-            table.ports,  table.connections, table.latch_order, table.outgoing_order,
-            table.faults, table.reactions,   table.abort_policy};
+template <std::size_t kW, std::size_t kC, std::size_t kP, std::size_t kN, std::size_t kF, std::size_t kR,
+          typename Configuration, typename Modes>
+constexpr SystemView make_view(
+    const SystemTable<kW, kC, kP, kN, kF, kR, Configuration, Modes>& table) noexcept {
+    SystemView view{};
+    view.frame = table.frame;
+    view.windows = table.windows;
+    view.components = table.components;
+    view.component_rows = table.component_rows;
+    view.ports = table.ports;
+    view.connections = table.connections;
+    view.latch_order = table.latch_order;
+    view.outgoing_order = table.outgoing_order;
+    view.faults = table.faults;
+    view.reactions = table.reactions;
+    view.configuration = make_view(table.configuration);
+    view.modes = make_view(table.modes);
+    view.abort_policy = table.abort_policy;
+    return view;
 }
 
 }  // namespace mamori

@@ -20,7 +20,11 @@ namespace mamori {
 class WindowHost {
   public:
     /// Which part of a component's cycle a piece of work is.
-    enum class Pass : std::uint8_t { kExecute, kStateUpdate };
+    enum class Pass : std::uint8_t {
+        kExecute,
+        kStateUpdate,
+        kModeStep,  ///< on_deactivated or on_activated in a switch of modes, in place of a cycle
+    };
 
     /// One pass over components of a window, as a range of steps, so that a host which has nothing to do
     /// between two of them pays for one call only.

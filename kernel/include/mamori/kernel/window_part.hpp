@@ -10,7 +10,8 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "mamori/kernel/system_builder.hpp"
+#include "mamori/kernel/parameter_list.hpp"
+#include "mamori/kernel/part_types.hpp"
 #include "mamori/kernel/system_table.hpp"
 
 namespace mamori {
@@ -66,6 +67,7 @@ struct ComponentTypes {
     using Type = C;
     using PortList = typename PortMembers<C, typename PortsOf<C>::Type>::Type;
     static constexpr std::size_t kPortCount = PortList::kSize;
+    static constexpr std::size_t kParameterCount = parameter_count<C>();
     /// An inherited member pointer has the type of the base: the component does not override the action. Of a
     /// type that is not final nobody knows what a derived one does.
     static constexpr bool kHasSecondPass =
@@ -98,11 +100,13 @@ constexpr PortRow make_port_row(C& component, Port& port) noexcept {
 template <typename... Cs>
 struct RunList {
     static constexpr std::size_t kPortCount = (detail::ComponentTypes<Cs>::kPortCount + ... + 0U);
+    static constexpr std::size_t kParameterCount = (detail::ComponentTypes<Cs>::kParameterCount + ... + 0U);
 
     std::array<Component*, sizeof...(Cs)> components{};
     std::array<Duration, sizeof...(Cs)> worst_cases{};
     std::array<std::size_t, sizeof...(Cs)> port_counts{};
     std::array<PortRow, kPortCount> ports{};
+    ParameterList<kParameterCount> parameters{};
 };
 
 namespace detail {
@@ -113,6 +117,7 @@ struct RunListBuilder {
     List list{};
     std::size_t component_count{0U};
     std::size_t port_count{0U};
+    std::size_t parameter_count{0U};
 
     template <typename C>
     constexpr void add(const TimedComponent<C>& part) noexcept {
@@ -121,6 +126,7 @@ struct RunListBuilder {
         list.port_counts[component_count] = ComponentTypes<C>::kPortCount;
         ++component_count;
         add_ports(part.component, typename PortsOf<C>::Type{});
+        append_parameters_of(part.component, list.parameters, parameter_count);
     }
     template <typename C, auto... kMembers>
     constexpr void add_ports(C& component, Ports<kMembers...>) noexcept {
@@ -228,10 +234,12 @@ constexpr EventDriven event_driven(std::size_t events_per_cycle) noexcept {
 /// One window of the description.
 template <typename... Cs>
 struct WindowPart {
-    using Types =
-        detail::PartTypes<detail::TypeList<typename detail::ComponentTypes<Cs>::Type...>,
-                          typename detail::Concat<typename detail::ComponentTypes<Cs>::PortList...>::Type,
-                          detail::TypeList<>, 1U>;
+    struct Types : detail::NoTypes {
+        using Components = detail::TypeList<typename detail::ComponentTypes<Cs>::Type...>;
+        using Ports = typename detail::Concat<typename detail::ComponentTypes<Cs>::PortList...>::Type;
+        static constexpr std::size_t kWindows = 1U;
+        static constexpr std::size_t kParameters = RunList<Cs...>::kParameterCount;
+    };
     WindowRow row{};
     RunList<Cs...> list{};
 };

@@ -37,7 +37,7 @@ class VirtualHost final : public WindowHost {
 
     /// Work whose modelled time fits runs and the clock moves on by it. Work that does not fit is cut off at
     /// the deadline: a late one still has its effect on its component, a hanging one has none.
-    /// The modelled time is that of the first pass; the second takes none.
+    /// The modelled time is that of the first pass, and of a mode step in its place; the second takes none.
     std::size_t run_within(const Work& work, Instant deadline) noexcept override;
 
     /// Lets time pass without work. @param[in] instant not before get_now(); an earlier one is an own bug.

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The words that describe the modes of a system, as parts of mamori::system(...):
+///
+///     mamori::system_mode("idle", mamori::runs(encoder, drive)),                  // the first one listed
+///     mamori::system_mode("work", mamori::runs(encoder, drive, planner), mamori::parameters("fast")),
+///     mamori::system_mode("teach", mamori::runs(encoder, drive, hand), mamori::parameters("slow")),
+///     mamori::safe_mode("halt", mamori::runs(encoder)),
+///     mamori::mode_transition("idle", Command::kTeach, "teach"), ...
+///     mamori::connect(planner.setpoint, drive.setpoint, mamori::only_in("work")),
+///     mamori::connect(hand.setpoint, drive.setpoint),                             // hand runs in "teach"
+///     only
+///
+/// @satisfies SWR-MOD-001      Design: docs/design/modes.md#the-table
+#ifndef MAMORI_KERNEL_MODE_PART_HPP
+#define MAMORI_KERNEL_MODE_PART_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "mamori/kernel/mode_table.hpp"
+#include "mamori/kernel/part_types.hpp"
+
+namespace mamori {
+
+template <typename... Cs>
+struct Runs {
+    std::array<Component*, sizeof...(Cs)> components{};
+};
+/// The components that are Active in a mode; all others are Inactive in it.
+template <typename... Cs>
+constexpr Runs<Cs...> runs(Cs&... components) noexcept {
+    return {{&components...}};
+}
+
+struct ModeParameters {
+    const char* set_name{nullptr};
+};
+/// The configuration set of a mode. @param[in] set_name static storage, as in configuration_set().
+constexpr ModeParameters parameters(const char* set_name) noexcept {
+    return {set_name};
+}
+
+template <typename... Cs>
+struct SystemModePart {
+    struct Types : detail::NoTypes {
+        using Members = detail::TypeList<Cs...>;
+        static constexpr std::size_t kModes = 1U;
+    };
+    SystemModeRow row{};
+    std::array<Component*, sizeof...(Cs)> members{};
+};
+/// One mode of the system; the first one listed is the one that it starts in.
+/// @param[in] name static storage; unique. @param[in] set without it the mode changes no parameter.
+template <typename... Cs>
+constexpr SystemModePart<Cs...> system_mode(const char* name, const Runs<Cs...>& members,
+                                            ModeParameters set = {}) noexcept {
+    return {{name, set.set_name, kNoIndex, false}, members.components};
+}
+/// The mode in which a switch that fails ends. Its components run in every mode, so the way there activates
+/// nobody, and no transition leaves it: only SystemModes::reset() does.
+template <typename... Cs>
+constexpr SystemModePart<Cs...> safe_mode(const char* name, const Runs<Cs...>& members,
+                                          ModeParameters set = {}) noexcept {
+    return {{name, set.set_name, kNoIndex, true}, members.components};
+}
+
+struct ModeTransitionPart {
+    struct Types : detail::NoTypes {
+        static constexpr std::size_t kModeTransitions = 1U;
+    };
+    ModeTransitionRow row{};
+};
+/// In mode `source`, `event` leads to mode `target`. An event that a mode has no transition for is refused.
+/// @param[in] event enumerator of the application.
+template <typename Event>
+constexpr ModeTransitionPart mode_transition(const char* source, Event event, const char* target) noexcept {
+    static_assert(std::is_enum_v<Event>, "the event of a transition is an enumerator");
+    return {{source, target, static_cast<std::uint32_t>(event), kNoIndex, kNoIndex}};
+}
+
+template <std::size_t kCount>
+struct OnlyIn {
+    std::array<const char*, kCount> modes{};
+};
+/// Option of connect(): the connection holds in these modes only. Without it a connection holds wherever both
+/// of its components run. @param[in] modes names of modes, static storage.
+template <typename... Names>
+constexpr OnlyIn<sizeof...(Names)> only_in(Names... modes) noexcept {
+    static_assert(sizeof...(Names) > 0U, "a connection holds in at least one mode");
+    return {{modes...}};
+}
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_MODE_PART_HPP

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/kernel/system_modes.hpp"
+
+#include "mamori/kernel/assert.hpp"
+
+namespace mamori {
+namespace {
+
+constexpr std::uint32_t kNobody = 0xFFFFFFU;
+
+constexpr std::uint32_t encode(const ModeFailure& failure) noexcept {
+    const std::uint32_t component =
+        failure.component < kNobody ? static_cast<std::uint32_t>(failure.component) : kNobody;
+    return static_cast<std::uint32_t>(failure.cause) << 28U |
+           static_cast<std::uint32_t>(failure.step) << 24U | component;
+}
+
+/// Place of the first transition with this event, in mode `source` or, without one, in any.
+std::size_t find_transition(const ModeView& view, std::uint32_t event, std::size_t source) noexcept {
+    for (std::size_t i = 0U; i < view.transitions.size(); ++i) {
+        const ModeTransitionRow& row = view.transitions[i];
+        if (row.event == event && (source == kNoIndex || row.source == source)) {
+            return i;
+        }
+    }
+    return kNoIndex;
+}
+
+}  // namespace
+
+Status SystemModes::request_event(std::uint32_t event) noexcept {
+    if (find_transition(view_.modes, event, kNoIndex) == kNoIndex) {
+        return Status::kBadParameter;
+    }
+    const std::size_t transition = find_transition(view_.modes, event, get_mode());
+    if (transition == kNoIndex || get_step() > ModeStep::kSet || is_failing()) {
+        return Status::kPreconditionNotMet;
+    }
+    std::uint32_t none = 0U;
+    const bool is_first = request_.compare_exchange_strong(none, static_cast<std::uint32_t>(transition) + 1U,
+                                                           std::memory_order_acq_rel);
+    return is_first ? Status::kOk : Status::kPreconditionNotMet;
+}
+
+Status SystemModes::request_safe_mode() noexcept {
+    if (safe_mode_ == kNoIndex) {
+        return Status::kUnsupported;
+    }
+    static_cast<void>(fail({ModeFailureCause::kRequested, get_step(), kNoIndex}));
+    return Status::kOk;
+}
+
+ModeFailure SystemModes::get_failure() const noexcept {
+    const std::uint32_t word = failure_.load(std::memory_order_acquire);
+    if (word == 0U) {
+        return {};
+    }
+    const std::uint32_t component = word & kNobody;
+    return {static_cast<ModeFailureCause>(word >> 28U), static_cast<ModeStep>(word >> 24U & 0xFU),
+            component == kNobody ? kNoIndex : component};
+}
+
+Status SystemModes::reset() noexcept {
+    if (running_.load(std::memory_order_acquire) != 0U) {
+        return Status::kPreconditionNotMet;
+    }
+    mode_.store(0U, std::memory_order_relaxed);
+    set_.store(kNoSet, std::memory_order_relaxed);
+    request_.store(0U, std::memory_order_relaxed);
+    failure_.store(0U, std::memory_order_release);
+    return Status::kOk;
+}
+
+bool SystemModes::fail(const ModeFailure& failure) noexcept {
+    std::uint32_t none = 0U;
+    return failure_.compare_exchange_strong(none, encode(failure), std::memory_order_acq_rel);
+}
+
+bool SystemModes::is_failing() const noexcept {
+    return safe_mode_ != kNoIndex && failure_.load(std::memory_order_acquire) != 0U;
+}
+
+std::size_t SystemModes::prepare() noexcept {
+    if (running_.load(std::memory_order_acquire) == 0U) {
+        const std::size_t requested = configuration_.take_requested_set();
+        if (requested != kNoConfigurationSet) {
+            set_.store(static_cast<std::uint32_t>(requested), std::memory_order_relaxed);
+        }
+    }
+    const std::uint32_t set = set_.load(std::memory_order_acquire);
+    if (set != kNoSet || view_.modes.modes.empty()) {
+        return set;
+    }
+    const std::size_t of_mode = view_.modes.modes[get_mode()].set;
+    return of_mode == kNoIndex ? kNoConfigurationSet : of_mode;
+}
+
+Status SystemModes::join(std::size_t core) noexcept {
+    if (plan_.load(std::memory_order_acquire) != 0U) {
+        return Status::kPreconditionNotMet;
+    }
+    finished_[core].store(0U, std::memory_order_relaxed);
+    static_cast<void>(running_.fetch_or(1U << core, std::memory_order_acq_rel));
+    return Status::kOk;
+}
+
+void SystemModes::leave(std::size_t core) noexcept {
+    const std::uint32_t own = 1U << core;
+    if ((running_.load(std::memory_order_acquire) & own) == 0U) {
+        return;
+    }
+    const ModePlan plan{plan_.load(std::memory_order_acquire)};
+    const ModeStep step = plan.get_step();
+    if (step == ModeStep::kLeave || step == ModeStep::kEnter) {
+        static_cast<void>(fail({ModeFailureCause::kStopped, step, kNoIndex}));
+    }
+    if (running_.fetch_and(~own, std::memory_order_acq_rel) != own) {
+        return;
+    }
+    // Nobody is left who could carry anything out, and everything is Inactive; the next start goes on from
+    // here.
+    if (step == ModeStep::kSet) {
+        set_.store(static_cast<std::uint32_t>(plan.get_index()), std::memory_order_relaxed);
+    }
+    if (is_failing()) {
+        mode_.store(safe_mode_, std::memory_order_release);
+        set_.store(kNoSet, std::memory_order_relaxed);
+    }
+    request_.store(0U, std::memory_order_relaxed);
+    plan_.store(0U, std::memory_order_release);
+}
+
+bool SystemModes::is_lead(std::size_t core) const noexcept {
+    const std::uint32_t running = running_.load(std::memory_order_acquire);
+    return (running & (1U << core)) != 0U && (running & ((1U << core) - 1U)) == 0U;
+}
+
+bool SystemModes::is_finished(ModePlan plan) const noexcept {
+    const std::uint32_t running = running_.load(std::memory_order_acquire);
+    for (std::size_t core = 0U; core < kModeCoreMax; ++core) {
+        if ((running & (1U << core)) != 0U &&
+            finished_[core].load(std::memory_order_acquire) != plan.get_word()) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// False when another core took the lead over at this moment; then it is its business.
+bool SystemModes::replace(ModePlan old, ModePlan next) noexcept {
+    std::uint32_t expected = old.get_word();
+    return plan_.compare_exchange_strong(expected, next.get_word(), std::memory_order_acq_rel);
+}
+
+void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
+    const ModeStep step = plan.get_step();
+    const std::size_t index = plan.get_index();
+    if (!is_finished(plan)) {
+        if (step == ModeStep::kSafe) {
+            return;  // there is nothing safer to go to: it is waited for
+        }
+        static_cast<void>(fail({ModeFailureCause::kLate, step, kNoIndex}));
+    }
+    if (step != ModeStep::kSafe && is_failing()) {
+        static_cast<void>(replace(plan, {ModeStep::kSafe, safe_mode_, frame + 1}));
+        return;
+    }
+    if (step == ModeStep::kLeave) {
+        static_cast<void>(replace(plan, {ModeStep::kEnter, index, frame + 1}));
+        return;
+    }
+    if (step == ModeStep::kSet) {
+        set_.store(static_cast<std::uint32_t>(index), std::memory_order_relaxed);
+    } else {
+        mode_.store(index, std::memory_order_release);
+        set_.store(kNoSet, std::memory_order_relaxed);
+    }
+    static_cast<void>(replace(plan, {}));
+}
+
+/// Worst first: a failure, then a mode, then a set.
+void SystemModes::propose(std::int64_t frame) noexcept {
+    if (is_failing()) {
+        request_.store(0U, std::memory_order_relaxed);
+        if (get_mode() != safe_mode_) {
+            static_cast<void>(replace({}, {ModeStep::kSafe, safe_mode_, frame + 1}));
+        }
+        return;
+    }
+    const std::uint32_t request = request_.exchange(0U, std::memory_order_acq_rel);
+    // A request that was made while a switch came to its end may be one of the mode before.
+    if (request != 0U && view_.modes.transitions[request - 1U].source == get_mode()) {
+        const std::size_t target = view_.modes.transitions[request - 1U].target;
+        static_cast<void>(replace({}, {ModeStep::kLeave, target, frame + 1}));
+        return;
+    }
+    const std::size_t set = configuration_.take_requested_set();
+    if (set != kNoConfigurationSet) {
+        static_cast<void>(replace({}, {ModeStep::kSet, set, frame + 1}));
+    }
+}
+
+ModePlan SystemModes::begin_frame(std::size_t core, std::int64_t frame) noexcept {
+    const ModePlan plan{plan_.load(std::memory_order_acquire)};
+    // A lead that comes no more must not leave the others between two modes.
+    const std::int64_t patience = is_lead(core) ? kModeStepFrames - 1 : 2 * kModeStepFrames;
+    if (plan.get_step() != ModeStep::kNone && plan.calc_age(frame) >= patience) {
+        conclude(plan, frame);
+    } else if (plan.get_step() == ModeStep::kNone && is_lead(core)) {
+        propose(frame);
+    }
+    return ModePlan{plan_.load(std::memory_order_acquire)};
+}
+
+}  // namespace mamori

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the compiler refuses modes that could not work, and its message names the rule and the guilty
+// element. Method: support/compilation.hpp; one system, broken by one thing at a time.
+#include <gtest/gtest.h>
+
+#include "mamori/verification/verifies.hpp"
+#include "support/compilation.hpp"
+
+namespace mamori {
+namespace {
+
+using testing_support::expect_refused;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+void expect_broken(int number, const std::string& expected) {
+    expect_refused("system_modes", expected, "-DMAMORI_BREAK=" + std::to_string(number));
+}
+
+TEST(ModeCompileFailTest, AConnectionThatHoldsInAnUnknownModeIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(1, "ConnectionHoldsInKnownModes<mamori::Name<'t', 'e', 'c', 'h'>");
+}
+
+TEST(ModeCompileFailTest, ASecondWriterInOneModeIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(2, "InputHasOneWriter<Axis, &Axis::in, 0>");
+}
+
+TEST(ModeCompileFailTest, AMandatoryInputThatNoConnectionFeedsInAModeIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(3, "InputIsFedInEachModeOfItsComponent<mamori::Name<'t', 'e', 'a', 'c', 'h'>");
+    expect_broken(3, "PortMember<Axis, &Axis::in>");
+}
+
+TEST(ModeCompileFailTest, ASetInTheTableWhoseValueIsOutsideItsConstraintIsRefused) {
+    verifies("SWR-MOD-002", Technique::kInterface, Polarity::kViolation);
+    expect_broken(4, "ConfigurationKeeps<mamori::ConfigurationRule::kValueOutsideConstraint, 0, 0>");
+}
+
+TEST(ModeCompileFailTest, AModeOfAComponentThatNoWindowRunsIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(5, "ModeRunsComponentsOfTheTable<mamori::Name<'w', 'o', 'r', 'k'>, Spare>");
+}
+
+TEST(ModeCompileFailTest, TwoModesOfOneNameAreRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(6, "ModeHasANameOfItsOwn<mamori::Name<'w', 'o', 'r', 'k'>");
+}
+
+TEST(ModeCompileFailTest, AMandatoryInputWhoseSourceDoesNotRunInAModeIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(7, "InputIsFedInEachModeOfItsComponent<mamori::Name<'t', 'e', 'a', 'c', 'h'>");
+}
+
+TEST(ModeCompileFailTest, ASafeModeThatWouldActivateSomebodyIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(8, "SafeModeActivatesNobody<Spare, mamori::Name<'t', 'e', 'a', 'c', 'h'>");
+}
+
+TEST(ModeCompileFailTest, AModeWithAnUnknownConfigurationSetIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(9,
+                  "ModeHasAKnownConfigurationSet<mamori::Name<'t', 'e', 'a', 'c', 'h'>, mamori::Name<'s', "
+                  "'l', 'o'>");
+}
+
+TEST(ModeCompileFailTest, ModesWithoutASafeOneAreRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(10, "SystemHasASafeMode<mamori::Name<'w', 'o', 'r', 'k'>");
+}
+
+TEST(ModeCompileFailTest, TwoSafeModesAreRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(11, "SystemHasOneSafeMode<mamori::Name<'s', 't', 'o', 'p'>");
+}
+
+TEST(ModeCompileFailTest, ATransitionOutOfTheSafeModeIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(12, "SafeModeIsLeftByResetOnly<mamori::Name<'w', 'o', 'r', 'k'>");
+}
+
+TEST(ModeCompileFailTest, AnEventWithTwoTransitionsInOneModeIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(13, "EventLeadsToOneMode<mamori::Name<'w', 'o', 'r', 'k'>, 0>");
+}
+
+TEST(ModeCompileFailTest, AComponentThatNoModeRunsIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(14, "ComponentRunsInSomeMode<Spare, 0>");
+}
+
+TEST(ModeCompileFailTest, ATransitionToAnUnknownModeIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(15,
+                  "TransitionJoinsKnownModes<mamori::Name<'w', 'o', 'r', 'k'>, mamori::Name<'t', 'e', 'c', "
+                  "'h'>");
+}
+
+TEST(ModeCompileFailTest, AModeThatNoTransitionLeadsToIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(16, "ModeIsReachable<mamori::Name<'t', 'e', 'a', 'c', 'h'>");
+}
+
+}  // namespace
+}  // namespace mamori
