@@ -107,9 +107,9 @@ TEST(ModeTableTest, EachBrokenRuleIsFoundAtRunTimeToo) {
 TEST(ModeTableTest, AQueueHasOneWriterWhateverTheModes) {
     verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
     Robot robot;
-    ConnectionOperations queue = *robot.table.connections[1].operations;
+    ConnectionOperations queue = robot.table.connections[1].operations;
     queue.is_latest = false;
-    robot.table.connections[1].operations = &queue;
+    robot.table.connections[1].operations = queue;
 
     EXPECT_EQ(check(make_view(robot.table)).rule, Rule::kInputHasTwoWriters);
 }
