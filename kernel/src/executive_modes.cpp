@@ -229,11 +229,11 @@ bool Executive::take_step(std::size_t window, std::size_t position, Instant dead
         return false;
     }
     last_step_end_ = host.get_now();
+    // Nothing else was asked of a component that leaves since its window opened.
     const ActionFailure& answer = view_.components[index]->get_last_failure();
     const bool is_refused = step_ == ModeStep::kEnter
                                 ? state.context.get_state_at(position) != LifecycleState::kActive
-                                : answer.status != Status::kOk && answer.at == last_release_ &&
-                                      answer.action == ComponentAction::kDeactivated;
+                                : answer.status != Status::kOk && answer.at == last_release_;
     if (is_refused) {
         fail_step(ModeFailureCause::kRefused, index);
     }

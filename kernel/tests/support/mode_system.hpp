@@ -24,11 +24,15 @@ struct TroublePlan {
     const Component* component{nullptr};
     bool is_entering{false};  ///< in on_activated, else in on_deactivated
     Trouble trouble{Trouble::kNone};
+    Duration delay{1'000'000};  ///< of kDelay; far more than any budget here
 };
 
-/// Work of a mode step has a stack of its own, so that it can stay where it hangs.
+/// Work that may hang has a stack of its own, so that it can stay where it hangs.
 class ModeHost final : public WindowHost {
   public:
+    enum class Aside { kNothing, kModeSteps, kEverything };
+
+    Aside aside{Aside::kModeSteps};  ///< what has a stack of its own; with threads of one's own: nothing
     Instant now{};
     Duration extra{};  ///< what the work that runs now takes
     std::vector<std::unique_ptr<Side>> hanging;
@@ -38,7 +42,7 @@ class ModeHost final : public WindowHost {
     std::size_t run_within(const Work& work, Instant deadline) noexcept override {
         for (std::size_t i = 0U; i < work.count; ++i) {
             bool has_returned = true;
-            if (work.pass == Pass::kModeStep) {
+            if (aside == Aside::kEverything || (aside == Aside::kModeSteps && work.pass == Pass::kModeStep)) {
                 auto side = std::make_unique<Side>();
                 side->begin([&work, i] { work.run(work.argument, work.first + i, work.first + i + 1U); });
                 has_returned = side->is_done();
@@ -84,6 +88,7 @@ class Part final : public Component {
     double speed_at_birth{0.0};       ///< in on_initialize
     std::int64_t cycle_count{0};
     Duration cycle_time{};
+    bool hangs_in_cycle{false};  ///< for a host with Aside::kEverything
 
     Status on_initialize() noexcept override {
         speed_at_birth = speed.get();
@@ -102,6 +107,9 @@ class Part final : public Component {
         reads.push_back(in.has_value() ? in.read() : -1);
         out.write(1000 * id_ + ++cycle_count);
         host_.extra = cycle_time;
+        if (hangs_in_cycle) {
+            step();
+        }
         return Status::kOk;
     }
 
@@ -114,7 +122,7 @@ class Part final : public Component {
             case Trouble::kRefusal:
                 return Status::kError;
             case Trouble::kDelay:
-                host_.extra = Duration{1'000'000};
+                host_.extra = plan_.delay;
                 return Status::kOk;
             case Trouble::kHang:
                 step();
@@ -234,6 +242,8 @@ struct Robot : RobotParts {
         hosts[core].now = release;
         return cores[core]->run_window(core, release, hosts[core]);
     }
+    /// The core sleeps through one of its frames.
+    void miss_frame(std::size_t core) { ++frames[core]; }
     void run_frames(std::int64_t count) {
         for (std::int64_t i = 0; i < count; ++i) {
             static_cast<void>(run_core(0U));
