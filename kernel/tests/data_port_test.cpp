@@ -5,8 +5,24 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
+
 #include "mamori/kernel/connection.hpp"
 #include "mamori/verification/verifies.hpp"
+
+namespace mamori::testing_support {
+namespace {
+
+/// A payload that asks for more than a port gives by itself.
+struct alignas(128) Wide {
+    std::array<double, 128> values{};
+};
+
+}  // namespace
+}  // namespace mamori::testing_support
+
+MAMORI_FIELDS(mamori::testing_support::Wide, values)
 
 namespace mamori {
 namespace {
@@ -26,6 +42,48 @@ class DataPortTest : public ::testing::Test {
     OutPort<std::int32_t> out_{"out"};
     InPort<std::int32_t> in_{"in"};
 };
+
+TEST_F(DataPortTest, AnOutputHasNothingToPublishBeforeTheFirstWrite) {
+    verifies("SWR-KRN-015", Technique::kBoundaryValues, Polarity::kViolation);
+
+    EXPECT_FALSE(out_.is_staged());
+    EXPECT_FALSE(out_.publish(Instant{100}));
+
+    EXPECT_EQ(out_.get_sequence(), 0U);
+    EXPECT_EQ(out_.get_published_revision(), 0U);
+    EXPECT_EQ(out_.get_published(), 0) << "value-initialised";
+    EXPECT_EQ(out_.get_staged_sample(Instant{100}).revision, 0U) << "nothing to hand on either";
+}
+
+TEST_F(DataPortTest, WritesAreNumberedFromOneOnWhetherTheyArePublishedOrNot) {
+    verifies("SWR-KRN-015", Technique::kBoundaryValues);
+
+    out_.write(5);
+    EXPECT_EQ(out_.get_staged_sample(Instant{50}).revision, 1U);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    EXPECT_EQ(out_.get_published_revision(), 1U);
+    out_.write(6);
+    out_.discard();
+    out_.write(7);
+    EXPECT_EQ(out_.get_published_revision(), 1U) << "not published yet";
+    ASSERT_TRUE(out_.publish(Instant{200}));
+
+    EXPECT_EQ(out_.get_published_revision(), 3U);
+    EXPECT_EQ(out_.get_sequence(), 2U);
+}
+
+TEST_F(DataPortTest, AWriteNeverTouchesWhatIsPublished) {
+    verifies("SWR-KRN-015", Technique::kStateTransition, Polarity::kViolation);
+
+    for (std::int32_t i = 1; i <= 5; ++i) {
+        out_.write(-i);
+        out_.write(i);
+        EXPECT_EQ(out_.get_published(), i - 1) << "still the value of the cycle before";
+        EXPECT_EQ(out_.get_staged_sample(Instant{i}).value, i);
+        ASSERT_TRUE(out_.publish(Instant{i}));
+        EXPECT_EQ(out_.get_published(), i);
+    }
+}
 
 TEST_F(DataPortTest, AWrittenValueIsPublishedAtItsInstant) {
     verifies("SWR-KRN-015");
@@ -229,6 +287,27 @@ TEST_F(DataPortTest, ACrossingThatNothingWentThroughBringsNoValue) {
     EXPECT_FALSE(in_.has_value()) << "published after the opening";
     crossing.latch(in_, Instant{100});
     EXPECT_TRUE(in_.has_value());
+}
+
+TEST(PortAlignmentTest, PayloadsFromOneKibibyteOnBeginWithACacheLineAndSmallerOnesTakeNoPadding) {
+    verifies("SWR-KRN-015", Technique::kBoundaryValues);
+    using Large = std::array<double, 128>;
+    using Odd = std::array<double, 129>;
+    using Small = std::array<double, 127>;
+
+    static_assert(alignof(OutPort<Small>) == alignof(double) && alignof(InPort<Small>) == alignof(double));
+    static_assert(alignof(OutPort<Large>) == 64U && alignof(InPort<Large>) == 64U);
+    static_assert(alignof(OutPort<testing_support::Wide>) == 128U, "a type's own alignment is kept");
+    OutPort<Odd> out{"out"};
+    InPort<Odd> in{"in"};
+    out.write(Odd{1.0});
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&out.get_published()) % 64U, 0U);
+    ASSERT_TRUE(out.publish(Instant{100}));
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&out.get_published()) % 64U, 0U);
+    in.take(out.get_published_sample());
+
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&in.read()) % 64U, 0U);
+    EXPECT_EQ(in.read(), Odd{1.0});
 }
 
 TEST(PortStatusTest, NumbersAreThoseOfTheStandard) {

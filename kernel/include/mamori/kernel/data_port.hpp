@@ -9,6 +9,7 @@
 #define MAMORI_KERNEL_DATA_PORT_HPP
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -66,10 +67,9 @@ class OutPortBase {
         if (!is_staged_) {
             return false;
         }
-        published_slot_ ^= 1U;
+        ++sequence_;  // the staged slot is the published one from here on
         published_at_ = now;
         published_revision_ = revision_;
-        ++sequence_;
         is_staged_ = false;
         return true;
     }
@@ -85,13 +85,19 @@ class OutPortBase {
         : name_(name), hash_published_(hash) {}
     ~OutPortBase() = default;
 
+    /// Slot of the published value. Each publication exchanges the two, so their parity tells which it is,
+    /// across the wrap as well.
+    std::size_t get_published_slot() const noexcept { return sequence_ & 1U; }
+    std::size_t get_staged_slot() const noexcept { return (sequence_ + 1U) & 1U; }
+
     const char* name_;
     HashPublished hash_published_;
+    std::uint64_t revision_{0U};  ///< writes so far
+    /// Stands between the two revisions: side by side, a compiler stores both as one vector, and then each
+    /// write waits for the vector of the write before.
     Instant published_at_{};
-    std::uint64_t revision_{0U};            ///< writes so far
-    std::uint64_t published_revision_{0U};  ///< of them, the one that is published
+    std::uint64_t published_revision_{0U};  ///< of the writes, the one that is published
     std::uint32_t sequence_{0U};
-    std::uint8_t published_slot_{0U};  ///< of the two; the other one is staged
     bool is_staged_{false};
 };
 
@@ -153,6 +159,20 @@ class InPortBase {
     bool is_new_{false};
 };
 
+namespace detail {
+
+/// Unit in which a processor with a cache moves memory [byte].
+inline constexpr std::size_t kCacheLineSize{64U};
+/// Place of a payload within a port. One of many lines begins with a line, since copies between places that
+/// lie differently in their lines are slower; a smaller one is not worth the padding.
+template <typename T>
+struct PayloadSlot {
+    static constexpr std::size_t kLeastAlignment = sizeof(T) >= 16U * kCacheLineSize ? kCacheLineSize : 1U;
+    alignas(T) alignas(kLeastAlignment) T value{};
+};
+
+}  // namespace detail
+
 /// The counts of an input that keeps the latest value.
 inline QueueCounts count_no_queue(const InPortBase&) noexcept {
     return {};
@@ -161,7 +181,8 @@ inline QueueCounts count_no_queue(const InPortBase&) noexcept {
 /// Output of type T. The value is a trivially copyable payload with a field list (or a plain number).
 ///
 /// Thread safety: written by its component, published by the executive of the same core.
-/// Time: O(sizeof(T)) for write, O(1) for publish. Memory: two T.
+/// Time: O(sizeof(T)) for write, O(1) for publish. Memory: two T, each at a multiple of 64 bytes from
+/// 1 KiB on.
 template <typename T>
 class OutPort final : public OutPortBase {
     static_assert(is_payload<T>(),
@@ -175,13 +196,13 @@ class OutPort final : public OutPortBase {
 
     /// Stages a value for the close of the window; a second write in one cycle replaces the first.
     void write(const T& value) noexcept {
-        slots_[published_slot_ ^ 1U] = value;
+        slots_[get_staged_slot()].value = value;
         ++revision_;
         is_staged_ = true;
     }
 
     /// Last published value; a value-initialised T before the first publication.
-    const T& get_published() const noexcept { return slots_[published_slot_]; }
+    const T& get_published() const noexcept { return slots_[get_published_slot()].value; }
 
     /// What a connection moves: a value, the write it comes from, and when it counts.
     struct Sample {
@@ -195,7 +216,7 @@ class OutPort final : public OutPortBase {
     }
     /// For connections within a window: the staged value ahead of its publication, or none.
     Sample get_staged_sample(Instant now) const noexcept {
-        return {slots_[published_slot_ ^ 1U], is_staged_ ? revision_ : 0U, now};
+        return {slots_[get_staged_slot()].value, is_staged_ ? revision_ : 0U, now};
     }
 
   private:
@@ -203,13 +224,13 @@ class OutPort final : public OutPortBase {
         hash.add(static_cast<const OutPort&>(base).get_published());
     }
 
-    std::array<T, 2U> slots_{};
+    std::array<detail::PayloadSlot<T>, 2U> slots_{};
 };
 
 /// Input of type T that holds the latest value.
 ///
 /// Thread safety: read by its component, filled by the executive of the same core.
-/// Time: O(sizeof(T)). Memory: one T.
+/// Time: O(sizeof(T)). Memory: one T, at a multiple of 64 bytes from 1 KiB on.
 template <typename T, Need kNeed = Need::kMandatory>
 class InPort final : public InPortBase {
     static_assert(is_payload<T>(),
@@ -224,12 +245,12 @@ class InPort final : public InPortBase {
     constexpr explicit InPort(const char* name) noexcept : InPortBase(name) {}
 
     /// Latched value; a value-initialised T while has_value() is false.
-    const T& read() const noexcept { return value_; }
+    const T& read() const noexcept { return slot_.value; }
 
     /// Takes a sample when it comes from a later write than what is held. For connections.
     void take(const typename OutPort<T>::Sample& sample) noexcept {
         if (sample.revision > revision_) {
-            value_ = sample.value;
+            slot_.value = sample.value;
             revision_ = sample.revision;
             published_at_ = sample.published_at;
             has_value_ = true;
@@ -238,7 +259,7 @@ class InPort final : public InPortBase {
     }
 
   private:
-    T value_{};
+    detail::PayloadSlot<T> slot_{};
 };
 
 }  // namespace mamori
