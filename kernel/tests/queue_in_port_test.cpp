@@ -81,6 +81,75 @@ TEST(QueueInPortTest, ASampleThatWasQueuedIsNotQueuedAgain) {
     EXPECT_EQ(sut.read_all(Instant{20}), Values{1});
 }
 
+TEST(QueueInPortTest, AnEmptyQueueHasNothingToTell) {
+    verifies("SWR-KRN-029", Technique::kBoundaryValues);
+    Queue<FullPolicy::kOverwrite, EmptyPolicy::kReadback> sut;
+
+    EXPECT_FALSE(sut.in.has_waiting());
+    EXPECT_FALSE(sut.in.has_value());
+    const QueueCounts counts = QueueInPort<std::int64_t, 2U>::count(sut.in);
+    EXPECT_EQ(counts.capacity, 2U);
+    EXPECT_EQ(counts.high_water_mark + counts.rejected + counts.overwritten + counts.empty_reads, 0U);
+}
+
+TEST(QueueInPortTest, AQueueIsNewWhileAValueWaitsThatIsDue) {
+    verifies("SWR-KRN-028", Technique::kBoundaryValues);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
+    sut.publish(1, Instant{10});
+
+    sut.in.open(Instant{9});
+    EXPECT_FALSE(sut.in.is_new() || sut.in.has_waiting());
+    sut.in.open(Instant{10});
+    EXPECT_TRUE(sut.in.is_new() && sut.in.has_waiting());
+    EXPECT_EQ(sut.read_all(Instant{10}), Values{1});
+    EXPECT_FALSE(sut.in.has_waiting());
+    sut.in.open(Instant{11});
+    EXPECT_FALSE(sut.in.is_new());
+}
+
+TEST(QueueInPortTest, NothingOfAnotherModeIsLeftInAFullQueueOfWhichOneEntryIsHeld) {
+    verifies("SWR-MOD-009", Technique::kBoundaryValues, Polarity::kViolation);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kReadback> sut;
+    sut.publish(1, Instant{10});
+    sut.in.open(Instant{10});
+    ASSERT_TRUE(sut.in.has_waiting()) << "and is held from here on, so two more have room";
+    sut.publish(2, Instant{20});
+    sut.publish(3, Instant{30});
+
+    sut.in.restart(Instant{30}, 0U);
+
+    EXPECT_EQ(sut.read_all(Instant{40}), Values{}) << "the last one was published at the restart itself";
+    EXPECT_FALSE(sut.in.is_new());
+    sut.publish(4, Instant{50});
+    EXPECT_EQ(sut.read_all(Instant{50}, 1U), Values{4});
+}
+
+TEST(QueueInPortTest, NothingIsReadFromARestartToTheNextOpening) {
+    verifies("SWR-MOD-009", Technique::kStateTransition, Polarity::kViolation);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kReadback> sut;
+    sut.publish(1, Instant{10});
+    sut.publish(2, Instant{10});
+    ASSERT_EQ(sut.read_all(Instant{10}, 1U), Values{1});
+    std::int64_t value = 0;
+
+    sut.in.restart(Instant{20}, 0U);
+
+    EXPECT_FALSE(sut.in.has_waiting());
+    EXPECT_EQ(sut.in.read(value), Status::kPreconditionNotMet) << "neither what waits nor what was read last";
+}
+
+TEST(QueueInPortTest, AValueThatIsHandedOnAtTheInstantOfARestartIsOfTheNewMode) {
+    verifies("SWR-MOD-009", Technique::kBoundaryValues);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
+    sut.in.restart(Instant{20}, 0U);
+    sut.in.open(Instant{20});
+    sut.out.write(1);
+    sut.in.push(sut.out.get_staged_sample(Instant{20}));
+
+    EXPECT_TRUE(sut.in.has_waiting());
+    EXPECT_EQ(sut.read_all(Instant{30}), Values{1}) << "not read at once, and still there";
+}
+
 TEST(QueueInPortTest, AFullQueueRefusesTheNewestOrGivesUpTheOldestAndCounts) {
     verifies("SWR-KRN-029", Technique::kBoundaryValues, Polarity::kViolation);
     Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> refusing;

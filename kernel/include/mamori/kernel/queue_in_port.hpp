@@ -52,9 +52,7 @@ class QueueInPort final : public InPortBase {
     }
 
     /// True when read() would give a value that was not read before.
-    bool has_waiting() noexcept {
-        return buffer_.peek() == Status::kOk && buffer_.get_front().published_at <= opening_;
-    }
+    bool has_waiting() noexcept { return buffer_.peek() == Status::kOk && is_front_due(); }
 
     /// Most values that ever waited, 0 .. kCapacity.
     std::uint32_t get_high_water_mark() const noexcept { return buffer_.get_high_water_mark(); }
@@ -86,9 +84,13 @@ class QueueInPort final : public InPortBase {
     }
 
     /// For connections, at the opening of the owner's window: what is published later waits for a later one.
+    /// What was published up to the last restart() is of another mode and goes. A value that is handed on in
+    /// the new mode at that very instant stays: it comes after the first opening since.
     void open(Instant opening) noexcept {
+        const bool is_first = !is_open();
         opening_ = opening;
-        for (std::size_t i = 0U; i < kCapacity && is_front_too_old(); ++i) {
+        // Besides the kCapacity entries that wait, one may be held.
+        for (std::size_t i = 0U; i <= kCapacity && is_front_of_another_mode(is_first); ++i) {
             buffer_.drop();
         }
         is_new_ = has_waiting();
@@ -100,8 +102,15 @@ class QueueInPort final : public InPortBase {
         Instant published_at{};
     };
 
-    bool is_front_too_old() noexcept {
-        return buffer_.peek() == Status::kOk && buffer_.get_front().published_at < restarted_at_;
+    /// False from a restart() to the next opening.
+    bool is_open() const noexcept { return opening_ >= restarted_at_; }
+    bool is_front_due() const noexcept { return is_open() && buffer_.get_front().published_at <= opening_; }
+    bool is_front_of_another_mode(bool is_first_opening) noexcept {
+        if (buffer_.peek() != Status::kOk) {
+            return false;
+        }
+        const Instant published_at = buffer_.get_front().published_at;
+        return published_at < restarted_at_ || (is_first_opening && published_at == restarted_at_);
     }
     bool is_readable_again() const noexcept { return kEmpty == EmptyPolicy::kReadback && has_value_; }
 
@@ -110,7 +119,7 @@ class QueueInPort final : public InPortBase {
         if (status == Status::kOutOfResources) {
             return status;
         }
-        if (status != Status::kOk || buffer_.get_front().published_at > opening_) {
+        if (status != Status::kOk || !is_front_due()) {
             ++empty_read_count_;
             return Status::kPreconditionNotMet;
         }
