@@ -173,6 +173,18 @@ TEST_F(DataPortTest, AnInputHasNoValueUntilOneArrives) {
     EXPECT_STREQ(in_.get_name(), "in");
 }
 
+TEST_F(DataPortTest, AnInputThatKeepsTheLatestValueCountsNothing) {
+    verifies("SWR-KRN-016", Technique::kInterface);
+
+    const QueueCounts counts = count_no_queue(in_);
+
+    EXPECT_EQ(counts.capacity, 0U);
+    EXPECT_EQ(counts.high_water_mark, 0U);
+    EXPECT_EQ(counts.rejected, 0U);
+    EXPECT_EQ(counts.overwritten, 0U);
+    EXPECT_EQ(counts.empty_reads, 0U);
+}
+
 TEST_F(DataPortTest, ALatchedValueIsNewOnceAndGrowsOld) {
     verifies("SWR-KRN-016");
     out_.write(5);
