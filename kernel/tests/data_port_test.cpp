@@ -301,6 +301,31 @@ TEST_F(DataPortTest, ACrossingThatNothingWentThroughBringsNoValue) {
     EXPECT_TRUE(in_.has_value());
 }
 
+TEST_F(DataPortTest, ACrossingBringsNothingThatWasPublishedUpToARestart) {
+    verifies("SWR-MOD-009", Technique::kBoundaryValues, Polarity::kViolation);
+    Crossing<std::int32_t> crossing;
+    in_.restart(Instant{100}, 0U);
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    crossing.deliver(out_);
+
+    crossing.latch(in_, Instant{200});
+    EXPECT_FALSE(in_.has_value()) << "at the very instant: the window before the switch closed then";
+    out_.write(6);
+    ASSERT_TRUE(out_.publish(Instant{101}));
+    crossing.deliver(out_);
+    crossing.latch(in_, Instant{200});
+    EXPECT_TRUE(in_.has_value());
+}
+
+TEST(ConnectionOperationsTest, ARowThatConnectDidNotMakePromisesNothing) {
+    verifies("SWR-KRN-026", Technique::kInterface, Polarity::kViolation);
+    constexpr ConnectionOperations kNone;
+
+    static_assert(!kNone.is_set && !kNone.may_leave_core && !kNone.is_latest);
+    EXPECT_TRUE(kNone.deliver == nullptr && kNone.latch == nullptr && kNone.hand_on == nullptr);
+}
+
 TEST(PortAlignmentTest, PayloadsFromOneKibibyteOnBeginWithACacheLineAndSmallerOnesTakeNoPadding) {
     verifies("SWR-KRN-015", Technique::kBoundaryValues);
     using Large = std::array<double, 128>;
