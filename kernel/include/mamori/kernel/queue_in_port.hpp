@@ -89,8 +89,8 @@ class QueueInPort final : public InPortBase {
     void open(Instant opening) noexcept {
         const bool is_first = !is_open();
         opening_ = opening;
-        // Besides the kCapacity entries that wait, one may be held.
-        for (std::size_t i = 0U; i <= kCapacity && is_front_of_another_mode(is_first); ++i) {
+        constexpr std::size_t kEntriesMax = kCapacity + 1U;  // besides those that wait, one may be held
+        for (std::size_t i = 0U; i < kEntriesMax && is_front_of_another_mode(is_first); ++i) {
             buffer_.drop();
         }
         is_new_ = has_waiting();
