@@ -14,30 +14,6 @@
 
 namespace mamori::detail {
 
-template <typename... Lists>
-struct Concat;
-template <>
-struct Concat<> {
-    using Type = TypeList<>;
-};
-template <typename... Ts>
-struct Concat<TypeList<Ts...>> {
-    using Type = TypeList<Ts...>;
-};
-template <typename... Ts, typename... Us, typename... Rest>
-struct Concat<TypeList<Ts...>, TypeList<Us...>, Rest...> {
-    using Type = typename Concat<TypeList<Ts..., Us...>, Rest...>::Type;
-};
-
-/// Eight at a time, so that a window of a thousand components stays within the compiler's template depth.
-template <typename... As, typename... Bs, typename... Cs, typename... Ds, typename... Es, typename... Fs,
-          typename... Gs, typename... Hs, typename... Rest>
-struct Concat<TypeList<As...>, TypeList<Bs...>, TypeList<Cs...>, TypeList<Ds...>, TypeList<Es...>,
-              TypeList<Fs...>, TypeList<Gs...>, TypeList<Hs...>, Rest...> {
-    using Type =
-        typename Concat<TypeList<As..., Bs..., Cs..., Ds..., Es..., Fs..., Gs..., Hs...>, Rest...>::Type;
-};
-
 /// A part that brings nothing; each kind of part derives from it and says what it does bring.
 struct NoTypes {
     using Components = TypeList<>;

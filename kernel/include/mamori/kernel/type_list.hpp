@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A list of types, for what the compiler alone computes: fields of a payload, components of a table.
+/// A list of types, for what the compiler alone computes: fields of a payload, components of a table; how
+/// lists are joined and a type is picked out of one.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_TYPE_LIST_HPP
 #define MAMORI_KERNEL_TYPE_LIST_HPP
 
 #include <cstddef>
+#include <utility>
 
 namespace mamori::detail {
 
@@ -14,6 +16,47 @@ template <typename... Ts>
 struct TypeList {
     static constexpr std::size_t kSize = sizeof...(Ts);
 };
+
+/// `Concat<Lists...>::Type`: the types of all lists, in their order.
+template <typename... Lists>
+struct Concat;
+template <>
+struct Concat<> {
+    using Type = TypeList<>;
+};
+template <typename... Ts>
+struct Concat<TypeList<Ts...>> {
+    using Type = TypeList<Ts...>;
+};
+template <typename... Ts, typename... Us, typename... Rest>
+struct Concat<TypeList<Ts...>, TypeList<Us...>, Rest...> {
+    using Type = typename Concat<TypeList<Ts..., Us...>, Rest...>::Type;
+};
+
+/// Eight at a time, so that a window of a thousand components stays within the compiler's template depth.
+template <typename... As, typename... Bs, typename... Cs, typename... Ds, typename... Es, typename... Fs,
+          typename... Gs, typename... Hs, typename... Rest>
+struct Concat<TypeList<As...>, TypeList<Bs...>, TypeList<Cs...>, TypeList<Ds...>, TypeList<Es...>,
+              TypeList<Fs...>, TypeList<Gs...>, TypeList<Hs...>, Rest...> {
+    using Type =
+        typename Concat<TypeList<As..., Bs..., Cs..., Ds..., Es..., Fs..., Gs..., Hs...>, Rest...>::Type;
+};
+
+template <std::size_t kIndex, typename T>
+struct Indexed {
+    using Type = T;
+};
+template <typename Sequence, typename List>
+struct IndexedList;
+template <std::size_t... kIndices, typename... Ts>
+struct IndexedList<std::index_sequence<kIndices...>, TypeList<Ts...>> : Indexed<kIndices, Ts>... {};
+
+template <std::size_t kIndex, typename T>
+Indexed<kIndex, T> pick(const Indexed<kIndex, T>*) noexcept;
+/// Type number `kIndex` of a list.
+template <typename List, std::size_t kIndex>
+using At = typename decltype(pick<kIndex>(
+    static_cast<const IndexedList<std::make_index_sequence<List::kSize>, List>*>(nullptr)))::Type;
 
 }  // namespace mamori::detail
 
