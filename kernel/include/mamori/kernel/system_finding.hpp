@@ -7,9 +7,6 @@
 #define MAMORI_KERNEL_SYSTEM_FINDING_HPP
 
 #include <cstddef>
-#include <cstdint>
-
-#include "mamori/kernel/span.hpp"
 
 namespace mamori {
 
@@ -66,27 +63,6 @@ struct Finding {
 
 /// Spelling of a rule for tools; never nullptr.
 const char* get_name(Rule rule) noexcept;
-
-namespace detail {
-
-/// Keeps as many findings as it has room for and counts them all.
-class FindingList final {
-  public:
-    constexpr explicit FindingList(Span<Finding> storage) noexcept : storage_(storage) {}
-    constexpr void add(Rule rule, std::size_t element, std::size_t other = 0U) noexcept {
-        if (count_ < storage_.size()) {
-            storage_[count_] = {rule, element, other};
-        }
-        ++count_;
-    }
-    constexpr std::size_t get_count() const noexcept { return count_; }
-
-  private:
-    Span<Finding> storage_;
-    std::size_t count_{0U};
-};
-
-}  // namespace detail
 
 }  // namespace mamori
 

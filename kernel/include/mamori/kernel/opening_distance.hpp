@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// How far the openings of two windows are apart at least, whatever their periods are. Not for users.
+///
+/// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_OPENING_DISTANCE_HPP
+#define MAMORI_KERNEL_OPENING_DISTANCE_HPP
+
+#include <cstdint>
+
+#include "mamori/kernel/system_table.hpp"
+#include "mamori/kernel/time.hpp"
+
+namespace mamori::detail {
+
+constexpr std::int64_t calc_gcd(std::int64_t a, std::int64_t b) noexcept {
+    while (b != 0) {  // at most 92 steps: the numbers fall at least as fast as Fibonacci's
+        const std::int64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/// Smallest time from an opening of `from` to an opening of `to` that is not before it. Two strictly periodic
+/// openings meet at every distance that is equal to their first one modulo the greatest common divisor of
+/// their periods.
+constexpr Duration calc_distance(const WindowRow& from, const WindowRow& to) noexcept {
+    const std::int64_t divisor = calc_gcd(from.period.ns, to.period.ns);
+    const std::int64_t rest = (to.offset.ns - from.offset.ns) % divisor;
+    return {rest < 0 ? rest + divisor : rest};
+}
+
+}  // namespace mamori::detail
+
+#endif  // MAMORI_KERNEL_OPENING_DISTANCE_HPP
