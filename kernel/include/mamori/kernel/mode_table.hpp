@@ -13,19 +13,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/mode_mask.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/table_index.hpp"
 
 namespace mamori {
 
 class Component;
-
-/// Set of modes: bit m stands for mode m.
-using ModeMask = std::uint32_t;
-/// Modes that one system can have.
-inline constexpr std::size_t kSystemModeMax = 32U;
-/// Of a component or connection of a system without modes.
-inline constexpr ModeMask kEveryMode = ~ModeMask{0U};
 
 /// One mode. The first of a table is the one that a system starts in.
 struct SystemModeRow {
@@ -74,11 +68,6 @@ struct ModeView {
 template <std::size_t kM, std::size_t kC, std::size_t kT, std::size_t kN>
 constexpr ModeView make_view(const ModeTable<kM, kC, kT, kN>& table) noexcept {
     return {table.modes, table.members, table.transitions, table.connection_modes};
-}
-
-/// The mask of one mode. @param[in] mode < kSystemModeMax.
-constexpr ModeMask to_mask(std::size_t mode) noexcept {
-    return ModeMask{1U} << mode;
 }
 
 /// Mode in which a failed switch ends; kNoIndex when the table declares none.

@@ -8,8 +8,8 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/system_table.hpp"
 #include "mamori/kernel/time.hpp"
+#include "mamori/kernel/window_row.hpp"
 
 namespace mamori::detail {
 

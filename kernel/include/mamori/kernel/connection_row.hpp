@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Rows of a system table that say what flows where: ports and their connections.
+///
+/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_CONNECTION_ROW_HPP
+#define MAMORI_KERNEL_CONNECTION_ROW_HPP
+
+#include <cstddef>
+
+#include "mamori/kernel/component.hpp"
+#include "mamori/kernel/connection.hpp"
+#include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/mode_mask.hpp"
+#include "mamori/kernel/table_index.hpp"
+#include "mamori/kernel/time.hpp"
+
+namespace mamori {
+
+/// Either `input` or `output` is set.
+struct PortRow {
+    Component* owner{nullptr};
+    InPortBase* input{nullptr};
+    OutPortBase* output{nullptr};
+    bool is_mandatory{false};
+    std::size_t window{kNoIndex};
+    std::size_t component{kNoIndex};  ///< its owner's place in the table
+    /// What an input that queues has counted.
+    QueueCounts (*count_queue)(const InPortBase&) noexcept {&count_no_queue};
+};
+
+struct ConnectionRow {
+    OutPortBase* source{nullptr};
+    InPortBase* sink{nullptr};
+    CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
+    ConnectionOperations operations{};
+    Duration age_max{kNoAgeLimit};
+    std::size_t source_window{kNoIndex};
+    std::size_t sink_window{kNoIndex};
+    std::size_t source_component{kNoIndex};
+    std::size_t sink_component{kNoIndex};
+    /// Source and sink run in one window, the source first: the value is handed on within the window.
+    bool is_forward_in_window{false};
+    ModeMask modes{kEveryMode};  ///< in which it holds and both of its components run
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_CONNECTION_ROW_HPP

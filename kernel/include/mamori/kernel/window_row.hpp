@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Rows of a system table that say when something runs: windows and their components.
+///
+/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_WINDOW_ROW_HPP
+#define MAMORI_KERNEL_WINDOW_ROW_HPP
+
+#include <array>
+#include <cstddef>
+
+#include "mamori/kernel/context_plan.hpp"
+#include "mamori/kernel/mode_mask.hpp"
+#include "mamori/kernel/table_index.hpp"
+#include "mamori/kernel/time.hpp"
+
+namespace mamori {
+
+/// Rates beside the first that one window can declare.
+inline constexpr std::size_t kAlternativeRateMax = 4U;
+
+/// One window: opens at `offset`, `offset + period`, ... of each frame; its components form one execution
+/// context.
+struct WindowRow {
+    const char* name{nullptr};
+    Duration offset{};    ///< first opening, from the start of the frame
+    Duration length{};    ///< from opening to close
+    Duration period{};    ///< between two openings; divides the frame
+    Duration budget{};    ///< from the opening of the window; never beyond its close
+    double rate_hz{0.0};  ///< declared cycles per second; 0: not declared
+    std::array<Duration, kAlternativeRateMax> alternative_periods{};
+    std::size_t alternative_count{0U};
+    std::size_t core{0U};
+    const char* partition{""};  ///< name; equal names are one partition
+    std::size_t first_component{0U};
+    std::size_t component_count{0U};
+    std::size_t first_port{0U};  ///< of all its components, one after the other
+    std::size_t port_count{0U};
+    std::size_t first_latch{0U};  ///< connections into this window, places of `latch_order`
+    std::size_t latch_count{0U};
+    std::size_t first_parameter{0U};  ///< parameters of its components, rows of the configuration
+    std::size_t parameter_count{0U};
+    ExecutionKind kind{ExecutionKind::kPeriodic};
+    ExternalTrigger* trigger{nullptr};  ///< whose ticks release the cycles of kind kOther
+    std::size_t events_per_cycle{1U};   ///< bound of kind kEventDriven
+    bool has_second_pass{true};         ///< a component of it overrides on_state_update
+    bool has_hand_on{false};            ///< a connection of it is forward in the window
+};
+
+/// What the table knows of one component.
+struct ComponentRow {
+    std::size_t window{kNoIndex};
+    Duration worst_case{};  ///< declared execution time of both passes; 0: not declared
+    std::size_t first_port{0U};
+    std::size_t port_count{0U};
+    std::size_t first_outgoing{0U};  ///< connections from its outputs, places of `outgoing_order`
+    std::size_t outgoing_count{0U};
+    ModeMask modes{kEveryMode};  ///< in which it is Active
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_WINDOW_ROW_HPP
