@@ -2,14 +2,13 @@
 /// @file
 /// The words that describe the modes of a system, as parts of mamori::system(...):
 ///
-///     mamori::system_mode("idle", mamori::runs(encoder, drive)),                  // the first one listed
+///     mamori::system_mode("idle", mamori::runs(encoder, drive)),             // the first one
 ///     mamori::system_mode("work", mamori::runs(encoder, drive, planner), mamori::parameters("fast")),
 ///     mamori::system_mode("teach", mamori::runs(encoder, drive, hand), mamori::parameters("slow")),
 ///     mamori::safe_mode("halt", mamori::runs(encoder)),
 ///     mamori::mode_transition("idle", Command::kTeach, "teach"), ...
 ///     mamori::connect(planner.setpoint, drive.setpoint, mamori::only_in("work")),
-///     mamori::connect(hand.setpoint, drive.setpoint),                             // hand runs in "teach"
-///     only
+///     mamori::connect(hand.setpoint, drive.setpoint),                        // hand runs in "teach" only
 ///
 /// @satisfies SWR-MOD-001      Design: docs/design/modes.md#the-table
 #ifndef MAMORI_KERNEL_MODE_PART_HPP
@@ -79,18 +78,6 @@ template <typename Event>
 constexpr ModeTransitionPart mode_transition(const char* source, Event event, const char* target) noexcept {
     static_assert(std::is_enum_v<Event>, "the event of a transition is an enumerator");
     return {{source, target, static_cast<std::uint32_t>(event), kNoIndex, kNoIndex}};
-}
-
-template <std::size_t kCount>
-struct OnlyIn {
-    std::array<const char*, kCount> modes{};
-};
-/// Option of connect(): the connection holds in these modes only. Without it a connection holds wherever both
-/// of its components run. @param[in] modes names of modes, static storage.
-template <typename... Names>
-constexpr OnlyIn<sizeof...(Names)> only_in(Names... modes) noexcept {
-    static_assert(sizeof...(Names) > 0U, "a connection holds in at least one mode");
-    return {{modes...}};
 }
 
 }  // namespace mamori

@@ -22,16 +22,21 @@
 #ifndef MAMORI_KERNEL_SYSTEM_HPP
 #define MAMORI_KERNEL_SYSTEM_HPP
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "mamori/kernel/configuration_set.hpp"
+#include "mamori/kernel/connection_builder.hpp"
+#include "mamori/kernel/connection_part.hpp"
+#include "mamori/kernel/context_plan.hpp"
 #include "mamori/kernel/mode_builder.hpp"
 #include "mamori/kernel/mode_part.hpp"
+#include "mamori/kernel/part_types.hpp"
+#include "mamori/kernel/reaction_part.hpp"
 #include "mamori/kernel/system_builder.hpp"
 #include "mamori/kernel/system_rules.hpp"
+#include "mamori/kernel/system_table.hpp"
+#include "mamori/kernel/time.hpp"
 #include "mamori/kernel/window_part.hpp"
 
 namespace mamori {
@@ -43,121 +48,6 @@ struct Frame {
 /// @param[in] length > 0.
 constexpr Frame frame(Duration length) noexcept {
     return {length};
-}
-
-struct FreshWithin {
-    Duration age_max;
-};
-/// Age at which the value of an input is stale: its status becomes kBufferTimeout. @param[in] age_max > 0.
-constexpr FreshWithin fresh_within(Duration age_max) noexcept {
-    return {age_max};
-}
-
-template <typename T>
-struct Through {
-    Crossing<T>& crossing;
-};
-/// Storage of a connection that leaves its core or partition; static, used by one connection.
-template <typename T>
-constexpr Through<T> through(Crossing<T>& crossing) noexcept {
-    return {crossing};
-}
-
-/// @tparam kModeCount modes that its only_in() names.
-template <std::size_t kModeCount>
-struct ConnectionPart {
-    struct Types : detail::NoTypes {
-        static constexpr std::size_t kConnections = 1U;
-        static constexpr std::size_t kConnectionModes = kModeCount;
-    };
-    ConnectionRow row{};
-    std::array<const char*, kModeCount> modes{};
-};
-
-namespace detail {
-
-template <typename Option>
-inline constexpr std::size_t kModesNamedBy = 0U;
-template <std::size_t kCount>
-inline constexpr std::size_t kModesNamedBy<OnlyIn<kCount>> = kCount;
-
-template <typename T, typename Sink, typename Part>
-constexpr void apply(Part& part, FreshWithin option) noexcept {
-    part.row.age_max = option.age_max;
-}
-template <typename T, typename Sink, typename Part, std::size_t kCount>
-constexpr void apply(Part& part, const OnlyIn<kCount>& option) noexcept {
-    part.modes = option.modes;
-}
-template <typename T, typename Sink, typename Part, typename U>
-constexpr void apply(Part& part, Through<U> option) noexcept {
-    static_assert(std::is_same_v<T, U>, "the Crossing of a connection carries its payload type");
-    static_assert(!Sink::kIsQueue, "a queue is its own buffer; connect it without through(...)");
-    part.row.crossing = &option.crossing;
-    part.row.operations = CrossingConnection<T, Sink>::kOperations;
-}
-
-}  // namespace detail
-
-/// Feeds `sink` from `source`; their payload types must be the same.
-/// @param[in] sink    InPort or QueueInPort. @param[in] options fresh_within(...), through(...),
-/// only_in(...).
-template <typename T, typename Sink, typename... Options>
-constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(OutPort<T>& source, Sink& sink,
-                                                                              Options... options) noexcept {
-    static_assert(std::is_base_of_v<InPortBase, Sink>, "connect() joins an output to an input");
-    static_assert(std::is_same_v<T, typename Sink::Payload>, "connect() joins ports of one payload type");
-    ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> part{};
-    part.row.source = &source;
-    part.row.sink = &sink;
-    if constexpr (std::is_same_v<T, typename Sink::Payload>) {
-        using Connection = std::conditional_t<Sink::kIsQueue, detail::QueueConnection<T, Sink>,
-                                              detail::LatestConnection<T, Sink>>;
-        part.row.operations = Connection::kOperations;
-        (detail::apply<T, Sink>(part, options), ...);
-    }
-    return part;
-}
-
-/// A fault as a compiler message shows it.
-template <auto kFault>
-struct FaultName {
-    static constexpr auto kValue = kFault;
-};
-template <auto... kFaults>
-struct FaultsPart {
-    struct Types : detail::NoTypes {
-        using Faults = detail::TypeList<FaultName<kFaults>...>;
-    };
-};
-/// Declares faults, each an enumerator of the application: the table is refused until each has one reaction.
-template <auto... kFaults>
-constexpr FaultsPart<kFaults...> faults() noexcept {
-    static_assert((std::is_enum_v<decltype(kFaults)> && ...),
-                  "faults are the enumerators of one enumeration");
-    return {};
-}
-
-struct Within {
-    Duration limit;
-};
-/// Time from the confirmed fault to the start of its reaction. @param[in] limit > 0.
-constexpr Within within(Duration limit) noexcept {
-    return {limit};
-}
-
-struct ReactionPart {
-    struct Types : detail::NoTypes {
-        static constexpr std::size_t kReactions = 1U;
-    };
-    ReactionRow row{};
-};
-/// What a fault leads to; both are enumerators of the application or of the safety layer.
-template <typename Fault, typename Reaction>
-constexpr ReactionPart react(Fault fault, Reaction reaction, Within time) noexcept {
-    static_assert(std::is_enum_v<Fault> && std::is_enum_v<Reaction>,
-                  "a fault and a reaction are enumerators");
-    return {{static_cast<std::uint32_t>(fault), static_cast<std::uint32_t>(reaction), time.limit}};
 }
 
 struct AbortPolicyPart {

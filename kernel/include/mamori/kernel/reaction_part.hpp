@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The words faults(...) and react(...): which faults a system declares, and what each leads to.
+///
+/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_REACTION_PART_HPP
+#define MAMORI_KERNEL_REACTION_PART_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "mamori/kernel/part_types.hpp"
+#include "mamori/kernel/system_table.hpp"
+#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/type_list.hpp"
+
+namespace mamori {
+
+/// A fault as a compiler message shows it.
+template <auto kFault>
+struct FaultName {
+    static constexpr auto kValue = kFault;
+};
+template <auto... kFaults>
+struct FaultsPart {
+    struct Types : detail::NoTypes {
+        using Faults = detail::TypeList<FaultName<kFaults>...>;
+    };
+};
+/// Declares faults, each an enumerator of the application: the table is refused until each has one reaction.
+template <auto... kFaults>
+constexpr FaultsPart<kFaults...> faults() noexcept {
+    static_assert((std::is_enum_v<decltype(kFaults)> && ...),
+                  "faults are the enumerators of one enumeration");
+    return {};
+}
+
+struct Within {
+    Duration limit;
+};
+/// Time from the confirmed fault to the start of its reaction. @param[in] limit > 0.
+constexpr Within within(Duration limit) noexcept {
+    return {limit};
+}
+
+struct ReactionPart {
+    struct Types : detail::NoTypes {
+        static constexpr std::size_t kReactions = 1U;
+    };
+    ReactionRow row{};
+};
+/// What a fault leads to; both are enumerators of the application or of the safety layer.
+template <typename Fault, typename Reaction>
+constexpr ReactionPart react(Fault fault, Reaction reaction, Within time) noexcept {
+    static_assert(std::is_enum_v<Fault> && std::is_enum_v<Reaction>,
+                  "a fault and a reaction are enumerators");
+    return {{static_cast<std::uint32_t>(fault), static_cast<std::uint32_t>(reaction), time.limit}};
+}
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_REACTION_PART_HPP
