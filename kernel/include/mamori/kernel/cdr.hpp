@@ -11,8 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/cdr_codec.hpp"
+#include "mamori/kernel/cdr_reader.hpp"
 #include "mamori/kernel/cdr_size.hpp"
+#include "mamori/kernel/cdr_writer.hpp"
 #include "mamori/kernel/fields.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
@@ -22,25 +23,6 @@ namespace mamori {
 /// Order of the bytes of a number. It is a property of the connection (`serializer.cdr.endian`), not of the
 /// payload.
 enum class ByteOrder : std::uint8_t { kLittle, kBig };
-
-namespace detail {
-
-template <bool kIsBig, typename T>
-constexpr std::size_t write_cdr(const T& value, Span<std::byte> buffer) noexcept {
-    CdrWriter<kIsBig> writer(buffer);
-    static_cast<void>(walk(value, writer));
-    return writer.get_position();
-}
-
-/// Looks first and stores afterwards, so that a refusal leaves `value` as it was without a copy of it.
-template <bool kIsBig, typename T>
-constexpr bool read_cdr(Span<const std::byte> buffer, T& value) noexcept {
-    CdrReader<kIsBig, false> look(buffer);
-    CdrReader<kIsBig, true> take(buffer);
-    return walk(value, look) && look.get_position() == buffer.size() && walk(value, take);
-}
-
-}  // namespace detail
 
 /// Size of the encoding of `value` [bytes], at most max_encoded_size<T>(). O(number of strings, enumerations
 /// and structs in sequences and arrays).

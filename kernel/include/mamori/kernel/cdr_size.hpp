@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How a type lies in CDR: size and alignment of each scalar, and the largest size of a whole payload,
-/// computed from its type alone.
+/// The size of the longest encoding of a payload, computed from its type alone.
 ///
 /// @satisfies SWR-CDR-014, SWR-CDR-015      Design: docs/design/payloads.md#largest-size
 /// Source:   OMG CORBA 3.0, 15.3 (CDR transfer syntax): alignments of primitive types
@@ -11,41 +10,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
+#include "mamori/kernel/cdr_scalar.hpp"
 #include "mamori/kernel/fields.hpp"
+#include "mamori/kernel/type_list.hpp"
 
 namespace mamori {
 
-/// How many enumerators an enumeration has; they count from 0, as in IDL. Specialised by
-/// MAMORI_LAST_ENUMERATOR; an enumeration without it has no encoding, since nothing could tell a wrong value.
-template <typename E>
-struct Enumerators {
-    static constexpr std::uint32_t kCount = 0U;
-};
-
 namespace detail {
-
-/// Number of bytes of T on the wire, which is its alignment too.
-template <typename T>
-constexpr std::size_t calc_wire_size() noexcept {
-    static_assert(!std::is_same_v<T, wchar_t> && !std::is_same_v<T, char16_t> && !std::is_same_v<T, char32_t>,
-                  "wide characters have no encoding: their form depends on the peers' character sets");
-    if constexpr (std::is_enum_v<T>) {
-        static_assert(Enumerators<T>::kCount > 0U, "MAMORI_LAST_ENUMERATOR(Type, last) is missing");
-        static_assert(sizeof(T) <= sizeof(std::uint32_t), "an IDL enumeration has 32 bits");
-        return sizeof(std::uint32_t);
-    } else if constexpr (std::is_same_v<T, bool>) {
-        return 1U;
-    } else {
-        static_assert(sizeof(T) <= sizeof(std::uint64_t), "numbers have at most 64 bits");
-        return sizeof(T);
-    }
-}
-
-constexpr std::size_t align_up(std::size_t position, std::size_t alignment) noexcept {
-    return (position + alignment - 1U) / alignment * alignment;
-}
 
 /// For each remainder of a position by 8, how many bytes lead from there to the end of something, padding
 /// included. Since no alignment exceeds 8, the remainder is all that the size can depend on.
@@ -115,12 +87,5 @@ constexpr std::size_t max_encoded_size() noexcept {
 }
 
 }  // namespace mamori
-
-/// Declares, at global scope, that the enumerators of `Type` are 0 .. `Type::last` without a gap.
-#define MAMORI_LAST_ENUMERATOR(Type, last)                                                   \
-    template <>                                                                              \
-    struct mamori::Enumerators<Type> {                                                       \
-        static constexpr std::uint32_t kCount = static_cast<std::uint32_t>(Type::last) + 1U; \
-    };
 
 #endif  // MAMORI_KERNEL_CDR_SIZE_HPP
