@@ -14,6 +14,8 @@
 #include <limits>
 
 #include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/configuration_check.hpp"
+#include "mamori/kernel/configuration_finding.hpp"
 #include "mamori/kernel/configuration_table.hpp"
 #include "mamori/kernel/parameter.hpp"
 #include "mamori/kernel/status.hpp"

@@ -18,6 +18,7 @@
 #include <array>
 #include <cstddef>
 
+#include "mamori/kernel/configuration_check.hpp"
 #include "mamori/kernel/configuration_table.hpp"
 #include "mamori/kernel/parameter.hpp"
 #include "mamori/kernel/parameter_list.hpp"

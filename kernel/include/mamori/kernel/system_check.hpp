@@ -10,7 +10,8 @@
 #include <array>
 #include <cstddef>
 
-#include "mamori/kernel/configuration_table.hpp"
+#include "mamori/kernel/configuration_check.hpp"
+#include "mamori/kernel/configuration_finding.hpp"
 #include "mamori/kernel/connection_check.hpp"
 #include "mamori/kernel/finding_list.hpp"
 #include "mamori/kernel/input_check.hpp"

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 
+#include "mamori/kernel/configuration_check.hpp"
 #include "mamori/kernel/configuration_table.hpp"
 #include "mamori/kernel/connection_rules.hpp"
 #include "mamori/kernel/mode_refusal.hpp"
