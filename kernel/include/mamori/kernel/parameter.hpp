@@ -10,18 +10,20 @@
 #ifndef MAMORI_KERNEL_PARAMETER_HPP
 #define MAMORI_KERNEL_PARAMETER_HPP
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 
 #include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/constraint.hpp"
 #include "mamori/kernel/constraint_parser.hpp"
 #include "mamori/kernel/constraint_refusal.hpp"
 #include "mamori/kernel/parameter_base.hpp"
+#include "mamori/kernel/parameter_elements.hpp"
 #include "mamori/kernel/scalar.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
+#include "mamori/kernel/text_cursor.hpp"
 
 namespace mamori {
 namespace detail {
@@ -31,24 +33,6 @@ namespace detail {
 constexpr void require_default_within_constraint(bool is_admitted) noexcept {
     MAMORI_REQUIRE(1, is_admitted);
 }
-
-/// Element access that is the same for a scalar and for an array.
-template <typename T>
-struct Elements {
-    using Element = T;
-    static constexpr std::size_t kCount = 1U;
-    static constexpr T get(const T& value, std::size_t) noexcept { return value; }
-    static constexpr void set(T& value, std::size_t, T element) noexcept { value = element; }
-};
-template <typename S, std::size_t N>
-struct Elements<std::array<S, N>> {
-    using Element = S;
-    static constexpr std::size_t kCount = N;
-    static constexpr const S& get(const std::array<S, N>& value, std::size_t i) noexcept { return value[i]; }
-    static constexpr void set(std::array<S, N>& value, std::size_t i, S element) noexcept {
-        value[i] = element;
-    }
-};
 
 /// Who may touch the requested value. Taken with one exchange, so nobody ever waits.
 enum class RequestSlot : std::uint8_t { kEmpty, kFull, kBusy };

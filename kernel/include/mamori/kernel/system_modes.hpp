@@ -16,6 +16,7 @@
 
 #include "mamori/kernel/assert.hpp"
 #include "mamori/kernel/configuration_admin.hpp"
+#include "mamori/kernel/mode_plan.hpp"
 #include "mamori/kernel/mode_step.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/system_table.hpp"
@@ -29,31 +30,6 @@ inline constexpr std::int64_t kModeRequestFrames = 2;
 /// From one step of a switch to the next: the step's frame, one in which each core reports, and one in which
 /// the next step is agreed.
 inline constexpr std::int64_t kModeStepFrames = 3;
-
-/// A step that is agreed between the cores, in one word.
-class ModePlan final {
-  public:
-    static constexpr std::size_t kIndexMax = 0xFFFU;
-
-    constexpr ModePlan() noexcept = default;
-    constexpr explicit ModePlan(std::uint32_t word) noexcept : word_(word) {}
-    /// @param[in] index mode, or set of kSet; < 4096. @param[in] frame at which all cores take it.
-    constexpr ModePlan(ModeStep step, std::size_t index, std::int64_t frame) noexcept
-        : word_(static_cast<std::uint32_t>(step) << 28U | static_cast<std::uint32_t>(index) << 16U |
-                static_cast<std::uint32_t>(static_cast<std::uint16_t>(frame))) {}
-
-    constexpr std::uint32_t get_word() const noexcept { return word_; }
-    constexpr ModeStep get_step() const noexcept { return static_cast<ModeStep>(word_ >> 28U); }
-    constexpr std::size_t get_index() const noexcept { return word_ >> 16U & 0xFFFU; }
-    /// Frames since the plan is due; negative: it is not yet. A plan is over long before this wraps.
-    constexpr std::int32_t calc_age(std::int64_t frame) const noexcept {
-        return static_cast<std::int16_t>(
-            static_cast<std::uint16_t>(frame - static_cast<std::int64_t>(word_)));
-    }
-
-  private:
-    std::uint32_t word_{0U};
-};
 
 /// One per system, shared by the executives of its cores:
 ///
