@@ -11,6 +11,7 @@ import pytest
 from mamori.verification.command.project import ROOT
 from mamori.verification.tools.check_layers import check_tree, main
 from mamori.verification.tools.layer_table import LISTED_STD
+from mamori.verification.tools.target_limits import MEASURED_HEADERS
 
 
 def seed(root: Path, name: str, text: str) -> list[str]:
@@ -33,7 +34,13 @@ def test_shipped_tree_keeps_the_table() -> None:
 
 @pytest.mark.verifies("SWR-PRF-007")
 def test_shipped_target_code_keeps_the_limits() -> None:
-    assert [finding for finding in check_tree(ROOT) if finding.rule in ("word", "size")] == []
+    assert [finding for finding in check_tree(ROOT) if finding.rule in ("word", "size") and finding.file != MEASURED_HEADERS] == []
+
+
+@pytest.mark.verifies("SWR-PRF-008")
+def test_shipped_headers_of_the_kernel_are_short() -> None:
+    assert len(list((ROOT / MEASURED_HEADERS).rglob("*.hpp"))) > 1
+    assert [finding for finding in check_tree(ROOT) if finding.file == MEASURED_HEADERS] == []
 
 
 @pytest.mark.verifies("SWR-PRF-006", technique="back_to_back")
@@ -132,6 +139,40 @@ def test_seeded_breach_of_the_limits_is_found(tmp_path: Path, text: str, message
 @pytest.mark.verifies("SWR-PRF-007", technique="boundary_values")
 def test_what_keeps_the_limits_is_no_finding(tmp_path: Path, text: str) -> None:
     assert seed(tmp_path, "safety/src/a.cpp", text) == []
+
+
+def seed_headers(root: Path, folder: str, lines: list[int]) -> list[str]:
+    """@return findings in a tree whose headers below `folder` have so many lines."""
+    for number, count in enumerate(lines):
+        path = root / folder / f"h{number}.hpp"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("\n" * count, encoding="utf-8")
+    return [str(finding) for finding in check_tree(root)]
+
+
+@pytest.mark.parametrize(
+    ("lines", "median"),
+    [([91], "91"), ([10, 91, 400], "91"), ([10, 90, 91, 400], "90.5")],
+)
+@pytest.mark.verifies("SWR-PRF-008", technique="boundary_values", polarity="violation")
+def test_long_headers_of_the_kernel_are_found(tmp_path: Path, lines: list[int], median: str) -> None:
+    findings = seed_headers(tmp_path, "kernel/include/mamori/kernel", lines)
+
+    longest = f"the longest is h{len(lines) - 1}.hpp with {lines[-1]}"
+    assert findings == [f"kernel/include:1: size: median of {len(lines)} headers is {median} lines, 90 are the limit; "
+                        f"split long ones, {longest}"]  # fmt: skip
+
+
+@pytest.mark.parametrize("lines", [[90], [10, 90, 400], [90, 90, 90, 400], [89, 91]])
+@pytest.mark.verifies("SWR-PRF-008", technique="boundary_values")
+def test_headers_of_the_kernel_at_the_limit_are_no_finding(tmp_path: Path, lines: list[int]) -> None:
+    assert seed_headers(tmp_path, "kernel/include/mamori/kernel", lines) == []
+
+
+@pytest.mark.verifies("SWR-PRF-008", technique="equivalence_classes")
+def test_only_headers_of_the_kernel_count_for_the_median(tmp_path: Path) -> None:
+    assert seed_headers(tmp_path, "safety/include/mamori/safety", [400]) == []
+    assert seed_headers(tmp_path, "kernel/tests/support", [400]) == []
 
 
 @pytest.mark.verifies("SWR-PRF-006", technique="interface")

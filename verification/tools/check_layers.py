@@ -5,7 +5,7 @@
 
 One line per finding, `file:line: rule: message`; exit status 0 without findings, 1 with, 2 for wrong arguments.
 
-@satisfies SWR-PRF-006, SWR-PRF-007      Design: docs/design/launcher.md#layer-check
+@satisfies SWR-PRF-006, SWR-PRF-007, SWR-PRF-008      Design: docs/design/launcher.md#layer-check
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mamori.verification.tools.layer_table import FORBIDDEN_IMPORTS, LISTED_STD, TEST_INCLUDES, Layer, get_layer
-from mamori.verification.tools.target_limits import check_size, check_words
+from mamori.verification.tools.target_limits import MEASURED_HEADERS, check_headers, check_size, check_words
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("kernel", "safety", "ports", "simbody_sim", "examples", "verification", "trace", "profiles")
@@ -49,6 +49,8 @@ def check_tree(root: Path) -> list[Finding]:
         for path in sorted((root / folder).rglob("*")):
             if path.is_file():
                 findings.update(_check_file(root, path))
+    headers = {path.name: path.read_text(encoding="utf-8").count("\n") for path in (root / MEASURED_HEADERS).rglob("*.hpp")}
+    findings.update(Finding(MEASURED_HEADERS, *found) for found in check_headers(headers))
     return sorted(findings)
 
 

@@ -1,19 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limits for code that runs on a controller: words that do not belong there, length of functions and files.
+"""Limits for code that runs on a controller: words that do not belong there, length of functions, files and headers.
 
-@satisfies SWR-PRF-007      Design: docs/design/launcher.md#layer-check
+@satisfies SWR-PRF-007, SWR-PRF-008      Design: docs/design/launcher.md#layer-check
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+import statistics
+from collections.abc import Iterator, Mapping
 
 import tree_sitter_cpp
 from tree_sitter import Language, Node, Parser
 
 FUNCTION_LINES_MAX = 70
 FILE_LINES_MAX = 500
+MEASURED_HEADERS = "kernel/include"  # folder whose headers are held against the median
+HEADER_LINES_MEDIAN_MAX = 90
 
 BANNED_ANYWHERE = re.compile(r"\bFIXME\b|\bTODO\b(?!\(#\d+\))")
 # Calls that wait, surprise or format; matrices whose size is known at run time only (they allocate).
@@ -49,6 +52,14 @@ def check_size(text: str) -> Iterator[tuple[int, str, str]]:
                 yield (node.start_point.row + 1, "size",
                        f"{_name_of(node)} has {length} lines, {FUNCTION_LINES_MAX} are the limit; split it")
         pending.extend(node.children)
+
+
+def check_headers(lines: Mapping[str, int]) -> Iterator[tuple[int, str, str]]:
+    """@param lines of each header of MEASURED_HEADERS. @return (line, rule, message) when they are too long in the median."""
+    if lines and (median := statistics.median(lines.values())) > HEADER_LINES_MEDIAN_MAX:
+        longest = max(lines, key=lambda name: lines[name])
+        yield (1, "size", f"median of {len(lines)} headers is {median:g} lines, {HEADER_LINES_MEDIAN_MAX} are the limit; "
+                          f"split long ones, the longest is {longest} with {lines[longest]}")
 
 
 def _name_of(function: Node) -> str:
