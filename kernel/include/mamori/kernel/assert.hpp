@@ -14,8 +14,8 @@ namespace mamori {
 
 /// Where a check failed. `id` is unique within the file and never changes its meaning.
 struct AssertionRecord {
-    const char* file;
-    std::uint32_t id;
+    const char* file;  ///< static storage
+    std::uint32_t id;  ///< 1, 2, ...
     std::uint32_t line;
 };
 

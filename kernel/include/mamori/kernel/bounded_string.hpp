@@ -55,6 +55,7 @@ class BoundedString final {
         return text_[index];
     }
 
+    /// Makes the text empty.
     constexpr void clear() noexcept {
         size_ = 0U;
         text_[0] = '\0';

@@ -40,8 +40,7 @@ constexpr Result<std::size_t> calc_encoded_size(const T& value) noexcept {
 /// Bytes behind the encoding are not touched. Thread safe on separate objects, O(encoded size), no memory.
 /// @param[out] buffer max_encoded_size<T>() bytes are always enough.
 /// @return bytes written; kOutOfResources (buffer too small) and kBadParameter (an enumeration holds none of
-/// its
-///     enumerators), both with the buffer unchanged.
+///     its enumerators), both with the buffer unchanged.
 template <typename T>
 constexpr Result<std::size_t> encode(const T& value, Span<std::byte> buffer, ByteOrder order) noexcept {
     const Result<std::size_t> size = calc_encoded_size(value);

@@ -20,7 +20,7 @@ enum class ConfigurationRule : std::uint8_t {
     kValueOutsideConstraint,  ///< the parameter may not have this value
 };
 
-/// A broken rule and where: `assignment` counts within the set.
+/// A broken rule and where: `set` is a row of the table, `assignment` counts within the set.
 struct ConfigurationFinding {
     ConfigurationRule rule{ConfigurationRule::kNone};
     std::size_t set{0U};

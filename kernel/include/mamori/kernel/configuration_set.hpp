@@ -40,7 +40,7 @@ struct ConfigurationSet {
     std::array<Scalar, kValues> values{};
 };
 
-/// Gives `parameter` the value `value` while its set is active.
+/// Gives `parameter` the value `value` while its set is active. @param[in] parameter must outlive the table.
 template <typename T, std::size_t kRanges>
 constexpr auto assign(Parameter<T, kRanges>& parameter,
                       const typename Parameter<T, kRanges>::Value& value) noexcept {
@@ -77,6 +77,7 @@ constexpr auto configuration_set(const char* name, const Assignment<kElements>&.
 template <std::size_t kParameters, std::size_t kSets, std::size_t kAssignments, std::size_t kValues>
 class ConfigurationBuilder final {
   public:
+    /// Appends parameters, at most kParameters in all.
     template <std::size_t kCount>
     constexpr void add(const ParameterList<kCount>& list) noexcept {
         for (const ParameterDeclaration& declaration : list.declarations) {
@@ -85,6 +86,7 @@ class ConfigurationBuilder final {
             ++parameter_count_;
         }
     }
+    /// Appends a set, at most kSets in all with kAssignments and kValues.
     template <std::size_t kSetAssignments, std::size_t kSetValues>
     constexpr void add(const ConfigurationSet<kSetAssignments, kSetValues>& set) noexcept {
         table_.sets[set_count_] = {set.name, assignment_count_, kSetAssignments};
@@ -123,7 +125,7 @@ class ConfigurationBuilder final {
     std::size_t value_count_{0U};
 };
 
-/// Builds the table of these sets over the parameters of `list`.
+/// Builds the table of these sets over the parameters of `list`; check() tells what it breaks.
 template <std::size_t kCount, std::size_t... kAssignments, std::size_t... kValues>
 constexpr auto configuration(const ParameterList<kCount>& list,
                              const ConfigurationSet<kAssignments, kValues>&... sets) noexcept {

@@ -19,17 +19,20 @@
 
 namespace mamori {
 
+/// A parameter and the component that it is a member of; both outlive the table.
 struct ParameterRow {
     Component* owner{nullptr};
     ParameterBase* parameter{nullptr};
 };
 
+/// One set: its assignments follow one another in the table.
 struct ConfigurationSetRow {
-    const char* name{nullptr};
+    const char* name{nullptr};  ///< static storage; unique in the table
     std::size_t first_assignment{0U};
     std::size_t assignment_count{0U};
 };
 
+/// What a set gives to one parameter: values that follow one another in the table, one for each element.
 struct AssignmentRow {
     ParameterBase* parameter{nullptr};
     std::size_t first_value{0U};
@@ -38,6 +41,7 @@ struct AssignmentRow {
     bool is_refused{false};  ///< the constraint refused the value while the table was made
 };
 
+/// Rows with their sizes in the type.
 template <std::size_t kParameters, std::size_t kSets, std::size_t kAssignments, std::size_t kValues>
 struct ConfigurationTable {
     std::array<ParameterRow, kParameters> parameters{};
@@ -53,14 +57,17 @@ struct ConfigurationView {
     Span<const AssignmentRow> assignments{};
     Span<const Scalar> values{};
 
+    /// @param[in] set row of this view; a range that is not in the table is an own bug.
     constexpr Span<const AssignmentRow> get_assignments(const ConfigurationSetRow& set) const noexcept {
         return assignments.subspan(set.first_assignment, set.assignment_count);
     }
+    /// @param[in] assignment row of this view; a range that is not in the table is an own bug.
     constexpr Span<const Scalar> get_values(const AssignmentRow& assignment) const noexcept {
         return values.subspan(assignment.first_value, assignment.value_count);
     }
 };
 
+/// @param[in] table must outlive the view.
 template <std::size_t kP, std::size_t kS, std::size_t kA, std::size_t kV>
 constexpr ConfigurationView make_view(const ConfigurationTable<kP, kS, kA, kV>& table) noexcept {
     return {table.parameters, table.sets, table.assignments, table.values};

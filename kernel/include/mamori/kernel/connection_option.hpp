@@ -17,6 +17,7 @@
 
 namespace mamori {
 
+/// Made by fresh_within().
 struct FreshWithin {
     Duration age_max;
 };
@@ -25,6 +26,7 @@ constexpr FreshWithin fresh_within(Duration age_max) noexcept {
     return {age_max};
 }
 
+/// Made by through().
 template <typename T>
 struct Through {
     Crossing<T>& crossing;
@@ -35,6 +37,7 @@ constexpr Through<T> through(Crossing<T>& crossing) noexcept {
     return {crossing};
 }
 
+/// Made by only_in().
 template <std::size_t kCount>
 struct OnlyIn {
     std::array<const char*, kCount> modes{};

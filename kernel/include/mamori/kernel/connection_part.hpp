@@ -18,7 +18,7 @@
 
 namespace mamori {
 
-/// @tparam kModeCount modes that its only_in() names.
+/// One connection of the description. @tparam kModeCount modes that its only_in() names.
 template <std::size_t kModeCount>
 struct ConnectionPart {
     struct Types : detail::NoTypes {
@@ -30,8 +30,9 @@ struct ConnectionPart {
 };
 
 /// Feeds `sink` from `source`; their payload types must be the same.
-/// @param[in] sink    InPort or QueueInPort. @param[in] options fresh_within(...), through(...),
-/// only_in(...).
+/// @param[in] source  must outlive the table.
+/// @param[in] sink    InPort or QueueInPort; must outlive the table.
+/// @param[in] options fresh_within(...), through(...), only_in(...).
 template <typename T, typename Sink, typename... Options>
 constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(OutPort<T>& source, Sink& sink,
                                                                               Options... options) noexcept {

@@ -17,24 +17,26 @@
 
 namespace mamori {
 
-/// Either `input` or `output` is set.
+/// One port of a component; either `input` or `output` is set. What it refers to outlives the table.
 struct PortRow {
     Component* owner{nullptr};
     InPortBase* input{nullptr};
     OutPortBase* output{nullptr};
     bool is_mandatory{false};
-    std::size_t window{kNoIndex};
+    std::size_t window{kNoIndex};     ///< that of its owner
     std::size_t component{kNoIndex};  ///< its owner's place in the table
     /// What an input that queues has counted.
     QueueCounts (*count_queue)(const InPortBase&) noexcept {&count_no_queue};
 };
 
+/// One connection: from which output to which input. What it refers to outlives the table.
 struct ConnectionRow {
     OutPortBase* source{nullptr};
     InPortBase* sink{nullptr};
     CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
     ConnectionOperations operations{};
-    Duration age_max{kNoAgeLimit};
+    Duration age_max{kNoAgeLimit};  ///< of a value that is still fresh, > 0
+    /// Places of the ends in the table; kNoIndex: the port belongs to no component of it.
     std::size_t source_window{kNoIndex};
     std::size_t sink_window{kNoIndex};
     std::size_t source_component{kNoIndex};

@@ -14,7 +14,7 @@
 ///
 /// @satisfies SWR-PAR-001, SWR-PAR-003      Design: docs/design/parameters.md#grammar
 /// Source:   RTC Profile 0.2/0.3, attribute `constraint` of a configuration parameter, as RTSystemEditor
-/// reads it
+///           reads it
 #ifndef MAMORI_KERNEL_CONSTRAINT_HPP
 #define MAMORI_KERNEL_CONSTRAINT_HPP
 
@@ -33,9 +33,10 @@ template <typename S>
 struct Range {
     static constexpr std::uint16_t kEachElement = std::numeric_limits<std::uint16_t>::max();
 
+    /// Of an enumeration the numbers count.
     S lower{static_cast<S>(std::numeric_limits<detail::Number<S>>::lowest())};
     S upper{static_cast<S>(std::numeric_limits<detail::Number<S>>::max())};
-    std::uint16_t element{kEachElement};
+    std::uint16_t element{kEachElement};  ///< 0 .. 65534, or each
     bool is_lower_open{false};
     bool is_upper_open{false};
 
@@ -55,6 +56,7 @@ class Constraint final {
     static_assert(kRanges > 0U && kRanges < Range<S>::kEachElement);
 
   public:
+    /// May element `element` have `value`? @param[in] element 0 .. number of elements - 1.
     constexpr bool admits(S value, std::size_t element) const noexcept {
         for (std::size_t i = 0U; i < range_count_; ++i) {
             const Range<S>& range = ranges_[i];

@@ -4,8 +4,7 @@
 ///
 /// @satisfies SWR-REC-001      Design: docs/design/recorder.md#checksum
 /// Source:   ISO/IEC 13239 and IEEE 802.3: polynomial 04C11DB7 (reflected EDB88320), register begins as
-/// FFFFFFFF,
-///           bits reflected, result inverted; the check value over "123456789" is CBF43926
+///           FFFFFFFF, bits reflected, result inverted; the check value over "123456789" is CBF43926
 #ifndef MAMORI_KERNEL_CRC32_HPP
 #define MAMORI_KERNEL_CRC32_HPP
 

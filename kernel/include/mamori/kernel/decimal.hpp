@@ -15,7 +15,8 @@
 
 namespace mamori {
 
-/// The number `digits` * 10^`exponent`, negated when `is_negative`.
+/// The number `digits` * 10^`exponent`, negated when `is_negative`. From take_decimal() the exponent lies
+/// within +-200000; any other may be given.
 struct Decimal {
     std::uint64_t digits{0U};
     std::int32_t exponent{0};

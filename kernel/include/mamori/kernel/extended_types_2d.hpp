@@ -64,14 +64,15 @@ struct Geometry2D {
     Size2D size{};
 };
 
-/// Covariance of a pose (x, y, heading): upper triangle by rows.
+/// Covariance of a pose (x, y, heading): upper triangle by rows
+/// [m^2, m rad, rad^2].
 struct Covariance2D {
     double xx{0.0}, xy{0.0}, xt{0.0};
     double yy{0.0}, yt{0.0};
     double tt{0.0};
 };
 
-/// Covariance of a point (x, y): upper triangle by rows.
+/// Covariance of a point (x, y): upper triangle by rows [m^2].
 struct PointCovariance2D {
     double xx{0.0}, xy{0.0};
     double yy{0.0};

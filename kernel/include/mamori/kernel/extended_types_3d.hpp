@@ -80,7 +80,8 @@ struct Geometry3D {
     Size3D size{};
 };
 
-/// Covariance of a pose (x, y, z, roll, pitch, yaw): upper triangle by rows.
+/// Covariance of a pose (x, y, z, roll, pitch, yaw): upper triangle by rows
+/// [m^2, m rad, rad^2].
 struct Covariance3D {
     double xx{0.0}, xy{0.0}, xz{0.0}, xr{0.0}, xp{0.0}, xa{0.0};
     double yy{0.0}, yz{0.0}, yr{0.0}, yp{0.0}, ya{0.0};

@@ -21,8 +21,8 @@ namespace mamori {
 /// Time:          O(1), wait-free. Memory: no heap.
 class ExternalTrigger final {
   public:
-    /// @param[in] backlog_limit ticks that may wait for a window, >= 1; later ones overflow. With 0 every
-    ///                          tick overflows.
+    /// @param[in] backlog_limit ticks that may wait for a window, 1 .. kLargestLimit; later ones overflow.
+    ///                          With 0 every tick overflows.
     constexpr explicit ExternalTrigger(std::uint32_t backlog_limit = kLargestLimit) noexcept
         : backlog_limit_(backlog_limit) {}
     ExternalTrigger(const ExternalTrigger&) = delete;
@@ -48,6 +48,7 @@ class ExternalTrigger final {
         return ignored_count_.load(std::memory_order_relaxed);
     }
 
+    /// Half of the range of a count: as many ticks again can wait before a backlog wraps.
     static constexpr std::uint32_t kLargestLimit = std::numeric_limits<std::uint32_t>::max() / 2U;
 
   private:

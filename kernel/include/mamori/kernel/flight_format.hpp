@@ -23,8 +23,8 @@ struct FlightRecord {
     Instant time{};              ///< on the time line of its session
     std::int64_t argument{0};    ///< meaning depends on the code
     std::uint32_t session{0U};   ///< 1, 2, ...: which opening of the region wrote it
-    std::uint16_t source{0U};
-    std::uint16_t code{0U};
+    std::uint16_t source{0U};    ///< as Event::source
+    std::uint16_t code{0U};      ///< as Event::code
     Severity severity{Severity::kInfo};
 };
 
@@ -47,15 +47,16 @@ namespace flight {
 inline constexpr std::size_t kHeaderSize = 64U;   ///< [byte]
 inline constexpr std::size_t kRecordSize = 40U;   ///< [byte]
 inline constexpr std::size_t kSessionSize = 16U;  ///< [byte]
-inline constexpr std::uint16_t kVersion = 1U;
+inline constexpr std::uint16_t kVersion = 1U;     ///< of this layout
 /// A file that went through a text conversion, or lost its eighth bits, no longer begins like this.
 inline constexpr std::array<std::uint8_t, 8U> kMagic{0x89U, 'M', 'R', 'E', 'C', '\r', '\n', 0x1AU};
 /// Largest number of a record: 146 years at one record per nanosecond. A larger one is no number of ours.
 inline constexpr std::uint64_t kSequenceMax = std::uint64_t{1} << 62U;
 
-inline constexpr std::size_t kVersionOffset = 8U;
+inline constexpr std::size_t kVersionOffset = 8U;  ///< in the header [byte]
+/// Of the two sessions in the header [byte]: the newest one and the one before, in turns.
 inline constexpr std::array<std::size_t, 2U> kSessionOffsets{24U, 40U};
-/// Byte of a record that is written first, as 0, and last, as kCommitted.
+/// Byte of a record [byte] that is written first, as 0, and last, as kCommitted.
 inline constexpr std::size_t kCommitOffset = 35U;
 inline constexpr std::uint8_t kCommitted = 0xC3U;
 
@@ -63,16 +64,16 @@ using HeaderBytes = std::array<std::uint8_t, kHeaderSize>;
 using RecordBytes = std::array<std::uint8_t, kRecordSize>;
 using SessionBytes = std::array<std::uint8_t, kSessionSize>;
 
-/// Bytes of a region that holds `capacity` records.
+/// Bytes of a region that holds `capacity` records. @param[in] capacity 0 .. 2^32 - 1.
 constexpr std::size_t calc_region_size(std::size_t capacity) noexcept {
     return kHeaderSize + capacity * kRecordSize;
 }
-/// Records that a region of `size` bytes holds; 0 when it is too small for one.
+/// Records that a region of `size` bytes holds; 0 when it is too small for one. O(1).
 constexpr std::size_t calc_capacity(std::size_t size) noexcept {
     return size < kHeaderSize ? 0U : (size - kHeaderSize) / kRecordSize;
 }
-/// Place of a record in the ring. @param[in] sequence from 1 on. @param[in] capacity from 1 on; else an own
-/// bug.
+/// Place of a record in the ring, 0 .. capacity - 1.
+/// @param[in] sequence from 1 on; else an own bug. @param[in] capacity from 1 on; else an own bug.
 constexpr std::size_t calc_slot(std::uint64_t sequence, std::size_t capacity) noexcept {
     MAMORI_REQUIRE(1, sequence > 0U && capacity > 0U);
     return static_cast<std::size_t>((sequence - 1U) % capacity);
@@ -80,9 +81,11 @@ constexpr std::size_t calc_slot(std::uint64_t sequence, std::size_t capacity) no
 
 /// A header without any session. @param[in] capacity records in the ring.
 HeaderBytes encode_header(std::uint32_t capacity) noexcept;
+/// @param[in] capacity records that the region at hand has room for.
 /// @return kOk; kUnsupported (of another version); kError (foreign, damaged, or for another capacity).
 Status check_header(const HeaderBytes& bytes, std::size_t capacity) noexcept;
 
+/// @return the bytes, their checksum among them.
 SessionBytes encode_session(const FlightSession& session) noexcept;
 /// @return the session; number 0 when the bytes hold none that is whole.
 FlightSession decode_session(const SessionBytes& bytes) noexcept;
@@ -90,6 +93,8 @@ FlightSession decode_session(const SessionBytes& bytes) noexcept;
 /// @return the bytes with the commit byte still 0.
 RecordBytes encode_record(const FlightRecord& record) noexcept;
 /// @param[in] slot place where the bytes were found, 0 .. capacity - 1. @param[out] record set when kWhole.
+/// @return kEmpty (zeros only); kTorn (the commit byte is still 0); kCorrupt (the checksum, or a value that
+///         no record of this place has); else kWhole.
 SlotState decode_record(const RecordBytes& bytes, std::size_t slot, std::size_t capacity,
                         FlightRecord& record) noexcept;
 

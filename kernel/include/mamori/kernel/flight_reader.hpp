@@ -33,8 +33,9 @@ class FlightReader final {
     /// Slots of the ring; 0 before open().
     std::size_t get_capacity() const noexcept { return capacity_; }
 
-    /// @param[in] slot 0 .. get_capacity() - 1; anything else is an own bug. @param[out] record set when
-    /// kWhole. O(1).
+    /// @param[in] slot 0 .. get_capacity() - 1; anything else is an own bug.
+    /// @param[out] record set when kWhole.
+    /// @return as flight::decode_record(). O(1).
     SlotState read(std::size_t slot, FlightRecord& record) const noexcept;
 
     /// The newest session that the header knows; number 0 when it knows none. O(1).

@@ -22,26 +22,24 @@ namespace mamori {
 ///
 /// Thread safety: none; one recorder per context, one recorder per region.
 /// Time:          write() is O(1), wait-free; open() and format() are O(region). Nothing blocks, but the
-/// first touch of
-///                a page is the system's business: see docs/design/recorder.md#mapped-file.
+///                first touch of a page is the system's business: see docs/design/recorder.md#mapped-file.
 /// Memory:        none of its own beyond the counters.
 class FlightRecorder final {
   public:
     constexpr FlightRecorder() noexcept = default;
 
     /// Makes an empty recorder of the region and wipes whatever it held. A recorder that is open over the
-    /// region must not be used afterwards. @return kOk; kBadParameter (room for no record, or for more than
-    /// 2^32 - 1).
+    /// region must not be used afterwards.
+    /// @return kOk; kBadParameter (room for no record, or for more than 2^32 - 1).
     static Status format(Span<std::byte> region) noexcept;
 
     /// Begins a session: formats a region of zeros only; continues the numbers of any other and keeps its
     /// records.
     /// @param[in] region any alignment; must outlive this object.
-    /// @return kOk; kBadParameter (room for no record, or for more than 2^32 - 1); kPreconditionNotMet (open
-    /// already);
-    ///         kUnsupported (written by another format version); kError (foreign, damaged header, or written
-    ///         for another size); kOutOfResources (record numbers used up). Unless kOk, neither region nor
-    ///         recorder was changed: the caller decides about format().
+    /// @return kOk; kBadParameter (room for no record, or for more than 2^32 - 1);
+    ///         kPreconditionNotMet (open already); kUnsupported (written by another format version); kError
+    ///         (foreign, damaged header, or written for another size); kOutOfResources (record numbers used
+    ///         up). Unless kOk, neither region nor recorder was changed: the caller decides about format().
     Status open(Span<std::byte> region) noexcept;
 
     /// Ends the session; the region may go.

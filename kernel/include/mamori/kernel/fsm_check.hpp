@@ -30,6 +30,7 @@ enum class FsmRule : std::uint8_t {
     kTransitionShadowed,  ///< transition that an earlier one without a guard always forestalls
     kStateUnreachable,    ///< state that no way leads to from the initial one
 };
+/// A broken rule and the row that is guilty, which FsmRule names.
 struct FsmFinding {
     FsmRule rule{FsmRule::kNone};
     std::size_t element{0U};

@@ -25,7 +25,8 @@ namespace mamori {
 /// Size-free state machine; derive from FsmComponentFor.
 ///
 /// Thread safety: send_stimulus() from any thread or interrupt; the rest from the core that runs the
-/// component. Time:          O(1); taking an event is O(transitions). Memory: no heap.
+///                component.
+/// Time:          O(1), find_message() O(messages); taking an event is O(transitions). Memory: no heap.
 class FsmComponent : public Component {
   public:
     /// Queues a message; the next cycle of the machine's context serves it. A message that the state at that
@@ -39,8 +40,8 @@ class FsmComponent : public Component {
     /// Row of the message with that name. @return kBadParameter (no such message, or nullptr).
     Result<FsmIndex> find_message(const char* name) const noexcept;
 
-    /// @name FsmService and ExtendedFsmService: what tools ask. Structures are static: setting is
-    /// kUnsupported.
+    /// @name FsmService and ExtendedFsmService: what tools ask. Structures are static, so that each setter
+    /// answers kUnsupported.
     /// @{
     FsmProfile get_fsm_profile() const noexcept { return fsm_.get_profile(); }
     Status set_fsm_profile(FsmProfile) noexcept { return Status::kUnsupported; }

@@ -37,11 +37,11 @@ class FsmEventQueue final {
     FsmEventQueue(const FsmEventQueue&) = delete;
     FsmEventQueue& operator=(const FsmEventQueue&) = delete;
 
-    /// Appends an event. @return kOk; kOutOfResources (full, or as many other senders were faster as there
-    /// are
-    ///         cells): counted, nothing is overwritten.
+    /// Appends an event.
+    /// @return kOk; kOutOfResources (full, or as many other senders were faster as there are cells): counted,
+    ///         nothing is overwritten.
     Status post(const FsmEvent& event) noexcept;
-    /// Takes the oldest event. @return kPreconditionNotMet: there is none.
+    /// Takes the oldest event. @return the event; kPreconditionNotMet (there is none).
     Result<FsmEvent> take() noexcept;
     /// Drops what waits.
     void clear() noexcept;

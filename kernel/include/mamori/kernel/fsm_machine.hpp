@@ -17,10 +17,11 @@ namespace mamori {
 
 /// What is happening to the machine while on_action is called.
 struct FsmStep {
+    /// Which of the calls of on_action it is.
     enum class Phase : std::uint8_t { kNone, kExit, kTransition, kEntry };
     Phase phase{Phase::kNone};
     std::size_t transition{0U};  ///< row of the table
-    FsmEvent event{};
+    FsmEvent event{};            ///< that is being served
 };
 
 /// State, queue and step of one machine. The getters mean what those of FsmComponent mean.
@@ -29,6 +30,7 @@ struct FsmStep {
 /// Time:          O(transitions). Memory: no heap; the table, profile and cells must outlive it.
 class FsmMachine final {
   public:
+    /// @param[in] owner given to the guards. The others as in FsmComponent.
     constexpr FsmMachine(const FsmComponent& owner, const FsmTable& table, FsmProfile profile,
                          Span<FsmEventCell> cells) noexcept
         : owner_(owner), table_(table), profile_(profile), queue_(cells), state_(table.initial) {}
@@ -41,6 +43,7 @@ class FsmMachine final {
     const FsmStep& get_step() const noexcept { return step_; }
     std::uint32_t get_ignored_count() const noexcept { return ignored_count_; }
     const FsmEventQueue& get_queue() const noexcept { return queue_; }
+    /// @return as FsmEventQueue::post().
     Status post(const FsmEvent& event) noexcept { return queue_.post(event); }
 
   private:

@@ -23,24 +23,28 @@ using FsmIndex = std::uint16_t;
 
 /// One message on its way to a state machine.
 struct FsmEvent {
-    FsmIndex message{0U};
+    FsmIndex message{0U};      ///< row of the table
     std::int64_t argument{0};  ///< meaning depends on the message; larger data goes through a data port
 };
 
+/// One state; its number is its row.
 struct FsmState {
-    const char* name{nullptr};
+    const char* name{nullptr};  ///< static storage; unique in the table
 };
+/// One message that the machine knows; its number is its row.
 struct FsmMessage {
-    const char* name{nullptr};
+    const char* name{nullptr};  ///< static storage; unique in the table
     const char* data_type{""};  ///< what the argument means, for tools
 };
-/// May the transition be taken? Pure: it changes nothing and is asked at most once per event.
+/// May the transition be taken? Pure: it changes nothing and is asked at most once per event, by the core
+/// that runs the machine.
 using FsmGuard = bool (*)(const FsmComponent& machine, const FsmEvent& event) noexcept;
+/// In state `source`, `message` leads to state `target`.
 struct FsmTransition {
     FsmIndex source{0U};
     FsmIndex message{0U};
     FsmIndex target{0U};
-    FsmGuard guard{nullptr};  ///< nullptr: always
+    FsmGuard guard{nullptr};  ///< nullptr: it may always be taken
 };
 
 /// The rows outlive every machine that runs them. Of several transitions for one state and message, the first
@@ -50,20 +54,21 @@ struct FsmTable {
     Span<const FsmState> states{};
     Span<const FsmMessage> messages{};
     Span<const FsmTransition> transitions{};
-    FsmIndex initial{0U};
+    FsmIndex initial{0U};  ///< row of the first state
 };
 
 /// What a participant acts on: a state (its exit and its entry) or a transition (while it is taken).
 struct FsmElement {
     enum class Kind : std::uint8_t { kState, kTransition };
     Kind kind{Kind::kState};
-    std::size_t index{0U};
+    std::size_t index{0U};  ///< row of the table
 };
 /// The participant whose on_action is called for the element; it is in the context of the machine.
 struct FsmBehavior {
     Component* action_component{nullptr};
     FsmElement id{};
 };
+/// All participants of one machine; the rows outlive it.
 using FsmProfile = Span<const FsmBehavior>;
 
 }  // namespace mamori

@@ -24,16 +24,18 @@
 
 namespace mamori {
 
+/// Made by runs().
 template <typename... Cs>
 struct Runs {
     std::array<Component*, sizeof...(Cs)> components{};
 };
-/// The components that are Active in a mode; all others are Inactive in it.
+/// The components that are Active in a mode; all others are Inactive in it. They outlive the table.
 template <typename... Cs>
 constexpr Runs<Cs...> runs(Cs&... components) noexcept {
     return {{&components...}};
 }
 
+/// Made by parameters().
 struct ModeParameters {
     const char* set_name{nullptr};
 };
@@ -42,6 +44,7 @@ constexpr ModeParameters parameters(const char* set_name) noexcept {
     return {set_name};
 }
 
+/// Made by system_mode() and safe_mode().
 template <typename... Cs>
 struct SystemModePart {
     struct Types : detail::NoTypes {
@@ -59,13 +62,14 @@ constexpr SystemModePart<Cs...> system_mode(const char* name, const Runs<Cs...>&
     return {{name, set.set_name, kNoIndex, false}, members.components};
 }
 /// The mode in which a switch that fails ends. Its components run in every mode, so the way there activates
-/// nobody, and no transition leaves it: only SystemModes::reset() does.
+/// nobody, and no transition leaves it: only SystemModes::reset() does. Arguments as in system_mode().
 template <typename... Cs>
 constexpr SystemModePart<Cs...> safe_mode(const char* name, const Runs<Cs...>& members,
                                           ModeParameters set = {}) noexcept {
     return {{name, set.set_name, kNoIndex, true}, members.components};
 }
 
+/// Made by mode_transition().
 struct ModeTransitionPart {
     struct Types : detail::NoTypes {
         static constexpr std::size_t kModeTransitions = 1U;
@@ -73,7 +77,7 @@ struct ModeTransitionPart {
     ModeTransitionRow row{};
 };
 /// In mode `source`, `event` leads to mode `target`. An event that a mode has no transition for is refused.
-/// @param[in] event enumerator of the application.
+/// @param[in] source, target names of modes, static storage. @param[in] event enumerator of the application.
 template <typename Event>
 constexpr ModeTransitionPart mode_transition(const char* source, Event event, const char* target) noexcept {
     static_assert(std::is_enum_v<Event>, "the event of a transition is an enumerator");

@@ -14,12 +14,16 @@
 
 namespace mamori {
 
-/// A step that is agreed between the cores, in one word.
+/// A step that is agreed between the cores, in one word: step, index and the last 16 bits of its frame.
+///
+/// Thread safety: a value. Time: O(1). Memory: one word.
 class ModePlan final {
   public:
+    /// Largest index that a plan can carry.
     static constexpr std::size_t kIndexMax = 0xFFFU;
 
     constexpr ModePlan() noexcept = default;
+    /// @param[in] word from get_word(), of this or another core.
     constexpr explicit ModePlan(std::uint32_t word) noexcept : word_(word) {}
     /// @param[in] index mode, or set of kSet; < 4096. @param[in] frame at which all cores take it.
     constexpr ModePlan(ModeStep step, std::size_t index, std::int64_t frame) noexcept
@@ -29,7 +33,8 @@ class ModePlan final {
     constexpr std::uint32_t get_word() const noexcept { return word_; }
     constexpr ModeStep get_step() const noexcept { return static_cast<ModeStep>(word_ >> 28U); }
     constexpr std::size_t get_index() const noexcept { return word_ >> 16U & 0xFFFU; }
-    /// Frames since the plan is due; negative: it is not yet. A plan is over long before this wraps.
+    /// Frames since the plan is due, -32768 .. 32767; negative: it is not yet. A plan is over long before
+    /// this wraps.
     constexpr std::int32_t calc_age(std::int64_t frame) const noexcept {
         return static_cast<std::int16_t>(
             static_cast<std::uint16_t>(frame - static_cast<std::int64_t>(word_)));

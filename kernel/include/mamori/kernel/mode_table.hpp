@@ -23,7 +23,7 @@ class Component;
 
 /// One mode. The first of a table is the one that a system starts in.
 struct SystemModeRow {
-    const char* name{nullptr};
+    const char* name{nullptr};      ///< static storage, as all names of these rows
     const char* set_name{nullptr};  ///< configuration set of the mode; nullptr: it changes no parameter
     std::size_t set{kNoIndex};      ///< the set's place in the configuration
     bool is_safe{false};            ///< where a switch that fails ends
@@ -31,24 +31,25 @@ struct SystemModeRow {
 /// A component runs in a mode.
 struct ModeMemberRow {
     Component* component{nullptr};
-    std::size_t mode{0U};
+    std::size_t mode{0U};         ///< row of the mode
     std::size_t index{kNoIndex};  ///< the component's place in the system table
 };
 /// In mode `source`, `event` leads to mode `target`.
 struct ModeTransitionRow {
     const char* source_name{nullptr};
     const char* target_name{nullptr};
-    std::uint32_t event{0U};  ///< its number in the application's enumeration
-    std::size_t source{kNoIndex};
-    std::size_t target{kNoIndex};
+    std::uint32_t event{0U};       ///< its number in the application's enumeration
+    std::size_t source{kNoIndex};  ///< row of the mode; kNoIndex: there is none of that name
+    std::size_t target{kNoIndex};  ///< likewise
 };
 /// A connection holds in a mode; one without such a row holds in all.
 struct ConnectionModeRow {
     const char* mode_name{nullptr};
-    std::size_t connection{0U};
-    std::size_t mode{kNoIndex};
+    std::size_t connection{0U};  ///< row of the system table
+    std::size_t mode{kNoIndex};  ///< row of the mode; kNoIndex: there is none of that name
 };
 
+/// Rows with their sizes in the type.
 template <std::size_t kModes, std::size_t kMembers, std::size_t kTransitions, std::size_t kConnectionModes>
 struct ModeTable {
     std::array<SystemModeRow, kModes> modes{};
@@ -65,12 +66,13 @@ struct ModeView {
     Span<const ConnectionModeRow> connection_modes{};
 };
 
+/// @param[in] table must outlive the view.
 template <std::size_t kM, std::size_t kC, std::size_t kT, std::size_t kN>
 constexpr ModeView make_view(const ModeTable<kM, kC, kT, kN>& table) noexcept {
     return {table.modes, table.members, table.transitions, table.connection_modes};
 }
 
-/// Mode in which a failed switch ends; kNoIndex when the table declares none.
+/// Mode in which a failed switch ends; kNoIndex when the table declares none. O(modes).
 constexpr std::size_t find_safe_mode(const ModeView& view) noexcept {
     for (std::size_t m = 0U; m < view.modes.size(); ++m) {
         if (view.modes[m].is_safe) {

@@ -33,14 +33,16 @@ class ModeSwitch final {
 
     const Mode& get_default() const noexcept { return *modes_[0U]; }
     const Mode* get_current() const noexcept { return current_; }
+    /// @return nullptr: no change waits.
     const Mode* get_pending() const noexcept { return pending_; }
+    /// Is it one of them?
     bool has(const Mode& mode) const noexcept;
 
     /// Wishes for a mode, which take_change() commits; the current one takes an earlier wish back.
     void wish(const Mode& mode) noexcept { pending_ = &mode == current_ ? nullptr : &mode; }
     /// Commits a pending mode. @return true when it differs from the one that the component was told last.
     bool take_change() noexcept;
-    /// Commits a mode now; whether the component must be told is left to take_change().
+    /// Commits a mode, one of its own, now; whether the component must be told is left to take_change().
     void commit(const Mode& mode) noexcept;
 
   private:
@@ -66,8 +68,8 @@ class MultiModeComponent : public Component {
     const Mode& get_default_mode() const noexcept { return switch_.get_default(); }
     /// @return the last mode that was committed; at first the default one.
     const Mode& get_current_mode() const noexcept { return *switch_.get_current(); }
-    /// The same, since a component has one context. @return nullptr when it does not participate in
-    /// `context`.
+    /// The same, since a component has one context.
+    /// @return nullptr when it does not participate in `context`.
     const Mode* get_current_mode_in_context(const ExecutionContext& context) const noexcept;
     /// @return the mode that was set last and is not committed yet; nullptr when there is none.
     const Mode* get_pending_mode() const noexcept { return switch_.get_pending(); }

@@ -71,6 +71,7 @@ class Parameter final : public ParameterBase {
     /// The active value; the same from the beginning of a cycle to its end.
     constexpr const T& get() const noexcept { return active_; }
 
+    /// May the parameter have this value?
     constexpr bool admits(const T& value) const noexcept {
         for (std::size_t i = 0U; i < Elements::kCount; ++i) {
             if (!constraint_.admits(Elements::get(value, i), i)) {
@@ -79,13 +80,13 @@ class Parameter final : public ParameterBase {
         }
         return true;
     }
+    /// The same for values without their type, one per element.
     constexpr bool admits_scalars(Span<const Scalar> values) const noexcept {
         const Result<T> value = to_value(values);
         return value.has_value() && admits(value.get_value());
     }
 
-    /// Asks for `value` from the next commit() on; from any thread. @return as
-    /// request_scalars().
+    /// Asks for `value` from the next commit() on; from any thread. @return as request_scalars().
     Status request(const T& value) noexcept {
         if (!admits(value)) {
             return Status::kBadParameter;

@@ -24,6 +24,7 @@ class ParameterBase {
     ParameterBase(const ParameterBase&) = delete;
     ParameterBase& operator=(const ParameterBase&) = delete;
 
+    /// Name within the component; static storage, never nullptr.
     const char* get_name() const noexcept { return name_; }
     /// Text of the constraint as it was declared; "" when there is none.
     const char* get_constraint() const noexcept { return constraint_text_; }
@@ -39,8 +40,10 @@ class ParameterBase {
     ///         parameter at this moment: ask again).
     virtual Status request_scalars(Span<const Scalar> values) noexcept = 0;
     /// The same for a text: numbers or names, separated by commas, as configuration files have them.
+    /// @param[in] text need not outlive the call.
     virtual Status request_text(Text text) noexcept = 0;
-    /// Copies the active value. @return kOk; kBadParameter (not one place per element).
+    /// Copies the active value. @param[out] values one per element; written on kOk only.
+    /// @return kOk; kBadParameter (not one place per element).
     virtual Status read(Span<Scalar> values) const noexcept = 0;
 
     /// @name For the configuration admin, between cycles
@@ -52,6 +55,7 @@ class ParameterBase {
     /// @}
 
   protected:
+    /// @param[in] name, constraint static storage. @param[in] element_count >= 1.
     constexpr ParameterBase(const char* name, const char* constraint, std::size_t element_count) noexcept
         : name_(name), constraint_text_(constraint), element_count_(element_count) {}
     ~ParameterBase() = default;

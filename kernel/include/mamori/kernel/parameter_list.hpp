@@ -89,7 +89,7 @@ constexpr std::size_t parameter_count() noexcept {
     return detail::ParameterCount<C>::kValue;
 }
 
-/// Every parameter of these components; those without any may be among them.
+/// Every parameter of these components, which outlive the list; those without any may be among them.
 template <typename... Cs>
 constexpr ParameterList<(parameter_count<Cs>() + ... + 0U)> parameters_of(Cs&... components) noexcept {
     ParameterList<(parameter_count<Cs>() + ... + 0U)> list{};

@@ -22,6 +22,7 @@ template <auto kFault>
 struct FaultName {
     static constexpr auto kValue = kFault;
 };
+/// Made by faults().
 template <auto... kFaults>
 struct FaultsPart {
     struct Types : detail::NoTypes {
@@ -36,6 +37,7 @@ constexpr FaultsPart<kFaults...> faults() noexcept {
     return {};
 }
 
+/// Made by within().
 struct Within {
     Duration limit;
 };
@@ -44,13 +46,14 @@ constexpr Within within(Duration limit) noexcept {
     return {limit};
 }
 
+/// Made by react().
 struct ReactionPart {
     struct Types : detail::NoTypes {
         static constexpr std::size_t kReactions = 1U;
     };
     ReactionRow row{};
 };
-/// What a fault leads to; both are enumerators of the application or of the safety layer.
+/// What a fault leads to; both are enumerators of the application or of the safety layer, 0 .. 2^32 - 1.
 template <typename Fault, typename Reaction>
 constexpr ReactionPart react(Fault fault, Reaction reaction, Within time) noexcept {
     static_assert(std::is_enum_v<Fault> && std::is_enum_v<Reaction>,

@@ -21,8 +21,8 @@ namespace mamori {
 
 /// A value without its type: a real number, or a whole one (bool is 0 or 1, an enumerator its number).
 struct Scalar {
-    double real{0.0};
-    Whole whole{};
+    double real{0.0};  ///< when is_real
+    Whole whole{};     ///< else
     bool is_real{false};
 };
 
@@ -59,6 +59,7 @@ constexpr bool is_scalar() noexcept {
     return std::is_integral_v<N> || std::is_same_v<N, float> || std::is_same_v<N, double>;
 }
 
+/// `value` without its type, exactly.
 template <typename S>
 constexpr Scalar to_scalar(S value) noexcept {
     static_assert(is_scalar<S>());

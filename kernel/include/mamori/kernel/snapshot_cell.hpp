@@ -54,8 +54,7 @@ class SnapshotCell final {
 
     /// Reader: a copy of what was written last. @param[out] value written on kOk only.
     /// @return kOk; kPreconditionNotMet (nothing was ever written); kOutOfResources (the writer was at work
-    /// in
-    ///         each of kTries tries: ask again).
+    ///         in each of kTries tries: ask again).
     Status try_read(T& value) const noexcept {
         for (int i = 0; i < kTries; ++i) {
             const Unit before = shared_sequence_.load(std::memory_order_acquire);

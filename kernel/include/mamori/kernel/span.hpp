@@ -25,6 +25,7 @@ class Span final {
 
   public:
     constexpr Span() noexcept = default;
+    /// @param[in] first nullptr for a size of 0 only.
     constexpr Span(T* first, std::size_t size) noexcept : data_(first), size_(size) {}
     template <typename U, std::size_t N, typename = EnableFor<U>>
     constexpr Span(std::array<U, N>& elements) noexcept  // NOLINT: implicit on purpose

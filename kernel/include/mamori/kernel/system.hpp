@@ -45,11 +45,12 @@ namespace mamori {
 struct Frame {
     Duration length;
 };
-/// @param[in] length > 0.
+/// @param[in] length > 0; MAMORI_CHECK refuses any other.
 constexpr Frame frame(Duration length) noexcept {
     return {length};
 }
 
+/// Made by abort_policy().
 struct AbortPolicyPart {
     using Types = detail::NoTypes;
     AbortPolicy policy;
@@ -110,6 +111,7 @@ struct DescribedSystem : detail::TableOf<PartTypes> {
 };
 
 /// Builds the table from a frame and its parts, in any order; components are numbered as they are listed.
+/// MAMORI_CHECK tells what the table breaks; what it refers to must outlive it.
 template <typename... Parts>
 constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
     using Types = detail::JoinedTypes<Parts...>;

@@ -55,6 +55,7 @@ enum class Rule {
     kSafeModeActivates,        ///< component of the safe mode that mode `other` does not run
 };
 
+/// A broken rule; the rule says what the numbers count.
 struct Finding {
     Rule rule{Rule::kNone};
     std::size_t element{0U};

@@ -91,7 +91,8 @@ class SystemModes final {
     }
     /// Set that parameters must have before any component runs; kNoConfigurationSet: their own values.
     std::size_t prepare() noexcept;
-    /// The core starts. @return kOk; kPreconditionNotMet (a switch is under way on other cores).
+    /// The core starts. @param[in] core < kModeCoreMax, here and below; Executive::initialize() sees to it.
+    /// @return kOk; kPreconditionNotMet (a switch is under way on other cores).
     Status join(std::size_t core) noexcept;
     /// The core has stopped. The last one ends a switch that is under way: in the safe mode.
     void leave(std::size_t core) noexcept;

@@ -40,7 +40,7 @@ template <std::size_t kWindows, std::size_t kComponents, std::size_t kPorts, std
           typename Configuration = ConfigurationTable<0U, 0U, 0U, 0U>,
           typename Modes = ModeTable<0U, 0U, 0U, 0U>>
 struct SystemTable {
-    Duration frame{};
+    Duration frame{};  ///< after which everything repeats, > 0
     std::array<WindowRow, kWindows> windows{};
     std::array<Component*, kComponents> components{};
     std::array<ComponentRow, kComponents> component_rows{};
@@ -76,6 +76,7 @@ struct SystemView {
     AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
 };
 
+/// @param[in] table must outlive the view.
 template <std::size_t kW, std::size_t kC, std::size_t kP, std::size_t kN, std::size_t kF, std::size_t kR,
           typename Configuration, typename Modes>
 constexpr SystemView make_view(

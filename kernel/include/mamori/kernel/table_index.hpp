@@ -11,6 +11,7 @@
 
 namespace mamori {
 
+/// No row, or one that is not known yet.
 inline constexpr std::size_t kNoIndex = std::numeric_limits<std::size_t>::max();
 
 }  // namespace mamori

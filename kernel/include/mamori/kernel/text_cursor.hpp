@@ -26,6 +26,7 @@ constexpr Text make_text(const char* characters) noexcept {
     return {characters, size};
 }
 
+/// Are the characters the same? O(length).
 constexpr bool operator==(Text a, Text b) noexcept {
     if (a.size() != b.size()) {
         return false;
@@ -43,8 +44,10 @@ constexpr bool operator==(Text a, Text b) noexcept {
 /// Thread safety: none. Time: O(1), words and spaces O(their length). Memory: refers to the text.
 class TextCursor final {
   public:
+    /// @param[in] text its characters must outlive the cursor.
     constexpr explicit TextCursor(Text text) noexcept : text_(text) {}
 
+    /// Characters before the next one.
     constexpr std::size_t get_position() const noexcept { return position_; }
     constexpr bool is_at_end() const noexcept { return position_ == text_.size(); }
     /// True when the next character is `character`; false at the end.
@@ -66,6 +69,7 @@ class TextCursor final {
         position_ += is_here ? 1U : 0U;
         return is_here;
     }
+    /// Takes blanks and tabs.
     constexpr void skip_spaces() noexcept {
         while (is_at(' ') || is_at('\t')) {
             ++position_;

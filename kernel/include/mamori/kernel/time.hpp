@@ -46,6 +46,7 @@ constexpr double to_seconds(Duration duration) noexcept {
     return static_cast<double>(duration.ns) * 1.0e-9;
 }
 
+/// Spelled durations, as in 200_us; sums and factors are not checked for overflow.
 inline namespace literals {
 constexpr Duration operator""_ns(unsigned long long value) noexcept {
     return {static_cast<std::int64_t>(value)};

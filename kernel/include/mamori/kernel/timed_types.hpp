@@ -24,7 +24,7 @@ struct Time {
     std::uint32_t nsec{0U};  ///< [ns], 0 .. 999999999 by convention; no decoder enforces it
 };
 
-inline constexpr std::int64_t kNsPerS = 1'000'000'000;
+inline constexpr std::int64_t kNsPerS = 1'000'000'000;  ///< [ns/s]
 
 /// @return the stamp; kBadParameter when the instant is negative or beyond 2^32 - 1 s (136 years).
 constexpr Result<Time> calc_time(Instant instant) noexcept {

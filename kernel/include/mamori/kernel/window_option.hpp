@@ -15,30 +15,37 @@
 
 namespace mamori {
 
+/// Made by budget().
 struct Budget {
     Duration limit;
 };
 /// Execution time that all components of a window may use together, counted from its opening.
+/// @param[in] limit > 0, at most the length of the window.
 constexpr Budget budget(Duration limit) noexcept {
     return {limit};
 }
 
+/// Made by every().
 struct Every {
     Duration period;
 };
-/// Opens the window again after each `period`, which must divide the frame; without it: once per frame.
+/// Opens the window again after each `period`; without it: once per frame.
+/// @param[in] period > 0; divides the frame without rest.
 constexpr Every every(Duration period) noexcept {
     return {period};
 }
 
+/// Made by core().
 struct Core {
     std::size_t index;
 };
 /// Processor core that runs the window; without it: core 0. Cores share the frame and its start.
+/// @param[in] index 0, 1, ...; in a system with modes below kModeCoreMax.
 constexpr Core core(std::size_t index) noexcept {
     return {index};
 }
 
+/// Made by partition().
 struct Partition {
     const char* name;
 };
@@ -48,14 +55,17 @@ constexpr Partition partition(const char* name) noexcept {
     return {name};
 }
 
+/// Made by triggered_by().
 struct TriggeredBy {
     ExternalTrigger& trigger;
 };
 /// The cycles of the window come with the ticks of `trigger`, one at most per opening (kind OTHER).
+/// @param[in] trigger must outlive the table; serves one window.
 constexpr TriggeredBy triggered_by(ExternalTrigger& trigger) noexcept {
     return {trigger};
 }
 
+/// Made by event_driven().
 struct EventDriven {
     std::size_t events_per_cycle;
 };

@@ -52,6 +52,7 @@ constexpr auto finish_window(WindowRow row, const Option& option, const Options&
 
 /// One window: opens `offset` after the start of its period, closes `length` later.
 /// @param[in] name    static storage; shown by the compiler and in every report.
+/// @param[in] offset  >= 0. @param[in] length > 0; offset + length lie within the period.
 /// @param[in] options budget(...) and, last, run(...); also every(...), rate(...), core(...), partition(...),
 ///                     triggered_by(...), event_driven(...).
 template <typename... Options>

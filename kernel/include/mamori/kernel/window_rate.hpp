@@ -28,12 +28,14 @@ constexpr Rate operator""_hz(long double value) noexcept {
 }
 }  // namespace literals
 
+/// Made by rate(); the first is the declared one.
 template <std::size_t kCount>
 struct Rates {
     std::array<Rate, kCount> values;
 };
 /// Declares the rate of the window, which must be that of its openings, and up to four slower ones between
 /// which ExecutionContext::set_rate() may choose; each must divide the first without rest.
+/// @param[in] first  > 0. @param[in] slower > 0, at most 1e9 Hz; rounded to periods of whole nanoseconds.
 template <typename... Alternatives>
 constexpr Rates<1U + sizeof...(Alternatives)> rate(Rate first, Alternatives... slower) noexcept {
     static_assert(sizeof...(Alternatives) <= kAlternativeRateMax,

@@ -22,17 +22,18 @@ inline constexpr std::size_t kAlternativeRateMax = 4U;
 /// One window: opens at `offset`, `offset + period`, ... of each frame; its components form one execution
 /// context.
 struct WindowRow {
-    const char* name{nullptr};
-    Duration offset{};    ///< first opening, from the start of the frame
-    Duration length{};    ///< from opening to close
-    Duration period{};    ///< between two openings; divides the frame
-    Duration budget{};    ///< from the opening of the window; never beyond its close
-    double rate_hz{0.0};  ///< declared cycles per second; 0: not declared
+    const char* name{nullptr};  ///< static storage
+    Duration offset{};          ///< first opening, from the start of the frame
+    Duration length{};          ///< from opening to close
+    Duration period{};          ///< between two openings; divides the frame
+    Duration budget{};          ///< from the opening of the window; never beyond its close
+    double rate_hz{0.0};        ///< declared cycles per second; 0: not declared
+    /// Slower ones, each a whole multiple of `period`; as many as `alternative_count` says.
     std::array<Duration, kAlternativeRateMax> alternative_periods{};
     std::size_t alternative_count{0U};
-    std::size_t core{0U};
-    const char* partition{""};  ///< name; equal names are one partition
-    std::size_t first_component{0U};
+    std::size_t core{0U};             ///< processor core that runs it: 0, 1, ...
+    const char* partition{""};        ///< name; equal names are one partition
+    std::size_t first_component{0U};  ///< its components, places of the table one after the other
     std::size_t component_count{0U};
     std::size_t first_port{0U};  ///< of all its components, one after the other
     std::size_t port_count{0U};
@@ -49,9 +50,9 @@ struct WindowRow {
 
 /// What the table knows of one component.
 struct ComponentRow {
-    std::size_t window{kNoIndex};
-    Duration worst_case{};  ///< declared execution time of both passes; 0: not declared
-    std::size_t first_port{0U};
+    std::size_t window{kNoIndex};  ///< that runs it
+    Duration worst_case{};         ///< declared execution time of both passes; 0: not declared
+    std::size_t first_port{0U};    ///< its ports, places of the table one after the other
     std::size_t port_count{0U};
     std::size_t first_outgoing{0U};  ///< connections from its outputs, places of `outgoing_order`
     std::size_t outgoing_count{0U};
