@@ -81,6 +81,15 @@ TEST(QueueInPortTest, ASampleThatWasQueuedIsNotQueuedAgain) {
     EXPECT_EQ(sut.read_all(Instant{20}), Values{1});
 }
 
+TEST(QueueInPortTest, AQueueIsMandatoryUnlessItSaysOtherwise) {
+    verifies("SWR-KRN-028", Technique::kInterface);
+    using Optional = QueueInPort<double, 1U, FullPolicy::kOverwrite, EmptyPolicy::kReadback, Need::kOptional>;
+
+    static_assert(QueueInPort<double, 1U>::kIsMandatory && !Optional::kIsMandatory);
+    static_assert(QueueInPort<double, 1U>::kIsQueue && QueueInPort<double, 1U>::kMayLeaveCore);
+    SUCCEED();
+}
+
 TEST(QueueInPortTest, AnEmptyQueueHasNothingToTell) {
     verifies("SWR-KRN-029", Technique::kBoundaryValues);
     Queue<FullPolicy::kOverwrite, EmptyPolicy::kReadback> sut;
