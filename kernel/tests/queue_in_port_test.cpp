@@ -147,6 +147,15 @@ TEST(QueueInPortTest, NothingIsReadFromARestartToTheNextOpening) {
     EXPECT_EQ(sut.in.read(value), Status::kPreconditionNotMet) << "neither what waits nor what was read last";
 }
 
+TEST(QueueInPortTest, AValueThatIsPublishedBetweenARestartAndTheNextOpeningIsOfTheNewMode) {
+    verifies("SWR-MOD-009", Technique::kBoundaryValues);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
+    sut.in.restart(Instant{20}, 0U);
+    sut.publish(1, Instant{21});
+
+    EXPECT_EQ(sut.read_all(Instant{25}), Values{1});
+}
+
 TEST(QueueInPortTest, AValueThatIsHandedOnAtTheInstantOfARestartIsOfTheNewMode) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues);
     Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
