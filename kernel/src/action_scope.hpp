@@ -12,17 +12,12 @@ namespace mamori {
 class ExecutionContext::ActionScope final {
   public:
     ActionScope(ExecutionContext& context, std::size_t position) noexcept : context_(context) {
-        move_to(position);
+        context.move_to(position);
     }
     /// Last and with release order: whoever finds the context idle sees all that the actions did.
     ~ActionScope() { context_.acting_position_.store(kNoPosition, std::memory_order_release); }
     ActionScope(const ActionScope&) = delete;
     ActionScope& operator=(const ActionScope&) = delete;
-
-    /// The next action is one of the participant at `position`.
-    void move_to(std::size_t position) noexcept {
-        context_.acting_position_.store(position, std::memory_order_relaxed);
-    }
 
   private:
     ExecutionContext& context_;

@@ -74,6 +74,7 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
         }
         participants[i]->context_ = this;
         participants[i]->position_ = i;
+        participants[i]->turn_ |= plan.kind == ExecutionKind::kEventDriven ? Component::kServesEvents : 0U;
     }
     const Status verdict = judge_machines(participants, plan.kind);
     if (verdict != Status::kOk) {
@@ -118,7 +119,7 @@ Status ExecutionContext::judge_machines(Span<Component* const> participants,
 void ExecutionContext::release_participants(Span<Component* const> participants) noexcept {
     for (Component* component : participants) {
         component->context_ = nullptr;
-        component->notices_ = 0U;
+        component->turn_ &= Component::kNotActive;
         if (component->mode_switch_ != nullptr) {
             // Nobody is left who could wait for it.
             static_cast<void>(component->mode_switch_->take_change());
@@ -329,7 +330,7 @@ bool ExecutionContext::apply_pending_rate() noexcept {
     divisor_ = period_.ns / plan_.period.ns;
     windows_to_skip_ = 0;
     for (Component* component : participants_) {
-        component->notices_ |= Component::kRateNotice;
+        component->turn_ |= Component::kRateNotice;
     }
     return true;
 }

@@ -3,7 +3,6 @@
 #include "action_scope.hpp"
 #include "mamori/kernel/execution_context.hpp"
 #include "mamori/kernel/external_trigger.hpp"
-#include "mamori/kernel/introspection.hpp"
 #include "mamori/kernel/multi_mode.hpp"
 
 namespace mamori {
@@ -32,61 +31,74 @@ Status ExecutionContext::begin_cycle(Instant now) noexcept {
     return Status::kOk;
 }
 
-/// The turns of a range; `after(position, was_active)` comes after each that was not abandoned.
+/// The turns of a range. `after(position)` comes after each usual one that was not abandoned, in place of
+/// follow() and while the context still counts as acting.
 template <typename After>
-void ExecutionContext::run_turns(std::size_t first, std::size_t count, const After& after) noexcept {
-    const Span<Component* const> range = participants_.subspan(first, count);
+void ExecutionContext::run_turns(std::size_t first, std::size_t count, Follower* follower,
+                                 After after) noexcept {
+    MAMORI_REQUIRE(1, is_in_cycle());
+    MAMORI_REQUIRE(4, first <= participants_.size() && count <= participants_.size() - first);
+    Component* const* const participants = participants_.data();
     const ContextHandle handle = make_handle(cycle_start_);
-    const bool is_data_flow = plan_.kind != ExecutionKind::kEventDriven;
-    ActionScope scope{*this, first};
-    for (std::size_t i = 0U; i < count && is_in_cycle(); ++i) {
-        scope.move_to(first + i);
-        Component& component = *range.data()[i];
-        const bool was_active = component.get_state() == LifecycleState::kActive;
-        if (was_active && component.notices_ == 0U && is_data_flow) {
-            const Status answer = component.on_execute(handle);
-            if (answer != Status::kOk) {
-                judge(component, ComponentAction::kExecute, answer, handle);
+    const ActionScope scope{*this, first};
+    for (std::size_t i = first; i < first + count; ++i) {
+        move_to(i);
+        Component& component = *participants[i];
+        if (component.turn_ != 0U) {
+            const bool was_active = execute_unusual(i);
+            if (!is_in_cycle()) {
+                return;  // abandoned: the cycle that this turn belonged to is over
             }
-        } else {
-            execute_unusual(component, handle, scope);
+            follow(follower, i, was_active);
+            continue;
         }
-        after(first + i, was_active);
+        const Status answer = component.on_execute(handle);
+        if (answer != Status::kOk) {
+            judge_execution(i, answer);
+        }
+        if (!is_in_cycle()) {
+            return;
+        }
+        after(i);
     }
 }
 
 void ExecutionContext::execute_range(std::size_t first, std::size_t count, Follower* follower) noexcept {
-    MAMORI_REQUIRE(1, is_in_cycle());
+    // One loop for each way that is common, so that no turn asks for what its range does not need.
     if (follower == nullptr) {
-        run_turns(first, count, [](std::size_t, bool) noexcept {});
-        return;
+        run_turns(first, count, nullptr, [](std::size_t) noexcept {});
+    } else if (follower->after_step == nullptr) {
+        run_turns(first, count, follower,
+                  [follower, records = follower->records](std::size_t position) noexcept {
+                      static_cast<void>(follower->measure(records[position]));
+                  });
+    } else {
+        run_turns(first, count, follower,
+                  [follower](std::size_t position) noexcept { follow(follower, position, true); });
     }
-    run_turns(first, count, [this, follower](std::size_t position, bool was_active) noexcept {
-        if (!is_in_cycle()) {
-            return;  // abandoned: the cycle that this turn belonged to is over
-        }
-        if (follower->observer != nullptr) {
-            const Instant started = follower->step_start;
-            const Instant ended = follower->host->get_step_end();
-            follower->step_start = ended;
-            // Only on_execute is a sign of life: one in Error, or Inactive, gets its turn and does nothing
-            // for anybody.
-            if (was_active && ended <= follower->deadline) {
-                follower->observer->on_component_executed(follower->first_component + position, started,
-                                                          ended);
-                if (follower->introspection != nullptr) {
-                    follower->introspection->note_used(follower->first_component + position, ended - started);
-                }
-            }
-        }
-        if (follower->hand_on != nullptr) {
-            follower->hand_on(follower->argument, position);
-        }
-    });
 }
 
-void ExecutionContext::execute_unusual(Component& component, ContextHandle handle,
-                                       ActionScope& scope) noexcept {
+/// All that may come after a turn.
+void ExecutionContext::follow(Follower* follower, std::size_t position, bool was_active) noexcept {
+    if (follower == nullptr) {
+        return;
+    }
+    Duration used{-1};
+    if (follower->records != nullptr && was_active) {
+        used = follower->measure(follower->records[position]);
+    } else if (follower->records != nullptr) {
+        // A turn in Error or Inactive does nothing for anybody: no sign of life.
+        follower->step_start = follower->host->get_step_end();
+    }
+    if (follower->after_step != nullptr) {
+        follower->after_step(follower->argument, position, used);
+    }
+}
+
+/// The turn of a participant that does anything but on_execute alone. @return whether it was Active.
+bool ExecutionContext::execute_unusual(std::size_t position) noexcept {
+    Component& component = *participants_[position];
+    const ContextHandle handle = make_handle(cycle_start_);
     const bool is_data_flow = plan_.kind != ExecutionKind::kEventDriven;
     const LifecycleState state = component.get_state();
     switch (state) {
@@ -95,31 +107,36 @@ void ExecutionContext::execute_unusual(Component& component, ContextHandle handl
             if (is_data_flow || component.machine_ != nullptr) {
                 static_cast<void>(component.on_error(handle));
             }
-            return;
+            return false;
         case LifecycleState::kActive:
             give_notices(component, handle);
             // A notice may have led to Error; then this turn is over, as after a failed on_execute.
             if (component.get_state() != LifecycleState::kActive) {
-                return;
+                return true;
             }
             if (is_data_flow) {
                 judge(component, ComponentAction::kExecute, component.on_execute(handle), handle);
             } else if (component.machine_ != nullptr) {
-                serve_events(component, handle, scope);
+                serve_events(component, handle);
             }
-            return;
+            return true;
         case LifecycleState::kInactive:
             give_notices(component, handle);
-            return;
+            return false;
         case LifecycleState::kCreated:
-            return;
+            return false;
     }
     MAMORI_INVARIANT(2, false);  // only a corrupted state comes here
+    return false;
+}
+
+void ExecutionContext::judge_execution(std::size_t position, Status answer) noexcept {
+    judge(*participants_[position], ComponentAction::kExecute, answer, make_handle(cycle_start_));
 }
 
 void ExecutionContext::give_notices(Component& component, ContextHandle handle) noexcept {
-    const std::uint32_t notices = component.notices_;
-    component.notices_ = 0U;
+    const std::uint32_t notices = component.turn_;
+    component.turn_ &= ~Component::kNotices;
     if ((notices & Component::kRateNotice) != 0U) {
         judge(component, ComponentAction::kRateChanged, component.on_rate_changed(handle), handle);
     }
@@ -155,13 +172,13 @@ void ExecutionContext::update_range(std::size_t first, std::size_t count) noexce
     }
     const Span<Component* const> range = participants_.subspan(first, count);
     const ContextHandle handle = make_handle(cycle_start_);
-    ActionScope scope{*this, first};
+    const ActionScope scope{*this, first};
     for (std::size_t i = 0U; i < count && is_in_cycle(); ++i) {
         Component& component = *range.data()[i];
         if (component.get_state() != LifecycleState::kActive) {
             continue;
         }
-        scope.move_to(first + i);
+        move_to(first + i);
         const Status answer = component.on_state_update(handle);
         if (answer != Status::kOk) {
             judge(component, ComponentAction::kStateUpdate, answer, handle);

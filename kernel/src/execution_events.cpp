@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // How an event-driven context serves the events of a state machine.
-#include "action_scope.hpp"
 #include "mamori/kernel/execution_context.hpp"
 #include "mamori/kernel/fsm_machine.hpp"
 
 namespace mamori {
 
-void ExecutionContext::serve_events(Component& component, ContextHandle handle, ActionScope& scope) noexcept {
+void ExecutionContext::serve_events(Component& component, ContextHandle handle) noexcept {
     FsmMachine& machine = *component.machine_;
     if (machine.step_.phase != FsmStep::Phase::kNone) {
         // An earlier cycle was cut off between two states: the machine is in neither of them.
@@ -14,7 +13,7 @@ void ExecutionContext::serve_events(Component& component, ContextHandle handle, 
         return;
     }
     for (std::size_t served = 0U; served < plan_.events_per_cycle; ++served) {
-        scope.move_to(component.position_);
+        move_to(component.position_);
         // An action may have taken the machine itself to Error; what waits then stays where it is.
         if (component.get_state() != LifecycleState::kActive) {
             return;
@@ -28,12 +27,12 @@ void ExecutionContext::serve_events(Component& component, ContextHandle handle, 
             continue;
         }
         machine.step_.phase = FsmStep::Phase::kExit;
-        act(machine, {FsmElement::Kind::kState, transition->source}, handle, scope);
+        act(machine, {FsmElement::Kind::kState, transition->source}, handle);
         machine.step_.phase = FsmStep::Phase::kTransition;
-        act(machine, {FsmElement::Kind::kTransition, machine.step_.transition}, handle, scope);
+        act(machine, {FsmElement::Kind::kTransition, machine.step_.transition}, handle);
         machine.step_.phase = FsmStep::Phase::kEntry;
         machine.state_ = transition->target;
-        act(machine, {FsmElement::Kind::kState, transition->target}, handle, scope);
+        act(machine, {FsmElement::Kind::kState, transition->target}, handle);
         if (!is_in_cycle()) {
             return;
         }
@@ -41,14 +40,13 @@ void ExecutionContext::serve_events(Component& component, ContextHandle handle, 
     }
 }
 
-void ExecutionContext::act(const FsmMachine& machine, FsmElement element, ContextHandle handle,
-                           ActionScope& scope) noexcept {
+void ExecutionContext::act(const FsmMachine& machine, FsmElement element, ContextHandle handle) noexcept {
     for (const FsmBehavior& behavior : machine.profile_) {
         if (behavior.id.kind != element.kind || behavior.id.index != element.index || !is_in_cycle()) {
             continue;
         }
         Component& participant = *behavior.action_component;
-        scope.move_to(participant.position_);
+        move_to(participant.position_);
         if (participant.is_alive()) {
             give_notices(participant, handle);
         }

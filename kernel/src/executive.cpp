@@ -218,6 +218,14 @@ Status Executive::finalize() noexcept {
     return first_failure;
 }
 
+void Executive::set_observer(ExecutionObserver* observer) noexcept {
+    observer_ = observer;
+    const Span<ExecutionRecord> records =
+        observer == nullptr ? Span<ExecutionRecord>{} : observer->get_records();
+    MAMORI_REQUIRE(4, records.empty() || records.size() >= view_.components.size());
+    records_ = records.data();
+}
+
 void Executive::latch_inputs(std::size_t window, Instant opening) noexcept {
     const WindowRow& row = view_.windows[window];
     const ModeMask held = windows_[window].held_modes;
@@ -304,14 +312,21 @@ void Executive::report_overrun(std::size_t window, std::size_t component, Instan
 
 void Executive::execute_steps(void* argument, std::size_t first, std::size_t end) noexcept {
     detail::WindowState& state = *static_cast<detail::WindowState*>(argument);
-    const bool is_followed = state.follower.observer != nullptr || state.follower.hand_on != nullptr;
+    const bool is_followed = state.follower.records != nullptr || state.follower.after_step != nullptr;
     state.context.execute_range(first, end - first, is_followed ? &state.follower : nullptr);
 }
 
-void Executive::hand_on_after(void* argument, std::size_t position) noexcept {
+void Executive::follow_step(void* argument, std::size_t position, Duration used) noexcept {
     const detail::WindowState& state = *static_cast<const detail::WindowState*>(argument);
     Executive& self = *state.executive;
-    self.hand_on_outputs(state.follower.first_component + position, self.last_release_, state.held_modes);
+    const WindowRow& row = self.view_.windows[state.window];
+    const std::size_t component = row.first_component + position;
+    if (self.introspection_ != nullptr && used >= Duration{0}) {
+        self.introspection_->note_used(component, used);
+    }
+    if (row.has_hand_on) {
+        self.hand_on_outputs(component, self.last_release_, state.held_modes);
+    }
 }
 
 void Executive::update_steps(void* argument, std::size_t first, std::size_t end) noexcept {
@@ -369,14 +384,9 @@ std::size_t Executive::run_cycle(std::size_t window, Instant release, Instant op
         latch_inputs(window, release);
     }
     const Instant opened = last_step_end_ > opening ? last_step_end_ : opening;
-    state.follower = {observer_,
-                      introspection_,
-                      &host,
-                      deadline,
-                      opened,
-                      row.first_component,
-                      row.has_hand_on ? &hand_on_after : nullptr,
-                      &state};
+    state.follower = {
+        records_ == nullptr ? nullptr : records_ + row.first_component,        &host, deadline, opened,
+        row.has_hand_on || introspection_ != nullptr ? &follow_step : nullptr, &state};
     const std::size_t executed_count = host.run_within(
         {&execute_steps, &state, row.first_component, 0U, row.component_count, Pass::kExecute}, deadline);
     std::size_t finished_count = executed_count;

@@ -44,7 +44,7 @@ Status MultiModeComponent::set_mode(const Mode& mode, bool immediate, Instant no
         static_cast<void>(switch_.take_change());
         return Status::kOk;
     }
-    notices_ |= kModeNotice;
+    turn_ |= kModeNotice;
     if (!immediate) {
         switch_.wish(mode);
         return Status::kOk;

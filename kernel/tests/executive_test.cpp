@@ -22,8 +22,11 @@ using verification::Polarity;
 using verification::Technique;
 using verification::verifies;
 using Values = std::vector<std::int64_t>;
+using Seen = std::vector<std::uint32_t>;
 
 constexpr Duration kFrame{1000};
+constexpr std::uint32_t kWithin = ExecutionRecord::kWithin;
+constexpr std::uint32_t kOutside = ExecutionRecord::kOutside;
 
 /// Runs every window of frame `frame` on time.
 void run_frame(Executive& executive, FakeHost& host, std::int64_t frame) {
@@ -138,7 +141,7 @@ TEST_F(ExecutiveTest, AWriteBetweenOpenAndCloseDoesNotChangeALatchedInput) {
 }
 
 TEST_F(ExecutiveTest, ALateReleaseIsReportedAndChangesNoData) {
-    verifies("SWR-KRN-020", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-KRN-031", Technique::kFaultInjection, Polarity::kViolation);
     SpyObserver observer;
     sut_.set_observer(&observer);
     host_.now = Instant{7};
@@ -147,28 +150,66 @@ TEST_F(ExecutiveTest, ALateReleaseIsReportedAndChangesNoData) {
     host_.now = Instant{403};
     EXPECT_EQ(sut_.run_window(1U, Instant{400}, host_), WindowOutcome::kCompleted);
 
-    EXPECT_EQ(observer.heard,
-              (std::vector<std::string>{"late window 0 by 7 @7", "executed 0 @7..7", "executed 1 @7..7",
-                                        "late window 1 by 3 @403", "executed 2 @403..403"}));
+    EXPECT_EQ(observer.heard, (std::vector<std::string>{"late window 0 by 7 @7", "late window 1 by 3 @403"}));
     EXPECT_EQ(sink_.notes[0].now, Instant{400}) << "the planned opening";
     EXPECT_EQ(sink_.notes[0].age, 0_ns) << "published at the planned close";
 }
 
-TEST_F(ExecutiveTest, TheObserverHearsEachRunInOrderWithItsInstants) {
-    verifies("SWR-KRN-020");
+TEST_F(ExecutiveTest, EachRunIsNotedFromTheOpeningOrTheTurnBefore) {
+    verifies("SWR-KRN-030", Technique::kBoundaryValues);
     SpyObserver observer;
     host_.durations[{0U, WindowHost::Pass::kExecute}] = 30_ns;
     host_.durations[{1U, WindowHost::Pass::kExecute}] = 40_ns;
+    observer.records[0] = {30_ns, 30_ns};
+    observer.records[1] = {40_ns, 40_ns};
+    observer.records[2] = {0_ns, 0_ns};
     sut_.set_observer(&observer);
 
     run_frame(sut_, host_, 0);
 
-    EXPECT_EQ(observer.heard,
-              (std::vector<std::string>{"executed 0 @0..30", "executed 1 @30..70", "executed 2 @400..400"}));
+    EXPECT_TRUE(observer.heard.empty());
+    EXPECT_EQ(observer.take_seen(4U), (Seen{kWithin, kWithin, kWithin, 0U}));
+}
+
+TEST_F(ExecutiveTest, ARunOutsideItsLimitsIsNotedAndNotHiddenByALaterOne) {
+    verifies("SWR-KRN-030", Technique::kBoundaryValues, Polarity::kViolation);
+    SpyObserver observer;
+    host_.durations[{0U, WindowHost::Pass::kExecute}] = 30_ns;
+    host_.durations[{1U, WindowHost::Pass::kExecute}] = 40_ns;
+    observer.records[0] = {0_ns, 29_ns};
+    observer.records[1] = {41_ns, 100_ns};
+    sut_.set_observer(&observer);
+
+    run_frame(sut_, host_, 0);
+    host_.durations[{0U, WindowHost::Pass::kExecute}] = 29_ns;
+    host_.durations[{1U, WindowHost::Pass::kExecute}] = 41_ns;
+    run_frame(sut_, host_, 1);
+
+    EXPECT_EQ(observer.take_seen(3U), (Seen{kWithin | kOutside, kWithin | kOutside, kWithin}));
+}
+
+TEST_F(ExecutiveTest, AnObserverWithTooFewRecordsIsAnOwnBug) {
+    verifies("SWR-KRN-030", Technique::kInterface, Polarity::kViolation);
+    class FewRecords final : public ExecutionObserver {
+      public:
+        explicit FewRecords(Span<ExecutionRecord> records) : ExecutionObserver(records) {}
+        void on_budget_overrun(std::size_t, std::size_t, Instant) noexcept override {}
+        void on_late_release(std::size_t, Duration, Instant) noexcept override {}
+    };
+    std::array<ExecutionRecord, 3U> records{};
+    FewRecords enough{records};
+    FewRecords none{{}};
+    FewRecords few{Span<ExecutionRecord>{records}.subspan(0U, 2U)};
+
+    sut_.set_observer(&enough);
+    sut_.set_observer(&none);
+    run_frame(sut_, host_, 0);
+    EXPECT_EQ(records[0].seen, 0U) << "nobody measures";
+    EXPECT_DEATH(sut_.set_observer(&few), "");
 }
 
 TEST_F(ExecutiveTest, AComponentInErrorOrInactiveGivesNoSignOfLife) {
-    verifies("SWR-KRN-020", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-KRN-030", Technique::kFaultInjection, Polarity::kViolation);
     SpyObserver observer;
     counter_.answer = Status::kError;
     run_frame(sut_, host_, 0);
@@ -177,11 +218,11 @@ TEST_F(ExecutiveTest, AComponentInErrorOrInactiveGivesNoSignOfLife) {
 
     run_frame(sut_, host_, 1);
 
-    EXPECT_EQ(observer.heard, (std::vector<std::string>{"executed 1 @1000..1000"}));
+    EXPECT_EQ(observer.take_seen(3U), (Seen{0U, kWithin, 0U}));
 }
 
 TEST_F(ExecutiveTest, WithoutAnObserverNothingChanges) {
-    verifies("SWR-KRN-020", Technique::kInterface);
+    verifies("SWR-KRN-030", Technique::kInterface);
     Counter counter;
     Relay relay;
     Sink sink;
@@ -199,9 +240,11 @@ TEST_F(ExecutiveTest, WithoutAnObserverNothingChanges) {
     run_frame(sut_, host_, 0);
     run_frame(observed, host, 0);
     observed.set_observer(nullptr);
+    host.durations[{0U, WindowHost::Pass::kExecute}] = 1_ns;
+    observer.records[0].longest = 0_ns;
     run_frame(observed, host, 1);
 
-    EXPECT_EQ(observer.heard.size(), 3U);
+    EXPECT_EQ(observer.take_seen(3U), (Seen{kWithin, kWithin, kWithin}));
     run_frame(sut_, host_, 1);
     EXPECT_EQ(observed.get_trace_hash(), sut_.get_trace_hash());
 }
@@ -215,6 +258,7 @@ TEST_F(ExecutiveTest, AStoppedContextRunsNothing) {
     EXPECT_EQ(sut_.run_window(0U, host_), WindowOutcome::kStopped);
 
     EXPECT_TRUE(observer.heard.empty());
+    EXPECT_EQ(observer.take_seen(1U), Seen{0U});
     EXPECT_EQ(counter_.value, 0);
     EXPECT_EQ(sut_.get_trace_hash(), TraceHash{}.get_value());
 }

@@ -74,11 +74,6 @@ Status DeadlineSupervisor::acknowledge(std::size_t index) noexcept {
     return Status::kOk;
 }
 
-void DeadlineSupervisor::judge_ends(std::size_t index, Instant started, Instant finished) noexcept {
-    static_cast<void>(start(index, started));
-    static_cast<void>(finish(index, finished));
-}
-
 void DeadlineSupervisor::judge(DeadlineSlot& slot, Instant now) noexcept {
     if (slot.is_running && is_over(slot.started_at, now, slot.limits.longest)) {
         latch(slot, DeadlineViolation::kMissingFinish);

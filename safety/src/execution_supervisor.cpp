@@ -22,10 +22,18 @@ Status ExecutionSupervisor::watch(std::size_t component, const ComponentLimits& 
     if (result != Status::kOk) {
         return result;
     }
-    const Status deadline_result = deadline_.watch(component, limits.deadline);
-    MAMORI_ENSURE(4, deadline_result == Status::kOk);  // both are always watched together
-    components_[component].scope = limits.scope;
+    // What was seen before was held against no limits.
+    get_records()[component] = {limits.deadline.shortest, limits.deadline.longest, 0U};
+    components_[component].is_global = limits.scope == SupervisionScope::kGlobal;
     return Status::kOk;
+}
+
+Status ExecutionSupervisor::deactivate(std::size_t component) noexcept {
+    const Status result = alive_.deactivate(component);
+    if (result == Status::kOk) {
+        components_[component].is_conspicuous = true;
+    }
+    return result;
 }
 
 Status ExecutionSupervisor::acknowledge(std::size_t component) noexcept {
@@ -36,63 +44,89 @@ Status ExecutionSupervisor::acknowledge(std::size_t component) noexcept {
     if (slot.status != LocalStatus::kExpired) {
         return Status::kPreconditionNotMet;
     }
-    // Each refuses where it has nothing to clear: the cause was another one.
+    // Refuses where it has nothing to clear: the cause was another one.
     static_cast<void>(alive_.acknowledge(component));
-    static_cast<void>(deadline_.acknowledge(component));
     slot.status = LocalStatus::kOk;
     slot.cause = ExpiryCause::kNone;
     return Status::kOk;
 }
 
+/// Finds whom an overrun came for since the last step. One that comes in the meantime waits for the next.
+void ExecutionSupervisor::collect_overruns() noexcept {
+    if (!is_overrun_pending_.load(std::memory_order_relaxed)) {
+        return;
+    }
+    static_cast<void>(is_overrun_pending_.exchange(false, std::memory_order_acquire));
+    for (ComponentSlot& slot : components_) {
+        if (slot.is_overrun_pending.load(std::memory_order_relaxed)) {
+            slot.is_conspicuous = true;
+        }
+    }
+}
+
+/// Weighs all that is known of a component.
 void ExecutionSupervisor::judge(std::size_t component, Instant now) noexcept {
     ComponentSlot& slot = components_[component];
-    const bool has_overrun = slot.is_overrun_pending.exchange(false, std::memory_order_acq_rel);
+    ExecutionRecord& record = get_records()[component];
+    const bool has_overrun = slot.is_overrun_pending.exchange(false, std::memory_order_relaxed);
+    const std::uint32_t seen = record.seen;
+    record.seen = 0U;
+    if (seen != 0U) {
+        // Refused for one that is not watched, whose runs nobody waits for.
+        static_cast<void>(alive_.report_alive(component));
+    }
+    alive_.end_cycle(component);
     if (slot.status == LocalStatus::kExpired) {
         return;
     }
+    const AliveVerdict verdict = alive_.get_verdict(component);
+    // The worst condition first, so that it is the cause that is named.
     ExpiryCause cause = ExpiryCause::kNone;
     if (has_overrun) {
         cause = ExpiryCause::kBudgetOverrun;
-    } else if (deadline_.is_expired(component)) {
+    } else if ((seen & ExecutionRecord::kOutside) != 0U) {
         cause = ExpiryCause::kDeadline;
-    } else if (alive_.get_verdict(component) == AliveVerdict::kExpired) {
+    } else if (verdict == AliveVerdict::kExpired) {
         cause = ExpiryCause::kSilent;
     }
     if (cause != ExpiryCause::kNone) {
         slot.status = LocalStatus::kExpired;
         slot.cause = cause;
         slot.expired_at = now;
-        return;
+    } else {
+        slot.status = verdict == AliveVerdict::kHealthy ? LocalStatus::kOk : LocalStatus::kFailed;
     }
-    const bool is_late = alive_.get_verdict(component) != AliveVerdict::kHealthy;
-    slot.status = is_late ? LocalStatus::kFailed : LocalStatus::kOk;
+    slot.is_conspicuous = seen == 0U || slot.status != LocalStatus::kOk || !alive_.is_active(component);
+}
+
+/// What a component that was weighed adds to the whole.
+ExecutionSupervisor::Share ExecutionSupervisor::weigh(std::size_t component, Instant now) noexcept {
+    judge(component, now);
+    const ComponentSlot& slot = components_[component];
+    if (!slot.is_global) {
+        return {GlobalStatus::kOk, false};
+    }
+    return {to_global(slot.status), alive_.is_active(component)};
 }
 
 GlobalStatus ExecutionSupervisor::step(Instant now) noexcept {
     bool is_anything_proven = false;
     GlobalStatus worst = is_release_late_ ? GlobalStatus::kFailed : GlobalStatus::kOk;
     is_release_late_ = false;
-    for (std::size_t i = 0U; i < components_.size(); ++i) {
-        const ComponentSlot& slot = components_.data()[i];
-        // The way of nearly every cycle: a sign of life, and nothing that would have to be weighed.
-        const bool is_inconspicuous = slot.status == LocalStatus::kOk && deadline_.is_clean(i) &&
-                                      !slot.is_overrun_pending.load(std::memory_order_acquire) &&
-                                      alive_.end_lively_cycle(i);
-        if (!is_inconspicuous) {
-            alive_.end_cycle(i);
-            deadline_.end_cycle(i, now);
-            judge(i, now);
+    collect_overruns();
+    ExecutionRecord* record = get_records().data();
+    for (ComponentSlot& slot : components_) {
+        // The way of nearly every cycle: runs within their limits, and nothing else to be weighed.
+        if (record->seen == ExecutionRecord::kWithin && !slot.is_conspicuous) {
+            record->seen = 0U;
+            is_anything_proven |= slot.is_global;
+        } else {
+            const auto component = static_cast<std::size_t>(&slot - components_.begin());
+            const Share share = weigh(component, now);
+            worst = share.status > worst ? share.status : worst;
+            is_anything_proven |= share.proves_something;
         }
-        if (slot.scope != SupervisionScope::kGlobal) {
-            continue;
-        }
-        if (is_inconspicuous) {
-            is_anything_proven = true;
-            continue;
-        }
-        const GlobalStatus status = to_global(slot.status);
-        worst = status > worst ? status : worst;
-        is_anything_proven = is_anything_proven || alive_.is_active(i);
+        ++record;
     }
     if (worst == GlobalStatus::kOk && !is_anything_proven) {
         worst = GlobalStatus::kFailed;
@@ -113,18 +147,10 @@ std::size_t ExecutionSupervisor::get_first_expired() const noexcept {
     return first;
 }
 
-void ExecutionSupervisor::on_component_executed(std::size_t component, Instant started,
-                                                Instant finished) noexcept {
-    MAMORI_REQUIRE(1, component < components_.size());
-    if (deadline_.is_watched(component)) {
-        deadline_.observe(component, started, finished);
-        alive_.note_life(component);
-    }
-}
-
 void ExecutionSupervisor::on_budget_overrun(std::size_t, std::size_t component, Instant) noexcept {
     MAMORI_REQUIRE(3, component < components_.size());
-    components_[component].is_overrun_pending.store(true, std::memory_order_release);
+    components_[component].is_overrun_pending.store(true, std::memory_order_relaxed);
+    is_overrun_pending_.store(true, std::memory_order_release);
 }
 
 void ExecutionSupervisor::on_late_release(std::size_t window, Duration lateness, Instant now) noexcept {

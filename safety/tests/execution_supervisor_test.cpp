@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: what an executive tells about its course becomes a status per component and one for the whole.
-// Method: the observer's calls are made as an executive makes them, with hangs, overruns and late windows put
+// Method: runs are noted and calls made as an executive does it, with hangs, overruns and late windows put
 // in.
 #include "mamori/safety/execution_supervisor.hpp"
 
@@ -27,7 +27,7 @@ constexpr ComponentLimits kLocalLimits{{2U, 3U}, {Duration{0}, 100_us}, Supervis
 class ExecutionSupervisorTest : public ::testing::Test {
   protected:
     void run(std::size_t component, Duration duration = 50_us) {
-        sut_.on_component_executed(component, now_, now_ + duration);
+        sut_.get_records()[component].note_run(now_, now_ + duration);
     }
     GlobalStatus end_cycle() {
         now_ = now_ + 1_ms;
@@ -94,6 +94,63 @@ TEST_F(ExecutionSupervisorTest, SlowComponentExpiresAndStaysExpired) {
     }
 }
 
+TEST_F(ExecutionSupervisorTest, RunOutsideItsLimitsThatNoStepHasJudgedSurvivesAnAcknowledgement) {
+    verifies("SWR-SUP-007", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    run(kControl, 101_us);
+    ASSERT_EQ(end_cycle(), GlobalStatus::kExpired);
+    run(kControl, 101_us);
+    run(kControl);
+
+    ASSERT_EQ(sut_.acknowledge(kControl), Status::kOk);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+}
+
+TEST_F(ExecutionSupervisorTest, RunsBeforeWatchAreNotHeldAgainstItsLimits) {
+    verifies("SWR-SUP-007", Technique::kErrorGuessing);
+    run(kControl, 101_us);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kFailed) << "nor do they count as signs of life";
+
+    run(kControl, 101_us);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+}
+
+TEST_F(ExecutionSupervisorTest, DeactivatedComponentMayBeSilentButNotSlow) {
+    verifies("SWR-SUP-007", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    ASSERT_EQ(sut_.watch(kMonitor, kLimits), Status::kOk);
+    for (int cycle = 0; cycle < 3; ++cycle) {
+        run(kControl);
+        run(kMonitor);
+        ASSERT_EQ(end_cycle(), GlobalStatus::kOk);
+    }
+    ASSERT_EQ(sut_.deactivate(kMonitor), Status::kOk);
+    EXPECT_EQ(sut_.deactivate(kMonitor), Status::kPreconditionNotMet);
+    for (int cycle = 0; cycle < 5; ++cycle) {
+        run(kControl);
+        ASSERT_EQ(end_cycle(), GlobalStatus::kOk);
+    }
+
+    run(kControl);
+    run(kMonitor, 101_us);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+    EXPECT_EQ(sut_.get_first_expired(), kMonitor);
+}
+
+TEST_F(ExecutionSupervisorTest, ASilenceThatEndsBeforeItsLimitIsForgotten) {
+    verifies("SWR-SUP-007", Technique::kBoundaryValues);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+
+    for (int cycle = 0; cycle < 20; ++cycle) {
+        if (cycle % 2 == 0) {
+            run(kControl);
+        }
+        ASSERT_EQ(end_cycle(), GlobalStatus::kOk) << cycle;
+    }
+}
+
 TEST_F(ExecutionSupervisorTest, HangIsFoundWithoutTheHelpOfTheHangingComponent) {
     verifies("SWR-SUP-007", Technique::kFaultInjection, Polarity::kViolation);
     // Even if the budget guard says nothing: no run is told, so the component is silent.
@@ -115,7 +172,7 @@ TEST_F(ExecutionSupervisorTest, ARunThatEndsAfterTheSupervisorsCycleBeganIsNoVio
     // The supervisor is itself a component: its window opened at now_, its own run began 60 us later.
     for (int cycle = 0; cycle < 10; ++cycle) {
         run(kControl);
-        sut_.on_component_executed(kMonitor, now_ + 60_us, now_ + 90_us);
+        sut_.get_records()[kMonitor].note_run(now_ + 60_us, now_ + 90_us);
         ASSERT_EQ(sut_.step(now_), GlobalStatus::kOk) << cycle;
         now_ = now_ + 1_ms;
     }
@@ -218,7 +275,6 @@ TEST_F(ExecutionSupervisorTest, LowestIndexIsNamedAmongThoseThatExpireInOneCycle
 
 TEST_F(ExecutionSupervisorTest, ComponentIndexBeyondTheStorageGoesToTheAssertionHandler) {
     verifies("SWR-SUP-008", Technique::kErrorGuessing, Polarity::kViolation);
-    EXPECT_DEATH(sut_.on_component_executed(3U, now_, now_), "");
     EXPECT_DEATH(sut_.on_budget_overrun(0U, 3U, now_), "");
 }
 

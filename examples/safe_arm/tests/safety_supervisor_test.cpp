@@ -51,10 +51,10 @@ class SafetySupervisorTest : public ::testing::Test {
     /// supervisor decides.
     StopCommand step() {
         if (is_other_running_) {
-            supervision_.on_component_executed(kOther, now_, now_ + 10_us);
+            supervision_.get_records()[kOther].note_run(now_, now_ + 10_us);
         }
         if (is_controller_running_) {
-            supervision_.on_component_executed(kController, now_, now_ + 10_us);
+            supervision_.get_records()[kController].note_run(now_, now_ + 10_us);
         }
         if (is_reader_running_) {
             feed(sut_.reading, reading_);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A window host whose clock a test sets and whose work takes as long as the test says, and an observer that
-/// writes down what it hears.
+/// A window host whose clock a test sets and whose work takes as long as the test says, and an observer with
+/// records that writes down what it hears.
 #ifndef MAMORI_KERNEL_TESTS_FAKE_HOST_HPP
 #define MAMORI_KERNEL_TESTS_FAKE_HOST_HPP
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -47,13 +49,23 @@ class FakeHost final : public WindowHost {
     }
 };
 
-class SpyObserver final : public ExecutionObserver {
+/// Base so that the records exist before the observer that names them.
+struct SpyRecords {
+    std::array<ExecutionRecord, 8U> records{};
+};
+
+class SpyObserver final : public SpyRecords, public ExecutionObserver {
   public:
+    SpyObserver() : ExecutionObserver(records) {}
     std::vector<std::string> heard;
 
-    void on_component_executed(std::size_t component, Instant started, Instant finished) noexcept override {
-        heard.push_back("executed " + std::to_string(component) + " @" + std::to_string(started.ns) + ".." +
-                        std::to_string(finished.ns));
+    /// What was seen of components 0 .. count - 1 since the last call.
+    std::vector<std::uint32_t> take_seen(std::size_t count) {
+        std::vector<std::uint32_t> seen;
+        for (std::size_t i = 0U; i < count; ++i) {
+            seen.push_back(std::exchange(records.at(i).seen, 0U));
+        }
+        return seen;
     }
     void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override {
         heard.push_back("overrun window " + std::to_string(window) + " component " +

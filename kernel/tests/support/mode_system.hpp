@@ -154,7 +154,6 @@ class ModeObserver final : public ExecutionObserver {
     std::vector<ConfigurationFinding> refused_sets;
     std::vector<std::size_t> overruns;
 
-    void on_component_executed(std::size_t, Instant, Instant) noexcept override {}
     void on_budget_overrun(std::size_t, std::size_t component, Instant) noexcept override {
         overruns.push_back(component);
     }

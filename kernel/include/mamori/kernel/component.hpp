@@ -44,15 +44,24 @@ class LifecycleRegion {
     friend class FsmComponent;
     friend class MultiModeComponent;
 
-    static constexpr std::uint32_t kRateNotice = 1U;
-    static constexpr std::uint32_t kModeNotice = 2U;
+    /// @name What makes a turn anything but on_execute alone
+    /// @{
+    static constexpr std::uint32_t kRateNotice = 1U;    ///< it must be told of its rate before
+    static constexpr std::uint32_t kModeNotice = 2U;    ///< it must be told of its mode before
+    static constexpr std::uint32_t kNotActive = 4U;     ///< its state is not kActive
+    static constexpr std::uint32_t kServesEvents = 8U;  ///< its context is event-driven
+    static constexpr std::uint32_t kNotices = kRateNotice | kModeNotice;
+    /// @}
 
     LifecycleState get_state() const noexcept { return state_.load(std::memory_order_relaxed); }
-    void set_state(LifecycleState state) noexcept { state_.store(state, std::memory_order_relaxed); }
+    void set_state(LifecycleState state) noexcept {
+        state_.store(state, std::memory_order_relaxed);
+        turn_ = state == LifecycleState::kActive ? turn_ & ~kNotActive : turn_ | kNotActive;
+    }
 
     /// Atomic, so that it may be looked at from outside while actions run.
     std::atomic<LifecycleState> state_{LifecycleState::kCreated};
-    std::uint32_t notices_{0U};           ///< kRateNotice, kModeNotice: to be told before the next turn
+    std::uint32_t turn_{kNotActive};      ///< any of the above; 0: the next turn is on_execute and no more
     bool is_changing_{false};             ///< on_initialize or on_finalize is being called
     ExecutionContext* context_{nullptr};  ///< the one that it participates in
     FsmMachine* machine_{nullptr};        ///< when it is a state machine

@@ -17,7 +17,7 @@
 
 #include "mamori/kernel/component.hpp"
 #include "mamori/kernel/context_plan.hpp"
-#include "mamori/kernel/execution_observer.hpp"
+#include "mamori/kernel/execution_record.hpp"
 #include "mamori/kernel/fsm_table.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
@@ -25,8 +25,6 @@
 #include "mamori/kernel/window_host.hpp"
 
 namespace mamori {
-
-class Introspection;
 
 /// Runs the components of one window.
 ///
@@ -146,14 +144,26 @@ class ExecutionContext final {
     void execute(std::size_t position) noexcept { execute_range(position, 1U); }
     /// Whoever follows a range step by step, while the context still counts as acting.
     struct Follower {
-        ExecutionObserver* observer;   ///< hears of each participant that was Active and in time; may be null
-        Introspection* introspection;  ///< notes how long they took, as far as an observer hears; may be null
-        WindowHost* host;              ///< tells when a step ends; needed with an observer
-        Instant deadline;              ///< of the range
-        Instant step_start;            ///< of the first step; moves on with each
-        std::size_t first_component;   ///< number of position 0 for the observer
-        void (*hand_on)(void* argument, std::size_t position) noexcept;  ///< after each step; may be null
+        ExecutionRecord* records;  ///< of position 0 and on; null: nothing is measured
+        const WindowHost* host;    ///< tells when a step ends; needed with records
+        Instant deadline;          ///< of the range; a run that ends later leaves no trace in the records
+        Instant step_start;        ///< of the first step; moves on with each
+        /// After each step; may be null when there are records. @param[in] used what was noted in the record;
+        /// negative: nothing was.
+        void (*after_step)(void* argument, std::size_t position, Duration used) noexcept;
         void* argument;
+
+        /// Notes in `record` the run that ends now. @return how long it took; negative when it was too late.
+        Duration measure(ExecutionRecord& record) noexcept {
+            const Instant ended = host->get_step_end();
+            Duration used{-1};
+            if (ended <= deadline) {
+                record.note_run(step_start, ended);
+                used = ended - step_start;
+            }
+            step_start = ended;
+            return used;
+        }
     };
     /// execute() of `count` positions from `first` on. @param[in,out] follower may be null.
     void execute_range(std::size_t first, std::size_t count, Follower* follower = nullptr) noexcept;
@@ -174,16 +184,21 @@ class ExecutionContext final {
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
     template <typename After>
-    void run_turns(std::size_t first, std::size_t count, const After& after) noexcept;
-    void execute_unusual(Component& component, ContextHandle handle, ActionScope& scope) noexcept;
+    void run_turns(std::size_t first, std::size_t count, Follower* follower, After after) noexcept;
+    static void follow(Follower* follower, std::size_t position, bool was_active) noexcept;
+    bool execute_unusual(std::size_t position) noexcept;
+    void judge_execution(std::size_t position, Status answer) noexcept;
     void give_notices(Component& component, ContextHandle handle) noexcept;
     static void note(Component& component, ComponentAction action, Status answer,
                      ContextHandle handle) noexcept;
     Status tell_mode(Component& component, Instant now) noexcept;
     Status judge_machines(Span<Component* const> participants, ExecutionKind kind) const noexcept;
-    void serve_events(Component& component, ContextHandle handle, ActionScope& scope) noexcept;
-    void act(const FsmMachine& machine, FsmElement element, ContextHandle handle,
-             ActionScope& scope) noexcept;
+    void serve_events(Component& component, ContextHandle handle) noexcept;
+    void act(const FsmMachine& machine, FsmElement element, ContextHandle handle) noexcept;
+    /// The next action is one of the participant at `position`. Within an ActionScope.
+    void move_to(std::size_t position) noexcept {
+        acting_position_.store(position, std::memory_order_relaxed);
+    }
     void judge(Component& component, ComponentAction action, Status answer, ContextHandle handle) noexcept;
     void enter_error(Component& component, ContextHandle handle) noexcept;
     ContextHandle make_handle(Instant now) const noexcept { return {id_, now}; }

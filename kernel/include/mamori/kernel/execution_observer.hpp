@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What an executive tells about its own course: windows, component runs, lateness and overruns.
-/// Supervision listens here, so that it does not depend on the help of the code it supervises.
+/// What an executive tells about its own course: a record of the runs of each component, and a call for what
+/// is rare. Supervision listens here, so that it does not depend on the help of the code it supervises.
 ///
-/// @satisfies SWR-KRN-020, SWR-MOD-005      Design: docs/design/kernel.md#observation
+/// @satisfies SWR-KRN-030, SWR-KRN-031, SWR-MOD-005      Design: docs/design/kernel.md#observation
 #ifndef MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
 #define MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
 
 #include <cstddef>
 
 #include "mamori/kernel/configuration_table.hpp"
+#include "mamori/kernel/execution_record.hpp"
 #include "mamori/kernel/mode_step.hpp"
+#include "mamori/kernel/span.hpp"
 #include "mamori/kernel/time.hpp"
 
 namespace mamori {
@@ -22,13 +24,10 @@ namespace mamori {
 /// are refused while it calls.
 class ExecutionObserver {
   public:
-    /// Component `component` was Active and came through its first pass (on_execute) within the budget. Never
-    /// called for one that is Inactive or in Error: its turn passes, but it does not do its work; nor for one
-    /// that was cut off, of which on_budget_overrun() tells.
-    /// @param[in] started  instant at which its turn began: the window's opening or the end of the turn
-    /// before.
-    /// @param[in] finished instant at which its turn ended.
-    virtual void on_component_executed(std::size_t component, Instant started, Instant finished) noexcept = 0;
+    /// Where the executive notes the runs of component i, element i; empty: nobody measures them. A run
+    /// begins at the window's opening or the end of the turn before.
+    Span<ExecutionRecord> get_records() const noexcept { return records_; }
+
     /// Window `window` used its budget up while `component` was running, in either pass, or could not begin
     /// because `component` still hangs from an earlier cycle; its outputs are not published.
     virtual void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept = 0;
@@ -54,7 +53,13 @@ class ExecutionObserver {
     }
 
   protected:
+    /// @param[in] records one per component of the system table or more, which must outlive the observer; or
+    ///            none.
+    constexpr explicit ExecutionObserver(Span<ExecutionRecord> records = {}) noexcept : records_(records) {}
     ~ExecutionObserver() = default;
+
+  private:
+    Span<ExecutionRecord> records_;
 };
 
 }  // namespace mamori

@@ -110,8 +110,9 @@ class Executive {
     /// first of its window; kNoIndex when none did.
     std::size_t get_failed_component() const noexcept { return failed_component_; }
 
-    /// @param[in] observer listens to the course of execution, or nullptr; must outlive the executive.
-    void set_observer(ExecutionObserver* observer) noexcept { observer_ = observer; }
+    /// @param[in] observer listens to the course of execution, or nullptr; must outlive the executive. One
+    ///            with records must have one for each component of the table, else an own bug.
+    void set_observer(ExecutionObserver* observer) noexcept;
     /// Shows the course of execution to tools from now on: at the end of each opening of a window, and after
     /// initialize(), start(), stop() and finalize(). No hash and no window depends on it.
     /// @param[in] introspection of the same table, else an own bug; or nullptr; must outlive the executive.
@@ -160,7 +161,7 @@ class Executive {
     void show_opening(std::size_t window, Instant release, Instant opened, WindowOutcome outcome,
                       const WindowHost& host) noexcept;
     static void execute_steps(void* argument, std::size_t first, std::size_t end) noexcept;
-    static void hand_on_after(void* argument, std::size_t position) noexcept;
+    static void follow_step(void* argument, std::size_t position, Duration used) noexcept;
     static void update_steps(void* argument, std::size_t first, std::size_t end) noexcept;
     void report_overrun(std::size_t window, std::size_t component, Instant now) noexcept;
     void latch_inputs(std::size_t window, Instant opening) noexcept;
@@ -175,6 +176,7 @@ class Executive {
     Span<detail::WindowState> windows_;
     SystemModes* modes_;
     ExecutionObserver* observer_{nullptr};
+    ExecutionRecord* records_{nullptr};  ///< of the observer; of component 0 and on
     Introspection* introspection_{nullptr};
     TraceHash trace_hash_{};
     Instant last_release_{};

@@ -52,8 +52,8 @@ struct ComponentSnapshot {
     LifecycleState state{LifecycleState::kCreated};
     ActionFailure last_failure{};
     std::uint64_t cycles{0U};  ///< first passes within the budget, while Active or in Error, since attached
-    /// Longest first pass of those that came through Active and in time, measured while an observer listens
-    /// too; 0: never was.
+    /// Longest first pass of those that came through Active and in time, measured while an observer
+    /// has records; 0: never was.
     Duration worst_used{};
 };
 

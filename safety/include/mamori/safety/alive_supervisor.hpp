@@ -70,10 +70,6 @@ class AliveSupervisor final {
     /// @return kOk; kBadParameter (not watched).
     Status report_alive(std::size_t index) noexcept;
 
-    /// report_alive() for a caller that knows that entity `index` is watched; not checked again here, nor by
-    /// end_lively_cycle().
-    void note_life(std::size_t index) noexcept { slots_.data()[index].has_reported = true; }
-
     /// Takes an expired entity back under supervision, active. Only for a deliberate reset.
     /// @return kOk; kBadParameter (not watched); kPreconditionNotMet (not expired).
     Status acknowledge(std::size_t index) noexcept;
@@ -81,18 +77,7 @@ class AliveSupervisor final {
     /// Ends one supervision cycle.
     /// @return the worst verdict over all slots in use; kHealthy when no slot is in use.
     [[nodiscard]] AliveVerdict step() noexcept;
-    /// The same for entity `index` alone, 0 .. capacity - 1, when it is active and has reported.
-    /// @return false when it is not or has not, and nothing was done.
-    bool end_lively_cycle(std::size_t index) noexcept {
-        AliveSlot& slot = slots_.data()[index];
-        if (slot.state != AliveSlot::State::kActive || !slot.has_reported) {
-            return false;
-        }
-        slot.silent_cycles = 0U;
-        slot.has_reported = false;
-        return true;
-    }
-    /// The same for entity `index` alone, whatever it did.
+    /// The same for entity `index` alone, 0 .. capacity - 1.
     void end_cycle(std::size_t index) noexcept {
         AliveSlot& slot = slots_[index];
         if (slot.state != AliveSlot::State::kActive) {
@@ -123,9 +108,10 @@ class AliveSupervisor final {
         return slots_[index].state == AliveSlot::State::kActive;
     }
 
-  private:
+    /// @return true from a successful watch() of entity `index` on.
     bool is_watched(std::size_t index) const noexcept;
 
+  private:
     Span<AliveSlot> slots_;
 };
 

@@ -72,32 +72,6 @@ class DeadlineSupervisor final {
     /// A run of entity `index` has ended. @return kOk; kBadParameter (not watched).
     Status finish(std::size_t index, Instant now) noexcept;
 
-    /// A whole run of entity `index`, when its two ends become known together: start() and finish() in one.
-    /// @param[in] index of a watched entity; not checked again here, nor by is_clean().
-    void observe(std::size_t index, Instant started, Instant finished) noexcept {
-        const DeadlineSlot& slot = slots_.data()[index];
-        // In unsigned arithmetic the time between two instants in order is exact, however far they are apart.
-        const std::uint64_t elapsed =
-            static_cast<std::uint64_t>(finished.ns) - static_cast<std::uint64_t>(started.ns);
-        const bool is_within = finished >= started &&
-                               elapsed <= static_cast<std::uint64_t>(slot.limits.longest.ns) &&
-                               elapsed >= static_cast<std::uint64_t>(slot.limits.shortest.ns);
-        if (!is_within || slot.is_running) {
-            judge_ends(index, started, finished);
-        }
-    }
-
-    /// @return true from a successful watch() of entity `index` on.
-    bool is_watched(std::size_t index) const noexcept {
-        return index < slots_.size() && slots_[index].is_watched;
-    }
-
-    /// True when end_cycle() would find nothing: nothing runs, and nothing was violated since the last reset.
-    bool is_clean(std::size_t index) const noexcept {
-        const DeadlineSlot& slot = slots_.data()[index];
-        return slot.violation == DeadlineViolation::kNone && !slot.is_running;
-    }
-
     /// Clears the violation of an expired entity and takes it as not running. Only for a deliberate reset.
     /// @return kOk; kBadParameter (not watched); kPreconditionNotMet (not expired).
     Status acknowledge(std::size_t index) noexcept;
@@ -105,8 +79,6 @@ class DeadlineSupervisor final {
     /// Judges all entities: what was violated since the last step, and runs that are overdue at `now`.
     /// @return true while any entity is expired.
     [[nodiscard]] bool step(Instant now) noexcept;
-    /// The same for entity `index` alone, 0 .. capacity - 1.
-    void end_cycle(std::size_t index, Instant now) noexcept { judge(slots_[index], now); }
 
     /// @param[in] index 0 .. capacity - 1. @return true from the step() that saw a violation on.
     bool is_expired(std::size_t index) const noexcept { return slots_[index].is_expired; }
@@ -115,7 +87,9 @@ class DeadlineSupervisor final {
     DeadlineViolation get_violation(std::size_t index) const noexcept { return slots_[index].violation; }
 
   private:
-    void judge_ends(std::size_t index, Instant started, Instant finished) noexcept;
+    bool is_watched(std::size_t index) const noexcept {
+        return index < slots_.size() && slots_[index].is_watched;
+    }
     static void judge(DeadlineSlot& slot, Instant now) noexcept;
 
     Span<DeadlineSlot> slots_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Supervision of the components of one executive: listens to its course, judges each component once per
-/// supervision cycle (alive, deadline, budget) and sums the judgements up to the status of the whole.
+/// Supervision of the components of one executive: reads what it records of its course, judges each component
+/// once per supervision cycle (alive, deadline, budget) and sums the judgements up to the status of the
+/// whole.
 ///
 /// @satisfies SWR-SUP-007, SWR-SUP-008, SWR-SUP-009, SWR-SUP-010
 /// Design:   docs/design/supervision.md#local-and-global-status
@@ -49,7 +50,8 @@ struct ComponentLimits {
 /// Storage of one component. Written by ExecutionSupervisor only.
 struct ComponentSlot {
     std::atomic<bool> is_overrun_pending{false};  ///< set from a guard's context
-    SupervisionScope scope{SupervisionScope::kGlobal};
+    bool is_global{true};                         ///< scope
+    bool is_conspicuous{true};                    ///< to be weighed, even after runs within their limits
     LocalStatus status{LocalStatus::kOk};
     ExpiryCause cause{ExpiryCause::kNone};
     Instant expired_at{};
@@ -58,9 +60,9 @@ struct ComponentSlot {
 /// Storage for the components 0 .. kComponentCount - 1 of the system table.
 template <std::size_t kComponentCount>
 struct ExecutionStorage {
-    std::array<AliveSlot, kComponentCount> alive{};
-    std::array<DeadlineSlot, kComponentCount> deadline{};
+    std::array<ExecutionRecord, kComponentCount> records{};  ///< written by the executive as well
     std::array<ComponentSlot, kComponentCount> components{};
+    std::array<AliveSlot, kComponentCount> alive{};
 };
 
 /// The first late release since the last acknowledgement, and how many there were.
@@ -82,14 +84,12 @@ class ExecutionSupervisor final : public ExecutionObserver {
     /// "No component", as get_first_expired() says it.
     static constexpr std::size_t kNoComponent = static_cast<std::size_t>(-1);
 
-    /// @param[in] storage      one slot per component of the executive; an index beyond is an own bug and
-    /// ends
-    ///                         in the assertion handler.
+    /// @param[in] storage      one slot per component of the executive; fewer are an own bug.
     /// @param[in] lateness_max latest release of a window that is tolerated, >= 0.
     template <std::size_t kComponentCount>
     constexpr ExecutionSupervisor(ExecutionStorage<kComponentCount>& storage, Duration lateness_max) noexcept
-        : alive_(storage.alive),
-          deadline_(storage.deadline),
+        : ExecutionObserver(storage.records),
+          alive_(storage.alive),
           components_(storage.components),
           lateness_max_(lateness_max) {
         MAMORI_REQUIRE(1, lateness_max >= Duration{0});
@@ -102,11 +102,11 @@ class ExecutionSupervisor final : public ExecutionObserver {
 
     /// Tells that the component is meant to be silent, or to run again.
     /// @return as AliveSupervisor::deactivate and AliveSupervisor::activate.
-    Status deactivate(std::size_t component) noexcept { return alive_.deactivate(component); }
+    Status deactivate(std::size_t component) noexcept;
     Status activate(std::size_t component) noexcept { return alive_.activate(component); }
 
-    /// Takes an expired component back to kOk. Only for a deliberate reset; an overrun that no step() has
-    /// judged yet is kept.
+    /// Takes an expired component back to kOk. Only for a deliberate reset; an overrun or a run outside its
+    /// limits that no step() has judged yet is kept.
     /// @return kOk; kBadParameter (component out of range); kPreconditionNotMet (not expired).
     Status acknowledge(std::size_t component) noexcept;
 
@@ -136,16 +136,22 @@ class ExecutionSupervisor final : public ExecutionObserver {
     const LateRelease& get_late_release() const noexcept { return late_release_; }
     void acknowledge_late_release() noexcept { late_release_ = LateRelease{}; }
 
-    void on_component_executed(std::size_t component, Instant started, Instant finished) noexcept override;
     void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override;
     void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override;
 
   private:
+    /// What one component adds to the global status.
+    struct Share {
+        GlobalStatus status;
+        bool proves_something;  ///< it is active: its health is proven when nothing speaks against it
+    };
+    void collect_overruns() noexcept;
+    Share weigh(std::size_t component, Instant now) noexcept;
     void judge(std::size_t component, Instant now) noexcept;
 
     AliveSupervisor alive_;
-    DeadlineSupervisor deadline_;
     Span<ComponentSlot> components_;
+    std::atomic<bool> is_overrun_pending_{false};  ///< of any component
     Duration lateness_max_;
     LateRelease late_release_{};
     bool is_release_late_{false};

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a run is held against its limits on the whole time line, and no run hides another.
+// Method: both sides of both limits, the ends of the time line, a clock that runs backwards, runs one after
+// the other.
+#include "mamori/kernel/execution_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+using literals::operator""_ns;
+
+constexpr std::uint32_t kWithin = ExecutionRecord::kWithin;
+constexpr std::uint32_t kOutside = ExecutionRecord::kOutside;
+constexpr Instant kFirst{std::numeric_limits<std::int64_t>::min()};
+constexpr Instant kLast{std::numeric_limits<std::int64_t>::max()};
+
+std::uint32_t note(ExecutionRecord record, Instant started, Instant finished) {
+    record.note_run(started, finished);
+    return record.seen;
+}
+
+TEST(ExecutionRecordTest, ARunWithinItsLimitsIsNoted) {
+    verifies("SWR-KRN-030", Technique::kBoundaryValues);
+    const ExecutionRecord record{10_ns, 20_ns};
+
+    EXPECT_EQ(record.seen, 0U);
+    EXPECT_EQ(note(record, Instant{-5}, Instant{5}), kWithin);
+    EXPECT_EQ(note(record, Instant{0}, Instant{20}), kWithin);
+    EXPECT_EQ(note(record, kFirst, kFirst + 10_ns), kWithin);
+    EXPECT_EQ(note(record, kLast - 20_ns, kLast), kWithin);
+}
+
+TEST(ExecutionRecordTest, ARunOutsideItsLimitsIsNotedAsSuch) {
+    verifies("SWR-KRN-030", Technique::kBoundaryValues, Polarity::kViolation);
+    const ExecutionRecord record{10_ns, 20_ns};
+
+    EXPECT_EQ(note(record, Instant{-5}, Instant{4}), kOutside);
+    EXPECT_EQ(note(record, Instant{0}, Instant{21}), kOutside);
+    EXPECT_EQ(note(record, kFirst, kLast), kOutside);
+    EXPECT_EQ(note(record, Instant{0}, kLast), kOutside);
+}
+
+TEST(ExecutionRecordTest, AClockThatRanBackwardsIsOutsideHoweverFar) {
+    verifies("SWR-KRN-030", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_EQ(note({}, Instant{1}, Instant{0}), kOutside);
+    EXPECT_EQ(note({}, Instant{0}, kFirst), kOutside);
+    EXPECT_EQ(note({}, kLast, kFirst), kOutside) << "the difference wraps to one nanosecond";
+}
+
+TEST(ExecutionRecordTest, WithoutLimitsEveryRunIsWithin) {
+    verifies("SWR-KRN-030", Technique::kInterface);
+
+    EXPECT_EQ(note({}, Instant{0}, Instant{0}), kWithin);
+    EXPECT_EQ(note({}, Instant{0}, kLast), kWithin);
+}
+
+TEST(ExecutionRecordTest, NoRunHidesAnother) {
+    verifies("SWR-KRN-030", Technique::kErrorGuessing, Polarity::kViolation);
+    ExecutionRecord record{10_ns, 20_ns};
+
+    record.note_run(Instant{0}, Instant{21});
+    record.note_run(Instant{21}, Instant{31});
+    EXPECT_EQ(record.seen, kWithin | kOutside);
+    record.seen = 0U;
+    record.note_run(Instant{31}, Instant{41});
+    EXPECT_EQ(record.seen, kWithin);
+}
+
+}  // namespace
+}  // namespace mamori
