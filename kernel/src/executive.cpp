@@ -8,6 +8,15 @@ namespace mamori {
 
 using Pass = WindowHost::Pass;
 
+namespace {
+
+/// The first pass of a window that nobody follows.
+void execute_unfollowed(void* argument, std::size_t first, std::size_t end) noexcept {
+    static_cast<detail::WindowState*>(argument)->context.execute_range(first, end - first);
+}
+
+}  // namespace
+
 bool Executive::is_any_running() const noexcept {
     for (const detail::WindowState& state : windows_) {
         if (state.context.is_running()) {
@@ -312,8 +321,7 @@ void Executive::report_overrun(std::size_t window, std::size_t component, Instan
 
 void Executive::execute_steps(void* argument, std::size_t first, std::size_t end) noexcept {
     detail::WindowState& state = *static_cast<detail::WindowState*>(argument);
-    const bool is_followed = state.follower.records != nullptr || state.follower.after_step != nullptr;
-    state.context.execute_range(first, end - first, is_followed ? &state.follower : nullptr);
+    state.context.execute_range(first, end - first, &state.follower);
 }
 
 void Executive::follow_step(void* argument, std::size_t position, Duration used) noexcept {
@@ -352,13 +360,16 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, In
     // A window that opens late keeps its budget, but not beyond its planned close.
     const Instant close = release + row.length;
     const Instant deadline = opened + row.budget < close ? opened + row.budget : close;
-    cross_boundary(window);
-    std::size_t guilty = leave_components(window, deadline, host);
+    std::size_t guilty = kNoIndex;
+    if (modes_ != nullptr) {
+        cross_boundary(window);
+        guilty = leave_components(window, deadline, host);
+    }
     const bool is_due = guilty == kNoIndex && state.context.take_turn();
     if (is_due) {
         guilty = run_cycle(window, release, opened, deadline, host);
     }
-    if (guilty == kNoIndex) {
+    if (guilty == kNoIndex && modes_ != nullptr) {
         guilty = enter_components(window, deadline, host);
     }
     if (guilty != kNoIndex) {
@@ -383,12 +394,19 @@ std::size_t Executive::run_cycle(std::size_t window, Instant release, Instant op
     if (row.latch_count != 0U) {
         latch_inputs(window, release);
     }
-    const Instant opened = last_step_end_ > opening ? last_step_end_ : opening;
-    state.follower = {
-        records_ == nullptr ? nullptr : records_ + row.first_component,        &host, deadline, opened,
-        row.has_hand_on || introspection_ != nullptr ? &follow_step : nullptr, &state};
-    const std::size_t executed_count = host.run_within(
-        {&execute_steps, &state, row.first_component, 0U, row.component_count, Pass::kExecute}, deadline);
+    const bool is_followed = records_ != nullptr || row.has_hand_on;
+    if (is_followed) {
+        state.follower = {records_ == nullptr ? nullptr : records_ + row.first_component,
+                          &host,
+                          deadline,
+                          last_step_end_ > opening ? last_step_end_ : opening,
+                          row.has_hand_on || introspection_ != nullptr ? &follow_step : nullptr,
+                          &state};
+    }
+    const std::size_t executed_count =
+        host.run_within({is_followed ? &execute_steps : &execute_unfollowed, &state, row.first_component, 0U,
+                         row.component_count, Pass::kExecute},
+                        deadline);
     std::size_t finished_count = executed_count;
     if (executed_count == row.component_count && row.has_second_pass) {
         finished_count = host.run_within(

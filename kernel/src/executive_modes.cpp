@@ -183,7 +183,7 @@ void Executive::restart_inputs(std::size_t window) noexcept {
 void Executive::cross_boundary(std::size_t window) noexcept {
     const WindowRow& row = view_.windows[window];
     detail::WindowState& state = windows_[window];
-    if (modes_ == nullptr || state.crossed_at == frame_start_) {
+    if (state.crossed_at == frame_start_) {
         return;
     }
     state.crossed_at = frame_start_;
