@@ -19,7 +19,7 @@ from mamori.profiles.text_file import write_text
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
 from mamori.verification.table_dump.document import Table, read_table
 
-FILES = {"text": "table.txt", "time_line": "time_line.svg", "graph": "graph.svg"}
+FILES = {"text": "table.txt", "time_line": "time_line.svg", "graph": "graph.svg", "modes": "modes.svg"}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,6 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--text", action="store_true")
     parser.add_argument("--svg-time-line", type=Path, metavar="OUT")
     parser.add_argument("--svg-graph", type=Path, metavar="OUT")
+    parser.add_argument("--svg-modes", type=Path, metavar="OUT")
     parser.add_argument("--out", type=Path, metavar="DIR")
 
 
@@ -50,9 +51,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _choose_outputs(arguments: argparse.Namespace) -> list[tuple[Path, Callable[[Table], str]]]:
-    makers = {"text": _make_text, "time_line": _make_time_line, "graph": _make_graph}
-    outputs = [(path, makers[kind]) for kind, path in (("time_line", arguments.svg_time_line), ("graph", arguments.svg_graph))
-               if path is not None]  # fmt: skip
+    makers = {"text": _make_text, "time_line": _make_time_line, "graph": _make_graph, "modes": _make_modes}
+    pictures = {"time_line": arguments.svg_time_line, "graph": arguments.svg_graph, "modes": arguments.svg_modes}
+    outputs = [(path, makers[kind]) for kind, path in pictures.items() if path is not None]
     if arguments.out is not None:
         outputs += [(arguments.out / name, makers[kind]) for kind, name in FILES.items()]
     seen = [arguments.file.absolute()]
@@ -82,6 +83,12 @@ def _make_graph(table: Table) -> str:
     from mamori.verification.table_dump.graph import make_graph
 
     return make_graph(table)
+
+
+def _make_modes(table: Table) -> str:
+    from mamori.verification.table_dump.mode_graph import make_mode_graph
+
+    return make_mode_graph(table)
 
 
 def _make_folder(folder: Path) -> None:

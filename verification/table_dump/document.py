@@ -10,16 +10,26 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.profiles.input_error import InputError, nearest_names
+from mamori.profiles.input_error import InputError
 from mamori.profiles.text_file import read_text
+from mamori.verification.table_dump.json_node import HOW_TO_MEND, JsonNode
+from mamori.verification.table_dump.mode_rows import (
+    ConfigurationSet,
+    Mode,
+    Parameter,
+    Transition,
+    read_mode,
+    read_parameter,
+    read_set,
+    read_transition,
+)
 
-SCHEMA = "mamori.table/1"
+SCHEMA = "mamori.table/2"
 MAX_BYTES = 50_000_000
 WAYS = ("same_window", "later_window", "next_frame", "crossing", "queue")
 KINDS = ("periodic", "event_driven", "triggered", "invalid")
 ABORT_POLICIES = ("spec_only", "openrtm_compat")
 DIRECTIONS = ("in", "out")
-HOW_TO_MEND = "write it again with mamori::table_dump"
 
 
 @dataclass(frozen=True)
@@ -64,6 +74,10 @@ class Connection:
     sink: End
     way: str
     fresh_within_ns: int | None
+    only_in: tuple[int | None, ...] | None
+    """Modes that it was declared for; None: for all."""
+    modes: tuple[int, ...]
+    """Modes in which it works: there both of its components run."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +96,10 @@ class Table:
     connections: tuple[Connection, ...]
     faults: dict[int, str]
     reactions: tuple[Reaction, ...]
+    modes: tuple[Mode, ...]
+    transitions: tuple[Transition, ...]
+    parameters: tuple[Parameter, ...]
+    sets: tuple[ConfigurationSet, ...]
     findings: tuple[str, ...]
 
     def cores(self) -> list[int]:
@@ -98,69 +116,8 @@ class Table:
     def component_name(self, index: int | None) -> str:
         return "?" if index is None else self.components[index].name
 
-
-class _Node:
-    """One JSON value with its place, which every complaint names."""
-
-    def __init__(self, path: Path, place: str, value: object) -> None:
-        self._path = path
-        self._place = place
-        self._value = value
-
-    def complain(self, text: str) -> InputError:
-        return InputError(f"{self._place} {text}; {HOW_TO_MEND}", self._path)
-
-    def at(self, key: str) -> _Node:
-        place = f"{self._place}.{key}" if self._place != "the table" else key
-        if not isinstance(self._value, dict):
-            raise self.complain("must be an object")
-        if key not in self._value:
-            raise self.complain(f"has no '{key}'")
-        return _Node(self._path, place, self._value[key])
-
-    def items(self) -> list[_Node]:
-        if not isinstance(self._value, list):
-            raise self.complain("must be a list")
-        return [_Node(self._path, f"{self._place}[{index}]", value) for index, value in enumerate(self._value)]
-
-    def text(self, known: tuple[str, ...] = ()) -> str:
-        if not isinstance(self._value, str):
-            raise self.complain("must be a text")
-        if known and self._value not in known:
-            raise self.complain(f"is '{self._value}'; {nearest_names(self._value, known)}")
-        return self._value
-
-    def truth(self) -> bool:
-        if not isinstance(self._value, bool):
-            raise self.complain("must be true or false")
-        return self._value
-
-    def whole(self) -> int:
-        if not isinstance(self._value, int) or isinstance(self._value, bool) or abs(self._value) >= 2**64:
-            raise self.complain("must be a whole number of 64 bits")
-        return self._value
-
-    def count(self) -> int:
-        if self.whole() < 0:
-            raise self.complain("must not be negative")
-        return self.whole()
-
-    def whole_or_none(self) -> int | None:
-        return None if self._value is None else self.whole()
-
-    def real_or_none(self) -> float | None:
-        if self._value is None:
-            return None
-        if not isinstance(self._value, int | float) or isinstance(self._value, bool):
-            raise self.complain("must be a number or null")
-        return float(self._value)
-
-    def index_or_none(self, size: int) -> int | None:
-        if self._value is None:
-            return None
-        if not 0 <= self.whole() < size:
-            raise self.complain(f"is {self._value}, beyond the {size} rows it points into")
-        return self.whole()
+    def mode_name(self, index: int | None) -> str:
+        return "?" if index is None else self.modes[index].name
 
 
 def read_table(path: Path) -> Table:
@@ -172,21 +129,28 @@ def read_table(path: Path) -> Table:
         line = error.lineno if isinstance(error, json.JSONDecodeError) else None
         what = error.msg if isinstance(error, json.JSONDecodeError) else str(error)
         raise InputError(f"is no whole JSON document: {what}; {HOW_TO_MEND}", path, line) from error
-    root = _Node(path, "the table", value)
+    root = JsonNode(path, "the table", value)
     schema = root.at("schema").text()
     if schema != SCHEMA:
         raise InputError(f"has the schema '{schema}', this command reads '{SCHEMA}'; use a command and a library of one version", path)
     windows = root.at("windows").items()
     components = root.at("components").items()
+    modes = root.at("modes").items()
+    parameters = root.at("parameters").items()
+    sets = root.at("configuration_sets").items()
     return Table(
         frame_ns=root.at("frame_ns").whole(),
         abort_policy=root.at("abort_policy").text(ABORT_POLICIES),
         windows=tuple(_read_window(node) for node in windows),
         components=tuple(_read_component(node, len(windows)) for node in components),
-        connections=tuple(_read_connection(node, len(components)) for node in root.at("connections").items()),
+        connections=tuple(_read_connection(node, len(components), len(modes)) for node in root.at("connections").items()),
         faults={node.at("number").count(): node.at("name").text() for node in root.at("faults").items()},
         reactions=tuple(Reaction(node.at("fault").count(), node.at("reaction").text(), node.at("within_ns").whole())
                         for node in root.at("reactions").items()),
+        modes=tuple(read_mode(node, len(components), len(sets)) for node in modes),
+        transitions=tuple(read_transition(node, len(modes)) for node in root.at("transitions").items()),
+        parameters=tuple(read_parameter(node, len(components)) for node in parameters),
+        sets=tuple(read_set(node, len(parameters)) for node in sets),
         findings=tuple(node.text() for node in root.at("findings").items()),
     )  # fmt: skip
 
@@ -195,7 +159,7 @@ def _refuse_constant(name: str) -> float:
     raise ValueError(f"{name} is no JSON number")
 
 
-def _read_window(node: _Node) -> Window:
+def _read_window(node: JsonNode) -> Window:
     return Window(
         name=node.at("name").text(),
         core=node.at("core").count(),
@@ -211,14 +175,17 @@ def _read_window(node: _Node) -> Window:
     )
 
 
-def _read_component(node: _Node, window_count: int) -> Component:
+def _read_component(node: JsonNode, window_count: int) -> Component:
     ports = (Port(port.at("name").text(), port.at("direction").text(DIRECTIONS), port.at("mandatory").truth())
              for port in node.at("ports").items())  # fmt: skip
     return Component(node.at("name").text(), node.at("window").index_or_none(window_count),
                      node.at("worst_case_ns").whole_or_none(), tuple(ports))  # fmt: skip
 
 
-def _read_connection(node: _Node, component_count: int) -> Connection:
+def _read_connection(node: JsonNode, component_count: int, mode_count: int) -> Connection:
     source, sink = (End(end.at("component").index_or_none(component_count), end.at("port").text())
                     for end in (node.at("from"), node.at("to")))  # fmt: skip
-    return Connection(source, sink, node.at("way").text(WAYS), node.at("fresh_within_ns").whole_or_none())
+    only_in = node.at("only_in").items_or_none()
+    return Connection(source, sink, node.at("way").text(WAYS), node.at("fresh_within_ns").whole_or_none(),
+                      None if only_in is None else tuple(mode.index_or_none(mode_count) for mode in only_in),
+                      tuple(mode.index(mode_count) for mode in node.at("modes").items()))  # fmt: skip

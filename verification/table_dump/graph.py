@@ -8,22 +8,20 @@ finds the places.
 from __future__ import annotations
 
 import itertools
-import shutil
-import signal
-import subprocess
 from collections.abc import Iterator
 
-from mamori.profiles.input_error import InputError
 from mamori.verification.table_dump.document import Connection, Table
-from mamori.verification.table_dump.svg import COLOURS, calc_width, clean
-from mamori.verification.table_dump.words import format_time
+from mamori.verification.table_dump.dot import draw, quote
+from mamori.verification.table_dump.svg import COLOURS, calc_width
+from mamori.verification.table_dump.words import format_modes, format_time
 
-LAYOUT_TIMEOUT_S = 120
 PLAIN_FROM = 400
 """Connections from which on edges are straight: the search for curves takes minutes there."""
 LABEL_SIZE = 9
 GAP_MAX = 4.0
 """Largest distance of two columns [inch], whatever the ports are called."""
+MODES_LENGTH_MAX = 24
+"""Letters of modes beside a connection; more of them are counted, and named where the mouse rests."""
 EDGE_STYLES = {
     "same_window": 'color="#1b1b1b", constraint=false',
     "later_window": 'color="#0072b2", constraint=false',
@@ -31,25 +29,13 @@ EDGE_STYLES = {
     "crossing": 'color="#d55e00", penwidth=2, constraint=false',
     "queue": 'color="#009e73", penwidth=2, arrowhead=normalnormal, constraint=false',
 }
-LABEL_STYLE = ".edge text { paint-order: stroke; stroke: white; stroke-width: 3px; stroke-linejoin: round; }"
 LEGEND = "black: same window · blue: later window · blue, dashed: next frame · orange: crossing · green: queue"
+MODES_LEGEND = " · circle: only in some modes"
 
 
 def make_graph(table: Table) -> str:
     """The picture as SVG. Raises InputError where graphviz is missing or gives up."""
-    program = shutil.which("dot")
-    if program is None:
-        raise InputError("the graph needs the program 'dot'; install it with: apt-get install graphviz")
-    try:
-        done = subprocess.run([program, "-Tsvg"], input=make_dot(table), capture_output=True, text=True, encoding="utf-8",
-                              check=False, timeout=LAYOUT_TIMEOUT_S)  # fmt: skip
-    except subprocess.TimeoutExpired as error:
-        raise InputError(f"dot found no layout within {LAYOUT_TIMEOUT_S} s; use --text for a table of this size") from error
-    if done.returncode != 0:
-        cause = done.stderr.strip().splitlines() or [signal.strsignal(-done.returncode) or "no word of it"]
-        raise InputError(f"dot could not draw the graph: {cause[0]}; use --text for this table")
-    # Labels stay readable where an edge passes below them.
-    return done.stdout.replace('<g id="graph0"', f'<style>{LABEL_STYLE}</style>\n<g id="graph0"', 1)
+    return draw(make_dot(table), "graph")
 
 
 def make_dot(table: Table) -> str:
@@ -60,10 +46,11 @@ def make_dot(table: Table) -> str:
 def _make_lines(table: Table) -> Iterator[str]:
     splines = "true" if len(table.connections) < PLAIN_FROM else "line"
     # Labels are placed after the layout: the gap between two columns has the room for the longest one.
-    gap = max([calc_width(_make_label(connection), LABEL_SIZE) for connection in table.connections], default=0.0) / 72 + 0.5
+    lines = (line for connection in table.connections for line in _make_label(table, connection))
+    gap = max([calc_width(line, LABEL_SIZE) for line in lines], default=0.0) / 72 + 0.5
     yield "digraph table {"
     yield f'graph [rankdir=LR, splines={splines}, nodesep=0.35, ranksep={min(gap, GAP_MAX):.2f}, fontname="DejaVu Sans", fontsize=12, newrank=true,'
-    yield f'  labelloc=b, label={_quote(LEGEND)}, tooltip="data flow"];'
+    yield f'  labelloc=b, label={quote(LEGEND + (MODES_LEGEND if table.modes else ""))}, tooltip="data flow"];'
     yield 'node [shape=box, style="rounded,filled", fillcolor=white, fontname="DejaVu Sans", fontsize=12, margin="0.15,0.08"];'
     yield f'edge [fontname="DejaVu Sans", fontsize={LABEL_SIZE}, fontcolor="#5f6368", arrowsize=0.7];'
     for core in table.cores():
@@ -78,11 +65,11 @@ def _make_lines(table: Table) -> Iterator[str]:
 
 def _make_core(table: Table, core: int) -> Iterator[str]:
     windows = table.windows_of(core)
-    yield f"subgraph cluster_core_{core} {{ label={_quote(f'core {core}')}; labelloc=t; labeljust=l; color=\"#5f6368\"; bgcolor=\"#f8f9fa\";"
+    yield f"subgraph cluster_core_{core} {{ label={quote(f'core {core}')}; labelloc=t; labeljust=l; color=\"#5f6368\"; bgcolor=\"#f8f9fa\";"
     partitions = sorted({table.windows[index].partition for index in windows})
     for number, partition in enumerate(partitions):
         if partition:
-            yield f"subgraph cluster_partition_{core}_{number} {{ label={_quote(f'partition {partition}')}; labelloc=t; style=dashed; color=\"#5f6368\";"
+            yield f"subgraph cluster_partition_{core}_{number} {{ label={quote(f'partition {partition}')}; labelloc=t; style=dashed; color=\"#5f6368\";"
         for index in windows:
             if table.windows[index].partition == partition:
                 yield from _make_window(table, index, COLOURS[windows.index(index) % len(COLOURS)])
@@ -99,7 +86,7 @@ def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator
     """In the colours that the window has in the time line."""
     window = table.windows[index]
     label = f"{window.name}, every {format_time(window.period_ns)}"
-    yield f'subgraph cluster_window_{index} {{ label={_quote(label)}; labelloc=t; style="filled,solid"; bgcolor="{colours[0]}"; ' \
+    yield f'subgraph cluster_window_{index} {{ label={quote(label)}; labelloc=t; style="filled,solid"; bgcolor="{colours[0]}"; ' \
           f'fillcolor="{colours[0]}"; color="{colours[1]}";'  # fmt: skip
     for component in table.components_of(index):
         yield _make_node(table, component)
@@ -114,7 +101,7 @@ def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator
 def _make_node(table: Table, index: int) -> str:
     component = table.components[index]
     worst_case = f", worst case {format_time(component.worst_case_ns)}" if component.worst_case_ns is not None else ""
-    return f"c{index} [label={_quote(component.name)}, tooltip={_quote(component.name + worst_case)}];"
+    return f"c{index} [label={quote(component.name)}, tooltip={quote(component.name + worst_case)}];"
 
 
 def _make_edge(table: Table, connection: Connection) -> Iterator[str]:
@@ -123,26 +110,28 @@ def _make_edge(table: Table, connection: Connection) -> Iterator[str]:
     if source is None or sink is None:
         return  # a finding tells of it
     age = "" if connection.fresh_within_ns is None else f", fresh within {format_time(connection.fresh_within_ns)}"
-    hint = " → ".join(f"{table.component_name(end.component)}.{end.port}" for end in ends) + age
+    modes = format_modes(table, connection.modes)
+    hint = " → ".join(f"{table.component_name(end.component)}.{end.port}" for end in ends) + age + (f", in {modes}" if modes else "")
     # Within a window the edge is given from below to above, as dot stacks, and drawn from above to below.
-    pair, direction = (f"c{sink} -> c{source}", "back") if connection.way == "same_window" else (f"c{source} -> c{sink}", "forward")
+    pair, is_back = (f"c{sink} -> c{source}", True) if connection.way == "same_window" else (f"c{source} -> c{sink}", False)
     # Straight down an edge leaves and arrives at a side, where nothing else does; dot would draw it twice.
     is_straight = connection.way in ("crossing", "queue") and _calc_column(table, source) == _calc_column(table, sink)
     ports = ", tailport=w, headport=w" if is_straight else ""
-    yield f"{pair} [dir={direction}, xlabel={_quote(_make_label(connection))}, tooltip={_quote(hint)}, {EDGE_STYLES[connection.way]}{ports}];"
+    # A circle at the source tells of modes; dot calls the end of a reversed edge its head.
+    marks = {False: "dir=back" if is_back else "dir=forward", True: f"dir=both, arrow{'head' if is_back else 'tail'}=odot"}[bool(modes)]
+    yield f"{pair} [{marks}, xlabel={quote(*_make_label(table, connection))}, tooltip={quote(hint)}, {EDGE_STYLES[connection.way]}{ports}];"
 
 
-def _make_label(connection: Connection) -> str:
+def _make_label(table: Table, connection: Connection) -> list[str]:
+    """Its lines: the ports, and the modes where they are not all."""
     out, into = connection.source.port, connection.sink.port
-    return out if out == into else f"{out} → {into}"
+    modes = format_modes(table, connection.modes)
+    if len(modes) > MODES_LENGTH_MAX:
+        modes = f"{len(connection.modes)} of {len(table.modes)} modes"
+    return [out if out == into else f"{out} → {into}", *([f"[{modes}]"] if modes else [])]
 
 
 def _calc_column(table: Table, component: int) -> int:
     """Place of the component's window among those of its core."""
     index = table.components[component].window
     return -1 if index is None else table.windows_of(table.windows[index].core).index(index)
-
-
-def _quote(text: str) -> str:
-    """A text of the dot language that stands for itself: no escapes, no HTML."""
-    return '"' + clean(text).replace("\\", "\\\\").replace('"', '\\"') + '"'

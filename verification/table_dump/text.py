@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A system table as text: windows per core, connections, reactions, findings.
 
-@satisfies SWR-TAB-004      Design: docs/design/table_dump.md#text
+@satisfies SWR-TAB-004, SWR-TAB-011      Design: docs/design/table_dump.md#text
 """
 
 from __future__ import annotations
@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mamori.verification.table_dump.document import Connection, Table
-from mamori.verification.table_dump.words import WAY_TEXTS, format_kind, format_rate, format_time
+from mamori.verification.table_dump.mode_text import make_matrices, make_parameters, make_sets, make_title, make_transitions
+from mamori.verification.table_dump.words import WAY_TEXTS, format_kind, format_modes, format_rate, format_time
 
 Line = tuple[str, str]
 """A line and its style: a heading, a finding, or neither."""
@@ -31,13 +32,30 @@ def make_lines(table: Table) -> Iterator[Line]:
         yield PLAIN, PLAIN
         yield "connections", HEADING
         rows = [_connection_cells(table, connection) for connection in table.connections]
-        yield from _align([("from", "to", "arrives", "fresh within"), *rows])
+        yield from _align([("from", "to", "arrives", "fresh within", "works in", "declared for"), *rows])
+    yield from _make_modes(table)
     if table.faults or table.reactions:
         yield PLAIN, PLAIN
         yield "faults and reactions", HEADING
         yield from _align([("fault", "reaction", "within"), *_reaction_cells(table)])
     yield PLAIN, PLAIN
     yield from _findings(table)
+
+
+def _make_modes(table: Table) -> Iterator[Line]:
+    if table.modes:
+        yield PLAIN, PLAIN
+        yield _plain(make_title(table)), HEADING
+        for number, matrix in enumerate(make_matrices(table)):
+            if number > 0:
+                yield PLAIN, PLAIN
+            yield from _align(matrix)
+    for title, rows in (("transitions", make_transitions(table)), ("parameters", make_parameters(table)),
+                        ("configuration sets", make_sets(table))):  # fmt: skip
+        if len(rows) > 1:
+            yield PLAIN, PLAIN
+            yield title, HEADING
+            yield from _align(rows)
 
 
 def make_text(table: Table) -> str:
@@ -60,7 +78,9 @@ def _window_cells(table: Table, index: int) -> tuple[str, ...]:
 
 def _connection_cells(table: Table, connection: Connection) -> tuple[str, ...]:
     source, sink = (_plain(f"{table.component_name(end.component)}.{end.port}") for end in (connection.source, connection.sink))
-    return source, sink, WAY_TEXTS[connection.way], format_time(connection.fresh_within_ns)
+    only_in = ", ".join(table.mode_name(mode) for mode in connection.only_in or ())
+    return (source, sink, WAY_TEXTS[connection.way], format_time(connection.fresh_within_ns),
+            format_modes(table, connection.modes), only_in)  # fmt: skip
 
 
 def _reaction_cells(table: Table) -> Iterator[tuple[str, ...]]:
@@ -91,6 +111,7 @@ def _plain(name: str) -> str:
 
 def _align(rows: list[tuple[str, ...]]) -> Iterator[Line]:
     """Columns as wide as they need; one that is empty in every row is left out, its heading too."""
+    rows = [tuple(_plain(cell) for cell in row) for row in rows]
     kept = [column for column in range(len(rows[0])) if any(row[column] for row in rows[1:])]
     widths = {column: max(len(row[column]) for row in rows) for column in kept}
     for number, row in enumerate(rows):

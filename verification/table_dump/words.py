@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from mamori.verification.table_dump.document import Window
+from mamori.verification.table_dump.document import Table, Window
+from mamori.verification.table_dump.mode_rows import Reference, Values
 
 WAY_TEXTS = {
     "same_window": "same window",
@@ -12,6 +13,8 @@ WAY_TEXTS = {
     "crossing": "crossing",
     "queue": "queue",
 }
+OTHERS_MAX = 2
+"""Modes that `all but` names: a list of exceptions is harder to read than one of names."""
 UNITS = ((1_000_000_000, "s"), (1_000_000, "ms"), (1_000, "µs"), (1, "ns"))
 
 
@@ -37,3 +40,28 @@ def format_kind(window: Window) -> str:
     if window.kind == "event_driven":
         return f"{window.events_per_cycle} events"
     return window.kind.replace("_", " ")
+
+
+def format_modes(table: Table, modes: tuple[int, ...]) -> str:
+    """Names of these modes, or `all but` the few others; empty where they are all."""
+    others = [index for index in range(len(table.modes)) if index not in modes]
+    if not others:
+        return ""
+    if not modes:
+        return "no mode"
+    if len(others) < len(modes) and len(others) <= OTHERS_MAX:
+        return "all but " + ", ".join(table.mode_name(index) for index in others)
+    return ", ".join(table.mode_name(index) for index in sorted(modes))
+
+
+def format_reference(reference: Reference | None) -> str:
+    """The name; what does not exist has a question mark; empty for none."""
+    if reference is None:
+        return ""
+    is_unknown = reference.index is None and reference.name != "?"
+    return f"{reference.name} (?)" if is_unknown else reference.name
+
+
+def format_values(values: Values | None) -> str:
+    """Values of the elements with all their digits."""
+    return "?" if values is None else ", ".join("?" if value is None else str(value) for value in values)

@@ -33,11 +33,12 @@ def component(name: str, index: int, worst_case: int | None = None) -> dict[str,
 
 
 def connection(source: int, out: str, sink: int, into: str, way: str, fresh: int | None = None) -> dict[str, object]:
-    return {"from": {"component": source, "port": out}, "to": {"component": sink, "port": into}, "way": way, "fresh_within_ns": fresh}
+    return {"from": {"component": source, "port": out}, "to": {"component": sink, "port": into}, "way": way, "fresh_within_ns": fresh,
+            "only_in": None, "modes": []}  # fmt: skip
 
 
 TABLE: dict[str, object] = {
-    "schema": "mamori.table/1", "frame_ns": 10 * MS, "abort_policy": "spec_only",
+    "schema": "mamori.table/2", "frame_ns": 10 * MS, "abort_policy": "spec_only",
     "windows": [window("sense", 0, 0, 200 * US, MS, 150 * US, rate_hz=1000.0, slower_periods_ns=[2 * MS]),
                 window("plan", 1, 1200 * US, 7 * MS, 10 * MS, 6 * MS, partition="open"),
                 window("log", 1, 9 * MS, 500 * US, 10 * MS, 300 * US, kind="event_driven", events_per_cycle=3)],
@@ -47,6 +48,7 @@ TABLE: dict[str, object] = {
                     connection(1, "trend", 0, "hint", "next_frame")],
     "faults": [{"number": 0, "name": "Overspeed"}, {"number": 1, "name": "TrackingLost"}],
     "reactions": [{"fault": 0, "reaction": "Ss1", "within_ns": 20 * MS}],
+    "modes": [], "transitions": [], "parameters": [], "configuration_sets": [],
     "findings": [],
 }  # fmt: skip
 
@@ -101,7 +103,7 @@ def test_names_do_not_steer_the_terminal(tmp_path: Path, capsys: pytest.CaptureF
 
 @pytest.mark.verifies("SWR-TAB-004", technique="boundary_values")
 def test_empty_table_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    empty = dict.fromkeys(("windows", "components", "connections", "faults", "reactions"), ())
+    empty = {key: [] for key, value in TABLE.items() if isinstance(value, list)}
     assert table(write(tmp_path, frame_ns=0, **empty), "--text", "--svg-time-line", tmp_path / "t.svg") == 0
     assert "0 windows" in capsys.readouterr().out
     ElementTree.parse(tmp_path / "t.svg")
@@ -206,9 +208,9 @@ def test_missing_graphviz_is_named_and_nothing_is_written(
 
 @needs_graphviz
 @pytest.mark.verifies("SWR-TAB-007")
-def test_folder_gets_all_three_files_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_folder_gets_all_four_files_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert table(write(tmp_path), "--out", tmp_path / "a" / "b") == 0
-    assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == ["graph.svg", "table.txt", "time_line.svg"]
+    assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == ["graph.svg", "modes.svg", "table.txt", "time_line.svg"]
     assert capsys.readouterr().out == ""
 
 
@@ -245,13 +247,14 @@ def changed(key: str, value: object) -> str:
         ("[" * 100_000, "is no whole JSON document"),
         ("[]", "the table must be an object"),
         ("{}", "the table has no 'schema'"),
-        (changed("schema", "mamori.log/1"), "has the schema 'mamori.log/1', this command reads 'mamori.table/1'"),
+        (changed("schema", "mamori.log/1"), "has the schema 'mamori.log/1', this command reads 'mamori.table/2'"),
         (changed("frame_ns", True), "frame_ns must be a whole number"),
         (changed("frame_ns", 10**30), "frame_ns must be a whole number of 64 bits"),
         (changed("windows", {}), "windows must be a list"),
         (changed("windows", [{"name": "a"}]), "windows[0] has no 'core'"),
         (changed("windows", [{**window("a", -1, 0, 1, 1, 1)}]), "windows[0].core must not be negative"),
         (changed("windows", [{**window("a", 0, 0, 1, 1, 1), "rate_hz": "fast"}]), "windows[0].rate_hz must be a number or null"),
+        (changed("windows", [{**window("a", 0, 0, 1, 1, 1), "rate_hz": 10**400}]), "windows[0].rate_hz is greater than any number"),
         (changed("components", [component("a", 9)]), "components[0].window is 9, beyond the 3 rows"),
         (changed("connections", [connection(0, "a", 1, "b", "queeu")]), "connections[0].way is 'queeu'; nearest: queue"),
         (changed("findings", [1]), "findings[0] must be a text"),

@@ -178,12 +178,23 @@ std::string describe(const Finding& finding, const SystemView& view) {
 }
 
 std::vector<std::string> describe_all(const SystemView& view) {
-    std::vector<Finding> findings(check_all(view, {}));
-    static_cast<void>(check_all(view, {findings.data(), findings.size()}));
+    const std::vector<std::string> broken = describe_broken_configuration(view);
+    // The check follows the names and assignments of sets as they are. Where one is broken it sees as many
+    // sets without any.
+    const std::vector<ConfigurationSetRow> blank(view.configuration.sets.size(), {"", 0U, 0U});
+    SystemView judged = view;
+    if (!broken.empty()) {
+        judged.configuration.sets = {blank.data(), blank.size()};
+    }
+    std::vector<Finding> findings(check_all(judged, {}));
+    static_cast<void>(check_all(judged, {findings.data(), findings.size()}));
     std::vector<std::string> sentences;
     for (const Finding& finding : findings) {
-        sentences.push_back(describe(finding, view));
+        if (broken.empty() || finding.rule != Rule::kConfigurationRefused) {
+            sentences.push_back(describe(finding, view));
+        }
     }
+    sentences.insert(sentences.end(), broken.begin(), broken.end());
     return sentences;
 }
 

@@ -1,14 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "describe_modes.hpp"
 
+#include <algorithm>
+
 #include "element_names.hpp"
 
 namespace mamori::table_dump {
 namespace {
 
+std::string get_set_name(const SystemView& view, std::size_t index) {
+    return "configuration set " + quote(to_text(get_row(view.configuration.sets, index).name));
+}
+
+bool is_assignment_whole(const ConfigurationView& view, const AssignmentRow& row) {
+    return row.parameter != nullptr && has_range(view.values, row.first_value, row.value_count);
+}
+
+bool is_set_whole(const ConfigurationView& view, const ConfigurationSetRow& row) {
+    if (row.name == nullptr || !has_range(view.assignments, row.first_assignment, row.assignment_count)) {
+        return false;
+    }
+    const Span<const AssignmentRow> rows = view.get_assignments(row);
+    return std::all_of(rows.begin(), rows.end(),
+                       [&](const AssignmentRow& each) { return is_assignment_whole(view, each); });
+}
+
 std::string describe_set(const Finding& finding, const SystemView& view) {
-    const std::string set =
-        "configuration set " + quote(to_text(get_row(view.configuration.sets, finding.element).name));
+    const std::string set = get_set_name(view, finding.element);
+    if (!describe_broken_configuration(view).empty()) {
+        return set + " cannot be judged: a row of the configuration is not whole";
+    }
     switch (check(view.configuration).rule) {
         case ConfigurationRule::kSetNamedTwice:
             return set + " has the name of an earlier one";
@@ -59,6 +80,24 @@ std::string describe_mode(const Finding& finding, const SystemView& view) {
 }
 
 }  // namespace
+
+std::vector<std::string> describe_broken_configuration(const SystemView& view) {
+    std::vector<std::string> sentences;
+    for (std::size_t i = 0U; i < view.configuration.parameters.size(); ++i) {
+        const ParameterRow& row = view.configuration.parameters[i];
+        if (row.owner == nullptr || row.parameter == nullptr) {
+            sentences.push_back("parameter '" + get_parameter_name(row) + "': row " + std::to_string(i) +
+                                " needs a component and a parameter");
+        }
+    }
+    for (std::size_t i = 0U; i < view.configuration.sets.size(); ++i) {
+        if (!is_set_whole(view.configuration, view.configuration.sets[i])) {
+            sentences.push_back(get_set_name(view, i) + ": row " + std::to_string(i) +
+                                " needs a name, and assignments of the table with a parameter and values");
+        }
+    }
+    return sentences;
+}
 
 std::string describe_modes(const Finding& finding, const SystemView& view) {
     const ModeMemberRow member = get_row(view.modes.members, finding.element);

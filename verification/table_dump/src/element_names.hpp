@@ -20,6 +20,12 @@ Row get_row(Span<const Row> rows, std::size_t index, Row otherwise = {}) {
     return index < rows.size() ? rows[index] : otherwise;
 }
 
+/// Do these rows exist?
+template <typename Row>
+bool has_range(Span<const Row> rows, std::size_t first, std::size_t count) {
+    return first <= rows.size() && count <= rows.size() - first;
+}
+
 inline std::string get_window_name(const SystemView& view, std::size_t index) {
     return to_text(get_row(view.windows, index).name);
 }
@@ -47,6 +53,12 @@ inline std::string get_connection_name(const SystemView& view, std::size_t conne
            (row.source == nullptr ? "?" : to_text(row.source->get_name())) + " -> " +
            get_component_name(view, row.sink_component) + "." +
            (row.sink == nullptr ? "?" : to_text(row.sink->get_name()));
+}
+
+/// `component.parameter`
+inline std::string get_parameter_name(const ParameterRow& row) {
+    return (row.owner == nullptr ? "?" : to_text(row.owner->get_name())) + "." +
+           (row.parameter == nullptr ? "?" : to_text(row.parameter->get_name()));
 }
 
 inline std::string get_mode_name(const SystemView& view, std::size_t index) {

@@ -1,71 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <limits>
-#include <locale>
 #include <ostream>
-#include <sstream>
-#include <string_view>
 
 #include "element_names.hpp"
+#include "json_text.hpp"
 #include "mamori/table_dump/table_dump.hpp"
+#include "write_modes.hpp"
 
 namespace mamori::table_dump {
 namespace {
 
-constexpr const char* kSchema = "mamori.table/1";
+using json::format_index;
+using json::format_number;
+using json::format_truth;
+using json::quote;
+using json::quote_enumerator;
+using json::write_rows;
 
-std::string quote(std::string_view text) {
-    std::string result{"\""};
-    for (const char letter : text) {
-        const auto code = static_cast<unsigned char>(letter);
-        if (letter == '"' || letter == '\\') {
-            result += {'\\', letter};
-        } else if (code < 0x20U) {
-            std::array<char, 8U> escape{};
-            static_cast<void>(std::snprintf(escape.data(), escape.size(), "\\u%04x", unsigned{code}));
-            result += escape.data();
-        } else {
-            result += letter;
-        }
-    }
-    return result + "\"";
-}
-
-/// The shortest text that reads back as the same number; JSON has no infinite ones.
-std::string format_number(double value) {
-    if (!std::isfinite(value)) {
-        return "null";
-    }
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text.precision(std::numeric_limits<double>::max_digits10);
-    text << value;
-    return text.str();
-}
-
-/// An index of the table, or null where the table has no such row.
-std::string format_index(std::size_t index, std::size_t count) {
-    return index < count ? std::to_string(index) : "null";
-}
-
-std::string get_name_of(const std::vector<std::string>& names, std::uint32_t number) {
-    return number < names.size() ? names[number] : std::to_string(number);
-}
-
-/// `"key": [` rows `]`, one row per line.
-template <typename MakeRow>
-void write_rows(std::ostream& out, const char* key, std::size_t count, const MakeRow& make_row) {
-    out << ",\n \"" << key << "\": [";
-    for (std::size_t i = 0U; i < count; ++i) {
-        out << (i == 0U ? "\n  " : ",\n  ") << make_row(i);
-    }
-    out << (count == 0U ? "]" : "\n ]");
-}
+constexpr const char* kSchema = "mamori.table/2";
 
 const char* get_name(ExecutionKind kind) {
     switch (kind) {
@@ -106,7 +60,7 @@ std::string make_component(const SystemView& view, std::size_t index) {
         }
         ports += (ports.empty() ? "" : ", ") + ("{\"name\": " + quote(get_port_name(port))) +
                  ", \"direction\": \"" + (port.input != nullptr ? "in" : "out") +
-                 "\", \"mandatory\": " + (port.is_mandatory ? "true" : "false") + "}";
+                 "\", \"mandatory\": " + format_truth(port.is_mandatory) + "}";
     }
     return "{\"name\": " + quote(get_component_name(view, index)) +
            ", \"window\": " + format_index(row.window, view.windows.size()) +
@@ -149,13 +103,15 @@ std::string make_connection(const SystemView& view, std::size_t index) {
            ", \"to\": " +
            make_end(view, row.sink_component, row.sink == nullptr ? nullptr : row.sink->get_name()) +
            ", \"way\": \"" + get_way(view, row) + "\", \"fresh_within_ns\": " +
-           (row.age_max == kNoAgeLimit ? "null" : std::to_string(row.age_max.ns)) + "}";
+           (row.age_max == kNoAgeLimit ? "null" : std::to_string(row.age_max.ns)) +
+           ", \"only_in\": " + make_only_in(view, index) + ", \"modes\": " + make_modes_of(view, row.modes) +
+           "}";
 }
 
 std::string make_reaction(const SystemView& view, const Names& names, std::size_t index) {
     const ReactionRow& row = view.reactions[index];
     return "{\"fault\": " + std::to_string(row.fault) +
-           ", \"reaction\": " + quote(get_name_of(names.reactions, row.reaction)) +
+           ", \"reaction\": " + quote_enumerator(names.reactions, row.reaction) +
            ", \"within_ns\": " + std::to_string(row.within.ns) + "}";
 }
 
@@ -173,10 +129,11 @@ void write_json(std::ostream& out, const SystemView& view, const Names& names) {
                [&](std::size_t i) { return make_connection(view, i); });
     write_rows(out, "faults", view.faults.size(), [&](std::size_t i) {
         return "{\"number\": " + std::to_string(view.faults[i].fault) +
-               ", \"name\": " + quote(get_name_of(names.faults, view.faults[i].fault)) + "}";
+               ", \"name\": " + quote_enumerator(names.faults, view.faults[i].fault) + "}";
     });
     write_rows(out, "reactions", view.reactions.size(),
                [&](std::size_t i) { return make_reaction(view, names, i); });
+    write_modes(out, view, names);
     write_rows(out, "findings", findings.size(), [&](std::size_t i) { return quote(findings[i]); });
     out << "\n}\n";
 }

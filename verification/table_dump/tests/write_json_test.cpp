@@ -57,7 +57,7 @@ TEST(WriteJsonTest, WindowsHoldTimesRatesAndPlaces) {
     verifies("SWR-TAB-001");
     const json table = dump(make_view(kSystem));
 
-    EXPECT_EQ(table["schema"], "mamori.table/1");
+    EXPECT_EQ(table["schema"], "mamori.table/2");
     EXPECT_EQ(table["frame_ns"], 10'000'000);
     EXPECT_EQ(table["abort_policy"], "spec_only");
     ASSERT_EQ(table["windows"].size(), 3U);
@@ -89,7 +89,8 @@ TEST(WriteJsonTest, ConnectionsSayWhenTheirValueArrives) {
     const json table = dump(make_view(kSystem));
 
     EXPECT_EQ(table["connections"][0], json::parse(R"({"from": {"component": 0, "port": "out"},
-        "to": {"component": 1, "port": "in"}, "way": "same_window", "fresh_within_ns": 2000000})"));
+        "to": {"component": 1, "port": "in"}, "way": "same_window", "fresh_within_ns": 2000000,
+        "only_in": null, "modes": []})"));
     std::vector<std::string> ways;
     for (const json& row : table["connections"]) {
         ways.push_back(row["way"]);

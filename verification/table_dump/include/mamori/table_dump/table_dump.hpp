@@ -4,7 +4,8 @@
 /// which rules a table breaks. For hosts: link mamori::table_dump into your program and offer `--table-json
 /// FILE`.
 ///
-/// @satisfies SWR-TAB-001, SWR-TAB-002, SWR-TAB-003      Design: docs/design/table_dump.md
+/// @satisfies SWR-TAB-001, SWR-TAB-002, SWR-TAB-003, SWR-TAB-010, SWR-TAB-013
+///           Design: docs/design/table_dump.md
 #ifndef MAMORI_TABLE_DUMP_TABLE_DUMP_HPP
 #define MAMORI_TABLE_DUMP_TABLE_DUMP_HPP
 
@@ -21,21 +22,24 @@ namespace mamori::table_dump {
 struct Names {
     std::vector<std::string> faults{};
     std::vector<std::string> reactions{};
+    std::vector<std::string> events{};  ///< those of mode transitions
 };
 
 // Every function takes any rows, also such as break every rule: what has no name is written as `?`.
 //
-// Thread safety: none needed, nothing is kept. The components of the table must exist; their state is not
-// read. Time:          O(rows), with the findings O(rows squared). Memory: heap.
+// Thread safety: none needed, nothing is kept. The components of the table must exist; of their state only
+// the active values of parameters are read, by write_json() and save_json(): call these while no executive
+// runs. Time:          O(rows squared). Memory: heap.
 
 /// One sentence that says which rule is broken, names the guilty elements and gives the numbers that
 /// disagree.
 std::string describe(const Finding& finding, const SystemView& view);
 
-/// Every finding of check_all(), in words; empty: the table keeps every rule.
+/// Every finding of check_all(), in words, and the rows of the configuration that it could not follow; empty:
+/// the table keeps every rule.
 std::vector<std::string> describe_all(const SystemView& view);
 
-/// Writes one JSON document of schema `mamori.table/1` (docs/design/table_dump.md#schema): ASCII and UTF-8 as
+/// Writes one JSON document of schema `mamori.table/2` (docs/design/table_dump.md#schema): ASCII and UTF-8 as
 /// the names are, times as whole nanoseconds, rates in Hz.
 void write_json(std::ostream& out, const SystemView& view, const Names& names = {});
 
