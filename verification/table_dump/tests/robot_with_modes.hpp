@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The system of docs/manual/table_with_modes.md, whose code blocks are parts of this file.
-///
-/// @satisfies SWR-TAB-014      Design: docs/design/table_dump.md#first-system
 #ifndef MAMORI_TABLE_DUMP_TESTS_ROBOT_WITH_MODES_HPP
 #define MAMORI_TABLE_DUMP_TESTS_ROBOT_WITH_MODES_HPP
 
