@@ -43,7 +43,6 @@ Status Component::exit(Instant now) noexcept {
     if (get_state() == LifecycleState::kActive) {
         first_failure = context_->deactivate_component(*this, now);
     }
-    turn_ &= ~kNotices;
     const Status result = end_life();
     return first_failure == Status::kOk ? result : first_failure;
 }

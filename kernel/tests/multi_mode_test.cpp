@@ -155,6 +155,22 @@ TEST_F(MultiModeTest, APendingModeWaitsWhileTheContextIsStopped) {
     EXPECT_EQ(run_cycle(), (Calls{"m.on_mode_changed", "m.on_execute", "m.on_state_update"}));
 }
 
+TEST_F(MultiModeTest, APendingModeWaitsForTheNextLifeInItsPlace) {
+    verifies("SWR-RTC-007", Technique::kErrorGuessing);
+    ASSERT_EQ(sut_.set_mode(kSlow, false, now_), Status::kOk);
+    ASSERT_EQ(sut_.exit(now_), Status::kOk);
+    calls_.clear();
+    EXPECT_EQ(run_cycle(), Calls{}) << "its place is empty";
+    EXPECT_EQ(sut_.get_pending_mode(), &kSlow);
+
+    ASSERT_EQ(sut_.initialize(), Status::kOk);
+    calls_.clear();
+
+    EXPECT_EQ(run_cycle(), Calls{"m.on_mode_changed"});
+    EXPECT_EQ(&sut_.get_current_mode(), &kSlow);
+    EXPECT_EQ(sut_.get_pending_mode(), nullptr);
+}
+
 TEST_F(MultiModeTest, WithoutAContextAModeIsCommittedAtOnceAndNotTold) {
     verifies("SWR-RTC-007", Technique::kStateTransition);
     ASSERT_EQ(context_.deactivate_component(sut_, now_), Status::kOk);
