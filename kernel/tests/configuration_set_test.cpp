@@ -136,6 +136,25 @@ TEST(ConfigurationCheckTest, ASecondSetOfOneNameIsNamed) {
     EXPECT_EQ(finding.set, 2U);
 }
 
+TEST(ConfigurationCheckTest, AValueThatOnlyTheComponentCanJudgeIsFoundInEachPlace) {
+    verifies("SWR-PAR-006", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr std::int16_t kTooHigh = 11;
+    const auto table =
+        configuration(parameters_of(g_axis, g_named),
+                      configuration_set("first", assign(g_named.level, kTooHigh), assign(g_axis.speed, 1.0)),
+                      configuration_set("fine", assign(g_axis.speed, 1.0), assign(g_named.level, 10)),
+                      configuration_set("last", assign(g_axis.speed, 1.0), assign(g_named.level, kTooHigh)));
+    std::array<ConfigurationFinding, 3U> findings{};
+
+    ASSERT_EQ(collect_findings(make_view(table), findings), 2U);
+    EXPECT_EQ(findings[0].rule, ConfigurationRule::kValueOutsideConstraint);
+    EXPECT_EQ(findings[0].set, 0U);
+    EXPECT_EQ(findings[0].assignment, 0U);
+    EXPECT_EQ(findings[1].rule, ConfigurationRule::kValueOutsideConstraint);
+    EXPECT_EQ(findings[1].set, 2U);
+    EXPECT_EQ(findings[1].assignment, 1U);
+}
+
 TEST(ConfigurationCheckTest, WhileRunningAllFindingsComeAtOnce) {
     verifies("SWR-PAR-006", Technique::kInterface, Polarity::kViolation);
     const auto table =
