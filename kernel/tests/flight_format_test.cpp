@@ -77,6 +77,19 @@ TEST(FlightFormatTest, BytesOfTheHeaderAreThoseOfTheDesign) {
     EXPECT_EQ(decode_session(session).first_sequence, 5U);
 }
 
+TEST(FlightFormatTest, WhatDoesNotBeginLikeARecorderIsForeignWhateverVersionItShows) {
+    verifies("SWR-REC-005", Technique::kFaultInjection, Polarity::kViolation);
+    HeaderBytes newer = encode_header(3U);
+    newer[kVersionOffset] = kVersion + 1U;
+    ASSERT_EQ(check_header(newer, 3U), Status::kUnsupported);
+
+    for (std::size_t i = 0U; i < kMagic.size(); ++i) {
+        HeaderBytes bytes = newer;
+        bytes[i] ^= 1U;
+        EXPECT_EQ(check_header(bytes, 3U), Status::kError) << i;
+    }
+}
+
 TEST(FlightFormatTest, SizesFollowTheCapacity) {
     verifies("SWR-REC-001", Technique::kBoundaryValues);
     EXPECT_EQ(calc_region_size(1U), 104U);
