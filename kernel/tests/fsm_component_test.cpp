@@ -218,6 +218,8 @@ TEST_F(FsmComponentTest, WhatToolsAskIsAnsweredAndWhatIsStaticIsUnsupported) {
     EXPECT_EQ(door_.get_fsm_profile().size(), 4U);
     EXPECT_STREQ(door_.get_fsm_structure().name, "door");
     EXPECT_STREQ(door_.get_fsm_structure().messages[kTurnKey].data_type, "TimedLong");
+    EXPECT_EQ(door_.find_message("push").get_value(), kPush);
+    EXPECT_EQ(door_.find_message("pull").get_value(), kPull);
     EXPECT_EQ(door_.find_message("turn key").get_value(), kTurnKey);
     EXPECT_EQ(door_.find_message("turn").get_status(), Status::kBadParameter);
     EXPECT_EQ(door_.find_message(nullptr).get_status(), Status::kBadParameter);
@@ -242,7 +244,9 @@ TEST_F(FsmComponentTest, AStimulusThatCannotBeTakenIsRefused) {
     EXPECT_EQ(door_.send_stimulus(kPush, ContextHandle{kId + 1, {}}), Status::kBadParameter);
     EXPECT_EQ(door_.send_stimulus(kPush, ContextHandle{-2, {}}), Status::kBadParameter);
     EXPECT_EQ(free.send_stimulus(kPush), Status::kPreconditionNotMet);
-    EXPECT_EQ(free.send_stimulus(kPush, ContextHandle{kId, {}}), Status::kBadParameter);
+    for (const std::int32_t id : {-2, 0, kId}) {
+        EXPECT_EQ(free.send_stimulus(kPush, ContextHandle{id, {}}), Status::kBadParameter) << id;
+    }
     for (int i = 0; i < 4; ++i) {
         send(kPush);
     }
