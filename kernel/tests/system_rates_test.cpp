@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "mamori/kernel/executive.hpp"
@@ -262,11 +264,29 @@ TEST(RunTimeTableTest, AnExecutiveRefusesATableWithAFindingAndRunsOneWithout) {
     EXPECT_EQ(running.finalize(), Status::kOk);
 }
 
-TEST(RunTimeTableTest, EachRuleHasANameOfItsOwn) {
-    verifies("SWR-KRN-025");
+/// The enumerator's name, as the compiler spells it.
+template <Rule kRule>
+std::string spell() {
+    const std::string words = __PRETTY_FUNCTION__;
+    const std::string before = "Rule::k";
+    const std::size_t begin = words.find(before) + before.size();
+    return words.substr(begin, words.find_first_of(";]", begin) - begin);
+}
 
-    EXPECT_STREQ(get_name(Rule::kNone), "None");
-    EXPECT_STREQ(get_name(Rule::kReactionToUnknownFault), "ReactionToUnknownFault");
+template <std::size_t... kIndices>
+std::vector<std::string> spell_all(std::index_sequence<kIndices...>) {
+    return {spell<static_cast<Rule>(kIndices)>()...};
+}
+
+TEST(RunTimeTableTest, EachRuleHasANameOfItsOwn) {
+    verifies("SWR-KRN-025", Technique::kBackToBack);
+    constexpr std::size_t kCount = static_cast<std::size_t>(Rule::kSafeModeActivates) + 1U;
+    const std::vector<std::string> names = spell_all(std::make_index_sequence<kCount>{});
+
+    ASSERT_EQ(names[0], "None");
+    for (std::size_t i = 0U; i < kCount; ++i) {
+        EXPECT_EQ(get_name(static_cast<Rule>(i)), names[i]);
+    }
     EXPECT_STREQ(get_name(static_cast<Rule>(999)), "Invalid");
 }
 
