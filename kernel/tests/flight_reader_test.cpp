@@ -11,6 +11,7 @@
 
 #include "mamori/kernel/flight_recorder.hpp"
 #include "mamori/verification/verifies.hpp"
+#include "support/failed_check.hpp"
 
 namespace mamori {
 namespace {
@@ -79,7 +80,8 @@ TEST(FlightReaderTest, SlotBeyondTheRingEndsInTheAssertion) {
     FlightRecord record{};
 
     EXPECT_EQ(sut.read(1U, record), SlotState::kEmpty);
-    EXPECT_DEATH(static_cast<void>(sut.read(2U, record)), "");
+    EXPECT_DEATH(testing_support::run_telling_checks([&] { static_cast<void>(sut.read(2U, record)); }),
+                 "flight_reader.cpp check 1");
 }
 
 TEST(FlightReaderTest, RegionOfEachOtherLengthIsRefused) {
