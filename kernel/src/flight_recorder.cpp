@@ -11,9 +11,9 @@ namespace {
 
 /// Each store happens, and in this order: whoever looks at the memory after the program's end has to rely on
 /// it.
-void store(Span<std::byte> region, std::size_t offset, std::uint8_t value) noexcept {
-    volatile std::byte* const place = &region[offset];
-    *place = std::byte{value};
+void store(std::byte& place, std::uint8_t value) noexcept {
+    volatile std::byte& stored = place;
+    stored = std::byte{value};
 }
 
 template <std::size_t N>
@@ -51,10 +51,10 @@ FlightSession find_newest(const FlightReader& reader) noexcept {
 }
 
 /// Number for the next record: behind every one that can be read and behind the slots after it that cannot,
-/// since their numbers may have been given.
+/// since their numbers may have been given. @param[in] first_of_session 0: no session is known.
 std::uint64_t find_next_sequence(const FlightReader& reader, std::uint64_t first_of_session) noexcept {
     const std::uint64_t newest = reader.calc_newest_sequence();
-    std::uint64_t next = newest + 1U > first_of_session ? newest + 1U : first_of_session;
+    std::uint64_t next = newest < first_of_session ? first_of_session : newest + 1U;
     FlightRecord record{};
     for (std::size_t i = 0U; i < reader.get_capacity(); ++i) {
         const SlotState state = reader.read(flight::calc_slot(next, reader.get_capacity()), record);
@@ -74,13 +74,13 @@ Status FlightRecorder::format(Span<std::byte> region) noexcept {
         return Status::kBadParameter;
     }
     // The beginning goes first and comes last: a region that was left half-way is taken for no recorder.
-    for (std::size_t offset = 0U; offset < region.size(); ++offset) {
-        store(region, offset, std::uint8_t{0U});
+    for (std::byte& place : region) {
+        store(place, 0U);
     }
     order_stores();
     const flight::HeaderBytes header = flight::encode_header(static_cast<std::uint32_t>(capacity));
     for (std::size_t offset = header.size(); offset > 0U; --offset) {
-        store(region, offset - 1U, header[offset - 1U]);
+        store(region[offset - 1U], header[offset - 1U]);
     }
     return Status::kOk;
 }
@@ -102,8 +102,7 @@ Status FlightRecorder::open(Span<std::byte> region) noexcept {
         return status;
     }
     const FlightSession before = find_newest(reader);
-    const std::uint64_t next =
-        find_next_sequence(reader, before.first_sequence > 0U ? before.first_sequence : 1U);
+    const std::uint64_t next = find_next_sequence(reader, before.first_sequence);
     if (next > flight::kSequenceMax || before.number == std::numeric_limits<std::uint32_t>::max()) {
         return Status::kOutOfResources;
     }
@@ -124,12 +123,13 @@ void FlightRecorder::write(Instant time, Severity severity, std::uint16_t source
     const FlightRecord record{next_sequence_, time, argument, session_, source, code, severity};
     const flight::RecordBytes bytes = flight::encode_record(record);
     const std::size_t begin = flight::calc_region_size(next_slot_);
-    const std::byte before = region_[begin + flight::kCommitOffset];
-    store(region_, begin + flight::kCommitOffset, std::uint8_t{0U});
+    std::byte& commit = region_[begin + flight::kCommitOffset];
+    const std::byte before = commit;
+    store(commit, 0U);
     order_stores();
     store(region_, begin, bytes);
     order_stores();
-    store(region_, begin + flight::kCommitOffset, flight::kCommitted);
+    store(commit, flight::kCommitted);
     overwritten_count_ += before == std::byte{flight::kCommitted} ? 1U : 0U;
     ++next_sequence_;
     next_slot_ = next_slot_ + 1U == capacity_ ? 0U : next_slot_ + 1U;

@@ -3,6 +3,8 @@
 // table of the checksum is the same whoever computes it.
 // Method: both sides of the limit; a size alone decides, so that the memory behind it need not exist.
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <limits>
 
@@ -43,6 +45,23 @@ TEST(FlightLimitsTest, ARegionForMoreRecordsThanAHeaderCanCountIsNotFormatted) {
     EXPECT_EQ(FlightRecorder::format({bytes.data(), flight::calc_region_size(kMostRecords + 1U)}),
               Status::kBadParameter);
     EXPECT_EQ(bytes[0], std::byte{7});
+}
+
+TEST(FlightLimitsTest, ARegionForAsManyRecordsAsAHeaderCanCountIsFormatted) {
+    verifies("SWR-REC-007", Technique::kBoundaryValues);
+    // One page of the region exists, and is shared with the child that dies at its end.
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    void* const memory =
+        ::mmap(nullptr, 2U * page, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(memory, MAP_FAILED);
+    auto* const bytes = static_cast<std::byte*>(memory);
+    ASSERT_EQ(::mprotect(bytes + page, page, PROT_NONE), 0);
+    bytes[page - 1U] = std::byte{7};
+
+    EXPECT_DEATH(static_cast<void>(FlightRecorder::format({bytes, flight::calc_region_size(kMostRecords)})),
+                 "");
+    EXPECT_EQ(bytes[page - 1U], std::byte{0}) << "it was being wiped";
+    EXPECT_EQ(::munmap(memory, 2U * page), 0);
 }
 
 TEST(FlightLimitsTest, TheChecksumTableComputedWhileRunningIsThatOfTheCompiler) {

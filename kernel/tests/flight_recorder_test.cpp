@@ -11,6 +11,7 @@
 
 #include "mamori/kernel/flight_reader.hpp"
 #include "mamori/verification/verifies.hpp"
+#include "support/failed_check.hpp"
 
 namespace mamori {
 namespace {
@@ -176,6 +177,30 @@ TEST_F(FlightRecorderTest, SessionIsKnownFromTheRecordsWhenTheHeaderForgotIt) {
     EXPECT_EQ(third.get_next_sequence(), 2U);
 }
 
+TEST_F(FlightRecorderTest, SessionIsKnownFromARecordInWhateverSlotItLies) {
+    verifies("SWR-REC-006", Technique::kFaultInjection, Polarity::kViolation);
+    for (int first_count = 0; first_count < 4; ++first_count) {
+        memory_.assign(memory_.size(), std::byte{0U});
+        FlightRecorder first;
+        ASSERT_EQ(first.open(region()), Status::kOk);
+        write(first, 3);
+        FlightRecorder second;
+        ASSERT_EQ(second.open(region()), Status::kOk);
+        write(second, 1 + first_count);
+        FlightRecorder third;
+        ASSERT_EQ(third.open(region()), Status::kOk);
+        write(third, 1);
+        for (const std::size_t offset : flight::kSessionOffsets) {
+            memory_[offset] ^= std::byte{1U};
+        }
+
+        FlightRecorder fourth;
+        ASSERT_EQ(fourth.open(region()), Status::kOk);
+        EXPECT_EQ(fourth.get_session(), 4U) << "the only record of session 3 lies in slot " << first_count;
+        EXPECT_EQ(fourth.get_next_sequence(), 6U + static_cast<std::uint64_t>(first_count));
+    }
+}
+
 TEST_F(FlightRecorderTest, UsedUpRecordNumbersAreRefused) {
     verifies("SWR-REC-007", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
@@ -265,6 +290,28 @@ TEST_F(FlightRecorderTest, FormatMakesAnEmptyRecorderOfWhateverWasThere) {
     EXPECT_EQ(read_sequences(), (Sequences{0U, 0U, 0U, 0U}));
 }
 
+TEST_F(FlightRecorderTest, FormatLeavesNothingOfTheRecordsThatWereThere) {
+    verifies("SWR-REC-007", Technique::kBackToBack);
+    const std::vector<std::byte> old(memory_.size(), std::byte{0xFFU});
+    ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
+    const std::vector<std::byte> fresh = memory_;
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    write(sut_, 7);
+    ASSERT_NE(memory_, fresh);
+
+    ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
+    EXPECT_EQ(memory_, fresh);
+    memory_ = old;
+    ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
+    EXPECT_EQ(memory_, fresh);
+    FlightReader reader;
+    ASSERT_EQ(reader.open({memory_.data(), memory_.size()}), Status::kOk);
+    FlightRecord record{};
+    for (std::size_t slot = 0U; slot < kCapacity; ++slot) {
+        EXPECT_EQ(reader.read(slot, record), SlotState::kEmpty) << slot;
+    }
+}
+
 TEST_F(FlightRecorderTest, OpenRecorderRefusesASecondRegion) {
     verifies("SWR-REC-007", Technique::kStateTransition, Polarity::kViolation);
     ASSERT_EQ(sut_.open(region()), Status::kOk);
@@ -279,7 +326,8 @@ TEST_F(FlightRecorderTest, OpenRecorderRefusesASecondRegion) {
 
 TEST_F(FlightRecorderTest, WriteWithoutARegionEndsInTheAssertion) {
     verifies("SWR-REC-008", Technique::kErrorGuessing, Polarity::kViolation);
-    EXPECT_DEATH(write(sut_, 1), "");
+    EXPECT_DEATH(testing_support::run_telling_checks([this] { write(sut_, 1); }),
+                 "flight_recorder.cpp check 1");
 }
 
 TEST_F(FlightRecorderTest, EventsOfALogGoOnToTheRecorder) {
