@@ -80,7 +80,8 @@ void FsmEventQueue::raise_high_water(std::uint32_t size) noexcept {
         return;
     }
     std::uint32_t highest = high_water_.load(std::memory_order_relaxed);
-    for (std::size_t attempt = 0U; attempt <= cells_.size() && highest < size; ++attempt) {
+    // An exchange that fails has found a higher mark, and none is above the capacity.
+    while (highest < size) {
         static_cast<void>(high_water_.compare_exchange_strong(highest, size, std::memory_order_relaxed));
     }
 }

@@ -43,6 +43,23 @@ TEST_F(FsmEventQueueTest, FirstInIsFirstOutAcrossManyWraps) {
     EXPECT_EQ(sut_.get_capacity(), 4U);
 }
 
+TEST_F(FsmEventQueueTest, TheHighWaterMarkCountsWhatWaitsAndNeverFalls) {
+    verifies("SWR-RTC-009", Technique::kBoundaryValues);
+
+    for (std::int64_t i = 0; i < 10; ++i) {
+        ASSERT_EQ(sut_.post({0U, i}), Status::kOk);
+        ASSERT_TRUE(sut_.take().has_value());
+    }
+    EXPECT_EQ(sut_.get_high_water_mark(), 1U) << "never more than one at a time";
+    for (std::int64_t i = 0; i < 3; ++i) {
+        ASSERT_EQ(sut_.post({0U, i}), Status::kOk);
+        EXPECT_EQ(sut_.get_high_water_mark(), static_cast<std::size_t>(i + 1));
+    }
+    sut_.clear();
+    ASSERT_EQ(sut_.post({0U, 0}), Status::kOk);
+    EXPECT_EQ(sut_.get_high_water_mark(), 3U);
+}
+
 TEST_F(FsmEventQueueTest, AFullQueueRefusesCountsAndKeepsWhatItHas) {
     verifies("SWR-RTC-009", Technique::kBoundaryValues, Polarity::kViolation);
     for (std::int64_t i = 0; i < 4; ++i) {

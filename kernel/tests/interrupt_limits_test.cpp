@@ -19,6 +19,7 @@ namespace {
 
 using testing_support::FaultHandler;
 using testing_support::PagedObject;
+using testing_support::run_in_turns;
 using testing_support::run_interrupted;
 using verification::Polarity;
 using verification::Technique;
@@ -107,6 +108,85 @@ TEST_F(InterruptLimitsTest, ClearingStopsAtAnEventThatIsNotWholeYet) {
         kept_count += outcome.left.size();
     }
     EXPECT_GT(kept_count, 0U);
+}
+
+TEST_F(InterruptLimitsTest, ClearingLeavesWhatComesMeanwhile) {
+    verifies("SWR-RTC-009", Technique::kFaultInjection, Polarity::kViolation);
+    std::size_t dropped_count = 0U;
+    std::size_t at = 0U;
+
+    for (std::size_t turn_count = 1U; at < turn_count; ++at) {
+        PagedObject<Cells> cells;
+        PagedObject<FsmEventQueue> queue{Span<FsmEventCell>{*cells}};
+        ASSERT_EQ(queue->post({0U, 1}), Status::kOk);
+        ASSERT_EQ(queue->post({0U, 2}), Status::kOk);
+        turn_count = run_interrupted(
+            queue, cells, at, [&] { queue->clear(); }, [&] { EXPECT_EQ(queue->post({0U, 3}), Status::kOk); });
+        const Result<FsmEvent> left = queue->take();
+        dropped_count += left.has_value() ? 0U : 1U;
+        EXPECT_EQ(left.has_value() ? left.get_value().argument : 3, 3) << at;
+    }
+    EXPECT_EQ(dropped_count, 1U) << "the one that came before the queue was looked at";
+    EXPECT_GT(at, 2U);
+}
+
+class OvertakenSenderTest : public InterruptLimitsTest {
+  protected:
+    /// Posts event 1 into an empty queue while `count` others post at the worst instant, each before an
+    /// exchange of the sender; the reader takes their events at once.
+    Status post_overtaken(std::size_t count) {
+        Status status = Status::kError;
+        std::size_t left = count;
+        run_in_turns(
+            queue_, cells_, [&] { status = queue_->post({0U, 1}); },
+            [&](std::size_t turn) {
+                // It reads its position, looks at the cell, and then each exchange follows a look at a cell.
+                const bool is_exchange = turn > 0U && turn % 2U == 0U;
+                if (is_exchange && left > 0U) {
+                    --left;
+                    EXPECT_EQ(queue_->post({0U, 2}), Status::kOk);
+                    EXPECT_TRUE(queue_->take().has_value());
+                }
+            });
+        EXPECT_EQ(left, 0U);
+        return status;
+    }
+
+    PagedObject<Cells> cells_;
+    PagedObject<FsmEventQueue> queue_{Span<FsmEventCell>{*cells_}};
+};
+
+TEST_F(OvertakenSenderTest, ASenderWaitsForAsManyOthersAsThereAreCells) {
+    verifies("SWR-RTC-009", Technique::kBoundaryValues);
+
+    EXPECT_EQ(post_overtaken(4U), Status::kOk);
+    EXPECT_EQ(queue_->get_refused_count(), 0U);
+    EXPECT_EQ(queue_->take().get_value().argument, 1);
+}
+
+TEST_F(OvertakenSenderTest, ASenderThatIsOvertakenOnceMoreIsRefusedAndCounted) {
+    verifies("SWR-RTC-009", Technique::kBoundaryValues, Polarity::kViolation);
+
+    EXPECT_EQ(post_overtaken(5U), Status::kOutOfResources);
+    EXPECT_EQ(queue_->get_refused_count(), 1U);
+    EXPECT_FALSE(queue_->take().has_value());
+}
+
+TEST_F(OvertakenSenderTest, AFullQueueIsLookedAtNoMoreThanOneWithRoom) {
+    verifies("SWR-RTC-009", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto count_turns = [this](Status wanted) {
+        Status status = Status::kError;
+        const std::size_t turn_count =
+            run_in_turns(queue_, cells_, [&] { status = queue_->post({0U, 1}); }, [](std::size_t) {});
+        EXPECT_EQ(status, wanted);
+        return turn_count;
+    };
+    const std::size_t with_room = count_turns(Status::kOk);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_EQ(queue_->post({0U, 1}), Status::kOk);
+    }
+
+    EXPECT_LE(count_turns(Status::kOutOfResources), with_room);
 }
 
 // A parameter of nine pages and more: active value, requested value, and last the slot of the request.

@@ -78,19 +78,17 @@ class FaultHandler {
     struct sigaction before_{};
 };
 
-/// Runs `work` and counts its turns between two objects; `interrupt` is called before turn number `at`.
+/// Runs `work` and counts its turns between two objects; `interrupt` is told each turn's number before it.
 /// @return number of turns, at most 1000.
 template <typename A, typename B>
-std::size_t run_interrupted(PagedObject<A>& a, PagedObject<B>& b, std::size_t at,
-                            const std::function<void()>& work, const std::function<void()>& interrupt) {
+std::size_t run_in_turns(PagedObject<A>& a, PagedObject<B>& b, const std::function<void()>& work,
+                         const std::function<void(std::size_t)>& interrupt) {
     constexpr int kFree = PROT_READ | PROT_WRITE;
     std::size_t turn = 0U;
     const FaultHandler handler{[&](const void* address) {
         a.protect(0U, PagedObject<A>::kPages, kFree);
         b.protect(0U, PagedObject<B>::kPages, kFree);
-        if (turn == at) {
-            interrupt();
-        }
+        interrupt(turn);
         ++turn;
         if (turn == 1000U) {
             return;
@@ -106,6 +104,17 @@ std::size_t run_interrupted(PagedObject<A>& a, PagedObject<B>& b, std::size_t at
     a.protect(0U, PagedObject<A>::kPages, kFree);
     b.protect(0U, PagedObject<B>::kPages, kFree);
     return turn;
+}
+
+/// The same with one interrupt, before turn number `at`.
+template <typename A, typename B>
+std::size_t run_interrupted(PagedObject<A>& a, PagedObject<B>& b, std::size_t at,
+                            const std::function<void()>& work, const std::function<void()>& interrupt) {
+    return run_in_turns(a, b, work, [at, &interrupt](std::size_t turn) {
+        if (turn == at) {
+            interrupt();
+        }
+    });
 }
 
 }  // namespace mamori::testing_support

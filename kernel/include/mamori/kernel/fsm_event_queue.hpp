@@ -38,7 +38,7 @@ class FsmEventQueue final {
     FsmEventQueue& operator=(const FsmEventQueue&) = delete;
 
     /// Appends an event.
-    /// @return kOk; kOutOfResources (full, or as many other senders were faster as there are cells): counted,
+    /// @return kOk; kOutOfResources (full, or more other senders were faster than there are cells): counted,
     ///         nothing is overwritten.
     Status post(const FsmEvent& event) noexcept;
     /// Takes the oldest event. @return the event; kPreconditionNotMet (there is none).
