@@ -181,7 +181,6 @@ void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
 /// Worst first: a failure, then a mode, then a set.
 void SystemModes::propose(std::int64_t frame) noexcept {
     if (is_failing()) {
-        request_.store(0U, std::memory_order_relaxed);
         if (get_mode() != safe_mode_) {
             static_cast<void>(replace({}, {ModeStep::kSafe, safe_mode_, frame + 1}));
         }
