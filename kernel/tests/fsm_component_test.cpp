@@ -218,9 +218,11 @@ TEST_F(FsmComponentTest, WhatToolsAskIsAnsweredAndWhatIsStaticIsUnsupported) {
     EXPECT_EQ(door_.get_fsm_profile().size(), 4U);
     EXPECT_STREQ(door_.get_fsm_structure().name, "door");
     EXPECT_STREQ(door_.get_fsm_structure().messages[kTurnKey].data_type, "TimedLong");
-    EXPECT_EQ(door_.find_message("push").get_value(), kPush);
-    EXPECT_EQ(door_.find_message("pull").get_value(), kPull);
-    EXPECT_EQ(door_.find_message("turn key").get_value(), kTurnKey);
+    for (FsmIndex message = kPush; message <= kTurnKey; ++message) {
+        const Result<FsmIndex> found = door_.find_message(kMessages[message].name);
+        ASSERT_TRUE(found.has_value()) << message;
+        EXPECT_EQ(found.get_value(), message);
+    }
     EXPECT_EQ(door_.find_message("turn").get_status(), Status::kBadParameter);
     EXPECT_EQ(door_.find_message(nullptr).get_status(), Status::kBadParameter);
     EXPECT_EQ(door_.set_fsm_profile({}), Status::kUnsupported);
