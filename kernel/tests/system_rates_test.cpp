@@ -287,6 +287,7 @@ TEST(RunTimeTableTest, EachRuleHasANameOfItsOwn) {
     for (std::size_t i = 0U; i < kCount; ++i) {
         EXPECT_EQ(get_name(static_cast<Rule>(i)), names[i]);
     }
+    EXPECT_STREQ(get_name(static_cast<Rule>(kCount)), "Invalid");
     EXPECT_STREQ(get_name(static_cast<Rule>(999)), "Invalid");
 }
 
