@@ -149,11 +149,11 @@ TEST(QueueInPortTest, NothingIsReadFromARestartToTheNextOpening) {
 
 TEST(QueueInPortTest, AValueThatIsPublishedBetweenARestartAndTheNextOpeningIsOfTheNewMode) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues);
-    Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kReadback> sut;
     sut.in.restart(Instant{20}, 0U);
     sut.publish(1, Instant{21});
 
-    EXPECT_EQ(sut.read_all(Instant{25}), Values{1});
+    EXPECT_EQ(sut.read_all(Instant{25}, 1U), Values{1});
 }
 
 TEST(QueueInPortTest, AValueThatIsHandedOnAtTheInstantOfARestartIsOfTheNewMode) {
