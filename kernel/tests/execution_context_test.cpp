@@ -336,6 +336,8 @@ TEST_F(ExecutionContextTest, StepsOutsideACycleOrBeyondTheListEndInTheAssertion)
     ASSERT_EQ(sut_.begin_cycle(now_), Status::kOk);
     EXPECT_DEATH(sut_.execute(2U), "");
     EXPECT_DEATH(sut_.update_state(2U), "");
+    EXPECT_DEATH(sut_.execute(3U), "");
+    EXPECT_DEATH(sut_.update_state(3U), "");
 }
 
 }  // namespace

@@ -73,7 +73,9 @@ class FlightStepTest : public ::testing::Test {
             }
             static_cast<void>(::raise(SIGSTOP));
             action();
-            ::_exit(0);
+            // It is killed where it stops: what comes after the action is not to be stepped through.
+            static_cast<void>(::raise(SIGSTOP));
+            ::_exit(1);
         }
         std::vector<Bytes> contents{before_};
         int status = 0;
@@ -81,7 +83,7 @@ class FlightStepTest : public ::testing::Test {
         if (!WIFSTOPPED(status)) {
             return {};
         }
-        while (WIFSTOPPED(status)) {
+        do {
             const Bytes now(region_.begin(), region_.end());
             if (now != contents.back()) {
                 contents.push_back(now);
@@ -91,8 +93,10 @@ class FlightStepTest : public ::testing::Test {
                 static_cast<void>(::kill(child, SIGKILL));
                 return {};
             }
-        }
-        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+        } while (WIFSTOPPED(status) && WSTOPSIG(status) == SIGTRAP);
+        EXPECT_TRUE(WIFSTOPPED(status) && WSTOPSIG(status) == SIGSTOP);
+        static_cast<void>(::kill(child, SIGKILL));
+        EXPECT_EQ(::waitpid(child, &status, 0), child);
         return contents;
     }
     static bool holds(const Bytes& bytes, std::uint64_t sequence) {

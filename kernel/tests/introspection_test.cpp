@@ -187,6 +187,19 @@ TEST_F(IntrospectionTest, AnAliveComponentWithoutAContextShowsAsInactive) {
     EXPECT_EQ(read_component(1U).state, LifecycleState::kCreated);
 }
 
+TEST_F(IntrospectionTest, AComponentThatHandsNothingOnShowsItsTimeToo) {
+    verifies("SWR-INS-001", Technique::kBoundaryValues);
+    SpyObserver observer;
+    executive_.set_observer(&observer);
+    attach_and_start();
+    host_.durations[{2U, FakeHost::Pass::kExecute}] = 40_ns;
+    run_second(0);
+    host_.durations[{2U, FakeHost::Pass::kExecute}] = 30_ns;
+    run_second(1);
+
+    EXPECT_EQ(read_component(2U).worst_used, 40_ns);
+}
+
 TEST_F(IntrospectionTest, AComponentShowsItsLastFailureAndCountsItsTurnsInError) {
     verifies("SWR-INS-001", Technique::kFaultInjection);
     attach_and_start();

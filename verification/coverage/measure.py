@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 COMPILER = "clang++-19"
-FLAGS = ("-fprofile-instr-generate", "-fcoverage-mapping", "-fcoverage-mcdc")
+FLAGS = ("-fprofile-instr-generate", "-fprofile-update=atomic", "-fcoverage-mapping", "-fcoverage-mcdc")
 PRESET = "host-coverage"
 LAYER = "kernel"
 FLUSH = Path(__file__).with_name("flush_on_death.cpp")
