@@ -155,6 +155,17 @@ TEST_F(ExecutiveTest, ALateReleaseIsReportedAndChangesNoData) {
     EXPECT_EQ(sink_.notes[0].age, 0_ns) << "published at the planned close";
 }
 
+TEST_F(ExecutiveTest, AWindowOnTimeAndWithinItsBudgetIsNothingToTell) {
+    verifies("SWR-KRN-031");
+    SpyObserver observer;
+    host_.durations[{0U, WindowHost::Pass::kExecute}] = 300_ns;
+    sut_.set_observer(&observer);
+
+    run_frame(sut_, host_, 0);
+
+    EXPECT_TRUE(observer.heard.empty());
+}
+
 TEST_F(ExecutiveTest, EachRunIsNotedFromTheOpeningOrTheTurnBefore) {
     verifies("SWR-KRN-030", Technique::kBoundaryValues);
     SpyObserver observer;
