@@ -167,9 +167,17 @@ void Executive::restart_inputs(std::size_t window) noexcept {
     detail::WindowState& state = windows_[window];
     const ModeMask before = state.held_modes;
     state.held_modes = held_modes_;
-    for (const std::size_t i : view_.latch_order.subspan(row.first_latch, row.latch_count)) {
+    const Span<const std::size_t> latched = view_.latch_order.subspan(row.first_latch, row.latch_count);
+    for (const std::size_t i : latched) {
         const ConnectionRow& connection = view_.connections[i];
-        if (is_held(connection, before) != is_held(connection, state.held_modes)) {
+        if (is_held(connection, before) && !is_held(connection, state.held_modes)) {
+            connection.sink->restart(frame_start_, 0U);
+        }
+    }
+    // After those that end: on the way to the safe mode an input may lose one source and get another at once.
+    for (const std::size_t i : latched) {
+        const ConnectionRow& connection = view_.connections[i];
+        if (!is_held(connection, before) && is_held(connection, state.held_modes)) {
             // What another core publishes at this moment is not for this one to look at.
             const bool is_near = connection.crossing == nullptr && connection.operations.is_latest;
             connection.sink->restart(frame_start_,

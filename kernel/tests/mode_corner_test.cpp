@@ -292,6 +292,51 @@ TEST(ModeCornerTest, AWindowThatOpensTwiceInAFrameCrossesTheBoundaryOnce) {
     EXPECT_EQ(p.first.speeds, (std::vector<double>{1.0, 1.0, 2.5, 2.5, 2.5, 2.5}));
 }
 
+TEST(ModeCornerTest, AnInputThatGetsAnotherSourceInTheSafeModeTakesNoOldValueOfIt) {
+    verifies("SWR-MOD-009", Technique::kBoundaryValues, Polarity::kViolation);
+    SmallParts p;
+    Part& reader = p.stranger;
+    // Either order of the two connections: what ends must not undo what begins.
+    const auto make_table = [&](auto earlier, auto later) {
+        return system(
+            frame(1000_ns), window("all", 0_ns, 400_ns, budget(300_ns), run(reader, p.first, p.second)),
+            earlier, later, system_mode("idle", runs(reader, p.first)),
+            system_mode("work", runs(reader, p.first, p.second)), safe_mode("halt", runs(reader, p.first)),
+            mode_transition("idle", Command::kStart, "work"));
+    };
+    const auto run_both = [&](const auto& table) {
+        SystemModes modes{make_view(table)};
+        ExecutiveFor<std::decay_t<decltype(table)>> sut{table, modes};
+        ASSERT_EQ(sut.initialize(), Status::kOk);
+        ASSERT_EQ(sut.start(), Status::kOk);
+        reader.reads.clear();
+        const auto run_frame = [&](std::int64_t number) {
+            p.host.now = Instant{number * 1000};
+            ASSERT_EQ(sut.run_window(0U, p.host.now, p.host), WindowOutcome::kCompleted);
+        };
+        for (std::int64_t frame_number = 0; frame_number < 12; ++frame_number) {
+            if (frame_number == 0) {
+                ASSERT_EQ(modes.request(Command::kStart), Status::kOk);
+            }
+            run_frame(frame_number);
+        }
+        ASSERT_GT(reader.reads.back(), 2000) << "the second part feeds it in \"work\"";
+        ASSERT_EQ(modes.request_safe_mode(), Status::kOk);
+        run_frame(12);
+        ASSERT_GT(reader.reads.back(), 2000);
+        run_frame(13);  // to the safe mode
+        EXPECT_EQ(reader.reads.back(), -1) << "the value that waits is of another mode";
+        run_frame(14);
+        EXPECT_EQ(reader.reads.back(), 1000 + p.first.cycle_count - 1);
+        ASSERT_EQ(sut.stop(), Status::kOk);
+        ASSERT_EQ(sut.finalize(), Status::kOk);
+    };
+    run_both(make_table(connect(p.first.out, reader.in, only_in("halt")),
+                        connect(p.second.out, reader.in, only_in("work"))));
+    run_both(make_table(connect(p.second.out, reader.in, only_in("work")),
+                        connect(p.first.out, reader.in, only_in("halt"))));
+}
+
 class QueueReader final : public Component {
   public:
     explicit QueueReader() noexcept : Component("reader") {}
