@@ -155,7 +155,7 @@ class Component : public LifecycleRegion {
     ExecutionContext* get_context(ContextHandle handle) const noexcept;
     /// The handle of a context, at no instant. @return kBadParameter (it does not participate there).
     Result<ContextHandle> get_context_handle(const ExecutionContext& context) const noexcept;
-    /// Contexts come and go with the system table. @return kUnsupported.
+    /// Contexts come and go with the system table. Both: @return kUnsupported.
     Status attach_context(ExecutionContext&) noexcept { return Status::kUnsupported; }
     Status detach_context(ContextHandle) noexcept { return Status::kUnsupported; }
     /// @}
@@ -163,8 +163,8 @@ class Component : public LifecycleRegion {
     /// True from a successful initialize() until finalize() or exit(), whichever context is asked.
     bool is_alive() const noexcept { return get_state() != LifecycleState::kCreated; }
 
-    /// The last answer to its context that was not kOk, on_aborting and on_error left out; kept until the
-    /// next.
+    /// The last answer to its context that was not kOk, without those of on_aborting and on_error; kept until
+    /// the next.
     const ActionFailure& get_last_failure() const noexcept { return last_failure_; }
 
     /// Name given at construction; static storage, never nullptr.

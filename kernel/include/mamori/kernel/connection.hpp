@@ -13,7 +13,8 @@
 
 namespace mamori {
 
-/// Type-free part of the storage of a connection that leaves its core or partition.
+/// Type-free part of the storage of a connection that leaves its core or partition, by which the table names
+/// it. Nothing can be done with it.
 class CrossingBase {
   public:
     CrossingBase(const CrossingBase&) = delete;
@@ -66,6 +67,9 @@ class Crossing final : public CrossingBase {
 };
 
 /// What the executive calls for a connection; one constant per pair of port types. nullptr: nothing to do.
+/// The crossing is that of the row; nullptr where the connection has none, and then it is not looked at.
+///
+/// Calling context: deliver and hand_on on the core of the source, latch on that of the sink.
 struct ConnectionOperations {
     /// After a publication of the source.
     void (*deliver)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};

@@ -38,7 +38,7 @@ enum class Need : std::uint8_t { kMandatory, kOptional };
 
 /// What an input that queues has counted; 0 for one that keeps the latest value. Counts wrap at 2^32.
 struct QueueCounts {
-    std::uint32_t capacity{0U};
+    std::uint32_t capacity{0U};         ///< values for which there is room; 0: no queue
     std::uint32_t high_water_mark{0U};  ///< most values that ever waited, 0 .. capacity
     std::uint32_t rejected{0U};         ///< values that were refused because the queue was full
     std::uint32_t overwritten{0U};      ///< values that gave way before they were read
@@ -46,11 +46,15 @@ struct QueueCounts {
 };
 
 /// Type-free part of an output, for the executive and the table.
+///
+/// Thread safety: none; all from the core of its component. Time: O(1), hash_into() O(payload).
+/// Memory: no heap.
 class OutPortBase {
   public:
     OutPortBase(const OutPortBase&) = delete;
     OutPortBase& operator=(const OutPortBase&) = delete;
 
+    /// Name given at construction; static storage.
     const char* get_name() const noexcept { return name_; }
     /// Number of publications so far (wraps at 2^32).
     std::uint32_t get_sequence() const noexcept { return sequence_; }
@@ -75,7 +79,7 @@ class OutPortBase {
     }
     /// Throws the staged value away: its window overran. What was published before stays.
     void discard() noexcept { is_staged_ = false; }
-    /// Adds the published value, its sequence and instant.
+    /// Adds the published value, its sequence and instant. For the executive, after a publication.
     void hash_into(TraceHash& hash) const noexcept;
 
   protected:
@@ -102,11 +106,14 @@ class OutPortBase {
 };
 
 /// Type-free part of an input.
+///
+/// Thread safety: none; all from the core of its component. Time: O(1). Memory: no heap.
 class InPortBase {
   public:
     InPortBase(const InPortBase&) = delete;
     InPortBase& operator=(const InPortBase&) = delete;
 
+    /// Name given at construction; static storage.
     const char* get_name() const noexcept { return name_; }
     /// False until the first value has arrived.
     bool has_value() const noexcept { return has_value_; }
@@ -133,8 +140,7 @@ class InPortBase {
     /// For the executive: another connection feeds this input from `boundary` on, or none. It has no value
     /// until one arrives that was published later.
     /// @param[in] revision last one that the source published; 0 for a source on another core, whose values
-    /// are
-    ///                     judged by their instants.
+    ///                     are judged by their instants, and for none.
     void restart(Instant boundary, std::uint64_t revision) noexcept {
         restarted_at_ = boundary;
         revision_ = revision;
@@ -201,12 +207,13 @@ class OutPort final : public OutPortBase {
         is_staged_ = true;
     }
 
-    /// Last published value; a value-initialised T before the first publication.
+    /// Last published value; a value-initialised T before the first publication. Stays as it is until the
+    /// second write() after it.
     const T& get_published() const noexcept { return slots_[get_published_slot()].value; }
 
     /// What a connection moves: a value, the write it comes from, and when it counts.
     struct Sample {
-        const T& value;
+        const T& value;          ///< lies in its port, to be copied at once
         std::uint64_t revision;  ///< 0: there is none yet
         Instant published_at;
     };
@@ -215,6 +222,7 @@ class OutPort final : public OutPortBase {
         return {get_published(), published_revision_, published_at_};
     }
     /// For connections within a window: the staged value ahead of its publication, or none.
+    /// @param[in] now opening of the window, from which the value counts.
     Sample get_staged_sample(Instant now) const noexcept {
         return {slots_[get_staged_slot()].value, is_staged_ ? revision_ : 0U, now};
     }
@@ -244,7 +252,7 @@ class InPort final : public InPortBase {
     /// @param[in] name port name with static storage.
     constexpr explicit InPort(const char* name) noexcept : InPortBase(name) {}
 
-    /// Latched value; a value-initialised T while has_value() is false.
+    /// Latched value; without meaning while has_value() is false. Stays as it is within an action.
     const T& read() const noexcept { return slot_.value; }
 
     /// Takes a sample when it comes from a later write than what is held. For connections.

@@ -30,7 +30,8 @@ namespace mamori {
 ///
 /// The context is busy while a cycle is under way and while an action of a participant is being called (or
 /// hangs). Every operation that changes anything is refused with kPreconditionNotMet then, so that actions
-/// are never reentrant and nothing changes in mid-cycle.
+/// are never reentrant and nothing changes in mid-cycle. The instant `now` of an operation is what the
+/// actions find in their ContextHandle, by the clock of the windows; nothing else depends on it.
 ///
 /// Thread safety: none; call from the context that runs the windows. Only get_acting_position() may be asked
 ///                while an abandoned action still runs elsewhere.
@@ -57,7 +58,7 @@ class ExecutionContext final {
     /// @return kOk; kPreconditionNotMet (not attached, Running, busy, or one of them is Active).
     Status detach() noexcept;
 
-    /// Participants come and go with the system table, all at once. @return kUnsupported.
+    /// Participants come and go with the system table, all at once. Both: @return kUnsupported.
     Status add_component(Component&) noexcept { return Status::kUnsupported; }
     Status remove_component(Component&) noexcept { return Status::kUnsupported; }
 
@@ -121,7 +122,9 @@ class ExecutionContext final {
     bool is_busy() const noexcept;
     /// Identity from attach(); -1 while not attached.
     std::int32_t get_id() const noexcept { return id_; }
+    /// From a start() that returned kOk until stop().
     bool is_running() const noexcept { return is_running_; }
+    /// Positions are 0 .. this - 1, in execution order; 0 while not attached.
     std::size_t get_participant_count() const noexcept { return participants_.size(); }
 
     /// Position of the participant whose action is being called or hangs. @return kPreconditionNotMet: none.
@@ -171,6 +174,7 @@ class ExecutionContext final {
     void update_state(std::size_t position) noexcept { update_range(position, 1U); }
     /// update_state() of `count` positions from `first` on.
     void update_range(std::size_t first, std::size_t count) noexcept;
+    /// Ends the cycle, whether all steps were made or not.
     void end_cycle() noexcept { is_in_cycle_.store(false, std::memory_order_relaxed); }
     /// @}
 

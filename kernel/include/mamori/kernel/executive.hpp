@@ -65,8 +65,7 @@ class Executive {
     /// window, in table order. Parameters have the values of the first mode or initial set before. After a
     /// refusal no context is attached, and a second call goes on where the first ended.
     /// @return kOk; kPreconditionNotMet (done before, called from an action, or the table has modes or sets
-    /// but
-    ///         the executive no SystemModes); kBadParameter (the table breaks a rule, see check_all(), a
+    ///         but the executive no SystemModes); kBadParameter (the table breaks a rule, see check_all(), a
     ///         value of the first set is refused, a component participates elsewhere, or the SystemModes is
     ///         that of another table or has no room for this core); else the code of the on_initialize that
     ///         refused.
@@ -75,9 +74,8 @@ class Executive {
     /// Starts every context, then activates every component that the current mode runs, in table order. After
     /// a refusal everything is stopped again, as by stop().
     /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is in Error,
-    /// other
-    ///         cores are switching modes, or called from an action); kBadParameter (a value of the current
-    ///         set is refused); else the code of the on_startup or on_activated that refused.
+    ///         other cores are switching modes, or called from an action); kBadParameter (a value of the
+    ///         current set is refused); else the code of the on_startup or on_activated that refused.
     Status start() noexcept;
 
     /// Deactivates every Active component and stops every running context, in reverse order.
@@ -95,6 +93,9 @@ class Executive {
     /// so a late release changes no data.
     /// @param[in] index   0 .. get_view().windows.size() - 1, a window of this core.
     /// @param[in] release planned opening of the window, not after host.get_now(); later is an own bug.
+    /// @param[in] host    clock and budget guard; work that it abandons may run on after this returns, so it
+    ///                    must outlive that.
+    /// @return what became of the opening; kStopped and kNotDue ran nothing.
     WindowOutcome run_window(std::size_t index, Instant release, WindowHost& host) noexcept;
     /// The same for a host that releases windows exactly: the planned opening is now.
     WindowOutcome run_window(std::size_t index, WindowHost& host) noexcept {
@@ -102,7 +103,9 @@ class Executive {
     }
 
     /// Context of window `index`, to start, stop or reset a single component.
+    /// @param[in] index 0 .. get_view().windows.size() - 1; out of range is an own bug.
     ExecutionContext& get_context(std::size_t index) noexcept { return windows_[index].context; }
+    /// The table, as it was given.
     const SystemView& get_view() const noexcept { return view_; }
     /// Core whose windows it runs, as WindowRow::core.
     std::size_t get_core() const noexcept { return core_; }

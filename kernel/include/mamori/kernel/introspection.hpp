@@ -84,7 +84,7 @@ class Introspection {
     /// @}
 
     /// @name For tools: all rows in order.
-    /// @param[in] visitor called as visitor(index, snapshot) for each row that can be read.
+    /// @param[in] visitor called as visitor(index, snapshot) for each row that can be read, by the caller.
     /// @return how many could not, for a reason that the read functions above name.
     /// @{
     template <typename Visitor>
@@ -101,11 +101,13 @@ class Introspection {
     }
     /// @}
 
+    /// Rows of the table, whether they can be read or not.
     std::size_t get_window_count() const noexcept { return windows_.size(); }
     std::size_t get_component_count() const noexcept { return components_.size(); }
     std::size_t get_port_count() const noexcept { return ports_.size(); }
 
-    /// @name For the executive of the core that the row belongs to.
+    /// @name For the executive of the core that the row belongs to. An index that is not of the table is an
+    /// own bug.
     /// @{
     /// An opening of `window` is over. @param[in] lateness, used >= 0.
     void note_opening(std::size_t window, Duration lateness, Duration used, WindowOutcome outcome) noexcept;

@@ -28,16 +28,16 @@ struct CoreSnapshot {
 
 /// How a window keeps its time. Counts and worst cases are those since the introspection was attached.
 struct WindowSnapshot {
-    const char* name{""};
-    std::size_t core{0U};
+    const char* name{""};             ///< static storage, as all names here
+    std::size_t core{0U};             ///< that runs it, as WindowRow::core
     Instant observed_at{};            ///< planned opening that ran last
     std::uint64_t cycles{0U};         ///< openings that ended kCompleted or kOverrun
     std::uint64_t overruns{0U};       ///< of them, those that ended kOverrun
     std::uint64_t late_releases{0U};  ///< openings after their planned instant, while Running
-    Duration worst_lateness{};
-    Duration budget{};
-    Duration last_used{};   ///< from the opening to the end of the last cycle
-    Duration worst_used{};  ///< of all cycles
+    Duration worst_lateness{};        ///< longest time from the planned opening to the real one, >= 0
+    Duration budget{};                ///< as in the table
+    Duration last_used{};             ///< from the opening to the end of the last cycle
+    Duration worst_used{};            ///< of all cycles
     WindowOutcome last_outcome{WindowOutcome::kStopped};
     /// Whose action hangs; kNoIndex: nobody's. While one hangs, the rows of this window's components and
     /// ports stay as they were.
@@ -47,8 +47,8 @@ struct WindowSnapshot {
 /// How a component is.
 struct ComponentSnapshot {
     const char* name{""};
-    std::size_t window{kNoIndex};
-    Instant observed_at{};  ///< planned opening of its window that ran last
+    std::size_t window{kNoIndex};  ///< that runs it, place in the table
+    Instant observed_at{};         ///< planned opening of its window that ran last
     LifecycleState state{LifecycleState::kCreated};
     ActionFailure last_failure{};
     std::uint64_t cycles{0U};  ///< first passes within the budget, while Active or in Error, since attached
@@ -60,8 +60,8 @@ struct ComponentSnapshot {
 /// What a port holds.
 struct PortSnapshot {
     const char* name{""};
-    std::size_t component{kNoIndex};
-    bool is_input{false};
+    std::size_t component{kNoIndex};     ///< owner, place in the table
+    bool is_input{false};                ///< else an output
     bool has_value{false};               ///< something was published, or has arrived
     Instant observed_at{};               ///< planned opening of its window that ran last
     Instant published_at{};              ///< of the value that it holds; without meaning before has_value

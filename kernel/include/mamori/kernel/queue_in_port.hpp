@@ -51,7 +51,8 @@ class QueueInPort final : public InPortBase {
         return status;
     }
 
-    /// True when read() would give a value that was not read before.
+    /// True when read() would give a value that was not read before. For the owner: looking holds the oldest
+    /// value, which a writer that overwrites then leaves alone.
     bool has_waiting() noexcept { return buffer_.peek() == Status::kOk && is_front_due(); }
 
     /// Most values that ever waited, 0 .. kCapacity.

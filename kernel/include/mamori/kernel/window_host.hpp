@@ -16,14 +16,15 @@ namespace mamori {
 
 /// Clock and budget guard of the core that runs the windows.
 ///
-/// Calling context: the context that runs the windows.
+/// Calling context: the context that runs the windows. Time: get_now() and get_step_end() are asked once or
+/// twice per window and once per step, and must not block.
 class WindowHost {
   public:
     /// Which part of a component's cycle a piece of work is.
     enum class Pass : std::uint8_t {
-        kExecute,
-        kStateUpdate,
-        kModeStep,  ///< on_deactivated or on_activated in a switch of modes, in place of a cycle
+        kExecute,      ///< on_execute, or what takes its place in a turn
+        kStateUpdate,  ///< on_state_update
+        kModeStep,     ///< on_deactivated or on_activated in a switch of modes, in place of a cycle
     };
 
     /// One pass over components of a window, as a range of steps, so that a host which has nothing to do
@@ -42,8 +43,8 @@ class WindowHost {
     virtual Instant get_now() const noexcept = 0;
 
     /// @return the instant at which the step that is just returning ends; asked from within a step. A host
-    /// that
-    ///         models execution times answers with the modelled end, which its clock has not reached yet.
+    ///         that models execution times answers with the modelled end, which its clock has not reached
+    ///         yet.
     virtual Instant get_step_end() const noexcept = 0;
 
     /// Runs the steps of `work`, each at most once and in order, together or one by one.
