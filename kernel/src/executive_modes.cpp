@@ -104,6 +104,21 @@ void Executive::begin_modes(std::int64_t frame) noexcept {
     if (plan.get_step() != ModeStep::kNone && plan.get_word() != plan_.get_word() && age >= 0) {
         take_plan(plan, age > 0);
     }
+    if (plan.get_step() == ModeStep::kNone && plan_.get_step() == ModeStep::kSet) {
+        forget_set();
+    }
+}
+
+/// A set can be asked for again: in the frame of which the plan would have the same word, too.
+void Executive::forget_set() noexcept {
+    plan_ = {};
+    step_ = ModeStep::kNone;
+    set_ = kNoIndex;
+    for (detail::WindowState& state : windows_) {
+        state.prepared = {};
+        state.done = {};
+    }
+    modes_->finish(core_, plan_);
 }
 
 /// @return false when the set is refused; then none of it becomes active.
@@ -168,20 +183,14 @@ void Executive::restart_inputs(std::size_t window) noexcept {
     const ModeMask before = state.held_modes;
     state.held_modes = held_modes_;
     const Span<const std::size_t> latched = view_.latch_order.subspan(row.first_latch, row.latch_count);
-    for (const std::size_t i : latched) {
-        const ConnectionRow& connection = view_.connections[i];
-        if (is_held(connection, before) && !is_held(connection, state.held_modes)) {
-            connection.sink->restart(frame_start_, 0U);
-        }
-    }
-    // After those that end: on the way to the safe mode an input may lose one source and get another at once.
-    for (const std::size_t i : latched) {
-        const ConnectionRow& connection = view_.connections[i];
-        if (!is_held(connection, before) && is_held(connection, state.held_modes)) {
-            // What another core publishes at this moment is not for this one to look at.
-            const bool is_near = connection.crossing == nullptr && connection.operations.is_latest;
-            connection.sink->restart(frame_start_,
-                                     is_near ? connection.source->get_published_revision() : 0U);
+    // Those that end come first: on the way to the safe mode an input may lose one source and get another.
+    for (const bool begins : {false, true}) {
+        for (const std::size_t i : latched) {
+            const ConnectionRow& connection = view_.connections[i];
+            const bool was_held = is_held(connection, before);
+            if (was_held != is_held(connection, state.held_modes) && was_held != begins) {
+                connection.operations.restart(*connection.source, *connection.sink, frame_start_);
+            }
         }
     }
 }

@@ -80,12 +80,21 @@ bool SystemModes::is_failing() const noexcept {
     return safe_mode_ != kNoIndex && failure_.load(std::memory_order_acquire) != 0U;
 }
 
+/// For a system of which nothing runs: there is nothing to be left or entered.
+void SystemModes::enter_safe_mode_when_failing() noexcept {
+    if (is_failing()) {
+        mode_.store(safe_mode_, std::memory_order_release);
+        set_.store(kNoSet, std::memory_order_relaxed);
+    }
+}
+
 std::size_t SystemModes::prepare() noexcept {
     if (running_.load(std::memory_order_acquire) == 0U) {
         const std::size_t requested = configuration_.take_requested_set();
         if (requested != kNoConfigurationSet) {
             set_.store(static_cast<std::uint32_t>(requested), std::memory_order_relaxed);
         }
+        enter_safe_mode_when_failing();
     }
     const std::uint32_t set = set_.load(std::memory_order_acquire);
     if (set != kNoSet || view_.modes.modes.empty()) {
@@ -122,10 +131,7 @@ void SystemModes::leave(std::size_t core) noexcept {
     if (step == ModeStep::kSet) {
         set_.store(static_cast<std::uint32_t>(plan.get_index()), std::memory_order_relaxed);
     }
-    if (is_failing()) {
-        mode_.store(safe_mode_, std::memory_order_release);
-        set_.store(kNoSet, std::memory_order_relaxed);
-    }
+    enter_safe_mode_when_failing();
     request_.store(0U, std::memory_order_relaxed);
     plan_.store(0U, std::memory_order_release);
 }
@@ -199,13 +205,23 @@ void SystemModes::propose(std::int64_t frame) noexcept {
     }
 }
 
+/// True when the failure has waited so long that the lead can be taken for lost; asked once per frame.
+bool SystemModes::is_failure_unserved(std::size_t core) noexcept {
+    const bool is_waiting = is_failing() && get_mode() != safe_mode_;
+    unserved_frames_[core] = is_waiting ? unserved_frames_[core] + 1 : 0;
+    return unserved_frames_[core] >= kLeadPatience;
+}
+
 ModePlan SystemModes::begin_frame(std::size_t core, std::int64_t frame) noexcept {
     const ModePlan plan{plan_.load(std::memory_order_acquire)};
-    // A lead that comes no more must not leave the others between two modes.
-    const std::int64_t patience = is_lead(core) ? kModeStepFrames - 1 : 2 * kModeStepFrames;
-    if (plan.get_step() != ModeStep::kNone && plan.calc_age(frame) >= patience) {
-        conclude(plan, frame);
-    } else if (plan.get_step() == ModeStep::kNone && is_lead(core)) {
+    // A lead that comes no more must neither leave the others between two modes nor keep them from the safe
+    // one.
+    if (plan.get_step() != ModeStep::kNone) {
+        unserved_frames_[core] = 0;
+        if (plan.calc_age(frame) >= (is_lead(core) ? kModeStepFrames - 1 : kLeadPatience)) {
+            conclude(plan, frame);
+        }
+    } else if (is_failure_unserved(core) || is_lead(core)) {
         propose(frame);
     }
     return ModePlan{plan_.load(std::memory_order_acquire)};

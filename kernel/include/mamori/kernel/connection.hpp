@@ -77,6 +77,9 @@ struct ConnectionOperations {
     void (*latch)(OutPortBase&, InPortBase&, CrossingBase*, Instant opening) noexcept {nullptr};
     /// After the source's cycle in a window in which the sink comes later.
     void (*hand_on)(OutPortBase&, InPortBase&, Instant opening) noexcept {nullptr};
+    /// When the connection ends or begins with the frame that begins at `boundary`, before the first latch in
+    /// it: what was published until then is of another mode.
+    void (*restart)(OutPortBase&, InPortBase&, Instant boundary) noexcept {nullptr};
     bool may_leave_core{false};  ///< source and sink may run on two cores or in two partitions
     bool is_latest{false};       ///< only the newest value is kept, so the order of writer and reader matters
     /// By connect(). A flag, since under some sanitizers g++ does not compare the addresses with nullptr in a
@@ -95,7 +98,14 @@ struct LatestConnection {
     static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
         static_cast<Sink&>(sink).take(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
     }
-    static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, false, true, true};
+    /// The number of a write tells on one core, where a value may be handed on at the very boundary. What a
+    /// window before this one published in the frame itself is of the new mode.
+    static void restart(OutPortBase& source, InPortBase& sink, Instant boundary) noexcept {
+        const std::uint64_t published = source.get_published_revision();
+        const bool is_of_new_mode = published != 0U && source.get_published_at() > boundary;
+        static_cast<Sink&>(sink).restart(boundary, is_of_new_mode ? published - 1U : published);
+    }
+    static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, &restart, false, true, true};
 };
 
 /// The same through a buffer.
@@ -107,7 +117,11 @@ struct CrossingConnection {
     static void latch(OutPortBase&, InPortBase& sink, CrossingBase* crossing, Instant opening) noexcept {
         static_cast<Crossing<T>*>(crossing)->latch(static_cast<Sink&>(sink), opening);
     }
-    static constexpr ConnectionOperations kOperations{&deliver, &latch, nullptr, true, true, true};
+    /// What another core publishes at this moment is not for this one to look at: latch() asks for instants.
+    static void restart(OutPortBase&, InPortBase& sink, Instant boundary) noexcept {
+        static_cast<Sink&>(sink).restart(boundary, 0U);
+    }
+    static constexpr ConnectionOperations kOperations{&deliver, &latch, nullptr, &restart, true, true, true};
 };
 
 /// A sink that queues every publication; the queue itself may lie between two cores.
@@ -122,8 +136,11 @@ struct QueueConnection {
     static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
         static_cast<Sink&>(sink).push(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
     }
-    static constexpr ConnectionOperations kOperations{&deliver, &latch, &hand_on, Sink::kMayLeaveCore,
-                                                      false,    true};
+    static void restart(OutPortBase&, InPortBase& sink, Instant boundary) noexcept {
+        static_cast<Sink&>(sink).restart(boundary, 0U);
+    }
+    static constexpr ConnectionOperations kOperations{
+        &deliver, &latch, &hand_on, &restart, Sink::kMayLeaveCore, false, true};
 };
 
 }  // namespace detail

@@ -137,16 +137,6 @@ class InPortBase {
     }
     /// For the executive, after the owner's cycle.
     void mark_read() noexcept { is_new_ = false; }
-    /// For the executive: another connection feeds this input from `boundary` on, or none. It has no value
-    /// until one arrives that was published later.
-    /// @param[in] revision last one that the source published; 0 for a source on another core, whose values
-    ///                     are judged by their instants, and for none.
-    void restart(Instant boundary, std::uint64_t revision) noexcept {
-        restarted_at_ = boundary;
-        revision_ = revision;
-        has_value_ = false;
-        is_new_ = false;
-    }
     /// Instant of the last restart(); before the first one before every other instant.
     Instant get_restarted_at() const noexcept { return restarted_at_; }
     /// For the executive. @param[in] age_max limit of the connection that feeds this input, >= 0.
@@ -155,6 +145,17 @@ class InPortBase {
   protected:
     constexpr explicit InPortBase(const char* name) noexcept : name_(name) {}
     ~InPortBase() = default;
+
+    /// For connections: another one feeds this input from `boundary` on, or none. It has no value until one
+    /// arrives that was published later.
+    /// @param[in] revision last one of the source before the boundary; 0 for a source whose values are judged
+    ///                     by their instants, and for none.
+    void restart(Instant boundary, std::uint64_t revision) noexcept {
+        restarted_at_ = boundary;
+        revision_ = revision;
+        has_value_ = false;
+        is_new_ = false;
+    }
 
     const char* name_;
     Instant published_at_{};
@@ -252,9 +253,14 @@ class InPort final : public InPortBase {
     /// @param[in] name port name with static storage.
     constexpr explicit InPort(const char* name) noexcept : InPortBase(name) {}
 
-    /// Latched value; without meaning while has_value() is false. Stays as it is within an action.
+    /// Latched value; a value-initialised T while has_value() is false. Stays as it is within an action.
     const T& read() const noexcept { return slot_.value; }
 
+    /// As in InPortBase; the value that was held is not left to be read either.
+    void restart(Instant boundary, std::uint64_t revision) noexcept {
+        InPortBase::restart(boundary, revision);
+        slot_.value = T{};
+    }
     /// Takes a sample when it comes from a later write than what is held. For connections.
     void take(const typename OutPort<T>::Sample& sample) noexcept {
         if (sample.revision > revision_) {

@@ -147,6 +147,7 @@ class Executive {
     void begin_modes(std::int64_t frame) noexcept;
     void take_plan(ModePlan plan, bool is_late) noexcept;
     bool take_set(std::size_t set) noexcept;
+    void forget_set() noexcept;
     void report_plan() noexcept;
     void fail_step(ModeFailureCause cause, std::size_t component) noexcept;
     void cross_boundary(std::size_t window) noexcept;

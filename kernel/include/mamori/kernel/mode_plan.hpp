@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "mamori/kernel/mode_step.hpp"
 
@@ -21,6 +22,8 @@ class ModePlan final {
   public:
     /// Largest index that a plan can carry.
     static constexpr std::size_t kIndexMax = 0xFFFU;
+    /// Frames that a plan may lie ahead: one, as it is agreed, and one more for a core that is behind.
+    static constexpr std::int32_t kAheadMax = 2;
 
     constexpr ModePlan() noexcept = default;
     /// @param[in] word from get_word(), of this or another core.
@@ -33,11 +36,12 @@ class ModePlan final {
     constexpr std::uint32_t get_word() const noexcept { return word_; }
     constexpr ModeStep get_step() const noexcept { return static_cast<ModeStep>(word_ >> 28U); }
     constexpr std::size_t get_index() const noexcept { return word_ >> 16U & 0xFFFU; }
-    /// Frames since the plan is due, -32768 .. 32767; negative: it is not yet. A plan is over long before
-    /// this wraps.
+    /// Frames since the plan is due, -kAheadMax .. 32767; negative: it is not yet. One that seems to lie
+    /// further ahead is older than 16 bits can tell, and has the greatest age.
     constexpr std::int32_t calc_age(std::int64_t frame) const noexcept {
-        return static_cast<std::int16_t>(
-            static_cast<std::uint16_t>(frame - static_cast<std::int64_t>(word_)));
+        const std::int32_t age =
+            static_cast<std::int16_t>(static_cast<std::uint16_t>(frame - static_cast<std::int64_t>(word_)));
+        return age < -kAheadMax ? std::numeric_limits<std::int16_t>::max() : age;
     }
 
   private:

@@ -84,6 +84,9 @@ class QueueInPort final : public InPortBase {
         static_cast<void>(buffer_.publish());  // the buffer counts what it refuses
     }
 
+    /// For connections: what waits now is not read any more, see open().
+    using InPortBase::restart;
+
     /// For connections, at the opening of the owner's window: what is published later waits for a later one.
     /// What was published up to the last restart() is of another mode and goes. A value that is handed on in
     /// the new mode at that very instant stays: it comes after the first opening since.

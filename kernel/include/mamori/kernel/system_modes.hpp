@@ -115,6 +115,8 @@ class SystemModes final {
     bool replace(ModePlan old, ModePlan next) noexcept;
     void conclude(ModePlan plan, std::int64_t frame) noexcept;
     void propose(std::int64_t frame) noexcept;
+    void enter_safe_mode_when_failing() noexcept;
+    bool is_failure_unserved(std::size_t core) noexcept;
 
     SystemView view_;
     std::size_t safe_mode_;
@@ -127,7 +129,12 @@ class SystemModes final {
     std::atomic<std::uint32_t> running_{0U};                           ///< bit c: core c
     std::array<std::atomic<std::uint32_t>, kModeCoreMax> finished_{};  ///< plan that the core finished last
 
+    /// How long a failure has waited for the lead; each core has its own.
+    std::array<std::int64_t, kModeCoreMax> unserved_frames_{};
+
     static constexpr std::uint32_t kNoSet = kNoConfigurationSet;
+    /// Frames after which another core does what the lead should have done.
+    static constexpr std::int64_t kLeadPatience = 2 * kModeStepFrames;
 };
 
 }  // namespace mamori
