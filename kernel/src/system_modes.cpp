@@ -133,7 +133,11 @@ void SystemModes::leave(std::size_t core) noexcept {
     }
     enter_safe_mode_when_failing();
     request_.store(0U, std::memory_order_relaxed);
-    plan_.store(0U, std::memory_order_release);
+    // Nobody joins while there is a plan, so one that is there with a core running is that core's own.
+    const ModePlan last{plan_.load(std::memory_order_acquire)};
+    if (running_.load(std::memory_order_acquire) == 0U) {
+        replace(last, {});
+    }
 }
 
 bool SystemModes::is_lead(std::size_t core) const noexcept {
@@ -152,10 +156,10 @@ bool SystemModes::is_finished(ModePlan plan) const noexcept {
     return true;
 }
 
-/// False when another core took the lead over at this moment; then it is its business.
-bool SystemModes::replace(ModePlan old, ModePlan next) noexcept {
+/// Without effect when another core took the lead over at this moment: then it is its business.
+void SystemModes::replace(ModePlan old, ModePlan next) noexcept {
     std::uint32_t expected = old.get_word();
-    return plan_.compare_exchange_strong(expected, next.get_word(), std::memory_order_acq_rel);
+    static_cast<void>(plan_.compare_exchange_strong(expected, next.get_word(), std::memory_order_acq_rel));
 }
 
 void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
@@ -168,11 +172,11 @@ void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
         static_cast<void>(fail({ModeFailureCause::kLate, step, kNoIndex}));
     }
     if (step != ModeStep::kSafe && is_failing()) {
-        static_cast<void>(replace(plan, {ModeStep::kSafe, safe_mode_, frame + 1}));
+        replace(plan, {ModeStep::kSafe, safe_mode_, frame + 1});
         return;
     }
     if (step == ModeStep::kLeave) {
-        static_cast<void>(replace(plan, {ModeStep::kEnter, index, frame + 1}));
+        replace(plan, {ModeStep::kEnter, index, frame + 1});
         return;
     }
     if (step == ModeStep::kSet) {
@@ -181,14 +185,14 @@ void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
         mode_.store(index, std::memory_order_release);
         set_.store(kNoSet, std::memory_order_relaxed);
     }
-    static_cast<void>(replace(plan, {}));
+    replace(plan, {});
 }
 
 /// Worst first: a failure, then a mode, then a set.
 void SystemModes::propose(std::int64_t frame) noexcept {
     if (is_failing()) {
         if (get_mode() != safe_mode_) {
-            static_cast<void>(replace({}, {ModeStep::kSafe, safe_mode_, frame + 1}));
+            replace({}, {ModeStep::kSafe, safe_mode_, frame + 1});
         }
         return;
     }
@@ -196,12 +200,12 @@ void SystemModes::propose(std::int64_t frame) noexcept {
     // A request that was made while a switch came to its end may be one of the mode before.
     if (request != 0U && view_.modes.transitions[request - 1U].source == get_mode()) {
         const std::size_t target = view_.modes.transitions[request - 1U].target;
-        static_cast<void>(replace({}, {ModeStep::kLeave, target, frame + 1}));
+        replace({}, {ModeStep::kLeave, target, frame + 1});
         return;
     }
     const std::size_t set = configuration_.take_requested_set();
     if (set != kNoConfigurationSet) {
-        static_cast<void>(replace({}, {ModeStep::kSet, set, frame + 1}));
+        replace({}, {ModeStep::kSet, set, frame + 1});
     }
 }
 

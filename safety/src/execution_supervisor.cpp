@@ -150,7 +150,8 @@ std::size_t ExecutionSupervisor::get_first_expired() const noexcept {
 void ExecutionSupervisor::on_budget_overrun(std::size_t, std::size_t component, Instant) noexcept {
     MAMORI_REQUIRE(3, component < components_.size());
     components_[component].is_overrun_pending.store(true, std::memory_order_relaxed);
-    is_overrun_pending_.store(true, std::memory_order_release);
+    // An exchange, so that whoever clears it sees the components of all who set it since.
+    static_cast<void>(is_overrun_pending_.exchange(true, std::memory_order_acq_rel));
 }
 
 void ExecutionSupervisor::on_late_release(std::size_t window, Duration lateness, Instant now) noexcept {

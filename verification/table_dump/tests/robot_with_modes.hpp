@@ -5,7 +5,9 @@
 #define MAMORI_TABLE_DUMP_TESTS_ROBOT_WITH_MODES_HPP
 
 #include "mamori/kernel/constant_init.hpp"
+#include "mamori/kernel/executive.hpp"
 #include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system_modes.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 
 namespace mamori::table_dump::robot {
@@ -71,6 +73,10 @@ inline constexpr auto kSystem = mamori::system(
     mamori::mode_transition("idle", Command::kTeach, "teach"),
     mamori::mode_transition("work", Command::kStop, "idle"),
     mamori::mode_transition("teach", Command::kStop, "idle"));
+
+MAMORI_CHECK(kSystem);
+inline MAMORI_CONSTINIT mamori::SystemModes modes{mamori::make_view(kSystem)};
+inline MAMORI_CONSTINIT mamori::ExecutiveFor executive{kSystem, modes};
 
 inline std::string save_table(const std::string& path) {
     const mamori::table_dump::Names names{{}, {}, {"Start", "Teach", "Stop"}};

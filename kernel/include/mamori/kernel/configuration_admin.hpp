@@ -67,9 +67,9 @@ class ConfigurationAdmin final {
     /// @return the parameter of this name in the component of this name; kBadParameter when there is none.
     Result<ParameterBase*> find(Text component, Text parameter) const noexcept;
 
-    /// Carries the requests out. For the executive: before on_initialize of the first component, in start()
-    /// before the first on_activated, and after the last window of each frame; never while an action of a
-    /// component in the table is under way or hangs (the requests wait).
+    /// Carries the requests out, for whoever runs the components by himself: before on_initialize of the
+    /// first one, before the first on_activated, and between two frames; never while an action of a component
+    /// in the table is under way or hangs (the requests wait). An executive does the same in the parts below.
     /// @return kOk (also when nothing was requested); kBadParameter (a value of the set is refused, which a
     ///         checked table can only show when memory is corrupted: no value of the set was switched, the
     ///         request is gone and get_last_finding() names it). Single values are switched in either case.

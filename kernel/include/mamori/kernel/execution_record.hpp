@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What an executive has seen of the runs of one component, against the time that each may take. Records lie
-/// side by side at whoever supervises, so that noting a run is two comparisons and no call.
+/// side by side at whoever supervises, so that noting a run is three comparisons and no call.
 ///
 /// @satisfies SWR-KRN-030      Design: docs/design/kernel.md#observation
 #ifndef MAMORI_KERNEL_EXECUTION_RECORD_HPP

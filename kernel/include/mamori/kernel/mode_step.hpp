@@ -28,8 +28,8 @@ enum class ModeFailureCause : std::uint8_t {
     kRefused,     ///< on_deactivated or on_activated did not return kOk, or the component is not Inactive
     kOverrun,     ///< that action used up the budget of its window, or hangs
     kNoTurn,      ///< a window did not come to its part: stopped, overrun or hanging
-    kParameters,  ///< the configuration set of the mode was refused; see
-                  ///< ConfigurationAdmin::get_last_finding()
+    kParameters,  ///< the configuration set of the mode was refused;
+                  ///< ExecutionObserver::on_configuration_refused() names the value
     kLate,        ///< a core was not there in its frame
     kStopped,     ///< an executive was stopped in the middle of a switch
     kRequested,   ///< request_safe_mode()

@@ -112,7 +112,7 @@ class SystemModes final {
     bool is_lead(std::size_t core) const noexcept;
     bool is_finished(ModePlan plan) const noexcept;
     bool is_failing() const noexcept;
-    bool replace(ModePlan old, ModePlan next) noexcept;
+    void replace(ModePlan old, ModePlan next) noexcept;
     void conclude(ModePlan plan, std::int64_t frame) noexcept;
     void propose(std::int64_t frame) noexcept;
     void enter_safe_mode_when_failing() noexcept;
