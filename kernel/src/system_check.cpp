@@ -55,7 +55,11 @@ static_assert(kNames.size() == static_cast<std::size_t>(Rule::kSafeModeActivates
 
 const char* get_name(Rule rule) noexcept {
     const auto index = static_cast<std::size_t>(rule);
-    return index < kNames.size() ? kNames[index] : "Invalid";  // only a corrupted value is beyond
+    const char* name = "Invalid";  // only a corrupted value is beyond
+    if (index < kNames.size()) {
+        name = kNames[index];
+    }
+    return name;
 }
 
 }  // namespace mamori

@@ -46,15 +46,15 @@ class Drive final : public mamori::Component {
     using Parameters = mamori::Parameters<&Drive::gain>;
 };
 
-MAMORI_CONSTINIT inline Encoder encoder;
-MAMORI_CONSTINIT inline Monitor monitor;
-MAMORI_CONSTINIT inline Guide planner{"planner"};
-MAMORI_CONSTINIT inline Guide hand{"hand"};
-MAMORI_CONSTINIT inline Drive drive;
+static MAMORI_CONSTINIT Encoder encoder;
+static MAMORI_CONSTINIT Monitor monitor;
+static MAMORI_CONSTINIT Guide planner{"planner"};
+static MAMORI_CONSTINIT Guide hand{"hand"};
+static MAMORI_CONSTINIT Drive drive;
 
 enum class Command { kStart, kTeach, kStop };
 
-inline constexpr auto kSystem = mamori::system(
+static constexpr auto kSystem = mamori::system(
     mamori::frame(1_ms),
     mamori::window("sense", 0_us, 300_us, mamori::budget(200_us), mamori::run(encoder, monitor)),
     mamori::window("guide", 300_us, 300_us, mamori::budget(200_us), mamori::run(planner, hand)),
@@ -75,8 +75,8 @@ inline constexpr auto kSystem = mamori::system(
     mamori::mode_transition("teach", Command::kStop, "idle"));
 
 MAMORI_CHECK(kSystem);
-inline MAMORI_CONSTINIT mamori::SystemModes modes{mamori::make_view(kSystem)};
-inline MAMORI_CONSTINIT mamori::ExecutiveFor executive{kSystem, modes};
+static MAMORI_CONSTINIT mamori::SystemModes modes{mamori::make_view(kSystem)};
+static MAMORI_CONSTINIT mamori::ExecutiveFor executive{kSystem, modes};
 
 inline std::string save_table(const std::string& path) {
     const mamori::table_dump::Names names{{}, {}, {"Start", "Teach", "Stop"}};
