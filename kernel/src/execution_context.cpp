@@ -54,10 +54,6 @@ Duration find_period(const ContextPlan& plan, double period_ns) noexcept {
 
 }  // namespace
 
-bool ExecutionContext::is_busy() const noexcept {
-    return is_in_cycle() || acting_position_.load(std::memory_order_acquire) != kNoPosition;
-}
-
 Status ExecutionContext::attach(std::int32_t id, Span<Component* const> participants,
                                 const ContextPlan& plan) noexcept {
     if (id_ >= 0) {
@@ -333,11 +329,6 @@ bool ExecutionContext::apply_pending_rate() noexcept {
         component->turn_ |= Component::kRateNotice;
     }
     return true;
-}
-
-Result<std::size_t> ExecutionContext::get_acting_position() const noexcept {
-    const std::size_t position = acting_position_.load(std::memory_order_acquire);
-    return position == kNoPosition ? Status::kPreconditionNotMet : Result<std::size_t>{position};
 }
 
 Result<std::size_t> ExecutionContext::get_refusing_position() const noexcept {

@@ -7,28 +7,8 @@
 
 namespace mamori {
 
-bool ExecutionContext::take_turn() noexcept {
-    if (!is_running_) {
-        return false;
-    }
-    if (plan_.trigger != nullptr) {
-        return plan_.trigger->take();
-    }
-    if (windows_to_skip_ > 0) {
-        --windows_to_skip_;
-        return false;
-    }
-    windows_to_skip_ = divisor_ - 1;
-    return true;
-}
-
-Status ExecutionContext::begin_cycle(Instant now) noexcept {
-    if (!is_running_ || is_busy()) {
-        return Status::kPreconditionNotMet;
-    }
-    is_in_cycle_.store(true, std::memory_order_relaxed);
-    cycle_start_ = now;
-    return Status::kOk;
+bool ExecutionContext::take_tick() noexcept {
+    return plan_.trigger->take();
 }
 
 /// The turns of a range. `after(position)` comes after each usual one that was not abandoned, in place of

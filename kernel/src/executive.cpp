@@ -65,10 +65,25 @@ Status Executive::attach_contexts() noexcept {
             }
             return result;
         }
-        windows_[w].executive = this;
-        windows_[w].window = w;
     }
     return Status::kOk;
+}
+
+/// What the first pass of each window is for as long as the same listeners follow it.
+void Executive::prepare_work() noexcept {
+    for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
+        const WindowRow& row = view_.windows[w];
+        detail::WindowState& state = windows_[w];
+        state.executive = this;
+        state.window = w;
+        state.is_followed = records_ != nullptr || row.has_hand_on;
+        state.first_pass = {state.is_followed ? &execute_steps : &execute_unfollowed,
+                            &state,
+                            row.first_component,
+                            0U,
+                            row.component_count,
+                            Pass::kExecute};
+    }
 }
 
 void Executive::attach_inputs() noexcept {
@@ -96,6 +111,7 @@ Status Executive::initialize() noexcept {
         result = attach_contexts();
     }
     if (result == Status::kOk) {
+        prepare_work();
         attach_inputs();
     }
     is_initialized_ = result == Status::kOk;
@@ -233,15 +249,15 @@ void Executive::set_observer(ExecutionObserver* observer) noexcept {
         observer == nullptr ? Span<ExecutionRecord>{} : observer->get_records();
     MAMORI_REQUIRE(4, records.empty() || records.size() >= view_.components.size());
     records_ = records.data();
+    prepare_work();
 }
 
-void Executive::latch_inputs(std::size_t window, Instant opening) noexcept {
-    const WindowRow& row = view_.windows[window];
-    const ModeMask held = windows_[window].held_modes;
+void Executive::latch_inputs(const WindowRow& row, ModeMask held) noexcept {
     for (const std::size_t i : view_.latch_order.subspan(row.first_latch, row.latch_count)) {
         const ConnectionRow& connection = view_.connections[i];
         if (is_held(connection, held)) {
-            connection.operations.latch(*connection.source, *connection.sink, connection.crossing, opening);
+            connection.operations.latch(*connection.source, *connection.sink, connection.crossing,
+                                        last_release_);
         }
     }
 }
@@ -257,22 +273,21 @@ void Executive::hand_on_outputs(std::size_t component, Instant opening, ModeMask
     }
 }
 
-void Executive::mark_inputs_read(std::size_t window, std::size_t finished_count) noexcept {
-    const WindowRow& row = view_.windows[window];
+void Executive::mark_inputs_read(const WindowRow& row, const ExecutionContext& context,
+                                 std::size_t finished_count) noexcept {
     for (const PortRow& port : view_.ports.subspan(row.first_port, row.port_count)) {
         const std::size_t position = port.component - row.first_component;
         if (port.input == nullptr || position >= finished_count) {
             continue;
         }
-        const LifecycleState state = windows_[window].context.get_state_at(position);
+        const LifecycleState state = context.get_state_at(position);
         if (state == LifecycleState::kActive || state == LifecycleState::kError) {
             port.input->mark_read();
         }
     }
 }
 
-void Executive::publish_outputs(std::size_t window, Instant close) noexcept {
-    const WindowRow& row = view_.windows[window];
+void Executive::publish_outputs(const WindowRow& row, ModeMask held, Instant close) noexcept {
     for (std::size_t p = row.first_port; p < row.first_port + row.port_count; ++p) {
         const PortRow& port = view_.ports[p];
         if (port.output == nullptr || !port.output->publish(close)) {
@@ -280,7 +295,7 @@ void Executive::publish_outputs(std::size_t window, Instant close) noexcept {
         }
         trace_hash_(static_cast<std::uint64_t>(p));
         port.output->hash_into(trace_hash_);
-        deliver(port, windows_[window].held_modes);
+        deliver(port, held);
     }
 }
 
@@ -341,20 +356,53 @@ void Executive::update_steps(void* argument, std::size_t first, std::size_t end)
     static_cast<detail::WindowState*>(argument)->context.update_range(first, end - first);
 }
 
-WindowOutcome Executive::run_open_window(std::size_t window, Instant release, Instant opened,
+/// The part of an opening that its budget covers. `deadline` is where that ends, `opened` where it began.
+/// @return the component that used the budget up; kNoIndex when everything came through.
+std::size_t Executive::run_cycle(const WindowRow& row, detail::WindowState& state, Instant opened,
+                                 Instant deadline, WindowHost& host) noexcept {
+    const Status begun = state.context.begin_cycle(last_release_);
+    MAMORI_INVARIANT(1, begun == Status::kOk);
+    if (row.latch_count != 0U) {
+        latch_inputs(row, state.held_modes);
+    }
+    if (state.is_followed) {
+        state.follower = {records_ == nullptr ? nullptr : records_ + row.first_component,
+                          &host,
+                          deadline,
+                          last_step_end_ > opened ? last_step_end_ : opened,
+                          row.has_hand_on || introspection_ != nullptr ? &follow_step : nullptr,
+                          &state};
+    }
+    const std::size_t executed_count = host.run_within(state.first_pass, deadline);
+    std::size_t finished_count = executed_count;
+    if (row.has_second_pass && executed_count == row.component_count) {
+        finished_count = host.run_within(
+            {&update_steps, &state, row.first_component, 0U, row.component_count, Pass::kStateUpdate},
+            deadline);
+    }
+    state.context.end_cycle();
+    if (row.port_count != 0U) {
+        mark_inputs_read(row, state.context, executed_count);
+    }
+    if (introspection_ != nullptr) {
+        introspection_->note_turns(state.window, executed_count, state.context);
+    }
+    return finished_count == row.component_count ? kNoIndex : row.first_component + finished_count;
+}
+
+WindowOutcome Executive::run_open_window(const WindowRow& row, detail::WindowState& state, Instant opened,
                                          WindowHost& host) noexcept {
-    const WindowRow& row = view_.windows[window];
-    detail::WindowState& state = windows_[window];
+    const Instant release = last_release_;
     if (observer_ != nullptr && opened > release) {
-        observer_->on_late_release(window, opened - release, opened);
+        observer_->on_late_release(state.window, opened - release, opened);
     }
     const Result<std::size_t> hanging = state.context.get_acting_position();
     if (hanging.has_value()) {
-        report_overrun(window, row.first_component + hanging.get_value(), opened);
+        report_overrun(state.window, row.first_component + hanging.get_value(), opened);
         return WindowOutcome::kOverrun;
     }
     if (state.has_abandoned_outputs) {
-        discard_outputs(window);
+        discard_outputs(state.window);
         state.has_abandoned_outputs = false;
     }
     // A window that opens late keeps its budget, but not beyond its planned close.
@@ -362,65 +410,26 @@ WindowOutcome Executive::run_open_window(std::size_t window, Instant release, In
     const Instant deadline = opened + row.budget < close ? opened + row.budget : close;
     std::size_t guilty = kNoIndex;
     if (modes_ != nullptr) {
-        cross_boundary(window);
-        guilty = leave_components(window, deadline, host);
+        cross_boundary(state.window);
+        guilty = leave_components(state.window, deadline, host);
     }
     const bool is_due = guilty == kNoIndex && state.context.take_turn();
     if (is_due) {
-        guilty = run_cycle(window, release, opened, deadline, host);
+        guilty = run_cycle(row, state, opened, deadline, host);
     }
-    if (guilty == kNoIndex && modes_ != nullptr) {
-        guilty = enter_components(window, deadline, host);
+    if (modes_ != nullptr && guilty == kNoIndex) {
+        guilty = enter_components(state.window, deadline, host);
     }
     if (guilty != kNoIndex) {
-        return end_overrun(window, guilty, host);
+        return end_overrun(state.window, guilty, host);
     }
     if (!is_due) {
         return WindowOutcome::kNotDue;
     }
     if (row.port_count != 0U) {
-        publish_outputs(window, close);
+        publish_outputs(row, state.held_modes, close);
     }
     return WindowOutcome::kCompleted;
-}
-
-/// @return the component that used the budget up; kNoIndex when both passes came through.
-std::size_t Executive::run_cycle(std::size_t window, Instant release, Instant opening, Instant deadline,
-                                 WindowHost& host) noexcept {
-    const WindowRow& row = view_.windows[window];
-    detail::WindowState& state = windows_[window];
-    const Status begun = state.context.begin_cycle(release);
-    MAMORI_INVARIANT(1, begun == Status::kOk);
-    if (row.latch_count != 0U) {
-        latch_inputs(window, release);
-    }
-    const bool is_followed = records_ != nullptr || row.has_hand_on;
-    if (is_followed) {
-        state.follower = {records_ == nullptr ? nullptr : records_ + row.first_component,
-                          &host,
-                          deadline,
-                          last_step_end_ > opening ? last_step_end_ : opening,
-                          row.has_hand_on || introspection_ != nullptr ? &follow_step : nullptr,
-                          &state};
-    }
-    const std::size_t executed_count =
-        host.run_within({is_followed ? &execute_steps : &execute_unfollowed, &state, row.first_component, 0U,
-                         row.component_count, Pass::kExecute},
-                        deadline);
-    std::size_t finished_count = executed_count;
-    if (executed_count == row.component_count && row.has_second_pass) {
-        finished_count = host.run_within(
-            {&update_steps, &state, row.first_component, 0U, row.component_count, Pass::kStateUpdate},
-            deadline);
-    }
-    state.context.end_cycle();
-    if (row.port_count != 0U) {
-        mark_inputs_read(window, executed_count);
-    }
-    if (introspection_ != nullptr) {
-        introspection_->note_turns(window, executed_count, state.context);
-    }
-    return finished_count == row.component_count ? kNoIndex : row.first_component + finished_count;
 }
 
 WindowOutcome Executive::end_overrun(std::size_t window, std::size_t component, WindowHost& host) noexcept {
@@ -435,9 +444,6 @@ WindowOutcome Executive::end_overrun(std::size_t window, std::size_t component, 
 
 /// What changes for all windows of the core at once changes here, before the first window of a frame.
 void Executive::begin_frame(Instant release) noexcept {
-    if (release >= frame_start_ && release - frame_start_ < view_.frame) {
-        return;
-    }
     frame_start_ = Instant{release.ns / view_.frame.ns * view_.frame.ns};
     for (detail::WindowState& state : windows_) {
         static_cast<void>(state.context.apply_pending_rate());
@@ -451,14 +457,18 @@ WindowOutcome Executive::run_window(std::size_t index, Instant release, WindowHo
     MAMORI_REQUIRE(2, !is_busy_);
     const Instant opened = host.get_now();
     MAMORI_REQUIRE(3, release <= opened);
+    const WindowRow& row = view_.windows[index];
+    detail::WindowState& state = windows_[index];
     WindowOutcome outcome = WindowOutcome::kStopped;
-    const bool is_running = windows_[index].context.is_running();
+    const bool is_running = state.context.is_running();
     if (is_running || has_joined_) {
         is_busy_ = true;
         last_release_ = release;
-        begin_frame(release);
+        if (release < frame_start_ || release - frame_start_ >= view_.frame) {
+            begin_frame(release);
+        }
         if (is_running) {
-            outcome = run_open_window(index, release, opened, host);
+            outcome = run_open_window(row, state, opened, host);
         }
         is_busy_ = false;
     }

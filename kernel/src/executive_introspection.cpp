@@ -9,6 +9,7 @@ void Executive::set_introspection(Introspection* introspection) noexcept {
     MAMORI_REQUIRE(1, !is_busy_);
     MAMORI_REQUIRE(2, introspection == nullptr || introspection->is_of(view_));
     introspection_ = introspection;
+    prepare_work();
     show_windows();
 }
 

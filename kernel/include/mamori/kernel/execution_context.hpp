@@ -119,7 +119,9 @@ class ExecutionContext final {
     bool apply_pending_rate() noexcept;
 
     /// True while a cycle is under way, or an action of a participant is being called or hangs.
-    bool is_busy() const noexcept;
+    bool is_busy() const noexcept {
+        return is_in_cycle() || acting_position_.load(std::memory_order_acquire) != kNoPosition;
+    }
     /// Identity from attach(); -1 while not attached.
     std::int32_t get_id() const noexcept { return id_; }
     /// From a start() that returned kOk until stop().
@@ -128,7 +130,10 @@ class ExecutionContext final {
     std::size_t get_participant_count() const noexcept { return participants_.size(); }
 
     /// Position of the participant whose action is being called or hangs. @return kPreconditionNotMet: none.
-    Result<std::size_t> get_acting_position() const noexcept;
+    Result<std::size_t> get_acting_position() const noexcept {
+        const std::size_t position = acting_position_.load(std::memory_order_acquire);
+        return position == kNoPosition ? Status::kPreconditionNotMet : Result<std::size_t>{position};
+    }
     /// Position of the participant that refused the last start(). @return kPreconditionNotMet: none did.
     Result<std::size_t> get_refusing_position() const noexcept;
 
@@ -139,9 +144,29 @@ class ExecutionContext final {
     /// Counts one window of the context. @return true when a cycle is due in it: always, each n-th time at a
     /// rate that is n times slower than the plan's, or once for each tick of the trigger; false while
     /// Stopped.
-    bool take_turn() noexcept;
+    bool take_turn() noexcept {
+        if (!is_running_) {
+            return false;
+        }
+        if (plan_.trigger != nullptr) {
+            return take_tick();
+        }
+        if (windows_to_skip_ > 0) {
+            --windows_to_skip_;
+            return false;
+        }
+        windows_to_skip_ = divisor_ - 1;
+        return true;
+    }
     /// @return kOk; kPreconditionNotMet (Stopped, or busy).
-    Status begin_cycle(Instant now) noexcept;
+    Status begin_cycle(Instant now) noexcept {
+        if (!is_running_ || is_busy()) {
+            return Status::kPreconditionNotMet;
+        }
+        is_in_cycle_.store(true, std::memory_order_relaxed);
+        cycle_start_ = now;
+        return Status::kOk;
+    }
     /// on_execute when Active, on_error when in Error, nothing when Inactive. In a kEventDriven context an
     /// Active state machine serves its events instead, and only a machine in Error gets on_error here.
     void execute(std::size_t position) noexcept { execute_range(position, 1U); }
@@ -184,6 +209,7 @@ class ExecutionContext final {
     static constexpr std::size_t kNoPosition = std::numeric_limits<std::size_t>::max();
 
     bool is_in_cycle() const noexcept { return is_in_cycle_.load(std::memory_order_relaxed); }
+    bool take_tick() noexcept;
     static void release_participants(Span<Component* const> participants) noexcept;
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
