@@ -331,6 +331,16 @@ bool ExecutionContext::apply_pending_rate() noexcept {
     return true;
 }
 
+Result<std::size_t> ExecutionContext::get_acting_position() const noexcept {
+    const std::size_t position = acting_position_.load(std::memory_order_acquire);
+    if (position != kNoPosition) {
+        return position;
+    }
+    return phase_.load(std::memory_order_relaxed) == Phase::kAbandoned
+               ? Result<std::size_t>{abandoned_position_}
+               : Status::kPreconditionNotMet;
+}
+
 Result<std::size_t> ExecutionContext::get_refusing_position() const noexcept {
     return refusing_position_ == kNoPosition ? Status::kPreconditionNotMet
                                              : Result<std::size_t>{refusing_position_};

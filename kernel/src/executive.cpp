@@ -79,6 +79,7 @@ void Executive::prepare_work() noexcept {
         state.is_followed = records_ != nullptr || row.has_hand_on;
         state.first_pass = {state.is_followed ? &execute_steps : &execute_unfollowed,
                             &state,
+                            w,
                             row.first_component,
                             0U,
                             row.component_count,
@@ -184,6 +185,7 @@ Status Executive::stop_all() noexcept {
     for (std::size_t w = view_.windows.size(); w-- > 0U;) {
         const WindowRow& row = view_.windows[w];
         ExecutionContext& context = windows_[w].context;
+        static_cast<void>(readmit(windows_[w]));
         for (std::size_t i = context.get_participant_count(); i-- > 0U;) {
             if (context.get_state_at(i) == LifecycleState::kActive) {
                 note(context.deactivate_component(*view_.components[row.first_component + i], last_release_));
@@ -348,7 +350,7 @@ void Executive::follow_step(void* argument, std::size_t position, Duration used)
         self.introspection_->note_used(component, used);
     }
     if (row.has_hand_on) {
-        self.hand_on_outputs(component, self.last_release_, state.held_modes);
+        self.hand_on_outputs(component, state.release, state.held_modes);
     }
 }
 
@@ -376,18 +378,23 @@ std::size_t Executive::run_cycle(const WindowRow& row, detail::WindowState& stat
     const std::size_t executed_count = host.run_within(state.first_pass, deadline);
     std::size_t finished_count = executed_count;
     if (row.has_second_pass && executed_count == row.component_count) {
-        finished_count = host.run_within(
-            {&update_steps, &state, row.first_component, 0U, row.component_count, Pass::kStateUpdate},
-            deadline);
+        finished_count = host.run_within({&update_steps, &state, state.window, row.first_component, 0U,
+                                          row.component_count, Pass::kStateUpdate},
+                                         deadline);
     }
-    state.context.end_cycle();
+    const bool is_through = finished_count == row.component_count;
+    if (is_through) {
+        state.context.end_cycle();
+    } else {
+        state.context.abandon(finished_count);
+    }
     if (row.port_count != 0U) {
         mark_inputs_read(row, state.context, executed_count);
     }
     if (introspection_ != nullptr) {
         introspection_->note_turns(state.window, executed_count, state.context);
     }
-    return finished_count == row.component_count ? kNoIndex : row.first_component + finished_count;
+    return is_through ? kNoIndex : row.first_component + finished_count;
 }
 
 WindowOutcome Executive::run_open_window(const WindowRow& row, detail::WindowState& state, Instant opened,
@@ -396,15 +403,12 @@ WindowOutcome Executive::run_open_window(const WindowRow& row, detail::WindowSta
     if (observer_ != nullptr && opened > release) {
         observer_->on_late_release(state.window, opened - release, opened);
     }
-    const Result<std::size_t> hanging = state.context.get_acting_position();
-    if (hanging.has_value()) {
-        report_overrun(state.window, row.first_component + hanging.get_value(), opened);
+    if (state.context.is_busy() && !readmit(state)) {
+        const std::size_t position = state.context.get_acting_position().get_value();
+        report_overrun(state.window, row.first_component + position, opened);
         return WindowOutcome::kOverrun;
     }
-    if (state.has_abandoned_outputs) {
-        discard_outputs(state.window);
-        state.has_abandoned_outputs = false;
-    }
+    state.release = release;
     // A window that opens late keeps its budget, but not beyond its planned close.
     const Instant close = release + row.length;
     const Instant deadline = opened + row.budget < close ? opened + row.budget : close;
@@ -435,11 +439,21 @@ WindowOutcome Executive::run_open_window(const WindowRow& row, detail::WindowSta
 WindowOutcome Executive::end_overrun(std::size_t window, std::size_t component, WindowHost& host) noexcept {
     detail::WindowState& state = windows_[window];
     report_overrun(window, component, host.get_now());
-    state.has_abandoned_outputs = state.context.get_acting_position().has_value();
-    if (!state.has_abandoned_outputs) {
-        discard_outputs(window);
-    }
+    state.context.abandon(component - view_.windows[window].first_component);
+    state.cut_by = &host;
+    static_cast<void>(readmit(state));
     return WindowOutcome::kOverrun;
+}
+
+/// Takes a window that was cut off back once its work has returned; what that wrote is thrown away.
+/// @return whether nobody is within its context any more.
+bool Executive::readmit(detail::WindowState& state) noexcept {
+    if (state.cut_by != nullptr && state.cut_by->has_returned(state.window)) {
+        state.cut_by = nullptr;
+        state.context.readmit();
+        discard_outputs(state.window);
+    }
+    return !state.context.is_busy();
 }
 
 /// What changes for all windows of the core at once changes here, before the first window of a frame.

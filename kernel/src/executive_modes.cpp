@@ -220,17 +220,21 @@ void Executive::cross_boundary(std::size_t window) noexcept {
     ConfigurationAdmin::commit(parameters);
 }
 
-void Executive::step_components(void* argument, std::size_t first, std::size_t end) noexcept {
+void Executive::activate_steps(void* argument, std::size_t first, std::size_t end) noexcept {
     detail::WindowState& state = *static_cast<detail::WindowState*>(argument);
-    const Executive& self = *state.executive;
-    for (std::size_t position = first; position < end; ++position) {
-        const Component& component =
-            *self.view_.components[self.view_.windows[state.window].first_component + position];
-        if (self.step_ == ModeStep::kEnter) {
-            static_cast<void>(state.context.activate_component(component, self.last_release_));
-        } else {
-            static_cast<void>(state.context.deactivate_component(component, self.last_release_));
-        }
+    const SystemView& view = state.executive->view_;
+    for (std::size_t i = first; i < end; ++i) {
+        const Component& component = *view.components[view.windows[state.window].first_component + i];
+        static_cast<void>(state.context.activate_component(component, state.release));
+    }
+}
+
+void Executive::deactivate_steps(void* argument, std::size_t first, std::size_t end) noexcept {
+    detail::WindowState& state = *static_cast<detail::WindowState*>(argument);
+    const SystemView& view = state.executive->view_;
+    for (std::size_t i = first; i < end; ++i) {
+        const Component& component = *view.components[view.windows[state.window].first_component + i];
+        static_cast<void>(state.context.deactivate_component(component, state.release));
     }
 }
 
@@ -240,8 +244,9 @@ bool Executive::take_step(std::size_t window, std::size_t position, Instant dead
                           WindowHost& host) noexcept {
     detail::WindowState& state = windows_[window];
     const std::size_t index = view_.windows[window].first_component + position;
-    if (host.run_within({&step_components, &state, index, position, 1U, WindowHost::Pass::kModeStep},
-                        deadline) == 0U) {
+    const auto step = step_ == ModeStep::kEnter ? &activate_steps : &deactivate_steps;
+    if (host.run_within({step, &state, window, index, position, 1U, WindowHost::Pass::kModeStep}, deadline) ==
+        0U) {
         fail_step(ModeFailureCause::kOverrun, index);
         return false;
     }

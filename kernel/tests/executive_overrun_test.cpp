@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a window whose budget is used up publishes nothing, its guilty component is named, and the others
-// run. Method: a fake host that cuts work off in either pass, on both sides of the budget; a host that
-// abandons work on a thread of its own, as a port with a guard does.
+// run. Method: a fake host that cuts work off in either pass, on both sides of the budget. Work that goes on
+// after it was cut off: executive_abandon_test.cpp.
 #include <gtest/gtest.h>
-
-#include <atomic>
-#include <future>
-#include <thread>
 
 #include "mamori/kernel/executive.hpp"
 #include "mamori/verification/verifies.hpp"
@@ -183,97 +179,6 @@ TEST_F(ExecutiveOverrunTest, AnInputIsNewAgainForTheComponentThatWasCutOff) {
     ASSERT_EQ(sink_.notes.size(), 3U);
     EXPECT_TRUE(sink_.notes[1].is_new) << "its late run did not count as a cycle";
     EXPECT_FALSE(sink_.notes[2].is_new);
-}
-
-/// Waits for its release once when told to, and writes then.
-class HangingComponent final : public Component {
-  public:
-    explicit HangingComponent() noexcept : Component("hanging") {}
-    OutPort<std::int64_t> out{"out"};
-    using Ports = mamori::Ports<&HangingComponent::out>;
-
-    std::promise<void> entered;
-    std::promise<void> released;
-    std::atomic<bool> is_to_hang{false};
-
-    Status on_execute(ContextHandle) noexcept override {
-        if (is_to_hang.exchange(false)) {
-            entered.set_value();
-            released.get_future().wait();
-            out.write(666);
-        }
-        return Status::kOk;
-    }
-};
-
-/// Runs the work of component 0 on a thread and abandons it when it hangs, as a port's guard does.
-class AbandoningHost final : public WindowHost {
-  public:
-    explicit AbandoningHost(HangingComponent& component) : component_(component) {}
-    ~AbandoningHost() {
-        if (thread_.joinable()) {
-            thread_.join();
-        }
-    }
-    Instant now{};
-
-    Instant get_now() const noexcept override { return now; }
-    Instant get_step_end() const noexcept override { return now; }
-    std::size_t run_within(const Work& work, Instant deadline) noexcept override {
-        const auto run_all = [work] { work.run(work.argument, work.first, work.first + work.count); };
-        if (work.component != 0U || !component_.is_to_hang) {
-            run_all();
-            return work.count;
-        }
-        thread_ = std::thread(run_all);
-        component_.entered.get_future().wait();
-        now = deadline;
-        return 0U;
-    }
-    void let_it_return() {
-        component_.released.set_value();
-        thread_.join();
-    }
-
-  private:
-    HangingComponent& component_;
-    std::thread thread_;
-};
-
-TEST(ExecutiveAbandonedWorkTest, WorkThatHangsIsNamedEachFrameAndNeverPublishesWhatItWroteLate) {
-    verifies("SWR-KRN-022", Technique::kFaultInjection, Polarity::kViolation);
-    HangingComponent hanging;
-    Counter other;
-    const auto table = system(frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), run(hanging)),
-                              window("second", 400_ns, 600_ns, budget(500_ns), run(other)));
-    ExecutiveFor sut{table};
-    SpyObserver observer;
-    AbandoningHost host{hanging};
-    ASSERT_EQ(sut.initialize(), Status::kOk);
-    ASSERT_EQ(sut.start(), Status::kOk);
-    sut.set_observer(&observer);
-
-    hanging.is_to_hang = true;
-    EXPECT_EQ(sut.run_window(0U, Instant{0}, host), WindowOutcome::kOverrun);
-    host.now = Instant{400};
-    EXPECT_EQ(sut.run_window(1U, Instant{400}, host), WindowOutcome::kCompleted);
-    host.now = Instant{1000};
-    EXPECT_EQ(sut.run_window(0U, Instant{1000}, host), WindowOutcome::kOverrun);
-    EXPECT_EQ(sut.get_context(0U).deactivate_component(hanging, host.now), Status::kPreconditionNotMet);
-
-    host.let_it_return();
-    EXPECT_EQ(observer.take_seen(2U), (std::vector<std::uint32_t>{0U, ExecutionRecord::kWithin}));
-    ASSERT_TRUE(hanging.out.is_staged());
-    host.now = Instant{2000};
-    EXPECT_EQ(sut.run_window(0U, Instant{2000}, host), WindowOutcome::kCompleted);
-
-    EXPECT_EQ(hanging.out.get_sequence(), 0U);
-    hanging.out.write(7);  // as an activation would
-    EXPECT_EQ(sut.run_window(0U, Instant{2000}, host), WindowOutcome::kCompleted);
-    EXPECT_EQ(hanging.out.get_published(), 7) << "only what was written late is thrown away";
-    EXPECT_EQ(observer.heard,
-              (Heard{"overrun window 0 component 0 @300", "overrun window 0 component 0 @1000"}));
-    EXPECT_EQ(other.out.get_sequence(), 1U);
 }
 
 }  // namespace

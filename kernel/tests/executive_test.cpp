@@ -171,9 +171,9 @@ TEST_F(ExecutiveTest, EachRunIsNotedFromTheOpeningOrTheTurnBefore) {
     SpyObserver observer;
     host_.durations[{0U, WindowHost::Pass::kExecute}] = 30_ns;
     host_.durations[{1U, WindowHost::Pass::kExecute}] = 40_ns;
-    observer.records[0] = {30_ns, 30_ns};
-    observer.records[1] = {40_ns, 40_ns};
-    observer.records[2] = {0_ns, 0_ns};
+    observer.records[0].set_limits(30_ns, 30_ns);
+    observer.records[1].set_limits(40_ns, 40_ns);
+    observer.records[2].set_limits(0_ns, 0_ns);
     sut_.set_observer(&observer);
 
     run_frame(sut_, host_, 0);
@@ -187,8 +187,8 @@ TEST_F(ExecutiveTest, ARunOutsideItsLimitsIsNotedAndNotHiddenByALaterOne) {
     SpyObserver observer;
     host_.durations[{0U, WindowHost::Pass::kExecute}] = 30_ns;
     host_.durations[{1U, WindowHost::Pass::kExecute}] = 40_ns;
-    observer.records[0] = {0_ns, 29_ns};
-    observer.records[1] = {41_ns, 100_ns};
+    observer.records[0].set_limits(0_ns, 29_ns);
+    observer.records[1].set_limits(41_ns, 100_ns);
     sut_.set_observer(&observer);
 
     run_frame(sut_, host_, 0);
@@ -215,7 +215,7 @@ TEST_F(ExecutiveTest, AnObserverWithTooFewRecordsIsAnOwnBug) {
     sut_.set_observer(&enough);
     sut_.set_observer(&none);
     run_frame(sut_, host_, 0);
-    EXPECT_EQ(records[0].seen, 0U) << "nobody measures";
+    EXPECT_EQ(records[0].get_seen(), 0U) << "nobody measures";
     EXPECT_DEATH(sut_.set_observer(&few), "");
 }
 
@@ -252,7 +252,7 @@ TEST_F(ExecutiveTest, WithoutAnObserverNothingChanges) {
     run_frame(observed, host, 0);
     observed.set_observer(nullptr);
     host.durations[{0U, WindowHost::Pass::kExecute}] = 1_ns;
-    observer.records[0].longest = 0_ns;
+    observer.records[0].set_limits(0_ns, 0_ns);
     run_frame(observed, host, 1);
 
     EXPECT_EQ(observer.take_seen(3U), (Seen{kWithin, kWithin, kWithin}));

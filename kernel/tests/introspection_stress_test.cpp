@@ -57,6 +57,7 @@ class PlannedHost final : public WindowHost {
         work.run(work.argument, work.first, work.first + work.count);
         return work.count;
     }
+    bool has_returned(std::size_t) const noexcept override { return true; }
 };
 
 Source g_source;
@@ -164,12 +165,17 @@ class AbandoningHost final : public WindowHost {
   public:
     Instant now{};
     std::thread abandoned;
+    std::atomic<bool> is_done{false};
+    bool has_returned(std::size_t) const noexcept override { return is_done.load(std::memory_order_acquire); }
     Endless& endless;
     explicit AbandoningHost(Endless& component) : endless(component) {}
     Instant get_now() const noexcept override { return now; }
     Instant get_step_end() const noexcept override { return now; }
     std::size_t run_within(const Work& work, Instant deadline) noexcept override {
-        abandoned = std::thread([work] { work.run(work.argument, work.first, work.first + work.count); });
+        abandoned = std::thread([this, work] {
+            work.run(work.argument, work.first, work.first + work.count);
+            is_done.store(true, std::memory_order_release);
+        });
         while (endless.rounds.load(std::memory_order_relaxed) == 0U) {
         }
         now = deadline;

@@ -118,7 +118,7 @@ TEST(ModeCornerTest, WhoLeavesTakesItsTimeFromTheWindowAndNotFromTheNextComponen
     verifies("SWR-MOD-005", Technique::kBoundaryValues);
     Robot robot;
     SpyObserver observer;
-    observer.records[0].longest = Duration{49};
+    observer.records[0].set_limits(Duration{0}, Duration{49});
     robot.core_0.set_observer(&observer);
     robot.plan = {&robot.planner, false, Trouble::kDelay, Duration{50}};
     ASSERT_TRUE(robot.begin());

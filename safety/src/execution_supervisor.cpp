@@ -23,7 +23,8 @@ Status ExecutionSupervisor::watch(std::size_t component, const ComponentLimits& 
         return result;
     }
     // What was seen before was held against no limits.
-    get_records()[component] = {limits.deadline.shortest, limits.deadline.longest, 0U};
+    get_records()[component].set_limits(limits.deadline.shortest, limits.deadline.longest);
+    static_cast<void>(get_records()[component].take_seen());
     components_[component].is_global = limits.scope == SupervisionScope::kGlobal;
     return Status::kOk;
 }
@@ -69,8 +70,7 @@ void ExecutionSupervisor::judge(std::size_t component, Instant now) noexcept {
     ComponentSlot& slot = components_[component];
     ExecutionRecord& record = get_records()[component];
     const bool has_overrun = slot.is_overrun_pending.exchange(false, std::memory_order_relaxed);
-    const std::uint32_t seen = record.seen;
-    record.seen = 0U;
+    const std::uint32_t seen = record.take_seen();
     if (seen != 0U) {
         // Refused for one that is not watched, whose runs nobody waits for.
         static_cast<void>(alive_.report_alive(component));
@@ -117,8 +117,8 @@ GlobalStatus ExecutionSupervisor::step(Instant now) noexcept {
     ExecutionRecord* record = get_records().data();
     for (ComponentSlot& slot : components_) {
         // The way of nearly every cycle: runs within their limits, and nothing else to be weighed.
-        if (record->seen == ExecutionRecord::kWithin && !slot.is_conspicuous) {
-            record->seen = 0U;
+        if (record->get_seen() == ExecutionRecord::kWithin && !slot.is_conspicuous) {
+            static_cast<void>(record->take_seen());
             is_anything_proven |= slot.is_global;
         } else {
             const auto component = static_cast<std::size_t>(&slot - components_.begin());

@@ -26,7 +26,9 @@ class FakeHost final : public WindowHost {
     std::map<std::pair<std::size_t, Pass>, bool> hangs;
     std::vector<Instant> deadlines;
     Instant step_end{};
+    bool is_work_out{false};  ///< what was cut off has not come back
 
+    bool has_returned(std::size_t) const noexcept override { return !is_work_out; }
     Instant get_now() const noexcept override { return now; }
     Instant get_step_end() const noexcept override { return step_end; }
 
@@ -52,6 +54,15 @@ class FakeHost final : public WindowHost {
 /// Base so that the records exist before the observer that names them.
 struct SpyRecords {
     std::array<ExecutionRecord, 8U> records{};
+
+    /// What was seen of components 0 .. count - 1 since the last call.
+    std::vector<std::uint32_t> take_seen(std::size_t count) {
+        std::vector<std::uint32_t> seen;
+        for (std::size_t i = 0U; i < count; ++i) {
+            seen.push_back(records.at(i).take_seen());
+        }
+        return seen;
+    }
 };
 
 class SpyObserver final : public SpyRecords, public ExecutionObserver {
@@ -59,14 +70,6 @@ class SpyObserver final : public SpyRecords, public ExecutionObserver {
     SpyObserver() : ExecutionObserver(records) {}
     std::vector<std::string> heard;
 
-    /// What was seen of components 0 .. count - 1 since the last call.
-    std::vector<std::uint32_t> take_seen(std::size_t count) {
-        std::vector<std::uint32_t> seen;
-        for (std::size_t i = 0U; i < count; ++i) {
-            seen.push_back(std::exchange(records.at(i).seen, 0U));
-        }
-        return seen;
-    }
     void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override {
         heard.push_back("overrun window " + std::to_string(window) + " component " +
                         std::to_string(component) + " @" + std::to_string(now.ns));

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,9 @@ class ModeHost final : public WindowHost {
     Instant now{};
     Duration extra{};  ///< what the work that runs now takes
     std::vector<std::unique_ptr<Side>> hanging;
+    std::set<std::size_t> windows_out;  ///< whose work hangs
 
+    bool has_returned(std::size_t window) const noexcept override { return windows_out.count(window) == 0U; }
     Instant get_now() const noexcept override { return now; }
     Instant get_step_end() const noexcept override { return now + extra; }
     std::size_t run_within(const Work& work, Instant deadline) noexcept override {
@@ -48,6 +51,7 @@ class ModeHost final : public WindowHost {
                 has_returned = side->is_done();
                 if (!has_returned) {
                     hanging.push_back(std::move(side));
+                    windows_out.insert(work.window);
                 }
             } else {
                 work.run(work.argument, work.first + i, work.first + i + 1U);
@@ -67,6 +71,7 @@ class ModeHost final : public WindowHost {
             side->resume();
         }
         hanging.clear();
+        windows_out.clear();
     }
 };
 

@@ -18,7 +18,7 @@ using Pass = WindowHost::Pass;
 class VirtualHostTest : public ::testing::Test {
   protected:
     bool run(std::size_t component, Instant deadline, Pass pass = Pass::kExecute) {
-        return sut_.run_within({&count_call, &calls_, component, 0U, 1U, pass}, deadline) == 1U;
+        return sut_.run_within({&count_call, &calls_, 0U, component, 0U, 1U, pass}, deadline) == 1U;
     }
     static void count_call(void* argument, std::size_t begin, std::size_t end) noexcept {
         *static_cast<int*>(argument) += static_cast<int>(end - begin);

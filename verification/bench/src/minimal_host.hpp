@@ -45,6 +45,7 @@ class MinimalHost final : public WindowHost {
         work.run(work.argument, work.first, work.first + work.count);
         return work.count;
     }
+    bool has_returned(std::size_t) const noexcept override { return true; }
 
   private:
     Clock clock_;

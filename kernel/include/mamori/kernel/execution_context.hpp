@@ -118,9 +118,11 @@ class ExecutionContext final {
     /// @return true when the rate has changed; a wish waits while the context is busy.
     bool apply_pending_rate() noexcept;
 
-    /// True while a cycle is under way, or an action of a participant is being called or hangs.
+    /// True while a cycle is under way, an action of a participant is being called or hangs, or work that was
+    /// cut off has not come back.
     bool is_busy() const noexcept {
-        return is_in_cycle() || acting_position_.load(std::memory_order_acquire) != kNoPosition;
+        return phase_.load(std::memory_order_relaxed) != Phase::kIdle ||
+               acting_position_.load(std::memory_order_acquire) != kNoPosition;
     }
     /// Identity from attach(); -1 while not attached.
     std::int32_t get_id() const noexcept { return id_; }
@@ -129,17 +131,15 @@ class ExecutionContext final {
     /// Positions are 0 .. this - 1, in execution order; 0 while not attached.
     std::size_t get_participant_count() const noexcept { return participants_.size(); }
 
-    /// Position of the participant whose action is being called or hangs. @return kPreconditionNotMet: none.
-    Result<std::size_t> get_acting_position() const noexcept {
-        const std::size_t position = acting_position_.load(std::memory_order_acquire);
-        return position == kNoPosition ? Status::kPreconditionNotMet : Result<std::size_t>{position};
-    }
+    /// Position of the participant whose action is being called or hangs, else of the one that was cut off
+    /// and has not come back. @return kPreconditionNotMet: none.
+    Result<std::size_t> get_acting_position() const noexcept;
     /// Position of the participant that refused the last start(). @return kPreconditionNotMet: none did.
     Result<std::size_t> get_refusing_position() const noexcept;
 
     /// @name One cycle in steps, as the executive needs it: take_turn, begin, execute 0..n-1,
     /// update_state 0..n-1, end. Calling a step outside a cycle, or with a position out of range, is an own
-    /// bug. A range that its host abandoned ends after the action that is under way when the cycle has ended.
+    /// bug. A range that its host abandoned ends after the action that is under way.
     /// @{
     /// Counts one window of the context. @return true when a cycle is due in it: always, each n-th time at a
     /// rate that is n times slower than the plan's, or once for each tick of the trigger; false while
@@ -163,7 +163,7 @@ class ExecutionContext final {
         if (!is_running_ || is_busy()) {
             return Status::kPreconditionNotMet;
         }
-        is_in_cycle_.store(true, std::memory_order_relaxed);
+        phase_.store(Phase::kInCycle, std::memory_order_relaxed);
         cycle_start_ = now;
         return Status::kOk;
     }
@@ -199,8 +199,17 @@ class ExecutionContext final {
     void update_state(std::size_t position) noexcept { update_range(position, 1U); }
     /// update_state() of `count` positions from `first` on.
     void update_range(std::size_t first, std::size_t count) noexcept;
-    /// Ends the cycle, whether all steps were made or not.
-    void end_cycle() noexcept { is_in_cycle_.store(false, std::memory_order_relaxed); }
+    /// Ends the cycle, whether all steps were made or not. Nobody may be within one.
+    void end_cycle() noexcept { phase_.store(Phase::kIdle, std::memory_order_relaxed); }
+    /// Ends the cycle, or a step outside of it, whose work the host has cut off: the context stays busy until
+    /// readmit(). A step that begins in the meantime does nothing.
+    /// @param[in] position 0 .. get_participant_count() - 1, of the one that was cut off.
+    void abandon(std::size_t position) noexcept {
+        abandoned_position_ = position;
+        phase_.store(Phase::kAbandoned, std::memory_order_release);
+    }
+    /// The host says that the work which was cut off has come back.
+    void readmit() noexcept { phase_.store(Phase::kIdle, std::memory_order_relaxed); }
     /// @}
 
   private:
@@ -208,7 +217,10 @@ class ExecutionContext final {
     class ActionScope;
     static constexpr std::size_t kNoPosition = std::numeric_limits<std::size_t>::max();
 
-    bool is_in_cycle() const noexcept { return is_in_cycle_.load(std::memory_order_relaxed); }
+    enum class Phase : std::uint8_t { kIdle, kInCycle, kAbandoned };
+
+    bool is_in_cycle() const noexcept { return phase_.load(std::memory_order_relaxed) == Phase::kInCycle; }
+    bool admits_steps() const noexcept;
     bool take_tick() noexcept;
     static void release_participants(Span<Component* const> participants) noexcept;
     Result<std::size_t> find(const Component& component) const noexcept;
@@ -244,7 +256,8 @@ class ExecutionContext final {
     /// Whose action is being called. Atomic, since an action that its host has abandoned ends on another
     /// thread; kNoPosition is stored last, so that whoever sees it sees all that the actions did.
     std::atomic<std::size_t> acting_position_{kNoPosition};
-    std::atomic<bool> is_in_cycle_{false};
+    std::atomic<Phase> phase_{Phase::kIdle};
+    std::size_t abandoned_position_{0U};  ///< in kAbandoned
     bool is_running_{false};
     std::int32_t id_{-1};
 };

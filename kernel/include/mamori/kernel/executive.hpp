@@ -3,7 +3,8 @@
 /// Runs the windows of a system table: latches inputs when a window opens, runs its components in order under
 /// a budget that the port enforces, hands values on within the window, and publishes outputs when it closes.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026, SWR-MOD-008, SWR-MOD-009
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026, SWR-KRN-032, SWR-MOD-008,
+/// SWR-MOD-009
 /// Design:   docs/design/kernel.md#windows, docs/design/modes.md#the-switch
 #ifndef MAMORI_KERNEL_EXECUTIVE_HPP
 #define MAMORI_KERNEL_EXECUTIVE_HPP
@@ -39,10 +40,11 @@ struct WindowState {
     ExecutionContext context{};
     Executive* executive{nullptr};  ///< work reaches its executive through it
     std::size_t window{0U};
+    Instant release{};                      ///< planned, of the opening; work that hangs keeps seeing its own
     WindowHost::Work first_pass{};          ///< the same in every cycle, see Executive::prepare_work()
     ExecutionContext::Follower follower{};  ///< of the cycle that runs or ran last
     bool is_followed{false};                ///< in the first pass, step by step
-    bool has_abandoned_outputs{false};      ///< hanging work may still write; discard once it has returned
+    const WindowHost* cut_by{nullptr};      ///< has cut off work of this window that may not have come back
     Instant crossed_at{std::numeric_limits<std::int64_t>::max()};  ///< frame boundary that it crossed last
     ModeMask held_modes{0U};       ///< connections that hold in all of them are served
     ModePlan prepared{};           ///< plan whose parameters and connections it has
@@ -96,7 +98,7 @@ class Executive {
     /// @param[in] index   0 .. get_view().windows.size() - 1, a window of this core.
     /// @param[in] release planned opening of the window, not after host.get_now(); later is an own bug.
     /// @param[in] host    clock and budget guard; work that it abandons may run on after this returns, so it
-    ///                    must outlive that.
+    ///                    must outlive that. The next opening and stop() ask whether it has come back.
     /// @return what became of the opening; kStopped and kNotDue ran nothing.
     WindowOutcome run_window(std::size_t index, Instant release, WindowHost& host) noexcept;
     /// The same for a host that releases windows exactly: the planned opening is now.
@@ -158,8 +160,10 @@ class Executive {
     std::size_t leave_components(std::size_t window, Instant deadline, WindowHost& host) noexcept;
     std::size_t enter_components(std::size_t window, Instant deadline, WindowHost& host) noexcept;
     bool take_step(std::size_t window, std::size_t position, Instant deadline, WindowHost& host) noexcept;
-    static void step_components(void* argument, std::size_t first, std::size_t end) noexcept;
+    static void activate_steps(void* argument, std::size_t first, std::size_t end) noexcept;
+    static void deactivate_steps(void* argument, std::size_t first, std::size_t end) noexcept;
     WindowOutcome end_overrun(std::size_t window, std::size_t component, WindowHost& host) noexcept;
+    bool readmit(detail::WindowState& state) noexcept;
     // Parts of run_window(), which calls each of them in one place: a window costs one call, not three.
     [[gnu::always_inline]] inline std::size_t run_cycle(const WindowRow& row, detail::WindowState& state,
                                                         Instant opened, Instant deadline,

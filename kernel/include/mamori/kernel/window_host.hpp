@@ -3,7 +3,7 @@
 /// What a port gives to the executive: the time, and a way to run work that does not run for ever.
 /// The port enforces the budget; the executive draws the consequences.
 ///
-/// @satisfies SWR-KRN-022      Design: docs/design/kernel.md#windows
+/// @satisfies SWR-KRN-022, SWR-KRN-032      Design: docs/design/kernel.md#windows
 #ifndef MAMORI_KERNEL_WINDOW_HOST_HPP
 #define MAMORI_KERNEL_WINDOW_HOST_HPP
 
@@ -33,6 +33,7 @@ class WindowHost {
         /// Runs the steps `begin` .. `end` - 1 in order.
         void (*run)(void* argument, std::size_t begin, std::size_t end) noexcept;
         void* argument;         ///< owned by the executive, which outlives work that is abandoned
+        std::size_t window;     ///< of the system table
         std::size_t component;  ///< place of the first step's component in the system table; others follow
         std::size_t first;      ///< number of the first step
         std::size_t count;      ///< of steps, > 0
@@ -50,9 +51,14 @@ class WindowHost {
     /// Runs the steps of `work`, each at most once and in order, together or one by one.
     /// @param[in] deadline instant at which the window's budget is used up; may have passed already.
     /// @return how many of them returned by the deadline; less than count when the budget ran out
-    ///         first, whether that step returned late, was abandoned, or never began because earlier work of
-    ///         its context still hangs.
+    ///         first, whether that step returned late or was abandoned. Abandoned work may enter one more
+    ///         step, which then does nothing.
     virtual std::size_t run_within(const Work& work, Instant deadline) noexcept = 0;
+
+    /// Whether work that run_within() has cut off is over: nothing of it runs, and nothing of it will begin.
+    /// Asked only of a window whose work was cut off last time. A host that has work on another thread
+    /// answers true only once it sees all that the work did; until then the window stays closed.
+    virtual bool has_returned(std::size_t window) const noexcept = 0;
 
   protected:
     ~WindowHost() = default;

@@ -39,6 +39,8 @@ class VirtualHost final : public WindowHost {
     /// the deadline: a late one still has its effect on its component, a hanging one has none.
     /// The modelled time is that of the first pass, and of a mode step in its place; the second takes none.
     std::size_t run_within(const Work& work, Instant deadline) noexcept override;
+    /// Always: work that is cut off has returned, or never began.
+    bool has_returned(std::size_t) const noexcept override { return true; }
 
     /// Lets time pass without work. @param[in] instant not before get_now(); an earlier one is an own bug.
     void advance_to(Instant instant) noexcept;
