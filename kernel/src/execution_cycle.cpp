@@ -24,10 +24,6 @@ bool ExecutionContext::admits_steps() const noexcept {
 template <typename After>
 void ExecutionContext::run_turns(std::size_t first, std::size_t count, Follower* follower,
                                  After after) noexcept {
-    if (!admits_steps()) {
-        return;
-    }
-    MAMORI_REQUIRE(4, first <= participants_.size() && count <= participants_.size() - first);
     Component* const* const participants = participants_.data();
     const ContextHandle handle = make_handle(cycle_start_);
     const ActionScope scope{*this, first};
@@ -54,6 +50,10 @@ void ExecutionContext::run_turns(std::size_t first, std::size_t count, Follower*
 }
 
 void ExecutionContext::execute_range(std::size_t first, std::size_t count, Follower* follower) noexcept {
+    if (!admits_steps()) {
+        return;
+    }
+    MAMORI_REQUIRE(4, first <= participants_.size() && count <= participants_.size() - first);
     // One loop for each way that is common, so that no turn asks for what its range does not need.
     if (follower == nullptr) {
         run_turns(first, count, nullptr, [](std::size_t) noexcept {});

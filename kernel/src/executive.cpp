@@ -194,6 +194,7 @@ Status Executive::stop_all() noexcept {
         if (context.is_running()) {
             note(context.stop(last_release_));
         }
+        windows_[w].is_stop_due = context.is_running();
     }
     if (has_joined_) {
         has_joined_ = false;
@@ -235,7 +236,8 @@ Status Executive::finalize() noexcept {
         if (!is_own(view_.component_rows[i].window)) {
             continue;
         }
-        const Status result = view_.components[i]->finalize();
+        // One whose life was ended by exit() has nothing left to finalize.
+        const Status result = view_.components[i]->is_alive() ? view_.components[i]->finalize() : Status::kOk;
         if (first_failure == Status::kOk) {
             first_failure = result;
         }
@@ -246,6 +248,7 @@ Status Executive::finalize() noexcept {
 }
 
 void Executive::set_observer(ExecutionObserver* observer) noexcept {
+    MAMORI_REQUIRE(5, !is_busy_);
     observer_ = observer;
     const Span<ExecutionRecord> records =
         observer == nullptr ? Span<ExecutionRecord>{} : observer->get_records();
@@ -403,14 +406,15 @@ WindowOutcome Executive::run_open_window(const WindowRow& row, detail::WindowSta
     if (observer_ != nullptr && opened > release) {
         observer_->on_late_release(state.window, opened - release, opened);
     }
-    if (state.context.is_busy() && !readmit(state)) {
-        const std::size_t position = state.context.get_acting_position().get_value();
-        report_overrun(state.window, row.first_component + position, opened);
-        return WindowOutcome::kOverrun;
-    }
     state.release = release;
+    if ((state.context.is_busy() || state.is_stop_due) && !may_open(state, opened, host)) {
+        return state.context.is_running() ? WindowOutcome::kOverrun : WindowOutcome::kStopped;
+    }
     // A window that opens late keeps its budget, but not beyond its planned close.
     const Instant close = release + row.length;
+    if (opened > close) {
+        return WindowOutcome::kMissed;
+    }
     const Instant deadline = opened + row.budget < close ? opened + row.budget : close;
     std::size_t guilty = kNoIndex;
     if (modes_ != nullptr) {
@@ -456,6 +460,46 @@ bool Executive::readmit(detail::WindowState& state) noexcept {
     return !state.context.is_busy();
 }
 
+/// A window whose work was out, or that should have been stopped then. @return whether it opens as usual.
+bool Executive::may_open(detail::WindowState& state, Instant opened, WindowHost& host) noexcept {
+    if (!readmit(state)) {
+        const std::size_t position = state.context.get_acting_position().get_value();
+        report_overrun(state.window, view_.windows[state.window].first_component + position, opened);
+        return false;
+    }
+    if (state.is_stop_due) {
+        stop_late(state, opened, host);
+    }
+    return state.context.is_running() && !state.is_stop_due;
+}
+
+/// Carries out what stop() could not, under the budget of the window; goes on in the next opening when that
+/// is used up.
+void Executive::stop_late(detail::WindowState& state, Instant opened, WindowHost& host) noexcept {
+    const WindowRow& row = view_.windows[state.window];
+    const std::size_t stopped = host.run_within(
+        {&stop_steps, &state, state.window, row.first_component, 0U, row.component_count, Pass::kModeStep},
+        opened + row.budget);
+    if (stopped < row.component_count) {
+        static_cast<void>(end_overrun(state.window, row.first_component + stopped, host));
+        return;
+    }
+    discard_outputs(state.window);
+    static_cast<void>(state.context.stop(state.release));
+    state.is_stop_due = state.context.is_running();
+}
+
+void Executive::stop_steps(void* argument, std::size_t first, std::size_t end) noexcept {
+    detail::WindowState& state = *static_cast<detail::WindowState*>(argument);
+    const SystemView& view = state.executive->view_;
+    for (std::size_t i = first; i < end; ++i) {
+        if (state.context.get_state_at(i) == LifecycleState::kActive) {
+            const Component& component = *view.components[view.windows[state.window].first_component + i];
+            static_cast<void>(state.context.deactivate_component(component, state.release));
+        }
+    }
+}
+
 /// What changes for all windows of the core at once changes here, before the first window of a frame.
 void Executive::begin_frame(Instant release) noexcept {
     frame_start_ = Instant{release.ns / view_.frame.ns * view_.frame.ns};
@@ -472,6 +516,7 @@ WindowOutcome Executive::run_window(std::size_t index, Instant release, WindowHo
     const Instant opened = host.get_now();
     MAMORI_REQUIRE(3, release <= opened);
     const WindowRow& row = view_.windows[index];
+    MAMORI_REQUIRE(6, row.core == core_);
     detail::WindowState& state = windows_[index];
     WindowOutcome outcome = WindowOutcome::kStopped;
     const bool is_running = state.context.is_running();

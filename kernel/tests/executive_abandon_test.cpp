@@ -128,7 +128,12 @@ class TwoPasses final : public Component {
     using Ports = mamori::Ports<&TwoPasses::out>;
     int executed{0};
     int updated{0};
+    int deactivated{0};
 
+    Status on_deactivated(ContextHandle) noexcept override {
+        ++deactivated;
+        return Status::kOk;
+    }
     Status on_execute(ContextHandle) noexcept override {
         out.write(++executed);
         return Status::kOk;
@@ -227,6 +232,44 @@ TEST_P(ExecutiveLateEntryTest, StopIsRefusedWhileWorkIsOutAndNeedsNoOpeningAfter
     EXPECT_FALSE(context.is_busy());
     EXPECT_FALSE(context.is_running());
     EXPECT_FALSE(context.get_acting_position().has_value());
+}
+
+TEST_P(ExecutiveLateEntryTest, AWindowThatCouldNotBeStoppedRunsNoCycleAnyMore) {
+    verifies("SWR-KRN-033", Technique::kFaultInjection, Polarity::kViolation);
+    host_.to_cut = GetParam();
+    ASSERT_EQ(open(0U, 0), WindowOutcome::kOverrun);
+    ASSERT_EQ(sut_.stop(), Status::kPreconditionNotMet);
+    const int executed = component_.executed;
+
+    EXPECT_EQ(open(0U, 1000), WindowOutcome::kOverrun);
+    EXPECT_EQ(sut_.start(), Status::kPreconditionNotMet) << "not yet stopped";
+    host_.late.reset();
+    EXPECT_EQ(open(0U, 2000), WindowOutcome::kStopped);
+    EXPECT_EQ(component_.deactivated, 1);
+    EXPECT_FALSE(sut_.get_context(0U).is_running());
+    EXPECT_EQ(open(0U, 3000), WindowOutcome::kStopped);
+    EXPECT_EQ(component_.executed, executed);
+    EXPECT_EQ(component_.out.get_sequence(), 0U);
+
+    EXPECT_EQ(sut_.start(), Status::kOk);
+    EXPECT_EQ(open(0U, 4000), WindowOutcome::kCompleted);
+}
+
+TEST_P(ExecutiveLateEntryTest, AStopThatComesLateHasTheBudgetOfItsWindow) {
+    verifies("SWR-KRN-033", Technique::kFaultInjection, Polarity::kViolation);
+    host_.to_cut = GetParam();
+    ASSERT_EQ(open(0U, 0), WindowOutcome::kOverrun);
+    ASSERT_EQ(sut_.stop(), Status::kPreconditionNotMet);
+    host_.late.reset();
+    host_.to_cut = Pass::kModeStep;
+
+    EXPECT_EQ(open(0U, 1000), WindowOutcome::kOverrun);
+    EXPECT_EQ(host_.now, Instant{1300}) << "cut off at the end of the budget";
+    host_.late.reset();
+    EXPECT_EQ(open(0U, 2000), WindowOutcome::kStopped);
+    EXPECT_EQ(component_.deactivated, 1);
+    EXPECT_EQ(observer_.heard,
+              (Heard{"overrun window 0 component 0 @300", "overrun window 0 component 0 @1300"}));
 }
 
 INSTANTIATE_TEST_SUITE_P(BothPasses, ExecutiveLateEntryTest,

@@ -75,6 +75,13 @@ TEST_F(ExecutiveCoresTest, ALateReaderDoesNotSeeWhatIsPublishedAfterItsOpening) 
     EXPECT_FALSE(sink_.notes[2].is_new);
 }
 
+TEST_F(ExecutiveCoresTest, AWindowOfAnotherCoreEndsInTheAssertion) {
+    verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_DEATH(static_cast<void>(writer_.run_window(1U, host_)), "");
+    EXPECT_DEATH(static_cast<void>(reader_.run_window(0U, host_)), "");
+}
+
 TEST_F(ExecutiveCoresTest, AValueThatCameTooEarlyArrivesAtTheNextOpening) {
     verifies("SWR-KRN-026", Technique::kFaultInjection, Polarity::kViolation);
     write(0);

@@ -200,6 +200,29 @@ TEST_F(ExecutiveLifeTest, FinalizeIsRefusedWhileAComponentIsActiveAndReportsTheF
     EXPECT_FALSE(a_.is_alive() || b_.is_alive() || c_.is_alive());
 }
 
+TEST_F(ExecutiveLifeTest, AComponentWhoseLifeHasEndedIsNotFinalizedAgain) {
+    verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(sut_.initialize(), Status::kOk);
+    ASSERT_EQ(b_.exit(Instant{}), Status::kOk);
+    static_cast<void>(take(calls_));
+
+    EXPECT_EQ(sut_.finalize(), Status::kOk);
+    EXPECT_EQ(take(calls_), (Calls{"c.on_finalize", "a.on_finalize"}));
+}
+
+TEST_F(ExecutiveLifeTest, AnObserverFromWithinAnActionEndsInTheAssertion) {
+    verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(sut_.initialize(), Status::kOk);
+    ASSERT_EQ(sut_.start(), Status::kOk);
+    a_.inside = [this](const std::string& action) {
+        if (action == "on_execute") {
+            sut_.set_observer(nullptr);
+        }
+    };
+
+    EXPECT_DEATH(static_cast<void>(sut_.run_window(0U, host_)), "");
+}
+
 TEST_F(ExecutiveLifeTest, OperationsFromWithinAnActionAreRefused) {
     verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
     std::size_t refusals = 0U;

@@ -113,6 +113,22 @@ TEST_F(ExecutiveOverrunTest, AnOverrunDoesNotStopTheOtherWindowsWhichSeeTheLastP
     EXPECT_EQ(other_.out.get_sequence(), 2U);
 }
 
+TEST_F(ExecutiveOverrunTest, AWindowThatOpensAfterItsCloseRunsNothingAndBlamesNobody) {
+    verifies("SWR-KRN-034", Technique::kBoundaryValues, Polarity::kViolation);
+    host_.now = Instant{401};
+    EXPECT_EQ(sut_.run_window(0U, Instant{0}, host_), WindowOutcome::kMissed);
+    EXPECT_FALSE(counter_.out.is_staged());
+    EXPECT_EQ(observer_.heard, (Heard{"late window 0 by 401 @401"}));
+    EXPECT_TRUE(host_.deadlines.empty());
+
+    host_.now = Instant{1400};  // nothing is left of its budget, which is another matter
+    host_.durations[{0U, Pass::kExecute}] = 1_ns;
+    EXPECT_EQ(sut_.run_window(0U, Instant{1000}, host_), WindowOutcome::kOverrun);
+    EXPECT_EQ(observer_.heard.back(), "overrun window 0 component 0 @1400");
+    host_.durations.clear();
+    EXPECT_EQ(run(0U, 2), WindowOutcome::kCompleted) << "the next opening is on time";
+}
+
 TEST_F(ExecutiveOverrunTest, AfterAnOverrunTheNextCycleIsComplete) {
     verifies("SWR-KRN-022", Technique::kFaultInjection);
     host_.durations[{0U, Pass::kExecute}] = 301_ns;

@@ -46,8 +46,9 @@ class Crossing final : public CrossingBase {
         buffer_.publish();
     }
     /// For the executive of the reading core, at the opening of its window. A value whose publication lies
-    /// after `opening` is left for the next one: the reader is late, and takes what it would have found. One
-    /// from before the sink's last restart() is of another mode.
+    /// after `opening` is left for the next one: the reader is late, and keeps what it took last, since the
+    /// one that it would have found has been replaced. One from before the sink's last restart() is of
+    /// another mode.
     template <typename Sink>
     void latch(Sink& sink, Instant opening) noexcept {
         static_cast<void>(buffer_.update());

@@ -217,7 +217,7 @@ class ExecutionContext final {
     class ActionScope;
     static constexpr std::size_t kNoPosition = std::numeric_limits<std::size_t>::max();
 
-    enum class Phase : std::uint8_t { kIdle, kInCycle, kAbandoned };
+    enum class Phase : std::uint8_t { kInCycle, kIdle, kAbandoned };
 
     bool is_in_cycle() const noexcept { return phase_.load(std::memory_order_relaxed) == Phase::kInCycle; }
     bool admits_steps() const noexcept;

@@ -3,8 +3,8 @@
 /// Runs the windows of a system table: latches inputs when a window opens, runs its components in order under
 /// a budget that the port enforces, hands values on within the window, and publishes outputs when it closes.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026, SWR-KRN-032, SWR-MOD-008,
-/// SWR-MOD-009
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026, SWR-KRN-032, SWR-KRN-033,
+/// SWR-KRN-034, SWR-MOD-008, SWR-MOD-009
 /// Design:   docs/design/kernel.md#windows, docs/design/modes.md#the-switch
 #ifndef MAMORI_KERNEL_EXECUTIVE_HPP
 #define MAMORI_KERNEL_EXECUTIVE_HPP
@@ -27,6 +27,7 @@ namespace mamori {
 enum class WindowOutcome : std::uint8_t {
     kCompleted,  ///< every component came through both passes; outputs are published
     kOverrun,    ///< the budget ran out, or earlier work still hangs; no output of this window is published
+    kMissed,     ///< it opened after its planned close; nothing ran, and no component is to blame
     kStopped,    ///< the context is Stopped; nothing ran
     kNotDue,     ///< no cycle in this opening: a slower rate leaves it out, or no tick has come
 };
@@ -44,6 +45,7 @@ struct WindowState {
     WindowHost::Work first_pass{};          ///< the same in every cycle, see Executive::prepare_work()
     ExecutionContext::Follower follower{};  ///< of the cycle that runs or ran last
     bool is_followed{false};                ///< in the first pass, step by step
+    bool is_stop_due{false};                ///< stop() could not: its work was out
     const WindowHost* cut_by{nullptr};      ///< has cut off work of this window that may not have come back
     Instant crossed_at{std::numeric_limits<std::int64_t>::max()};  ///< frame boundary that it crossed last
     ModeMask held_modes{0U};       ///< connections that hold in all of them are served
@@ -82,9 +84,12 @@ class Executive {
     ///         current set is refused); else the code of the on_startup or on_activated that refused.
     Status start() noexcept;
 
-    /// Deactivates every Active component and stops every running context, in reverse order.
-    /// @return kOk; kPreconditionNotMet (not initialised, or called from an action); else the code of the
-    ///         first refusal: everything is stopped anyway but a context whose work hangs.
+    /// Deactivates every Active component and stops every running context, in reverse order. A context whose
+    /// work hangs runs no cycle any more: it is stopped when its window next opens after the work has come
+    /// back, or by another call.
+    /// @return kOk; kPreconditionNotMet (not initialised, called from an action, or the work of a context
+    ///         hangs: the others are stopped); else the code of the first refusal: everything is stopped
+    ///         anyway.
     Status stop() noexcept;
 
     /// Gives every context's components up and finalizes them, in reverse order; initialize() may follow.
@@ -99,7 +104,7 @@ class Executive {
     /// @param[in] release planned opening of the window, not after host.get_now(); later is an own bug.
     /// @param[in] host    clock and budget guard; work that it abandons may run on after this returns, so it
     ///                    must outlive that. The next opening and stop() ask whether it has come back.
-    /// @return what became of the opening; kStopped and kNotDue ran nothing.
+    /// @return what became of the opening; kStopped, kNotDue and kMissed ran no cycle.
     WindowOutcome run_window(std::size_t index, Instant release, WindowHost& host) noexcept;
     /// The same for a host that releases windows exactly: the planned opening is now.
     WindowOutcome run_window(std::size_t index, WindowHost& host) noexcept {
@@ -118,7 +123,8 @@ class Executive {
     std::size_t get_failed_component() const noexcept { return failed_component_; }
 
     /// @param[in] observer listens to the course of execution, or nullptr; must outlive the executive. One
-    ///            with records must have one for each component of the table, else an own bug.
+    ///            with records must have one for each component of the table, else an own bug. Not to be
+    ///            called from within an action or from the observer (own bug).
     void set_observer(ExecutionObserver* observer) noexcept;
     /// Shows the course of execution to tools from now on: at the end of each opening of a window, and after
     /// initialize(), start(), stop() and finalize(). No hash and no window depends on it.
@@ -164,6 +170,9 @@ class Executive {
     static void deactivate_steps(void* argument, std::size_t first, std::size_t end) noexcept;
     WindowOutcome end_overrun(std::size_t window, std::size_t component, WindowHost& host) noexcept;
     bool readmit(detail::WindowState& state) noexcept;
+    bool may_open(detail::WindowState& state, Instant opened, WindowHost& host) noexcept;
+    void stop_late(detail::WindowState& state, Instant opened, WindowHost& host) noexcept;
+    static void stop_steps(void* argument, std::size_t first, std::size_t end) noexcept;
     // Parts of run_window(), which calls each of them in one place: a window costs one call, not three.
     [[gnu::always_inline]] inline std::size_t run_cycle(const WindowRow& row, detail::WindowState& state,
                                                         Instant opened, Instant deadline,

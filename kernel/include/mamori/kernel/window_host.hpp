@@ -24,7 +24,7 @@ class WindowHost {
     enum class Pass : std::uint8_t {
         kExecute,      ///< on_execute, or what takes its place in a turn
         kStateUpdate,  ///< on_state_update
-        kModeStep,     ///< on_deactivated or on_activated in a switch of modes, in place of a cycle
+        kModeStep,     ///< on_deactivated or on_activated in a switch of modes or a late stop, not in a cycle
     };
 
     /// One pass over components of a window, as a range of steps, so that a host which has nothing to do
