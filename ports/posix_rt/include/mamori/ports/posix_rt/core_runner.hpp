@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Runs the windows of one core in real time: each opens at its place on the fixed grid of the frame.
+///
+/// @satisfies SWR-PRT-005      Design: docs/design/posix_rt.md#grid
+#ifndef MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
+#define MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
+
+#include <atomic>
+#include <cstdint>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/frame_schedule.hpp"
+#include "mamori/kernel/window_host.hpp"
+#include "mamori/ports/posix_rt/frame_clock.hpp"
+
+namespace mamori::ports::posix_rt {
+
+/// What became of the openings so far.
+struct OpeningCounts {
+    std::uint64_t opened{0U};    ///< all of them
+    std::uint64_t overran{0U};   ///< WindowOutcome::kOverrun
+    std::uint64_t missed{0U};    ///< WindowOutcome::kMissed
+    Duration worst_lateness{0};  ///< from the planned instant to the first reading of the clock after it
+};
+
+/// Thread safety: request_stop() from any thread or signal handler; the rest from the thread that runs the
+///                windows, whose priority must be higher than that of the host's threads.
+/// Memory:        none of its own; all references must outlive it.
+class CoreRunner final {
+  public:
+    CoreRunner(Executive& executive, WindowHost& host, const FrameClock& clock) noexcept
+        : executive_(executive), host_(host), clock_(clock) {}
+    CoreRunner(const CoreRunner&) = delete;
+    CoreRunner& operator=(const CoreRunner&) = delete;
+
+    /// Opens every window whose place lies in the next `frame_count` frames, from the first frame on that
+    /// begins now or later; returns after the last, or soon after request_stop(). Sleeps in between. An
+    /// opening that comes late moves no later one: its instants are those of the grid.
+    /// @param[in] frame_count > 0.
+    void run(std::uint64_t frame_count) noexcept;
+
+    /// No window opens any more once the current one has ended.
+    void request_stop() noexcept { is_stop_wanted_.store(true, std::memory_order_relaxed); }
+
+    /// Of all calls of run() so far. To be asked while none is under way.
+    const OpeningCounts& get_counts() const noexcept { return counts_; }
+
+  private:
+    void open(const FrameSchedule::Opening& opening) noexcept;
+
+    Executive& executive_;
+    WindowHost& host_;
+    const FrameClock& clock_;
+    OpeningCounts counts_{};
+    std::atomic<bool> is_stop_wanted_{false};
+};
+
+}  // namespace mamori::ports::posix_rt
+
+#endif  // MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The time line of a system in real time: nanoseconds of the monotonic clock since an epoch that all its
+/// cores share. A step of the wall clock changes nothing on it.
+///
+/// @satisfies SWR-PRT-001      Design: docs/design/posix_rt.md#time-line
+#ifndef MAMORI_PORTS_POSIX_RT_FRAME_CLOCK_HPP
+#define MAMORI_PORTS_POSIX_RT_FRAME_CLOCK_HPP
+
+#include <time.h>
+
+#include "mamori/kernel/time.hpp"
+
+namespace mamori::ports::posix_rt {
+
+/// Instant 0 is the epoch: frame n of every core begins n frames after it.
+///
+/// Thread safety: any thread. Time: one reading of CLOCK_MONOTONIC, or a sleep. Memory: one word.
+class FrameClock final {
+  public:
+    /// @param[in] lead from now to the epoch, >= 0; gives the threads time to be ready for their first
+    /// window.
+    static FrameClock starting_in(Duration lead) noexcept;
+
+    Instant get_now() const noexcept;
+    /// The same instant for a system call with an absolute time. One before the clock's own zero is that
+    /// zero.
+    timespec to_timespec(Instant instant) const noexcept;
+    /// Returns at `instant` or later, however often a signal comes in between; at once when it has passed.
+    void sleep_until(Instant instant) const noexcept;
+
+  private:
+    constexpr explicit FrameClock(std::int64_t epoch_ns) noexcept : epoch_ns_(epoch_ns) {}
+
+    std::int64_t epoch_ns_;  ///< of CLOCK_MONOTONIC
+};
+
+}  // namespace mamori::ports::posix_rt
+
+#endif  // MAMORI_PORTS_POSIX_RT_FRAME_CLOCK_HPP

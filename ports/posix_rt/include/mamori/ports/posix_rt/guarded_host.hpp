@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Clock and budget guard of one core in real time. Each window has a thread of its own that does its work;
+/// the thread that runs the executive only waits for it, at a higher priority and never beyond the deadline.
+/// So a budget is enforced without the help of the code that exceeds it, and a hang costs its window alone.
+///
+/// @satisfies SWR-PRT-003, SWR-PRT-004      Design: docs/design/posix_rt.md#guard
+#ifndef MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
+#define MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
+
+#include <pthread.h>
+#include <semaphore.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/window_host.hpp"
+#include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/ports/posix_rt/real_time_rights.hpp"
+
+namespace mamori::ports::posix_rt {
+
+/// Thread of one window. Storage only: GuardedHost is the one who uses it.
+///
+/// Work that hangs for ever keeps its thread, so this must have static storage.
+class WindowThread final {
+  public:
+    WindowThread() noexcept = default;
+    WindowThread(const WindowThread&) = delete;
+    WindowThread& operator=(const WindowThread&) = delete;
+
+  private:
+    friend class GuardedHost;
+    static void* serve(void* argument) noexcept;
+    void work_off() noexcept;
+    bool is_out() const noexcept { return done_.load(std::memory_order_acquire) != asked_; }
+
+    const FrameClock* clock_{nullptr};
+    pthread_t thread_{};
+    sem_t wanted_{};
+    sem_t returned_{};  ///< may be posted once too often: only done_ tells
+    WindowHost::Work work_{};
+    Instant deadline_{};
+    std::uint32_t asked_{0U};              ///< pieces of work so far
+    std::atomic<std::uint32_t> done_{0U};  ///< the last of them that has come back
+    std::atomic<std::size_t> finished_count_{0U};
+    std::atomic<bool> is_ending_{false};
+    bool is_open_{false};
+    bool is_demoted_{false};
+};
+
+/// Calling context: the thread that runs the windows of the core; open() and close() before and after it
+/// does. Time: two switches of threads per piece of work. Memory: none of its own.
+class GuardedHost final : public WindowHost {
+  public:
+    /// @param[in] threads one per window of the system table; must outlive the host, and the process when
+    /// work
+    ///            of one hangs. @param[in] clock must outlive the host.
+    /// @param[in] place of the threads of the windows. The priority must be lower than that of the thread
+    ///            that runs the windows; each gets it or, when it is refused, none.
+    GuardedHost(Span<WindowThread> threads, const FrameClock& clock, ThreadPlace place) noexcept
+        : threads_(threads), clock_(clock), place_(place) {}
+    GuardedHost(const GuardedHost&) = delete;
+    GuardedHost& operator=(const GuardedHost&) = delete;
+    ~GuardedHost() = default;
+
+    /// Starts the threads. @return kOk; kPreconditionNotMet (open already); kOutOfResources (no more threads:
+    /// those that were started have ended).
+    Status open() noexcept;
+    /// Ends the threads. @return kOk; kPreconditionNotMet (work of a window is out: its thread goes on, the
+    /// others have ended; call it again when the work has come back).
+    Status close() noexcept;
+
+    /// What the threads were given in open(), the worst of all: granted only when each of them has it.
+    Right get_priority_right() const noexcept { return priority_right_; }
+    Right get_processor_right() const noexcept { return processor_right_; }
+
+    Instant get_now() const noexcept override { return clock_.get_now(); }
+    Instant get_step_end() const noexcept override { return clock_.get_now(); }
+    /// Work that is not back by the deadline is cut off and its thread loses its priority until it is back,
+    /// so that a hang takes no time from another window.
+    std::size_t run_within(const Work& work, Instant deadline) noexcept override;
+    bool has_returned(std::size_t window) const noexcept override { return !threads_[window].is_out(); }
+
+  private:
+    Status start(WindowThread& thread) noexcept;
+    void demote(WindowThread& thread) noexcept;
+    void promote(WindowThread& thread) noexcept;
+
+    Span<WindowThread> threads_;
+    const FrameClock& clock_;
+    ThreadPlace place_;
+    Right priority_right_{};
+    Right processor_right_{};
+};
+
+}  // namespace mamori::ports::posix_rt
+
+#endif  // MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/ports/posix_rt/core_runner.hpp"
+
+#include "mamori/kernel/assert.hpp"
+
+namespace mamori::ports::posix_rt {
+
+void CoreRunner::run(std::uint64_t frame_count) noexcept {
+    MAMORI_REQUIRE(1, frame_count > 0U);
+    const std::int64_t frame = executive_.get_view().frame.ns;
+    const std::int64_t now = clock_.get_now().ns;
+    const std::int64_t first = now <= 0 ? 0 : (now + frame - 1) / frame;
+    const Instant start{first * frame};
+    const Instant end = start + Duration{static_cast<std::int64_t>(frame_count) * frame};
+    FrameSchedule schedule{executive_.get_view(), executive_.get_core(), start};
+    while (schedule.get_next().release < end && !is_stop_wanted_.load(std::memory_order_relaxed)) {
+        clock_.sleep_until(schedule.get_next().release);
+        if (!is_stop_wanted_.load(std::memory_order_relaxed)) {
+            open(schedule.get_next());
+        }
+        schedule.advance();
+    }
+}
+
+void CoreRunner::open(const FrameSchedule::Opening& opening) noexcept {
+    const Duration lateness = clock_.get_now() - opening.release;
+    const WindowOutcome outcome = executive_.run_window(opening.window, opening.release, host_);
+    ++counts_.opened;
+    counts_.overran += outcome == WindowOutcome::kOverrun ? 1U : 0U;
+    counts_.missed += outcome == WindowOutcome::kMissed ? 1U : 0U;
+    counts_.worst_lateness = lateness > counts_.worst_lateness ? lateness : counts_.worst_lateness;
+}
+
+}  // namespace mamori::ports::posix_rt

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/ports/posix_rt/guarded_host.hpp"
+
+#include <cerrno>
+
+#include "mamori/kernel/assert.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+void wait_for(sem_t& semaphore) noexcept {
+    while (sem_wait(&semaphore) != 0) {
+        MAMORI_INVARIANT(1, errno == EINTR);
+    }
+}
+
+/// @return false when `until` has passed first.
+bool wait_for(sem_t& semaphore, const timespec& until) noexcept {
+    while (sem_clockwait(&semaphore, CLOCK_MONOTONIC, &until) != 0) {
+        if (errno == ETIMEDOUT) {
+            return false;
+        }
+        MAMORI_INVARIANT(2, errno == EINTR);
+    }
+    return true;
+}
+
+/// The first refusal counts.
+void add(Right& sum, const Right& right) noexcept {
+    if (sum.is_granted) {
+        sum = right;
+    }
+}
+
+}  // namespace
+
+void* WindowThread::serve(void* argument) noexcept {
+    WindowThread& self = *static_cast<WindowThread*>(argument);
+    wait_for(self.wanted_);
+    while (!self.is_ending_.load(std::memory_order_acquire)) {
+        self.work_off();
+        wait_for(self.wanted_);
+    }
+    return nullptr;
+}
+
+/// Whoever reads done_ sees all that the work did; what comes after it touches nothing but the semaphore.
+void WindowThread::work_off() noexcept {
+    const std::uint32_t number = asked_;
+    for (std::size_t i = 0U; i < work_.count; ++i) {
+        work_.run(work_.argument, work_.first + i, work_.first + i + 1U);
+        if (clock_->get_now() > deadline_) {
+            break;
+        }
+        finished_count_.store(i + 1U, std::memory_order_release);
+    }
+    done_.store(number, std::memory_order_release);
+    static_cast<void>(sem_post(&returned_));
+}
+
+Status GuardedHost::start(WindowThread& thread) noexcept {
+    if (thread.is_open_) {
+        return Status::kPreconditionNotMet;
+    }
+    MAMORI_ENSURE(3, sem_init(&thread.wanted_, 0, 0U) == 0 && sem_init(&thread.returned_, 0, 0U) == 0);
+    thread.clock_ = &clock_;
+    thread.is_ending_.store(false, std::memory_order_relaxed);
+    if (pthread_create(&thread.thread_, nullptr, &WindowThread::serve, &thread) != 0) {
+        return Status::kOutOfResources;
+    }
+    thread.is_open_ = true;
+    if (place_.priority != 0) {
+        add(priority_right_, set_priority(thread.thread_, place_.priority));
+    }
+    add(processor_right_, set_processor(thread.thread_, place_.processor));
+    return Status::kOk;
+}
+
+Status GuardedHost::open() noexcept {
+    priority_right_ = {true, 0};
+    processor_right_ = {true, 0};
+    for (WindowThread& thread : threads_) {
+        const Status result = start(thread);
+        if (result != Status::kOk) {
+            // One that is open already belongs to whoever opened it.
+            if (result == Status::kOutOfResources) {
+                static_cast<void>(close());
+            }
+            return result;
+        }
+    }
+    return Status::kOk;
+}
+
+Status GuardedHost::close() noexcept {
+    Status result = Status::kOk;
+    for (WindowThread& thread : threads_) {
+        if (!thread.is_open_) {
+            continue;
+        }
+        if (thread.is_out()) {
+            result = Status::kPreconditionNotMet;
+            continue;
+        }
+        thread.is_ending_.store(true, std::memory_order_release);
+        static_cast<void>(sem_post(&thread.wanted_));
+        MAMORI_ENSURE(4, pthread_join(thread.thread_, nullptr) == 0);
+        static_cast<void>(sem_destroy(&thread.wanted_));
+        static_cast<void>(sem_destroy(&thread.returned_));
+        thread.is_open_ = false;
+    }
+    return result;
+}
+
+std::size_t GuardedHost::run_within(const Work& work, Instant deadline) noexcept {
+    WindowThread& thread = threads_[work.window];
+    MAMORI_REQUIRE(5, thread.is_open_ && !thread.is_out());
+    promote(thread);
+    thread.work_ = work;
+    thread.deadline_ = deadline;
+    thread.finished_count_.store(0U, std::memory_order_relaxed);
+    ++thread.asked_;
+    static_cast<void>(sem_post(&thread.wanted_));
+    const timespec until = clock_.to_timespec(deadline);
+    while (thread.is_out()) {
+        if (!wait_for(thread.returned_, until) && thread.is_out()) {
+            demote(thread);
+            // Every step may have come through while the thread is still on its way back: not in time.
+            const std::size_t finished = thread.finished_count_.load(std::memory_order_acquire);
+            return finished < work.count ? finished : work.count - 1U;
+        }
+    }
+    return thread.finished_count_.load(std::memory_order_acquire);
+}
+
+void GuardedHost::demote(WindowThread& thread) noexcept {
+    if (priority_right_.is_granted && place_.priority != 0) {
+        thread.is_demoted_ = set_priority(thread.thread_, 0).is_granted;
+    }
+}
+
+void GuardedHost::promote(WindowThread& thread) noexcept {
+    if (thread.is_demoted_) {
+        thread.is_demoted_ = !set_priority(thread.thread_, place_.priority).is_granted;
+    }
+}
+
+}  // namespace mamori::ports::posix_rt

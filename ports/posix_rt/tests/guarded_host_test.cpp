@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: work that is back in time is counted, work that is not is cut off without its help, and nobody else
+// suffers. Method: a real executive; components that take longer than the deadline or hang until the test
+// lets them go. Nothing is asked of the speed of the machine: deadlines are long, and what takes too long
+// waits for the clock itself.
+#include "mamori/ports/posix_rt/guarded_host.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/ports/posix_rt/core_runner.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+using literals::operator""_ms;
+using literals::operator""_s;
+
+/// Does what the test says in its next cycle.
+class Actor final : public Component {
+  public:
+    explicit Actor(const char* name) noexcept : Component(name) {}
+    OutPort<std::int64_t> out{"out"};
+    using Ports = mamori::Ports<&Actor::out>;
+
+    std::atomic<bool> is_to_hang{false};
+    std::atomic<bool> is_hanging{false};
+    const FrameClock* clock{nullptr};
+    Instant busy_until{};
+    std::vector<std::int64_t> starts;
+
+    Status on_execute(ContextHandle handle) noexcept override {
+        starts.push_back(handle.now.ns);
+        if (is_to_hang) {
+            is_hanging = true;
+            while (is_to_hang) {
+                std::this_thread::yield();
+            }
+            is_hanging = false;
+        }
+        while (clock != nullptr && clock->get_now() <= busy_until) {
+        }
+        out.write(++count_);
+        return Status::kOk;
+    }
+
+  private:
+    std::int64_t count_{0};
+};
+
+class Ear final : public ExecutionObserver {
+  public:
+    std::vector<std::string> heard;
+    void on_budget_overrun(std::size_t window, std::size_t component, Instant) noexcept override {
+        heard.push_back("window " + std::to_string(window) + " component " + std::to_string(component));
+    }
+    void on_late_release(std::size_t, Duration, Instant) noexcept override {}
+};
+
+/// Two windows of a frame of 10 s, which no machine is too slow for; budgets are as the test needs them.
+class GuardedHostTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_EQ(host_.open(), Status::kOk);
+        ASSERT_EQ(sut_.initialize(), Status::kOk);
+        ASSERT_EQ(sut_.start(), Status::kOk);
+        sut_.set_observer(&ear_);
+    }
+    void TearDown() override {
+        first_.is_to_hang = false;
+        while (host_.close() != Status::kOk) {
+            std::this_thread::yield();
+        }
+    }
+    void wait_until_back() const {
+        while (!host_.has_returned(0U)) {
+            std::this_thread::yield();
+        }
+    }
+
+    Actor first_{"first"};
+    Actor second_{"second"};
+    Actor other_{"other"};
+    SystemTable<2U, 3U, 3U, 0U> table_ =
+        system(frame(10_s), window("guarded", 0_s, 5_s, budget(20_ms), run(first_, second_)),
+               window("other", 5_s, 5_s, budget(5_s), run(other_)));
+    const FrameClock clock_ = FrameClock::starting_in(0_ms);
+    std::array<WindowThread, 2U> threads_;
+    GuardedHost host_{threads_, clock_, {}};
+    Ear ear_;
+    ExecutiveFor<decltype(table_)> sut_{table_};
+};
+
+TEST_F(GuardedHostTest, WorkThatIsBackInTimeCompletesItsWindow) {
+    verifies("SWR-PRT-003");
+
+    EXPECT_EQ(sut_.run_window(1U, Instant{0}, host_), WindowOutcome::kCompleted);
+    EXPECT_EQ(other_.out.get_sequence(), 1U);
+    EXPECT_TRUE(host_.get_priority_right().is_granted) << "none was asked for";
+    EXPECT_TRUE(host_.get_processor_right().is_granted);
+}
+
+TEST_F(GuardedHostTest, AComponentThatHangsIsNamedAndTheOtherWindowRuns) {
+    verifies("SWR-PRT-003", Technique::kFaultInjection, Polarity::kViolation);
+    first_.is_to_hang = true;
+
+    EXPECT_EQ(sut_.run_window(0U, Instant{0}, host_), WindowOutcome::kOverrun);
+    while (!first_.is_hanging) {
+        std::this_thread::yield();
+    }
+    EXPECT_FALSE(host_.has_returned(0U));
+    EXPECT_EQ(sut_.run_window(1U, Instant{0}, host_), WindowOutcome::kCompleted);
+    EXPECT_EQ(sut_.run_window(0U, Instant{0}, host_), WindowOutcome::kOverrun);
+    EXPECT_EQ(host_.close(), Status::kPreconditionNotMet) << "its thread is still out";
+
+    EXPECT_TRUE(second_.starts.empty());
+    EXPECT_EQ(ear_.heard, (std::vector<std::string>{"window 0 component 0", "window 0 component 0"}));
+    EXPECT_EQ(first_.out.get_sequence(), 0U);
+}
+
+TEST_F(GuardedHostTest, WorkThatComesBackLateIsThrownAwayAndTheNextCycleCounts) {
+    verifies("SWR-PRT-003", Technique::kFaultInjection, Polarity::kViolation);
+    first_.is_to_hang = true;
+    ASSERT_EQ(sut_.run_window(0U, Instant{0}, host_), WindowOutcome::kOverrun);
+    first_.is_to_hang = false;
+    wait_until_back();
+
+    // The machine may be slow, so the budget is given as often as it takes.
+    WindowOutcome outcome = WindowOutcome::kOverrun;
+    while (outcome != WindowOutcome::kCompleted) {
+        outcome = sut_.run_window(0U, clock_.get_now(), host_);
+        wait_until_back();
+    }
+    EXPECT_EQ(first_.out.get_sequence(), 1U);
+    EXPECT_EQ(second_.out.get_sequence(), 1U);
+}
+
+TEST_F(GuardedHostTest, AStepThatEndsAfterTheDeadlineIsNotCountedThoughItCameBack) {
+    verifies("SWR-PRT-003", Technique::kBoundaryValues, Polarity::kViolation);
+    second_.clock = &clock_;
+    second_.busy_until = clock_.get_now() + 500_ms;
+
+    WindowOutcome outcome = sut_.run_window(0U, clock_.get_now(), host_);
+
+    EXPECT_EQ(outcome, WindowOutcome::kOverrun);
+    EXPECT_EQ(second_.out.get_sequence(), 0U);
+    ASSERT_FALSE(ear_.heard.empty());
+}
+
+TEST_F(GuardedHostTest, ThreadsThatAreOpenAreNotOpenedAgain) {
+    verifies("SWR-PRT-003", Technique::kErrorGuessing, Polarity::kViolation);
+    GuardedHost another{threads_, clock_, {}};
+
+    EXPECT_EQ(host_.open(), Status::kPreconditionNotMet);
+    EXPECT_EQ(another.open(), Status::kPreconditionNotMet);
+    ASSERT_EQ(host_.close(), Status::kOk);
+    EXPECT_EQ(host_.close(), Status::kOk) << "nothing to end";
+    EXPECT_EQ(another.open(), Status::kOk);
+    EXPECT_EQ(another.close(), Status::kOk);
+    EXPECT_EQ(host_.open(), Status::kOk);
+}
+
+TEST_F(GuardedHostTest, AThreadThatWasCutOffLosesItsPriorityUntilItIsBack) {
+    verifies("SWR-PRT-004", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(host_.close(), Status::kOk);
+    GuardedHost host{threads_, clock_, {5, ThreadPlace::kAnyProcessor}};
+    ASSERT_EQ(host.open(), Status::kOk);
+    if (!host.get_priority_right().is_granted) {
+        EXPECT_EQ(host.get_priority_right().system_error, EPERM);
+    }
+    first_.is_to_hang = true;
+    ASSERT_EQ(sut_.run_window(0U, Instant{0}, host), WindowOutcome::kOverrun);
+
+    // With its priority it would keep this thread, which has none, from its processor.
+    EXPECT_EQ(sut_.run_window(1U, Instant{0}, host), WindowOutcome::kCompleted);
+    first_.is_to_hang = false;
+    while (!host.has_returned(0U)) {
+        std::this_thread::yield();
+    }
+    EXPECT_EQ(host.close(), Status::kOk);
+}
+
+class CoreRunnerTest : public ::testing::Test {
+  protected:
+    Actor a_{"a"};
+    Actor b_{"b"};
+    SystemTable<2U, 2U, 2U, 0U> table_ =
+        system(frame(20_ms), window("a", 0_ms, 10_ms, budget(10_ms), run(a_)),
+               window("b", 10_ms, 10_ms, budget(10_ms), run(b_)));
+    const FrameClock clock_ = FrameClock::starting_in(20_ms);
+    std::array<WindowThread, 2U> threads_;
+    GuardedHost host_{threads_, clock_, {}};
+    ExecutiveFor<decltype(table_)> executive_{table_};
+    CoreRunner sut_{executive_, host_, clock_};
+};
+
+TEST_F(CoreRunnerTest, EachWindowOpensAtItsPlaceOnTheGridHoweverLateTheMachineIs) {
+    verifies("SWR-PRT-005");
+    ASSERT_EQ(host_.open(), Status::kOk);
+    ASSERT_EQ(executive_.initialize(), Status::kOk);
+    ASSERT_EQ(executive_.start(), Status::kOk);
+
+    sut_.run(10U);
+    const Instant ended = clock_.get_now();
+
+    const OpeningCounts& counts = sut_.get_counts();
+    EXPECT_EQ(counts.opened, 20U);
+    EXPECT_GE(counts.worst_lateness, 0_ms);
+    EXPECT_GE(ended, Instant{0} + 190_ms) << "the last window opens there";
+    while (host_.close() != Status::kOk) {
+        std::this_thread::yield();
+    }
+    for (const std::int64_t start : a_.starts) {
+        EXPECT_EQ(start % 20'000'000, 0);
+    }
+    for (const std::int64_t start : b_.starts) {
+        EXPECT_EQ(start % 20'000'000, 10'000'000);
+    }
+    EXPECT_LE(a_.starts.size() + b_.starts.size() + counts.missed, 20U);
+    EXPECT_GE(a_.starts.size() + b_.starts.size() + counts.missed + counts.overran, 20U);
+}
+
+TEST_F(CoreRunnerTest, AStopEndsTheRunBeforeTheNextOpening) {
+    verifies("SWR-PRT-005", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(host_.open(), Status::kOk);
+    sut_.request_stop();
+
+    sut_.run(1'000'000U);
+
+    EXPECT_EQ(sut_.get_counts().opened, 0U);
+    EXPECT_EQ(host_.close(), Status::kOk);
+}
+
+TEST_F(CoreRunnerTest, AWindowThatHangsMovesNoOtherWindow) {
+    verifies("SWR-PRT-005", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(host_.open(), Status::kOk);
+    ASSERT_EQ(executive_.initialize(), Status::kOk);
+    ASSERT_EQ(executive_.start(), Status::kOk);
+    a_.is_to_hang = true;
+
+    sut_.run(5U);
+
+    EXPECT_GE(sut_.get_counts().overran, 1U);
+    EXPECT_EQ(sut_.get_counts().opened, 10U);
+    a_.is_to_hang = false;
+    while (host_.close() != Status::kOk) {
+        std::this_thread::yield();
+    }
+    EXPECT_LE(a_.starts.size(), 1U);
+    for (const std::int64_t start : b_.starts) {
+        EXPECT_EQ(start % 20'000'000, 10'000'000);
+    }
+}
+
+}  // namespace
+}  // namespace mamori::ports::posix_rt

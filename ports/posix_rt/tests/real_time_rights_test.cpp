@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: each right is granted as asked for or refused with its cause, and a refusal leaves the thread as it
+// was. Method: the policy and the processors of the thread are read back; values that Linux does not have. A
+// machine that grants nothing passes as well: then the causes are those of a missing right.
+#include "mamori/ports/posix_rt/real_time_rights.hpp"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mman.h>
+
+#include <cerrno>
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+int read_priority() {
+    int policy = -1;
+    sched_param parameters{};
+    EXPECT_EQ(pthread_getschedparam(pthread_self(), &policy, &parameters), 0);
+    return policy == SCHED_FIFO ? parameters.sched_priority : 0;
+}
+
+int count_processors() {
+    cpu_set_t set;
+    EXPECT_EQ(pthread_getaffinity_np(pthread_self(), sizeof set, &set), 0);
+    return CPU_COUNT(&set);
+}
+
+TEST(RealTimeRightsTest, APriorityIsGrantedAndGivenBackOrRefusedForWantOfTheRight) {
+    verifies("SWR-PRT-002");
+
+    const Right right = set_priority(pthread_self(), 10);
+    EXPECT_EQ(read_priority(), right.is_granted ? 10 : 0);
+    EXPECT_EQ(right.system_error, right.is_granted ? 0 : EPERM);
+    EXPECT_TRUE(set_priority(pthread_self(), 0).is_granted);
+    EXPECT_EQ(read_priority(), 0);
+}
+
+TEST(RealTimeRightsTest, APriorityThatLinuxDoesNotHaveIsRefused) {
+    verifies("SWR-PRT-002", Technique::kBoundaryValues, Polarity::kViolation);
+
+    for (const int priority : {-1, 100}) {
+        const Right right = set_priority(pthread_self(), priority);
+        EXPECT_FALSE(right.is_granted);
+        EXPECT_EQ(right.system_error, EINVAL);
+    }
+    EXPECT_EQ(read_priority(), 0);
+}
+
+TEST(RealTimeRightsTest, AProcessorThatIsNotThereIsRefusedAndNothingChanges) {
+    verifies("SWR-PRT-002", Technique::kBoundaryValues, Polarity::kViolation);
+    const int before = count_processors();
+
+    for (const int processor : {-2, CPU_SETSIZE - 1, CPU_SETSIZE}) {
+        const Right right = set_processor(pthread_self(), processor);
+        EXPECT_FALSE(right.is_granted);
+        EXPECT_EQ(right.system_error, EINVAL);
+    }
+    EXPECT_TRUE(set_processor(pthread_self(), ThreadPlace::kAnyProcessor).is_granted);
+    EXPECT_EQ(count_processors(), before);
+}
+
+TEST(RealTimeRightsTest, AProcessorOfOursIsTaken) {
+    verifies("SWR-PRT-002");
+    cpu_set_t before;
+    ASSERT_EQ(pthread_getaffinity_np(pthread_self(), sizeof before, &before), 0);
+    int processor = 0;
+    while (!CPU_ISSET(static_cast<std::size_t>(processor), &before)) {
+        ++processor;
+    }
+
+    EXPECT_TRUE(set_processor(pthread_self(), processor).is_granted);
+    EXPECT_EQ(sched_getcpu(), processor);
+    EXPECT_EQ(count_processors(), 1);
+    ASSERT_EQ(pthread_setaffinity_np(pthread_self(), sizeof before, &before), 0);
+}
+
+TEST(RealTimeRightsTest, MemoryIsLockedOrRefusedForWantOfTheRight) {
+    verifies("SWR-PRT-002");
+
+    const Right right = lock_memory(64U * 1024U);
+    EXPECT_TRUE(right.is_granted || right.system_error == EPERM || right.system_error == ENOMEM);
+    EXPECT_EQ(right.is_granted, right.system_error == 0);
+    ASSERT_EQ(munlockall(), 0);
+}
+
+}  // namespace
+}  // namespace mamori::ports::posix_rt
