@@ -23,6 +23,10 @@ struct FindingList {
 
 std::size_t collect_findings(const ConfigurationView& view, Span<ConfigurationFinding> findings) noexcept {
     FindingList list{findings};
+    detail::visit_invalid_rows(view, list);
+    if (list.count != 0U) {
+        return list.count;
+    }
     detail::visit_findings(view, list);
     for (std::size_t s = 0U; s < view.sets.size(); ++s) {
         const Span<const AssignmentRow> rows = view.get_assignments(view.sets[s]);

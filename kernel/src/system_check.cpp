@@ -7,7 +7,7 @@ namespace mamori {
 namespace {
 
 /// In the order of Rule.
-constexpr std::array<const char*, 39> kNames{{
+constexpr std::array<const char*, 41> kNames{{
     "None",
     "FrameNotPositive",
     "WindowRowInvalid",
@@ -32,6 +32,8 @@ constexpr std::array<const char*, 39> kNames{{
     "FaultWithTwoReactions",
     "ReactionWithoutTime",
     "ReactionToUnknownFault",
+    "ParameterRowInvalid",
+    "SetRowInvalid",
     "ConfigurationRefused",
     "ModeRowInvalid",
     "ModeNamedTwice",

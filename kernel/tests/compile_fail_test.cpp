@@ -75,6 +75,16 @@ TEST(CompileFailTest, WorstCasesOverTheBudgetAreRefused) {
     expect_refused("worst_cases_over_budget", "WorstCasesFitBudget<mamori::Name<'s', 'e', 'n', 's', 'e'>");
 }
 
+TEST(CompileFailTest, AWorstCaseBelowZeroIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("worst_case_negative", "WorstCaseIsNotNegative<Producer, 0>");
+}
+
+TEST(CompileFailTest, AWindowThatServesNoEventIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("window_without_events", "at least one event per cycle");
+}
+
 TEST(CompileFailTest, ADeclaredFaultWithoutAReactionIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
     expect_refused("fault_without_reaction", "FaultHasReaction<Fault::kTrackingLost>");

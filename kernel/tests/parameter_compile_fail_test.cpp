@@ -77,5 +77,10 @@ TEST(ParameterCompileFailTest, TwoSetsOfOneNameAreRefused) {
     expect_refused("set_named_twice", "kSetNamedTwice, 1, 0>");
 }
 
+TEST(ParameterCompileFailTest, ASetWithoutANameIsRefused) {
+    verifies("SWR-PAR-006", Technique::kInterface, Polarity::kViolation);
+    expect_refused("set_without_name", "kSetRowInvalid, 0, 0>");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -39,8 +39,8 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
     switch (finding.rule) {
         case Rule::kWindowRowInvalid:
             return "row " + std::to_string(finding.element) +
-                   " needs a name, a partition, a positive period and components and connections of the "
-                   "table";
+                   " needs a name, a partition, a positive period, a kind with what belongs to it, and the "
+                   "components, ports, connections and parameters that name it";
         case Rule::kPeriodNotInFrame:
             return "its period of " + format(row.period) + " does not divide the frame of " +
                    format(view.frame);
@@ -74,7 +74,8 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
     switch (finding.rule) {
         case Rule::kConnectionRowInvalid:
             return connection + ": row " + std::to_string(finding.element) +
-                   " needs two ends, operations and windows of the table";
+                   " needs two ends, operations with the Crossing that they use, and the windows and "
+                   "components of its ends";
         case Rule::kPortOfUnknownComponent:
             return connection + ": one end belongs to no component that a window runs";
         case Rule::kInputNotConnected:
@@ -135,10 +136,13 @@ std::string describe(const Finding& finding, const SystemView& view) {
                    describe_window(finding, view);
         case Rule::kComponentRowInvalid:
             return "component " + quote(get_component_name(view, finding.element)) + ": row " +
-                   std::to_string(finding.element) + " needs a component and windows and ports of the table";
+                   std::to_string(finding.element) +
+                   " needs a component, a worst case that is not negative, a window that has it, and the "
+                   "ports and connections that name it";
         case Rule::kPortRowInvalid:
             return "port " + quote(get_input_name(view, finding.element)) + ": row " +
-                   std::to_string(finding.element) + " needs exactly one of input and output";
+                   std::to_string(finding.element) +
+                   " needs exactly one of input and output, and the component and the window that have it";
         case Rule::kComponentInTwoPlaces:
             return "component " + quote(get_component_name(view, finding.element)) + " runs in window " +
                    quote(get_window_name(view, get_row(view.component_rows, finding.other).window)) +
@@ -157,6 +161,8 @@ std::string describe(const Finding& finding, const SystemView& view) {
         case Rule::kReactionWithoutTime:
         case Rule::kReactionToUnknownFault:
             return describe_reactions(finding, view);
+        case Rule::kParameterRowInvalid:
+        case Rule::kSetRowInvalid:
         case Rule::kConfigurationRefused:
         case Rule::kModeRowInvalid:
         case Rule::kModeNamedTwice:
@@ -178,23 +184,12 @@ std::string describe(const Finding& finding, const SystemView& view) {
 }
 
 std::vector<std::string> describe_all(const SystemView& view) {
-    const std::vector<std::string> broken = describe_broken_configuration(view);
-    // The check follows the names and assignments of sets as they are. Where one is broken it sees as many
-    // sets without any.
-    const std::vector<ConfigurationSetRow> blank(view.configuration.sets.size(), {"", 0U, 0U});
-    SystemView judged = view;
-    if (!broken.empty()) {
-        judged.configuration.sets = {blank.data(), blank.size()};
-    }
-    std::vector<Finding> findings(check_all(judged, {}));
-    static_cast<void>(check_all(judged, {findings.data(), findings.size()}));
+    std::vector<Finding> findings(check_all(view, {}));
+    static_cast<void>(check_all(view, {findings.data(), findings.size()}));
     std::vector<std::string> sentences;
     for (const Finding& finding : findings) {
-        if (broken.empty() || finding.rule != Rule::kConfigurationRefused) {
-            sentences.push_back(describe(finding, view));
-        }
+        sentences.push_back(describe(finding, view));
     }
-    sentences.insert(sentences.end(), broken.begin(), broken.end());
     return sentences;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "describe_modes.hpp"
 
-#include <algorithm>
-
 #include "element_names.hpp"
 
 namespace mamori::table_dump {
@@ -12,24 +10,8 @@ std::string get_set_name(const SystemView& view, std::size_t index) {
     return "configuration set " + quote(to_text(get_row(view.configuration.sets, index).name));
 }
 
-bool is_assignment_whole(const ConfigurationView& view, const AssignmentRow& row) {
-    return row.parameter != nullptr && has_range(view.values, row.first_value, row.value_count);
-}
-
-bool is_set_whole(const ConfigurationView& view, const ConfigurationSetRow& row) {
-    if (row.name == nullptr || !has_range(view.assignments, row.first_assignment, row.assignment_count)) {
-        return false;
-    }
-    const Span<const AssignmentRow> rows = view.get_assignments(row);
-    return std::all_of(rows.begin(), rows.end(),
-                       [&](const AssignmentRow& each) { return is_assignment_whole(view, each); });
-}
-
 std::string describe_set(const Finding& finding, const SystemView& view) {
     const std::string set = get_set_name(view, finding.element);
-    if (!describe_broken_configuration(view).empty()) {
-        return set + " cannot be judged: a row of the configuration is not whole";
-    }
     switch (check(view.configuration).rule) {
         case ConfigurationRule::kSetNamedTwice:
             return set + " has the name of an earlier one";
@@ -38,6 +20,9 @@ std::string describe_set(const Finding& finding, const SystemView& view) {
                    " names a parameter of no component that a window runs";
         case ConfigurationRule::kParameterAssignedTwice:
             return set + ": assignment " + std::to_string(finding.other) + " repeats a parameter";
+        case ConfigurationRule::kParameterRowInvalid:
+        case ConfigurationRule::kSetRowInvalid:
+            return set + " cannot be judged: a row of the configuration is invalid";
         case ConfigurationRule::kValueOutsideConstraint:
         case ConfigurationRule::kNone:
             break;
@@ -81,33 +66,25 @@ std::string describe_mode(const Finding& finding, const SystemView& view) {
 
 }  // namespace
 
-std::vector<std::string> describe_broken_configuration(const SystemView& view) {
-    std::vector<std::string> sentences;
-    for (std::size_t i = 0U; i < view.configuration.parameters.size(); ++i) {
-        const ParameterRow& row = view.configuration.parameters[i];
-        if (row.owner == nullptr || row.parameter == nullptr) {
-            sentences.push_back("parameter '" + get_parameter_name(row) + "': row " + std::to_string(i) +
-                                " needs a component and a parameter");
-        }
-    }
-    for (std::size_t i = 0U; i < view.configuration.sets.size(); ++i) {
-        if (!is_set_whole(view.configuration, view.configuration.sets[i])) {
-            sentences.push_back(get_set_name(view, i) + ": row " + std::to_string(i) +
-                                " needs a name, and assignments of the table with a parameter and values");
-        }
-    }
-    return sentences;
-}
-
 std::string describe_modes(const Finding& finding, const SystemView& view) {
     const ModeMemberRow member = get_row(view.modes.members, finding.element);
     switch (finding.rule) {
+        case Rule::kParameterRowInvalid:
+            return "parameter " +
+                   quote(get_parameter_name(get_row(view.configuration.parameters, finding.element))) +
+                   ": row " + std::to_string(finding.element) +
+                   " needs a parameter, its component and the window of that";
+        case Rule::kSetRowInvalid:
+            return get_set_name(view, finding.element) + ": row " + std::to_string(finding.element) +
+                   " needs a name and assignments of the table; assignment " + std::to_string(finding.other) +
+                   " needs a parameter and a value for each of its elements";
         case Rule::kConfigurationRefused:
             return describe_set(finding, view);
         case Rule::kModeOfUnknownComponent:
             return "mode " + quote(get_mode_name(view, member.mode)) + " runs component " +
                    quote(member.component == nullptr ? "?" : to_text(member.component->get_name())) +
-                   ", which no window runs";
+                   (member.mode < view.modes.modes.size() ? ", which no window runs"
+                                                          : ", but does not exist");
         case Rule::kComponentInNoMode:
             return "component " + quote(get_component_name(view, finding.element)) + " runs in no mode";
         case Rule::kInputNotFedInMode:
@@ -116,7 +93,9 @@ std::string describe_modes(const Finding& finding, const SystemView& view) {
         case Rule::kConnectionOfUnknownMode: {
             const ConnectionModeRow row = get_row(view.modes.connection_modes, finding.element);
             return "connection " + quote(get_connection_name(view, row.connection)) + " holds in mode " +
-                   quote(to_text(row.mode_name)) + ", which does not exist";
+                   quote(to_text(row.mode_name)) +
+                   (row.connection < view.connections.size() ? ", which does not exist"
+                                                             : ", but does not exist");
         }
         case Rule::kTransitionOfUnknownMode:
         case Rule::kTransitionAmbiguous:

@@ -5,7 +5,6 @@
 #define MAMORI_TABLE_DUMP_SRC_DESCRIBE_MODES_HPP
 
 #include <string>
-#include <vector>
 
 #include "mamori/kernel/system_check.hpp"
 
@@ -17,9 +16,6 @@ inline std::string quote(const std::string& name) {
 
 /// @return empty for a rule that is not about modes or sets.
 std::string describe_modes(const Finding& finding, const SystemView& view);
-
-/// Which rows of the configuration the kernel's check cannot follow; empty: it can follow all of them.
-std::vector<std::string> describe_broken_configuration(const SystemView& view);
 
 }  // namespace mamori::table_dump
 

@@ -104,29 +104,29 @@ TEST_F(DescribeTest, RatesAreComparedWithTheOpenings) {
 
 TEST_F(DescribeTest, AComponentInTwoPlacesIsNamedWithBothWindows) {
     verifies("SWR-TAB-003");
-    table_.components[2] = &g_encoder;
-    ASSERT_EQ(describe_table().size(), 1U);
-    EXPECT_EQ(describe_table()[0], "component 'encoder' runs in window 'sense' and again in window 'plan'");
+    const auto table = system(frame(1_ms), window("sense", 0_us, 1_us, budget(1_us), run(g_encoder)),
+                              window("plan", 1_us, 1_us, budget(1_us), run(g_encoder)));
+    EXPECT_EQ(describe_all(make_view(table)),
+              Sentences{"component 'encoder' runs in window 'sense' and again in window 'plan'"});
 }
 
 TEST_F(DescribeTest, ConnectionsAndInputsAreNamedByComponentAndPort) {
     verifies("SWR-TAB-003");
-    table_.connections[1].source = &g_encoder.out;
-    table_.connections[1].source_component = 0U;
-    table_.connections[1].sink = &g_monitor.in;
-    table_.connections[1].sink_component = 1U;
-    table_.connections[1].sink_window = 0U;
-    EXPECT_EQ(describe_table(), (Sentences{"input 'monitor.in' is fed by more than one connection",
-                                           "input 'planner.in' is mandatory and nothing feeds it"}));
+    const auto table =
+        system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_encoder, g_monitor, g_planner)),
+               connect(g_encoder.out, g_monitor.in), connect(g_encoder.out, g_monitor.in));
+    EXPECT_EQ(describe_all(make_view(table)),
+              (Sentences{"input 'monitor.in' is fed by more than one connection",
+                         "input 'planner.in' is mandatory and nothing feeds it"}));
 }
 
 TEST_F(DescribeTest, AConnectionOfAStrangerIsNamedAsFarAsItIsKnown) {
     verifies("SWR-TAB-003");
-    table_.connections[0].source = &g_second_encoder.out;
-    table_.connections[0].source_component = kNoIndex;
-    table_.connections[0].source_window = kNoIndex;
-    EXPECT_EQ(describe_table(), Sentences{"connection '?.out -> monitor.in': one end belongs to no component "
-                                          "that a window runs"});
+    const auto table = system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_monitor)),
+                              connect(g_second_encoder.out, g_monitor.in));
+    EXPECT_EQ(describe_all(make_view(table)),
+              Sentences{"connection '?.out -> monitor.in': one end belongs to no component "
+                        "that a window runs"});
 }
 
 TEST_F(DescribeTest, CrossingsAreNamedByTheirConnections) {
@@ -164,7 +164,7 @@ TEST_F(DescribeTest, RowsThatPointNowhereAreDescribedToo) {
     EXPECT_EQ(sentences[0].substr(0U, 17U), "window '?': row 0");
     EXPECT_EQ(sentences[1].substr(0U, 20U), "window 'plan': row 1");
     EXPECT_EQ(sentences[2].substr(0U, 20U), "component '?': row 0");
-    EXPECT_EQ(sentences[3], "port 'encoder.?': row 0 needs exactly one of input and output");
+    EXPECT_EQ(sentences[3].substr(0U, 28U), "port 'encoder.?': row 0 need");
     EXPECT_EQ(sentences[4].substr(0U, 35U), "connection '?.? -> monitor.in': row");
     EXPECT_EQ(sentences[5].substr(0U, 42U), "connection 'monitor.out -> planner.in': ro");
 }

@@ -187,8 +187,9 @@ TEST(WriteModesTest, ParametersThatPointNowhereAreWritten) {
     EXPECT_EQ(document["parameters"][0], json::parse(R"({"owner": {"index": null, "name": "?"}, "name": "?",
         "type": null, "constraint": "", "values": null})"));
     EXPECT_EQ(document["parameters"][1]["owner"], json::parse(R"({"index": null, "name": "tuned"})"));
-    EXPECT_EQ(document["findings"],
-              json::parse(R"(["parameter '?.?': row 0 needs a component and a parameter"])"));
+    EXPECT_EQ(
+        document["findings"],
+        json::parse(R"(["parameter '?.?': row 0 needs a parameter, its component and the window of that"])"));
 }
 
 TEST(WriteModesTest, SetsThatPointNowhereAreWrittenAndNamed) {
@@ -203,25 +204,26 @@ TEST(WriteModesTest, SetsThatPointNowhereAreWrittenAndNamed) {
     EXPECT_EQ(document["configuration_sets"][1]["assignments"],
               json::parse(R"([{"parameter": {"index": null, "name": "?"}, "values": [0.25]},
                               {"parameter": {"index": 1, "name": "gain"}, "values": null}])"));
-    const std::string needs =
-        ": row 0 needs a name, and assignments of the table with a parameter and values";
-    ASSERT_EQ(document["findings"].size(), 2U);
-    EXPECT_EQ(document["findings"][0], "configuration set '?'" + needs);
-    EXPECT_EQ(document["findings"][1].get<std::string>().substr(0U, 31U), "configuration set 'slow': row 1");
+    const std::string needs = " needs a name and assignments of the table; assignment ";
+    const std::string of_assignment = " needs a parameter and a value for each of its elements";
+    EXPECT_EQ(document["findings"], (json{"configuration set '?': row 0" + needs + "0" + of_assignment,
+                                          "configuration set 'slow': row 1" + needs + "0" + of_assignment,
+                                          "configuration set 'slow': row 1" + needs + "1" + of_assignment}));
     EXPECT_EQ(describe({Rule::kConfigurationRefused, 0U, 0U}, make_view(table)),
-              "configuration set '?' cannot be judged: a row of the configuration is not whole");
+              "configuration set '?' cannot be judged: a row of the configuration is invalid");
 }
 
-TEST(WriteModesTest, ABrokenConfigurationDoesNotHideTheOtherFindings) {
+TEST(WriteModesTest, RowsThatAreInvalidInThemselvesAreToldFirstAndAllAtOnce) {
     verifies("SWR-TAB-013", Technique::kFaultInjection, Polarity::kViolation);
     auto table = kSystem;
     table.configuration.sets[0].name = nullptr;
-    table.modes.modes[3].is_safe = false;
+    table.modes.modes[0].name = nullptr;
+    table.modes.modes[3].is_safe = false;  // no rule of the modes is judged before their rows are valid
 
     const std::vector<std::string> sentences = describe_all(make_view(table));
-    EXPECT_EQ(sentences.size(), 3U);
-    EXPECT_EQ(sentences[0], "the system has modes and none of them is safe");
-    EXPECT_EQ(sentences[1].substr(0U, 11U), "mode 'halt'");
+    ASSERT_EQ(sentences.size(), 2U);
+    EXPECT_EQ(sentences[0].substr(0U, 15U), "mode '?': row 0");
+    EXPECT_EQ(sentences[1].substr(0U, 28U), "configuration set '?': row 0");
 }
 
 }  // namespace

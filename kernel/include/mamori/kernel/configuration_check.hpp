@@ -10,6 +10,7 @@
 #include <cstddef>
 
 #include "mamori/kernel/configuration_finding.hpp"
+#include "mamori/kernel/configuration_row_check.hpp"
 #include "mamori/kernel/configuration_table.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/text_cursor.hpp"
@@ -18,7 +19,8 @@ namespace mamori {
 
 namespace detail {
 
-/// Calls `visitor(finding)` for each broken rule that the rows alone show, in their order.
+/// Calls `visitor(finding)` for each broken rule that the rows alone show, in their order. For a
+/// configuration whose rows are valid in themselves.
 template <typename Visitor>
 constexpr void visit_findings(const ConfigurationView& view, Visitor& visitor) noexcept {
     for (std::size_t s = 0U; s < view.sets.size(); ++s) {
@@ -69,11 +71,15 @@ struct ConfigurationKeeps {
 /// A value of a component without a default constructor is not judged here, but by collect_findings().
 constexpr ConfigurationFinding check(const ConfigurationView& view) noexcept {
     detail::FirstFinding first{};
-    detail::visit_findings(view, first);
+    detail::visit_invalid_rows(view, first);
+    if (first.finding.rule == ConfigurationRule::kNone) {
+        detail::visit_findings(view, first);
+    }
     return first.finding;
 }
 
-/// Every broken rule at once, each value judged by the constraint of the parameter itself.
+/// Every broken rule at once, each value judged by the constraint of the parameter itself. Rows that are
+/// invalid in themselves hide the rest, here and in check().
 /// @param[out] findings as many as have room. @return how many there are.
 std::size_t collect_findings(const ConfigurationView& view, Span<ConfigurationFinding> findings) noexcept;
 

@@ -18,6 +18,8 @@ enum class ConfigurationRule : std::uint8_t {
     kUnknownParameter,        ///< the parameter belongs to no component of the table
     kParameterAssignedTwice,  ///< the set gives it a value twice
     kValueOutsideConstraint,  ///< the parameter may not have this value
+    kParameterRowInvalid,     ///< row of `parameters` without a parameter or its owner; `set` is its place
+    kSetRowInvalid,           ///< the set has no name, or the assignment or its values are not in the table
 };
 
 /// A broken rule and where: `set` is a row of the table, `assignment` counts within the set.

@@ -42,14 +42,11 @@ constexpr bool has_two_writers(const SystemView& view, const PortRow& input) noe
 /// Names the first mode in which a mandatory input that is connected gets nothing.
 constexpr void check_feeding(const SystemView& view, std::size_t port, FindingList& findings) noexcept {
     const PortRow& row = view.ports[port];
-    if (row.component >= view.component_rows.size()) {
-        return;
-    }
     ModeMask fed = 0U;
     for (const ConnectionRow& connection : view.connections) {
         fed |= connection.sink == row.input ? connection.modes : 0U;
     }
-    for (std::size_t m = 0U; m < view.modes.modes.size() && m < kSystemModeMax; ++m) {
+    for (std::size_t m = 0U; m < view.modes.modes.size(); ++m) {
         if ((view.component_rows[row.component].modes & ~fed & to_mask(m)) != 0U) {
             findings.add(Rule::kInputNotFedInMode, port, m);
             return;

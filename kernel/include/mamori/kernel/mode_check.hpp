@@ -17,22 +17,13 @@
 
 namespace mamori::detail {
 
-constexpr bool are_mode_rows_valid(const SystemView& view, FindingList& findings) noexcept {
-    const std::size_t before = findings.get_count();
-    for (std::size_t m = 0U; m < view.modes.modes.size(); ++m) {
-        if (view.modes.modes[m].name == nullptr || m >= kSystemModeMax) {
-            findings.add(Rule::kModeRowInvalid, m);
-        }
-    }
-    return findings.get_count() == before;
-}
-
 constexpr void check_mode(const SystemView& view, std::size_t m, FindingList& findings) noexcept {
     const SystemModeRow& row = view.modes.modes[m];
     if (find_named(view.modes.modes, row.name) < m) {
         findings.add(Rule::kModeNamedTwice, m);
     }
-    if (row.set_name != nullptr && row.set >= view.configuration.sets.size()) {
+    const bool has_set = row.set_name != nullptr || row.set != kNoIndex;
+    if (has_set && row.set >= view.configuration.sets.size()) {
         findings.add(Rule::kModeOfUnknownSet, m);
     }
     if (row.is_safe && find_safe_mode(view.modes) < m) {
@@ -40,9 +31,14 @@ constexpr void check_mode(const SystemView& view, std::size_t m, FindingList& fi
     }
 }
 
+constexpr bool is_member_known(const SystemView& view, const ModeMemberRow& row) noexcept {
+    return row.mode < view.modes.modes.size() && row.index < view.components.size() &&
+           view.components[row.index] == row.component;
+}
+
 constexpr void check_members(const SystemView& view, FindingList& findings) noexcept {
     for (std::size_t i = 0U; i < view.modes.members.size(); ++i) {
-        if (view.modes.members[i].index >= view.components.size()) {
+        if (!is_member_known(view, view.modes.members[i])) {
             findings.add(Rule::kModeOfUnknownComponent, i);
         }
     }
@@ -52,7 +48,8 @@ constexpr void check_members(const SystemView& view, FindingList& findings) noex
         }
     }
     for (std::size_t i = 0U; i < view.modes.connection_modes.size(); ++i) {
-        if (view.modes.connection_modes[i].mode >= view.modes.modes.size()) {
+        const ConnectionModeRow& row = view.modes.connection_modes[i];
+        if (row.mode >= view.modes.modes.size() || row.connection >= view.connections.size()) {
             findings.add(Rule::kConnectionOfUnknownMode, i);
         }
     }
@@ -60,9 +57,6 @@ constexpr void check_members(const SystemView& view, FindingList& findings) noex
 
 /// For a table whose rows are valid in themselves.
 constexpr void check_modes(const SystemView& view, FindingList& findings) noexcept {
-    if (!are_mode_rows_valid(view, findings)) {
-        return;
-    }
     for (std::size_t m = 0U; m < view.modes.modes.size(); ++m) {
         check_mode(view, m, findings);
     }

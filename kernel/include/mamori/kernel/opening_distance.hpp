@@ -22,13 +22,20 @@ constexpr std::int64_t calc_gcd(std::int64_t a, std::int64_t b) noexcept {
     return a;
 }
 
+/// What is left of `value`, in 0 .. divisor - 1.
+constexpr std::int64_t calc_rest(std::int64_t value, std::int64_t divisor) noexcept {
+    const std::int64_t rest = value % divisor;
+    return rest < 0 ? rest + divisor : rest;
+}
+
 /// Smallest time from an opening of `from` to an opening of `to` that is not before it. Two strictly periodic
 /// openings meet at every distance that is equal to their first one modulo the greatest common divisor of
 /// their periods.
 constexpr Duration calc_distance(const WindowRow& from, const WindowRow& to) noexcept {
     const std::int64_t divisor = calc_gcd(from.period.ns, to.period.ns);
-    const std::int64_t rest = (to.offset.ns - from.offset.ns) % divisor;
-    return {rest < 0 ? rest + divisor : rest};
+    // Each by itself, since offsets that another rule refuses may be too far apart to be subtracted.
+    const std::int64_t distance = calc_rest(to.offset.ns, divisor) - calc_rest(from.offset.ns, divisor);
+    return {calc_rest(distance, divisor)};
 }
 
 }  // namespace mamori::detail

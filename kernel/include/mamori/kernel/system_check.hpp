@@ -16,6 +16,7 @@
 #include "mamori/kernel/finding_list.hpp"
 #include "mamori/kernel/input_check.hpp"
 #include "mamori/kernel/mode_check.hpp"
+#include "mamori/kernel/range_check.hpp"
 #include "mamori/kernel/reaction_check.hpp"
 #include "mamori/kernel/row_check.hpp"
 #include "mamori/kernel/span.hpp"
@@ -41,13 +42,20 @@ constexpr void check_components(const SystemView& view, FindingList& findings) n
 }  // namespace detail
 
 /// Finds every rule that a table breaks, in the order of `Rule` groups: windows, components, modes,
-/// inputs, connections, reactions, configuration. Rows that are invalid in themselves hide the rest: nothing
-/// else can be judged then. Constant expression for a constexpr table; O(rows squared).
+/// inputs, connections, reactions, configuration. Rows that are invalid in themselves hide the rest, and so
+/// do rows that do not fit together: nothing else can be judged then. Whatever the rows hold, no pointer or
+/// index is followed before it was judged; that a span has the rows it counts, that a pointer which is not
+/// null leads to a living object and that a name ends is taken for granted. Constant expression for a
+/// constexpr table; O(rows squared).
 /// @param[out] storage the first findings; may be shorter than their number.
 /// @return number of findings; 0: the table keeps every rule.
 constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) noexcept {
     detail::FindingList findings{storage};
-    if (!detail::are_rows_valid(view, findings)) {
+    detail::check_rows(view, findings);
+    if (findings.get_count() == 0U) {
+        detail::check_ranges(view, findings);
+    }
+    if (findings.get_count() != 0U) {
         return findings.get_count();
     }
     for (std::size_t i = 0U; i < view.windows.size(); ++i) {

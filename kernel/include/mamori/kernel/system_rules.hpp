@@ -28,6 +28,11 @@ template <const auto& kTable, Rule kRule, std::size_t kElement, std::size_t kOth
 constexpr std::size_t refuse() noexcept {
     if constexpr (kRule == Rule::kFrameNotPositive) {
         return sizeof(rules::FrameIsPositive<rules::Row<kElement>>);
+    } else if constexpr (kRule == Rule::kWindowRowInvalid) {
+        return sizeof(rules::WindowRowIsValid<rules::Row<kElement>>);
+    } else if constexpr (kRule == Rule::kComponentRowInvalid) {
+        return sizeof(
+            rules::WorstCaseIsNotNegative<ComponentAt<kTable, kElement>, calc_instance<kTable, kElement>()>);
     } else if constexpr (kRule == Rule::kPeriodNotInFrame) {
         return sizeof(rules::PeriodDividesFrame<WindowName<kTable, kElement>>);
     } else if constexpr (kRule == Rule::kWindowOutsideFrame) {

@@ -47,15 +47,15 @@ constexpr bool is_rate_of(double rate_hz, Duration period) noexcept {
 
 constexpr void check_window_load(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
     const WindowRow& row = view.windows[i];
-    Duration sum{0};
+    Duration left = row.budget;
     for (std::size_t c = row.first_component; c < row.first_component + row.component_count; ++c) {
         const Duration worst_case = view.component_rows[c].worst_case;
-        // A single one beyond the budget is enough, and keeps the sum from overflowing.
-        sum = worst_case > row.budget - sum ? row.budget + Duration{1} : sum + worst_case;
-        if (sum > row.budget) {
+        // No sum, which could overflow.
+        if (worst_case > left) {
             findings.add(Rule::kWorstCasesExceedBudget, i);
             break;
         }
+        left = left - worst_case;
     }
     if (row.rate_hz != 0.0 && !is_rate_of(row.rate_hz, row.period)) {
         findings.add(Rule::kRateNotOccurrences, i);

@@ -6,6 +6,8 @@
 #ifndef MAMORI_KERNEL_WINDOW_RULES_HPP
 #define MAMORI_KERNEL_WINDOW_RULES_HPP
 
+#include <cstddef>
+
 #include "mamori/kernel/table_rule.hpp"
 
 namespace mamori {
@@ -15,6 +17,12 @@ namespace rules {
 template <typename Element>
 struct FrameIsPositive {
     static_assert(kKept<Element>, "a frame has a positive length");
+};
+template <typename WindowRow>
+struct WindowRowIsValid {
+    static_assert(kKept<WindowRow>,
+                  "a window has a name, a positive period and components, at least one event per cycle, a "
+                  "trigger exactly when it is triggered, and slower rates only when it is periodic");
 };
 template <typename WindowName>
 struct PeriodDividesFrame {
@@ -35,6 +43,10 @@ struct BudgetIsInsideWindow {
 template <typename WindowName>
 struct WorstCasesFitBudget {
     static_assert(kKept<WindowName>, "the declared worst cases of a window together fit into its budget");
+};
+template <typename C, std::size_t kInstance>
+struct WorstCaseIsNotNegative {
+    static_assert(kKept<C>, "the declared worst case of a component is not negative");
 };
 template <typename WindowName>
 struct RateEqualsOccurrences {

@@ -35,8 +35,7 @@ struct Names {
 /// disagree.
 std::string describe(const Finding& finding, const SystemView& view);
 
-/// Every finding of check_all(), in words, and the rows of the configuration that it could not follow; empty:
-/// the table keeps every rule.
+/// Every finding of check_all(), in words; empty: the table keeps every rule.
 std::vector<std::string> describe_all(const SystemView& view);
 
 /// Writes one JSON document of schema `mamori.table/2` (docs/design/table_dump.md#schema): ASCII and UTF-8 as
