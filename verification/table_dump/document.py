@@ -138,7 +138,7 @@ def read_table(path: Path) -> Table:
     modes = root.at("modes").items()
     parameters = root.at("parameters").items()
     sets = root.at("configuration_sets").items()
-    return Table(
+    table = Table(
         frame_ns=root.at("frame_ns").whole(),
         abort_policy=root.at("abort_policy").text(ABORT_POLICIES),
         windows=tuple(_read_window(node) for node in windows),
@@ -153,6 +153,19 @@ def read_table(path: Path) -> Table:
         sets=tuple(read_set(node, len(parameters)) for node in sets),
         findings=tuple(node.text() for node in root.at("findings").items()),
     )  # fmt: skip
+    if not table.findings:
+        _refuse_untold_times(root)
+    return table
+
+
+def _refuse_untold_times(root: JsonNode) -> None:
+    """A time that the check of the kernel never passes, in a document without findings: nobody has checked it."""
+    times = [root.at("frame_ns")]
+    times += [window.at(key) for window in root.at("windows").items() for key in ("length_ns", "period_ns", "budget_ns")]
+    times += [reaction.at("within_ns") for reaction in root.at("reactions").items()]
+    for time in times:
+        if time.whole() <= 0:
+            raise time.complain(f"is {time.whole()}, must be positive, and no finding says that it is not")
 
 
 def _refuse_constant(name: str) -> float:

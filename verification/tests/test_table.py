@@ -104,8 +104,19 @@ def test_names_do_not_steer_the_terminal(tmp_path: Path, capsys: pytest.CaptureF
 @pytest.mark.verifies("SWR-TAB-004", technique="boundary_values")
 def test_empty_table_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     empty = {key: [] for key, value in TABLE.items() if isinstance(value, list)}
-    assert table(write(tmp_path, frame_ns=0, **empty), "--text", "--svg-time-line", tmp_path / "t.svg") == 0
+    assert table(write(tmp_path, frame_ns=1, **empty), "--text", "--svg-time-line", tmp_path / "t.svg") == 0
     assert "0 windows" in capsys.readouterr().out
+    ElementTree.parse(tmp_path / "t.svg")
+
+
+@pytest.mark.verifies("SWR-TAB-004", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize("frame_ns", [0, -1, -(2**63)])
+def test_frame_that_is_not_positive_is_shown_with_its_finding_and_status_1(
+    tmp_path: Path, frame_ns: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write(tmp_path, frame_ns=frame_ns, findings=[f"the frame of {frame_ns} ns is not positive"])
+    assert table(path, "--text", "--svg-time-line", tmp_path / "t.svg") == 1
+    assert "is not positive" in capsys.readouterr().out
     ElementTree.parse(tmp_path / "t.svg")
 
 
@@ -134,7 +145,8 @@ def test_time_line_has_a_box_for_each_opening_at_its_place(tmp_path: Path) -> No
 def test_time_line_stays_inside_and_small_for_any_times(tmp_path: Path) -> None:
     windows = [window("fast", 0, 0, 1, 10, 1), window("beyond", 1, 9 * MS, 5 * MS, 10 * MS, 5 * MS),
                window("none", 2, -5, 0, 0, 0), window("x" * 500, 3, 0, 1, 10 * MS, 1)]  # fmt: skip
-    assert table(write(tmp_path, windows=windows), "--svg-time-line", tmp_path / "t.svg") == 0
+    path = write(tmp_path, windows=windows, findings=["window 'none': row 2 needs a positive period"])
+    assert table(path, "--svg-time-line", tmp_path / "t.svg") == 1
 
     root = ElementTree.parse(tmp_path / "t.svg").getroot()
     width = float(root.get("width", "0"))
@@ -250,6 +262,12 @@ def changed(key: str, value: object) -> str:
         (changed("schema", "mamori.log/1"), "has the schema 'mamori.log/1', this command reads 'mamori.table/2'"),
         (changed("frame_ns", True), "frame_ns must be a whole number"),
         (changed("frame_ns", 10**30), "frame_ns must be a whole number of 64 bits"),
+        (changed("frame_ns", 0), "frame_ns is 0, must be positive, and no finding says that it is not"),
+        (changed("frame_ns", -1), "frame_ns is -1, must be positive"),
+        (changed("windows", [window("a", 0, 0, 1, 0, 1)] * 3), "windows[0].period_ns is 0, must be positive"),
+        (changed("windows", [window("a", 0, 0, -1, 1, 1)] * 3), "windows[0].length_ns is -1, must be positive"),
+        (changed("windows", [window("a", 0, 0, 1, 1, 0)] * 3), "windows[0].budget_ns is 0, must be positive"),
+        (changed("reactions", [{"fault": 0, "reaction": "Ss1", "within_ns": 0}]), "reactions[0].within_ns is 0, must be positive"),
         (changed("windows", {}), "windows must be a list"),
         (changed("windows", [{"name": "a"}]), "windows[0] has no 'core'"),
         (changed("windows", [{**window("a", -1, 0, 1, 1, 1)}]), "windows[0].core must not be negative"),
