@@ -103,5 +103,12 @@ TEST(ModeCompileFailTest, AModeThatNoTransitionLeadsToIsRefused) {
     expect_broken(16, "ModeIsReachable<mamori::Name<'t', 'e', 'a', 'c', 'h'>");
 }
 
+TEST(ModeCompileFailTest, AnExecutiveOfATableWithModesOrSetsNeedsTheirSwitch) {
+    verifies("SWR-MOD-008", Technique::kInterface, Polarity::kViolation);
+    const std::string needs = "a table with modes or configuration sets needs a SystemModes: write";
+    expect_refused("executive_without_modes", needs, "-DMAMORI_BREAK=1");
+    expect_refused("executive_without_modes", needs, "-DMAMORI_BREAK=2");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -266,7 +266,9 @@ TEST(ModeCornerTest, ATableWithSetsAloneWantsItsModesToo) {
     SmallParts p;
     const auto table = system(frame(1000_ns), window("all", 0_ns, 400_ns, budget(300_ns), run(p.first)),
                               configuration_set("slow", assign(p.first.speed, 0.5)));
-    ExecutiveFor<std::remove_const_t<decltype(table)>> without{table};
+    using Table = testing_support::Untold<std::remove_const_t<decltype(table)>>;
+    const Table untold{table};
+    ExecutiveFor<Table> without{untold};
 
     EXPECT_EQ(without.initialize(), Status::kPreconditionNotMet);
 }

@@ -245,7 +245,8 @@ TEST(SystemModesSetupTest, AnExecutiveWantsTheModesOfItsTable) {
     verifies("SWR-MOD-008", Technique::kInterface, Polarity::kViolation);
     Robot robot;
     Robot other;
-    ExecutiveFor<Robot::Table> without{robot.table};
+    const testing_support::Untold<Robot::Table> untold{robot.table};
+    ExecutiveFor<testing_support::Untold<Robot::Table>> without{untold};
     EXPECT_EQ(without.initialize(), Status::kPreconditionNotMet);
     ExecutiveFor<Robot::Table> foreign{robot.table, other.modes};
     EXPECT_EQ(foreign.initialize(), Status::kBadParameter);

@@ -143,6 +143,12 @@ class Part final : public Component {
     const TroublePlan& plan_;
 };
 
+/// A table whose type does not tell that it has modes, as that of a tool may be: only the rows do.
+template <typename Table>
+struct Untold : Table {
+    static constexpr bool kNeedsModes = false;
+};
+
 /// Writes down the steps and failures that one core tells of.
 class ModeObserver final : public ExecutionObserver {
   public:

@@ -229,14 +229,19 @@ struct WindowStorage {
 }  // namespace detail
 
 /// Executive with the storage that `Table` needs:  inline mamori::ExecutiveFor executive{kSystem};
-/// A table with modes or configuration sets needs a SystemModes as well.
+/// A table with modes or configuration sets needs a SystemModes as well; the compiler says so where the type
+/// of the table tells, initialize() otherwise.
 template <typename Table>
 class ExecutiveFor final : private detail::WindowStorage<Table::kWindowCount>, public Executive {
   public:
     /// @param[in] table must outlive the executive; check it with MAMORI_CHECK.
     /// @param[in] core  whose windows it runs; each core of a system has an executive of its own.
     constexpr explicit ExecutiveFor(const Table& table, std::size_t core = 0U) noexcept
-        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core, nullptr) {}
+        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core, nullptr) {
+        static_assert(!Table::kNeedsModes,
+                      "a table with modes or configuration sets needs a SystemModes: write "
+                      "SystemModes modes{make_view(kSystem)}; ExecutiveFor executive{kSystem, modes};");
+    }
     /// @param[in] modes one for all cores of the table; must outlive the executive.
     constexpr ExecutiveFor(const Table& table, SystemModes& modes, std::size_t core = 0U) noexcept
         : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core, &modes) {}

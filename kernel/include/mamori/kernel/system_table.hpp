@@ -57,6 +57,9 @@ struct SystemTable {
     static constexpr std::size_t kWindowCount = kWindows;
     static constexpr std::size_t kComponentCount = kComponents;
     static constexpr std::size_t kPortCount = kPorts;
+    /// Modes and configuration sets are switched by a SystemModes, without which no executive runs the table.
+    static constexpr bool kNeedsModes =
+        std::tuple_size_v<decltype(Modes::modes)> + std::tuple_size_v<decltype(Configuration::sets)> != 0U;
 };
 
 /// The same rows without their sizes in the type; refers to the table, which must outlive it.
