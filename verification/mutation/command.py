@@ -79,7 +79,8 @@ def choose_files(wanted: Sequence[str], known: Sequence[str]) -> tuple[str, ...]
     """@return the files of the kernel that were named, or all. @raise UsageError for one that is none."""
     for name in wanted:
         if _normalise(name) not in known:
-            raise UsageError(f"mutate: '{name}' is no source or header of the kernel; {nearest_names(name, known)}")
+            nearest = nearest_names(name, known, "./mamori mutate --list shows them with their mutants")
+            raise UsageError(f"mutate: '{name}' is no source or header of the kernel; {nearest}")
     return tuple(_normalise(name) for name in wanted) or tuple(known)
 
 

@@ -179,6 +179,14 @@ def test_file_that_is_none_of_the_kernels_is_refused_with_the_nearest() -> None:
         choose_files(("kernel/src/event_lock.cpp",), ("kernel/src/event_log.cpp", "kernel/src/assert.cpp"))
 
 
+@pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")
+def test_file_that_is_like_none_of_the_kernels_is_refused_in_one_short_line() -> None:
+    with pytest.raises(UsageError) as refusal:
+        choose_files(("nothing.cpp",), tuple(f"kernel/include/mamori/kernel/unit_{i}.hpp" for i in range(200)))
+    assert str(refusal.value) == ("mutate: 'nothing.cpp' is no source or header of the kernel; "
+                                  "./mamori mutate --list shows them with their mutants")  # fmt: skip
+
+
 # ---- What becomes of a mutant ------------------------------------------------------------------------------------------
 
 

@@ -263,6 +263,7 @@ def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, co
         (("tset",), "there is no command 'tset'; nearest: test or "),
         (("demo", "--montion", "x"), "demo has no option '--montion'; nearest: --motion or "),
         (("test", "--quik"), "test has no option '--quik'; nearest: --quick or "),
+        (("mutate", "--jobs", "-1"), "mutate: argument --jobs: '-1' is no whole number from 1 on"),
         (("demo", "--motion", "gone.yaml"), "motion file 'gone.yaml' cannot be read"),
         (("demo", "--motion=gone.yaml"), "motion file 'gone.yaml' cannot be read"),
     ],
@@ -294,6 +295,13 @@ def test_right_words_reach_the_command_unchanged(box: Box, tmp_path: Path) -> No
     box.run("demo", "--motion", str(motion), "--scenario", "a b", "c", "--instants=2")
 
     assert f"python -P -m mamori.verification.command demo --motion {motion} --scenario a b c --instants=2" in box.take_calls()
+
+
+@pytest.mark.verifies("SWR-CLI-005", technique="boundary_values")
+def test_seed_below_zero_reaches_the_command(box: Box) -> None:
+    box.run("mutate", "--seed", "-1")
+
+    assert "python -P -m mamori.verification.command mutate --seed -1" in box.take_calls()
 
 
 @pytest.mark.verifies("SWR-CLI-008", technique="fault_injection", polarity="violation")
