@@ -22,21 +22,20 @@ Status Executive::prepare_parameters() noexcept {
         return Status::kBadParameter;
     }
     ConfigurationAdmin& configuration = modes_->get_configuration();
-    const std::size_t set = modes_->prepare();
-    const ConfigurationFinding finding =
-        set == kNoConfigurationSet ? ConfigurationFinding{} : configuration.judge_set(set);
+    const Result<std::size_t> prepared = modes_->prepare();
+    const std::size_t set = prepared.has_value() ? prepared.get_value() : kNoConfigurationSet;
     for (const WindowRow& row : view_.windows) {
         const Span<const ParameterRow> parameters =
             view_.configuration.parameters.subspan(row.first_parameter, row.parameter_count);
         if (row.core != core_) {
             continue;
         }
-        if (set != kNoConfigurationSet && is_accepted(finding)) {
+        if (set != kNoConfigurationSet) {
             configuration.activate_set(set, parameters);
         }
         ConfigurationAdmin::commit(parameters);
     }
-    return is_accepted(finding) ? Status::kOk : Status::kBadParameter;
+    return prepared.get_status();
 }
 
 Status Executive::join_modes() noexcept {

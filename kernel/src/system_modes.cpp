@@ -88,20 +88,33 @@ void SystemModes::enter_safe_mode_when_failing() noexcept {
     }
 }
 
-std::size_t SystemModes::prepare() noexcept {
+/// The set holds from now on, unless one of its values is refused: then no core takes any of it.
+/// @return whether it holds.
+bool SystemModes::hold(std::size_t set) noexcept {
+    const bool is_accepted = configuration_.judge_set(set).rule == ConfigurationRule::kNone;
+    if (is_accepted) {
+        set_.store(static_cast<std::uint32_t>(set), std::memory_order_release);
+    }
+    return is_accepted;
+}
+
+Result<std::size_t> SystemModes::prepare() noexcept {
     if (running_.load(std::memory_order_acquire) == 0U) {
         const std::size_t requested = configuration_.take_requested_set();
-        if (requested != kNoConfigurationSet) {
-            set_.store(static_cast<std::uint32_t>(requested), std::memory_order_relaxed);
+        if (requested != kNoConfigurationSet && !hold(requested)) {
+            return Status::kBadParameter;
         }
         enter_safe_mode_when_failing();
     }
-    const std::uint32_t set = set_.load(std::memory_order_acquire);
-    if (set != kNoSet || view_.modes.modes.empty()) {
-        return set;
+    std::size_t set = set_.load(std::memory_order_acquire);
+    if (set == kNoSet && !view_.modes.modes.empty()) {
+        const std::size_t of_mode = view_.modes.modes[get_mode()].set;
+        set = of_mode == kNoIndex ? kNoConfigurationSet : of_mode;
     }
-    const std::size_t of_mode = view_.modes.modes[get_mode()].set;
-    return of_mode == kNoIndex ? kNoConfigurationSet : of_mode;
+    if (set != kNoConfigurationSet && configuration_.judge_set(set).rule != ConfigurationRule::kNone) {
+        return Status::kBadParameter;
+    }
+    return set;
 }
 
 Status SystemModes::join(std::size_t core) noexcept {
@@ -129,7 +142,7 @@ void SystemModes::leave(std::size_t core) noexcept {
     // Nobody is left who could carry anything out, and everything is Inactive; the next start goes on from
     // here.
     if (step == ModeStep::kSet) {
-        set_.store(static_cast<std::uint32_t>(plan.get_index()), std::memory_order_relaxed);
+        static_cast<void>(hold(plan.get_index()));
     }
     enter_safe_mode_when_failing();
     request_.store(0U, std::memory_order_relaxed);
@@ -171,6 +184,10 @@ void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
         }
         static_cast<void>(fail({ModeFailureCause::kLate, step, kNoIndex}));
     }
+    if (step == ModeStep::kSet) {
+        // Who took it has it, whatever else went wrong.
+        static_cast<void>(hold(index));
+    }
     if (step != ModeStep::kSafe && is_failing()) {
         replace(plan, {ModeStep::kSafe, safe_mode_, frame + 1});
         return;
@@ -179,9 +196,7 @@ void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
         replace(plan, {ModeStep::kEnter, index, frame + 1});
         return;
     }
-    if (step == ModeStep::kSet) {
-        set_.store(static_cast<std::uint32_t>(index), std::memory_order_relaxed);
-    } else {
+    if (step != ModeStep::kSet) {
         mode_.store(index, std::memory_order_release);
         set_.store(kNoSet, std::memory_order_relaxed);
     }

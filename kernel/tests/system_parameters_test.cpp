@@ -51,7 +51,12 @@ struct Plant : PlantParts {
             cores[core]->set_observer(&observers[core]);
             is_ready = is_ready && cores[core]->initialize() == Status::kOk;
         }
-        return is_ready && core_0.start() == Status::kOk && core_1.start() == Status::kOk;
+        return is_ready && start();
+    }
+    bool start() { return core_0.start() == Status::kOk && core_1.start() == Status::kOk; }
+    void stop() {
+        ASSERT_EQ(core_0.stop(), Status::kOk);
+        ASSERT_EQ(core_1.stop(), Status::kOk);
     }
     void run_core(std::size_t core) {
         const Instant release{frames[core]++ * 1000 + (core == 0U ? 0 : 400)};
@@ -194,6 +199,47 @@ TEST(SystemParametersTest, ARefusedSetIsToldAndChangesNothing) {
     EXPECT_EQ(plant.second.speed.get(), 0.5) << "the next request is served";
 }
 
+TEST(SystemParametersTest, ASetThatWasRefusedWhileTheSystemRanIsNoReasonToRefuseTheNextStart) {
+    verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
+    for (const int frames : {1, 5}) {  // agreed on, and judged
+        Plant plant{0U};
+        ASSERT_TRUE(plant.begin());
+        plant.table.configuration.values[3] = to_scalar(99.0);  // memory is corrupted
+        ASSERT_EQ(plant.modes.get_configuration().activate_configuration_set(1U), Status::kOk);
+        plant.run_frames(frames);
+        plant.stop();
+
+        ASSERT_TRUE(plant.start()) << frames;
+        EXPECT_EQ(plant.first.speed_at_start, 0.5) << "the set before still holds";
+        EXPECT_EQ(plant.second.speed_at_start, 0.5);
+    }
+}
+
+TEST(SystemParametersTest, ASetThatIsRefusedAtAStartIsRefusedOnce) {
+    verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
+    Plant plant{0U};
+    ASSERT_TRUE(plant.begin());
+    plant.stop();
+    plant.table.configuration.values[3] = to_scalar(99.0);  // memory is corrupted
+    ASSERT_EQ(plant.modes.get_configuration().activate_configuration_set(1U), Status::kOk);
+
+    EXPECT_EQ(plant.core_0.start(), Status::kBadParameter);
+    EXPECT_EQ(plant.first.speed.get(), 0.5) << "no value of the set was switched";
+    ASSERT_TRUE(plant.start()) << "the request is gone";
+    EXPECT_EQ(plant.first.speed_at_start, 0.5);
+}
+
+TEST(SystemParametersTest, ASetThatHoldsAndIsCorruptedLaterKeepsTheSystemFromStarting) {
+    verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
+    Plant plant{1U};
+    ASSERT_TRUE(plant.begin());
+    plant.stop();
+    plant.table.configuration.values[3] = to_scalar(99.0);  // memory is corrupted
+
+    EXPECT_EQ(plant.core_0.start(), Status::kBadParameter);
+    EXPECT_EQ(plant.core_0.start(), Status::kBadParameter) << "what the system must have is not there";
+}
+
 TEST(SystemParametersTest, ASetThatWasUnderWayAtTheStopIsThereAtTheNextStart) {
     verifies("SWR-MOD-008", Technique::kErrorGuessing, Polarity::kViolation);
     Plant plant;
@@ -201,8 +247,7 @@ TEST(SystemParametersTest, ASetThatWasUnderWayAtTheStopIsThereAtTheNextStart) {
     ASSERT_EQ(plant.modes.get_configuration().activate_configuration_set(1U), Status::kOk);
     plant.run_frames(1);
     ASSERT_EQ(plant.modes.get_step(), ModeStep::kSet);
-    ASSERT_EQ(plant.core_0.stop(), Status::kOk);
-    ASSERT_EQ(plant.core_1.stop(), Status::kOk);
+    plant.stop();
     ASSERT_EQ(plant.core_0.start(), Status::kOk);
 
     EXPECT_EQ(plant.first.speed_at_start, 2.0);

@@ -90,7 +90,9 @@ class SystemModes final {
                view_.modes.modes.size() == view.modes.modes.size();
     }
     /// Set that parameters must have before any component runs; kNoConfigurationSet: their own values.
-    std::size_t prepare() noexcept;
+    /// @return kBadParameter: a value of it is refused, or of one that was asked for while nothing ran; that
+    ///         request is gone then.
+    Result<std::size_t> prepare() noexcept;
     /// The core starts. @param[in] core < kModeCoreMax, here and below; Executive::initialize() sees to it.
     /// @return kOk; kPreconditionNotMet (a switch is under way on other cores).
     Status join(std::size_t core) noexcept;
@@ -116,13 +118,14 @@ class SystemModes final {
     void conclude(ModePlan plan, std::int64_t frame) noexcept;
     void propose(std::int64_t frame) noexcept;
     void enter_safe_mode_when_failing() noexcept;
+    bool hold(std::size_t set) noexcept;
     bool is_failure_unserved(std::size_t core) noexcept;
 
     SystemView view_;
     std::size_t safe_mode_;
     ConfigurationAdmin configuration_;
     std::atomic<std::size_t> mode_{0U};
-    std::atomic<std::uint32_t> set_{kNoSet};
+    std::atomic<std::uint32_t> set_{kNoSet};   ///< that was asked for beside the modes and holds
     std::atomic<std::uint32_t> request_{0U};  ///< place of a transition with the event, plus one
     std::atomic<std::uint32_t> plan_{0U};
     std::atomic<std::uint32_t> failure_{0U};
