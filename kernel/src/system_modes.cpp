@@ -64,8 +64,9 @@ Status SystemModes::reset() noexcept {
     if (running_.load(std::memory_order_acquire) != 0U) {
         return Status::kPreconditionNotMet;
     }
-    mode_.store(0U, std::memory_order_relaxed);
-    set_.store(kNoSet, std::memory_order_relaxed);
+    if (!view_.modes.modes.empty()) {
+        enter(0U);
+    }
     request_.store(0U, std::memory_order_relaxed);
     failure_.store(0U, std::memory_order_release);
     return Status::kOk;
@@ -83,9 +84,18 @@ bool SystemModes::is_failing() const noexcept {
 /// For a system of which nothing runs: there is nothing to be left or entered.
 void SystemModes::enter_safe_mode_when_failing() noexcept {
     if (is_failing()) {
-        mode_.store(safe_mode_, std::memory_order_release);
-        set_.store(kNoSet, std::memory_order_relaxed);
+        enter(safe_mode_);
     }
+}
+
+/// The system is in this mode from now on. One without a set of its own changes no parameter: what held
+/// before holds on, for cores that start later as well.
+void SystemModes::enter(std::size_t mode) noexcept {
+    const std::size_t set = view_.modes.modes[mode].set;
+    if (set != kNoIndex) {
+        set_.store(static_cast<std::uint32_t>(set), std::memory_order_release);
+    }
+    mode_.store(mode, std::memory_order_release);
 }
 
 /// The set holds from now on, unless one of its values is refused: then no core takes any of it.
@@ -106,11 +116,7 @@ Result<std::size_t> SystemModes::prepare() noexcept {
         }
         enter_safe_mode_when_failing();
     }
-    std::size_t set = set_.load(std::memory_order_acquire);
-    if (set == kNoSet && !view_.modes.modes.empty()) {
-        const std::size_t of_mode = view_.modes.modes[get_mode()].set;
-        set = of_mode == kNoIndex ? kNoConfigurationSet : of_mode;
-    }
+    const std::size_t set = set_.load(std::memory_order_acquire);
     if (set != kNoConfigurationSet && configuration_.judge_set(set).rule != ConfigurationRule::kNone) {
         return Status::kBadParameter;
     }
@@ -184,9 +190,11 @@ void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
         }
         static_cast<void>(fail({ModeFailureCause::kLate, step, kNoIndex}));
     }
+    // Who took a set has it, whatever else went wrong in this step.
     if (step == ModeStep::kSet) {
-        // Who took it has it, whatever else went wrong.
         static_cast<void>(hold(index));
+    } else if (step == ModeStep::kEnter && view_.modes.modes[index].set != kNoIndex) {
+        static_cast<void>(hold(view_.modes.modes[index].set));
     }
     if (step != ModeStep::kSafe && is_failing()) {
         replace(plan, {ModeStep::kSafe, safe_mode_, frame + 1});
@@ -197,8 +205,7 @@ void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
         return;
     }
     if (step != ModeStep::kSet) {
-        mode_.store(index, std::memory_order_release);
-        set_.store(kNoSet, std::memory_order_relaxed);
+        enter(index);
     }
     replace(plan, {});
 }

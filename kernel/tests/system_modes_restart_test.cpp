@@ -168,7 +168,7 @@ TEST_F(SystemModesRestartTest, AModeWithASetOfItsOwnEndsTheSetThatWasTakenBeside
     EXPECT_EQ(get_speed(), 2.0) << "that of the mode";
 }
 
-TEST_F(SystemModesRestartTest, AResetForgetsTheSetThatWasTakenBeside) {
+TEST_F(SystemModesRestartTest, AResetToAModeWithoutASetKeepsTheOneThatHolds) {
     verifies("SWR-MOD-008", Technique::kStateTransition);
     take_set(kFastSet);
     set_speed();
@@ -176,10 +176,10 @@ TEST_F(SystemModesRestartTest, AResetForgetsTheSetThatWasTakenBeside) {
     ASSERT_EQ(sut_.modes.reset(), Status::kOk);
 
     ASSERT_TRUE(sut_.start());
-    EXPECT_EQ(get_speed(), 1.5);
+    EXPECT_EQ(get_speed(), 2.0);
 }
 
-TEST_F(SystemModesRestartTest, AStopOnTheWayToTheSafeModeForgetsTheSetThatWasTakenBeside) {
+TEST_F(SystemModesRestartTest, AStopOnTheWayToASafeModeWithoutASetKeepsTheOneThatHolds) {
     verifies("SWR-MOD-007", Technique::kStateTransition);
     take_set(kFastSet);
     set_speed();
@@ -188,7 +188,74 @@ TEST_F(SystemModesRestartTest, AStopOnTheWayToTheSafeModeForgetsTheSetThatWasTak
     ASSERT_EQ(sut_.modes.get_mode(), kHalt);
 
     ASSERT_TRUE(sut_.start());
-    EXPECT_EQ(get_speed(), 1.5) << "the safe mode has no set";
+    EXPECT_EQ(get_speed(), 2.0);
+}
+
+/// Core 0 runs by itself at first; what core 1 has after its own start is what the system has.
+class LateCoreTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_EQ(sut_.core_0.initialize(), Status::kOk);
+        ASSERT_EQ(sut_.core_1.initialize(), Status::kOk);
+        ASSERT_EQ(sut_.core_0.start(), Status::kOk);
+    }
+    void run_core_0(int count) {
+        for (int i = 0; i < count; ++i) {
+            static_cast<void>(sut_.run_core(0U));
+        }
+    }
+    void go(Command command) {
+        ASSERT_EQ(sut_.modes.request(command), Status::kOk);
+        run_core_0(10);
+    }
+    void expect_same_speed_on_core_1(double speed) {
+        ASSERT_EQ(sut_.modes.get_step(), ModeStep::kNone);
+        ASSERT_EQ(sut_.planner.speed.get(), speed);
+        ASSERT_EQ(sut_.core_1.start(), Status::kOk);
+        EXPECT_EQ(sut_.drive.speed.get(), speed);
+    }
+
+    Robot sut_;
+};
+
+TEST_F(LateCoreTest, ItGetsTheSetOfAModeThatWasLeftForOneWithoutASet) {
+    verifies("SWR-MOD-008", Technique::kStateTransition);
+    go(Command::kStart);
+    go(Command::kStop);
+    ASSERT_EQ(sut_.modes.get_mode(), kIdle);
+
+    expect_same_speed_on_core_1(2.0);
+}
+
+TEST_F(LateCoreTest, ItGetsTheSetOfAModeThatCouldNotBeEntered) {
+    verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
+    sut_.plan = {&sut_.planner, true, testing_support::Trouble::kRefusal};
+    go(Command::kStart);
+    ASSERT_EQ(sut_.modes.get_mode(), kHalt);
+
+    expect_same_speed_on_core_1(2.0);
+}
+
+TEST_F(LateCoreTest, ItGetsASetThatWasUnderWayWhenTheSafeModeWasAskedFor) {
+    verifies("SWR-MOD-008", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(sut_.modes.get_configuration().activate_configuration_set(kSlowSet), Status::kOk);
+    run_core_0(1);
+    ASSERT_EQ(sut_.modes.request_safe_mode(), Status::kOk);
+    run_core_0(10);
+    ASSERT_EQ(sut_.modes.get_mode(), kHalt);
+
+    expect_same_speed_on_core_1(0.5);
+}
+
+TEST_F(LateCoreTest, ItGetsTheSetBeforeOneThatWasRefused) {
+    verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
+    go(Command::kTeach);
+    ASSERT_EQ(sut_.planner.speed.get(), 0.5);
+    sut_.table.configuration.values[2] = to_scalar(99.0);  // memory is corrupted: of "fast"
+    go(Command::kStart);
+    ASSERT_EQ(sut_.modes.get_mode(), kHalt);
+
+    expect_same_speed_on_core_1(0.5);
 }
 
 TEST_F(SystemModesRestartTest, ARequestDoesNotOutliveAStop) {

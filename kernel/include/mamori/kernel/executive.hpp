@@ -81,7 +81,8 @@ class Executive {
     /// a refusal everything is stopped again, as by stop().
     /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is in Error,
     ///         other cores are switching modes, or called from an action); kBadParameter (a value is refused
-    ///         of the set that holds, or of one that was asked for: that request is gone then); else the code of the on_startup or on_activated that refused.
+    ///         of the set that holds, or of one that was asked for: that request is gone then); else the code
+    ///         of the on_startup or on_activated that refused.
     Status start() noexcept;
 
     /// Deactivates every Active component and stops every running context, in reverse order. A context whose

@@ -50,7 +50,8 @@ class SystemModes final {
                                    std::size_t initial_set = kNoConfigurationSet) noexcept
         : view_(view),
           safe_mode_(find_safe_mode(view.modes)),
-          configuration_(view.configuration, initial_set) {
+          configuration_(view.configuration, initial_set),
+          set_(find_first_set(view.modes)) {
         MAMORI_REQUIRE(1, view.configuration.sets.size() <= ModePlan::kIndexMax);
     }
     SystemModes(const SystemModes&) = delete;
@@ -110,6 +111,11 @@ class SystemModes final {
     /// @}
 
   private:
+    static constexpr std::uint32_t find_first_set(const ModeView& view) noexcept {
+        return view.modes.empty() || view.modes[0U].set == kNoIndex
+                   ? static_cast<std::uint32_t>(kNoConfigurationSet)
+                   : static_cast<std::uint32_t>(view.modes[0U].set);
+    }
     Status request_event(std::uint32_t event) noexcept;
     bool is_lead(std::size_t core) const noexcept;
     bool is_finished(ModePlan plan) const noexcept;
@@ -119,13 +125,14 @@ class SystemModes final {
     void propose(std::int64_t frame) noexcept;
     void enter_safe_mode_when_failing() noexcept;
     bool hold(std::size_t set) noexcept;
+    void enter(std::size_t mode) noexcept;
     bool is_failure_unserved(std::size_t core) noexcept;
 
     SystemView view_;
     std::size_t safe_mode_;
     ConfigurationAdmin configuration_;
     std::atomic<std::size_t> mode_{0U};
-    std::atomic<std::uint32_t> set_{kNoSet};   ///< that was asked for beside the modes and holds
+    std::atomic<std::uint32_t> set_;          ///< that holds: of a mode, or asked for beside them
     std::atomic<std::uint32_t> request_{0U};  ///< place of a transition with the event, plus one
     std::atomic<std::uint32_t> plan_{0U};
     std::atomic<std::uint32_t> failure_{0U};
@@ -135,7 +142,6 @@ class SystemModes final {
     /// How long a failure has waited for the lead; each core has its own.
     std::array<std::int64_t, kModeCoreMax> unserved_frames_{};
 
-    static constexpr std::uint32_t kNoSet = kNoConfigurationSet;
     /// Frames after which another core does what the lead should have done.
     static constexpr std::int64_t kLeadPatience = 2 * kModeStepFrames;
 };
