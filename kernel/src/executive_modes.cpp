@@ -59,6 +59,7 @@ Status Executive::join_modes() noexcept {
         state.prepared = {};
         state.done = {};
         state.next_leaving = 0U;
+        state.set = kNoIndex;
     }
     return Status::kOk;
 }
@@ -96,6 +97,7 @@ void Executive::report_plan() noexcept {
 
 void Executive::begin_modes(std::int64_t frame) noexcept {
     if (is_plan_open_) {
+        cross_stopped_windows();  // also those that were stopped before their turn
         report_plan();
     }
     const ModePlan plan = modes_->begin_frame(core_, frame);
@@ -103,6 +105,7 @@ void Executive::begin_modes(std::int64_t frame) noexcept {
     if (plan.get_step() != ModeStep::kNone && plan.get_word() != plan_.get_word() && age >= 0) {
         take_plan(plan, age > 0);
     }
+    cross_stopped_windows();
     if (plan.get_step() == ModeStep::kNone && plan_.get_step() == ModeStep::kSet) {
         forget_set();
     }
@@ -112,7 +115,6 @@ void Executive::begin_modes(std::int64_t frame) noexcept {
 void Executive::forget_set() noexcept {
     plan_ = {};
     step_ = ModeStep::kNone;
-    set_ = kNoIndex;
     for (detail::WindowState& state : windows_) {
         state.prepared = {};
         state.done = {};
@@ -120,15 +122,17 @@ void Executive::forget_set() noexcept {
     modes_->finish(core_, plan_);
 }
 
+/// Each window makes the set active at its next boundary, however long that takes when its work hangs.
 /// @return false when the set is refused; then none of it becomes active.
 bool Executive::take_set(std::size_t set) noexcept {
-    set_ = kNoIndex;
     if (set == kNoIndex) {
         return true;
     }
     const ConfigurationFinding finding = modes_->get_configuration().judge_set(set);
     if (is_accepted(finding)) {
-        set_ = set;
+        for (detail::WindowState& state : windows_) {
+            state.set = set;
+        }
         return true;
     }
     if (observer_ != nullptr) {
@@ -141,7 +145,6 @@ void Executive::take_plan(ModePlan plan, bool is_late) noexcept {
     const std::size_t index = plan.get_index();
     plan_ = plan;
     step_ = plan.get_step();
-    set_ = kNoIndex;
     is_plan_open_ = true;
     has_step_failed_ = false;
     if (observer_ != nullptr) {
@@ -197,20 +200,35 @@ void Executive::restart_inputs(std::size_t window) noexcept {
 /// What changes for a window at a frame boundary changes when it opens for the first time in the frame: its
 /// components have come out of every action then, and nobody else looks at their parameters and inputs.
 void Executive::cross_boundary(std::size_t window) noexcept {
+    detail::WindowState& state = windows_[window];
+    if (state.crossed_at != frame_start_) {
+        state.crossed_at = frame_start_;
+        prepare_window(window);
+    }
+}
+
+/// A stopped window does not open. Nobody is in an action there, so the frame's beginning is its boundary.
+void Executive::cross_stopped_windows() noexcept {
+    for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
+        if (is_own(w) && !windows_[w].context.is_running()) {
+            prepare_window(w);
+        }
+    }
+}
+
+/// Gives a window the parameters and connections of the plan that is taken.
+void Executive::prepare_window(std::size_t window) noexcept {
     const WindowRow& row = view_.windows[window];
     detail::WindowState& state = windows_[window];
-    if (state.crossed_at == frame_start_) {
-        return;
-    }
-    state.crossed_at = frame_start_;
     const Span<const ParameterRow> parameters =
         view_.configuration.parameters.subspan(row.first_parameter, row.parameter_count);
+    if (state.set != kNoIndex) {
+        modes_->get_configuration().activate_set(state.set, parameters);
+        state.set = kNoIndex;
+    }
     if (state.prepared.get_word() != plan_.get_word()) {
         state.prepared = plan_;
         state.next_leaving = 0U;
-        if (set_ != kNoIndex) {
-            modes_->get_configuration().activate_set(set_, parameters);
-        }
         restart_inputs(window);
         if (step_ == ModeStep::kSet) {
             state.done = plan_;

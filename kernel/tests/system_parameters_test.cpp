@@ -253,5 +253,121 @@ TEST(SystemParametersTest, ASetThatWasUnderWayAtTheStopIsThereAtTheNextStart) {
     EXPECT_EQ(plant.first.speed_at_start, 2.0);
 }
 
+/// Two windows on one core, and modes that no set belongs to.
+struct LineParts {
+    TroublePlan plan{};
+    ModeHost host;
+    Part first{"first", 1, host, plan};
+    Part second{"second", 2, host, plan};
+};
+auto make_line_table(LineParts& p) {
+    return system(frame(1000_ns), window("a", 0_ns, 400_ns, budget(300_ns), run(p.first)),
+                  window("b", 400_ns, 500_ns, budget(400_ns), run(p.second)),
+                  configuration_set("slow", assign(p.first.speed, 0.5), assign(p.second.speed, 0.5)),
+                  configuration_set("fast", assign(p.first.speed, 2.0), assign(p.second.speed, 2.0)),
+                  system_mode("idle", runs(p.first, p.second)), safe_mode("halt", runs(p.first, p.second)));
+}
+class StoppedWindowTest : public ::testing::Test {
+  protected:
+    using Table = decltype(make_line_table(std::declval<LineParts&>()));
+
+    void SetUp() override {
+        ASSERT_EQ(executive_.initialize(), Status::kOk);
+        ASSERT_EQ(executive_.start(), Status::kOk);
+        run_frames(1);
+    }
+    void run_window(std::size_t window) {
+        parts_.host.now = Instant{frame_ * 1000 + static_cast<std::int64_t>(window) * 400};
+        static_cast<void>(executive_.run_window(window, parts_.host.now, parts_.host));
+    }
+    void run_frames(int count) {
+        for (int i = 0; i < count; ++i, ++frame_) {
+            run_window(0U);
+            run_window(1U);
+        }
+    }
+    ExecutionContext& get_context() { return executive_.get_context(1U); }
+    ConfigurationAdmin& get_configuration() { return modes_.get_configuration(); }
+
+    LineParts parts_;
+    Table table_{make_line_table(parts_)};
+    SystemModes modes_{make_view(table_)};
+    ExecutiveFor<Table> executive_{table_, modes_};
+    std::int64_t frame_{0};
+};
+
+TEST_F(StoppedWindowTest, ItTakesASetInTheFrameInWhichTheOthersTakeIt) {
+    verifies("SWR-MOD-008", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(get_context().stop(parts_.host.now), Status::kOk);
+    ASSERT_EQ(get_configuration().activate_configuration_set(1U), Status::kOk);
+    for (int frame = 0; frame < 5; ++frame) {
+        run_frames(1);
+        EXPECT_EQ(parts_.first.speed.get(), parts_.second.speed.get()) << frame;
+    }
+
+    EXPECT_EQ(parts_.second.speed.get(), 2.0);
+    EXPECT_EQ(modes_.get_failure().cause, ModeFailureCause::kNone);
+    EXPECT_EQ(modes_.get_mode(), 0U);
+}
+
+TEST_F(StoppedWindowTest, ItTakesASetWhoseFrameItWasStoppedIn) {
+    verifies("SWR-MOD-008", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(get_configuration().activate_configuration_set(1U), Status::kOk);
+    run_frames(1);
+    run_window(0U);
+    ASSERT_EQ(parts_.first.speed.get(), 2.0);
+    ASSERT_EQ(parts_.second.speed.get(), 1.0) << "its turn would come now";
+    ASSERT_EQ(get_context().stop(parts_.host.now), Status::kOk);
+    run_window(1U);
+    ++frame_;
+    run_frames(5);
+
+    EXPECT_EQ(parts_.second.speed.get(), 2.0);
+    EXPECT_EQ(modes_.get_failure().cause, ModeFailureCause::kNone);
+}
+
+TEST_F(StoppedWindowTest, AWindowThatIsStartedAgainInTheFrameOfASetHasIt) {
+    verifies("SWR-MOD-008", Technique::kBoundaryValues);
+    ASSERT_EQ(get_context().stop(parts_.host.now), Status::kOk);
+    ASSERT_EQ(get_configuration().activate_configuration_set(1U), Status::kOk);
+    run_frames(1);
+    run_window(0U);
+    ASSERT_EQ(get_context().start(parts_.host.now), Status::kOk);
+    run_window(1U);
+    ++frame_;
+    run_frames(5);
+
+    EXPECT_EQ(parts_.second.speeds, (Speeds{1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0}));
+    EXPECT_EQ(modes_.get_failure().cause, ModeFailureCause::kNone);
+}
+
+TEST_F(StoppedWindowTest, ASetCountsThatWasAskedForAfterASingleValue) {
+    verifies("SWR-MOD-008", Technique::kErrorGuessing);
+    ASSERT_EQ(get_context().stop(parts_.host.now), Status::kOk);
+    ASSERT_EQ(get_configuration().set_value(parts_.second.speed, 0.7), Status::kOk);
+    run_frames(1);
+    EXPECT_EQ(parts_.second.speed.get(), 0.7);
+    ASSERT_EQ(get_configuration().activate_configuration_set(1U), Status::kOk);
+    run_frames(3);
+
+    EXPECT_EQ(parts_.second.speed.get(), 2.0);
+}
+
+TEST_F(StoppedWindowTest, AWindowWhoseWorkHangsTakesTheSetWhenItComesBack) {
+    verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
+    parts_.host.aside = ModeHost::Aside::kEverything;
+    parts_.second.hangs_in_cycle = true;
+    run_frames(1);
+    ASSERT_EQ(get_configuration().activate_configuration_set(1U), Status::kOk);
+    run_frames(10);
+    EXPECT_EQ(parts_.second.speed.get(), 1.0) << "somebody may still read it";
+    EXPECT_EQ(modes_.get_failure().cause, ModeFailureCause::kNoTurn);
+    parts_.second.hangs_in_cycle = false;
+    parts_.host.release_hanging();
+    run_frames(3);
+
+    EXPECT_EQ(parts_.second.speed.get(), 2.0);
+}
+
 }  // namespace
 }  // namespace mamori

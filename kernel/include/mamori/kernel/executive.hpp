@@ -49,7 +49,8 @@ struct WindowState {
     const WindowHost* cut_by{nullptr};      ///< has cut off work of this window that may not have come back
     Instant crossed_at{std::numeric_limits<std::int64_t>::max()};  ///< frame boundary that it crossed last
     ModeMask held_modes{0U};       ///< connections that hold in all of them are served
-    ModePlan prepared{};           ///< plan whose parameters and connections it has
+    std::size_t set{kNoIndex};     ///< that becomes active at its next boundary
+    ModePlan prepared{};           ///< plan whose connections it has
     ModePlan done{};               ///< plan whose components it has activated or deactivated
     std::size_t next_leaving{0U};  ///< position of the component that this plan looks at next
 };
@@ -163,6 +164,8 @@ class Executive {
     void report_plan() noexcept;
     void fail_step(ModeFailureCause cause, std::size_t component) noexcept;
     void cross_boundary(std::size_t window) noexcept;
+    void cross_stopped_windows() noexcept;
+    void prepare_window(std::size_t window) noexcept;
     void restart_inputs(std::size_t window) noexcept;
     std::size_t leave_components(std::size_t window, Instant deadline, WindowHost& host) noexcept;
     std::size_t enter_components(std::size_t window, Instant deadline, WindowHost& host) noexcept;
@@ -210,7 +213,6 @@ class Executive {
     Instant last_step_end_{};         ///< of a mode step; the cycle of its window begins there
     ModePlan plan_{};                 ///< taken last
     ModeStep step_{ModeStep::kNone};  ///< of it, as far as this core carries it out
-    std::size_t set_{kNoIndex};       ///< that this step makes active
     ModeMask held_modes_{0U};         ///< the mode; two of them between leaving one and entering the other
     bool is_plan_open_{false};        ///< taken and not reported
     bool has_step_failed_{false};

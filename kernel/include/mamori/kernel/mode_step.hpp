@@ -27,7 +27,7 @@ enum class ModeFailureCause : std::uint8_t {
     kNone,
     kRefused,     ///< on_deactivated or on_activated did not return kOk, or the component is not Inactive
     kOverrun,     ///< that action used up the budget of its window, or hangs
-    kNoTurn,      ///< a window did not come to its part: stopped, overrun or hanging
+    kNoTurn,      ///< a window did not come to its part: overrun, hanging, or stopped in other than kSet
     kParameters,  ///< the configuration set of the mode was refused;
                   ///< ExecutionObserver::on_configuration_refused() names the value
     kLate,        ///< a core was not there in its frame
