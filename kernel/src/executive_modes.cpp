@@ -4,13 +4,16 @@
 #include "mamori/kernel/executive.hpp"
 
 namespace mamori {
-namespace {
 
-bool is_accepted(const ConfigurationFinding& finding) noexcept {
-    return finding.rule == ConfigurationRule::kNone;
+/// Whether every value of a set satisfies its constraint; the observer hears of the first one that does not.
+bool Executive::judge_set(std::size_t set) noexcept {
+    const ConfigurationFinding finding = modes_->get_configuration().judge_set(set);
+    const bool is_accepted = finding.rule == ConfigurationRule::kNone;
+    if (!is_accepted && observer_ != nullptr) {
+        observer_->on_configuration_refused(finding, last_release_);
+    }
+    return is_accepted;
 }
-
-}  // namespace
 
 /// No component is in an action, on no core that has joined: parameters may change all at once.
 Status Executive::prepare_parameters() noexcept {
@@ -20,6 +23,12 @@ Status Executive::prepare_parameters() noexcept {
     }
     if (!modes_->is_of(view_) || core_ >= kModeCoreMax) {
         return Status::kBadParameter;
+    }
+    // The compiler could not judge the values of a component that has no default constructor.
+    for (std::size_t set = 0U; !is_initialized_ && set < view_.configuration.sets.size(); ++set) {
+        if (!judge_set(set)) {
+            return Status::kBadParameter;
+        }
     }
     ConfigurationAdmin& configuration = modes_->get_configuration();
     const Result<std::size_t> prepared = modes_->prepare();
@@ -128,17 +137,13 @@ bool Executive::take_set(std::size_t set) noexcept {
     if (set == kNoIndex) {
         return true;
     }
-    const ConfigurationFinding finding = modes_->get_configuration().judge_set(set);
-    if (is_accepted(finding)) {
-        for (detail::WindowState& state : windows_) {
-            state.set = set;
-        }
-        return true;
+    if (!judge_set(set)) {
+        return false;
     }
-    if (observer_ != nullptr) {
-        observer_->on_configuration_refused(finding, last_release_);
+    for (detail::WindowState& state : windows_) {
+        state.set = set;
     }
-    return false;
+    return true;
 }
 
 void Executive::take_plan(ModePlan plan, bool is_late) noexcept {

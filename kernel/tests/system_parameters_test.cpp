@@ -199,6 +199,25 @@ TEST(SystemParametersTest, ARefusedSetIsToldAndChangesNothing) {
     EXPECT_EQ(plant.second.speed.get(), 0.5) << "the next request is served";
 }
 
+TEST(SystemParametersTest, ASetThatTheCompilerCouldNotJudgeIsRefusedBeforeAnythingIsSwitched) {
+    verifies("SWR-MOD-002", Technique::kErrorGuessing, Polarity::kViolation);
+    Plant plant{1U};
+    plant.table.configuration.values[1] = to_scalar(99.0);  // as assign(p.second.speed, 99.0) leaves it
+    ASSERT_EQ(check(make_view(plant.table)).rule, Rule::kNone) << "a Part has no default constructor";
+    EXPECT_EQ(plant.core_1.initialize(), Status::kBadParameter) << "also with nobody who listens";
+    plant.core_0.set_observer(&plant.observers[0]);
+
+    EXPECT_EQ(plant.core_0.initialize(), Status::kBadParameter);
+    EXPECT_EQ(plant.first.speed.get(), 1.0) << "the initial set was another one";
+    EXPECT_FALSE(plant.first.is_alive());
+    ASSERT_EQ(plant.observers[0].refused_sets.size(), 1U);
+    EXPECT_EQ(plant.observers[0].refused_sets[0].set, 0U);
+    EXPECT_EQ(plant.observers[0].refused_sets[0].assignment, 1U);
+    plant.table.configuration.values[1] = to_scalar(0.5);
+    ASSERT_TRUE(plant.begin());
+    EXPECT_EQ(plant.first.speed_at_birth, 2.0) << "the request for the initial set was not lost";
+}
+
 TEST(SystemParametersTest, ASetThatWasRefusedWhileTheSystemRanIsNoReasonToRefuseTheNextStart) {
     verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
     for (const int frames : {1, 5}) {  // agreed on, and judged

@@ -70,9 +70,11 @@ class ConfigurationAdmin final {
     /// Carries the requests out, for whoever runs the components by himself: before on_initialize of the
     /// first one, before the first on_activated, and between two frames; never while an action of a component
     /// in the table is under way or hangs (the requests wait). An executive does the same in the parts below.
-    /// @return kOk (also when nothing was requested); kBadParameter (a value of the set is refused, which a
-    ///         checked table can only show when memory is corrupted: no value of the set was switched, the
-    ///         request is gone and get_last_finding() names it). Single values are switched in either case.
+    /// @return kOk (also when nothing was requested); kBadParameter (a value of the set is refused: no value
+    ///         of the set was switched, the request is gone and get_last_finding() names it). Single values
+    ///         are switched in either case. Where collect_findings() found nothing before, only corrupted
+    ///         memory can be refused; the compiler alone cannot judge what belongs to a component without a
+    ///         default constructor.
     Status switch_at_frame_boundary() noexcept;
 
     /// @name The same in parts, for executives that share the parameters of one table: each switches those of

@@ -45,8 +45,8 @@ class ExecutionObserver {
         static_cast<void>(failure);
         static_cast<void>(now);
     }
-    /// A configuration set was refused at a frame boundary: no value of it was switched. A checked table can
-    /// only show that when memory is corrupted.
+    /// A configuration set was refused: no value of it was switched. initialize() judges every set of the
+    /// table, so a later refusal, at a frame boundary, shows that memory is corrupted.
     virtual void on_configuration_refused(const ConfigurationFinding& finding, Instant now) noexcept {
         static_cast<void>(finding);
         static_cast<void>(now);

@@ -69,13 +69,14 @@ class Executive {
     Executive& operator=(const Executive&) = delete;
 
     /// Initialises every component of its core that is not alive yet and attaches it to the context of its
-    /// window, in table order. Parameters have the values of the first mode or initial set before. After a
-    /// refusal no context is attached, and a second call goes on where the first ended.
+    /// window, in table order. Parameters have the values of the first mode or initial set before, and every
+    /// value of every set has been judged. After a refusal no context is attached, and a second call goes on
+    /// where the first ended.
     /// @return kOk; kPreconditionNotMet (done before, called from an action, or the table has modes or sets
     ///         but the executive no SystemModes); kBadParameter (the table breaks a rule, see check_all(), a
-    ///         value of the first set is refused, a component participates elsewhere, or the SystemModes is
-    ///         that of another table or has no room for this core); else the code of the on_initialize that
-    ///         refused.
+    ///         value of a set is refused, with nothing switched, a component participates elsewhere, or the
+    ///         SystemModes is that of another table or has no room for this core); else the code of the
+    ///         on_initialize that refused.
     Status initialize() noexcept;
 
     /// Starts every context, then activates every component that the current mode runs, in table order. After
@@ -153,6 +154,7 @@ class Executive {
     void prepare_work() noexcept;
     void begin_frame(Instant release) noexcept;
     Status prepare_parameters() noexcept;
+    bool judge_set(std::size_t set) noexcept;
     Status join_modes() noexcept;
     static bool is_held(const ConnectionRow& connection, ModeMask modes) noexcept {
         return (connection.modes & modes) == modes;
