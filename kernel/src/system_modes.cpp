@@ -28,8 +28,10 @@ std::size_t find_transition(const ModeView& view, std::uint32_t event, std::size
 
 }  // namespace
 
-Status SystemModes::request_event(std::uint32_t event) noexcept {
-    if (find_transition(view_.modes, event, kNoIndex) == kNoIndex) {
+Status SystemModes::request_event(std::uint32_t event, const std::uint8_t* enumeration) noexcept {
+    const std::uint8_t* const known = view_.modes.event_enumeration;
+    const bool is_foreign = known != nullptr && known != enumeration;
+    if (is_foreign || find_transition(view_.modes, event, kNoIndex) == kNoIndex) {
         return Status::kBadParameter;
     }
     const std::size_t transition = find_transition(view_.modes, event, get_mode());

@@ -110,5 +110,23 @@ TEST(ModeCompileFailTest, AnExecutiveOfATableWithModesOrSetsNeedsTheirSwitch) {
     expect_refused("executive_without_modes", needs, "-DMAMORI_BREAK=2");
 }
 
+TEST(ModeCompileFailTest, AnEventOfMoreThan32BitsIsRefused) {
+    verifies("SWR-MOD-003", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("table_enumerators", "events, faults and reactions have at most 32 bits",
+                   "-DMAMORI_BREAK=1");
+}
+
+TEST(ModeCompileFailTest, AFaultOrReactionOfMoreThan32BitsIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const char* option : {"-DMAMORI_BREAK=2", "-DMAMORI_BREAK=3", "-DMAMORI_BREAK=4"}) {
+        expect_refused("table_enumerators", "events, faults and reactions have at most 32 bits", option);
+    }
+}
+
+TEST(ModeCompileFailTest, EventsOfTwoEnumerationsInOneTableAreRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_refused("table_enumerators", "are enumerators of one enumeration", "-DMAMORI_BREAK=5");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -261,6 +261,21 @@ TEST(ModeCornerTest, TheThirtyThirdModeIsRefusedByItsNumber) {
     EXPECT_NE(check(make_view(robot.table)).rule, Rule::kNone) << "read without going past the components";
 }
 
+TEST(ModeCornerTest, AnEnumeratorOfAnotherEnumerationIsNoEventWhateverItsNumber) {
+    verifies("SWR-MOD-004", Technique::kErrorGuessing, Polarity::kViolation);
+    enum class Lamp { kOn = static_cast<int>(Command::kStart) };
+    Robot robot;
+    ASSERT_TRUE(robot.begin());
+    EXPECT_EQ(robot.modes.request(Lamp::kOn), Status::kBadParameter);
+    EXPECT_EQ(robot.modes.request(Command::kStart), Status::kOk);
+
+    Robot by_hand;
+    by_hand.table.modes.event_enumeration = nullptr;
+    SystemModes modes{make_view(by_hand.table)};
+    EXPECT_EQ(modes.request(Lamp::kOn), Status::kOk) << "numbers are all that such a table has";
+    EXPECT_EQ(modes.request(Lamp{99}), Status::kBadParameter);
+}
+
 TEST(ModeCornerTest, ATableWithSetsAloneWantsItsModesToo) {
     verifies("SWR-MOD-008", Technique::kInterface, Polarity::kViolation);
     SmallParts p;

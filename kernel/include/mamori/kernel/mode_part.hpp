@@ -16,9 +16,8 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <type_traits>
 
+#include "mamori/kernel/enumerator.hpp"
 #include "mamori/kernel/mode_table.hpp"
 #include "mamori/kernel/part_types.hpp"
 
@@ -70,18 +69,21 @@ constexpr SystemModePart<Cs...> safe_mode(const char* name, const Runs<Cs...>& m
 }
 
 /// Made by mode_transition().
+template <typename Event>
 struct ModeTransitionPart {
     struct Types : detail::NoTypes {
+        using Events = detail::TypeList<Event>;
         static constexpr std::size_t kModeTransitions = 1U;
     };
     ModeTransitionRow row{};
 };
 /// In mode `source`, `event` leads to mode `target`. An event that a mode has no transition for is refused.
-/// @param[in] source, target names of modes, static storage. @param[in] event enumerator of the application.
+/// @param[in] source, target names of modes, static storage. @param[in] event enumerator of the application,
+///            of at most 32 bits; all events of a table are of one enumeration.
 template <typename Event>
-constexpr ModeTransitionPart mode_transition(const char* source, Event event, const char* target) noexcept {
-    static_assert(std::is_enum_v<Event>, "the event of a transition is an enumerator");
-    return {{source, target, static_cast<std::uint32_t>(event), kNoIndex, kNoIndex}};
+constexpr ModeTransitionPart<Event> mode_transition(const char* source, Event event,
+                                                    const char* target) noexcept {
+    return {{source, target, detail::to_number(event), kNoIndex, kNoIndex}};
 }
 
 }  // namespace mamori

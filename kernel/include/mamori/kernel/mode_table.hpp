@@ -56,6 +56,7 @@ struct ModeTable {
     std::array<ModeMemberRow, kMembers> members{};
     std::array<ModeTransitionRow, kTransitions> transitions{};
     std::array<ConnectionModeRow, kConnectionModes> connection_modes{};
+    const std::uint8_t* event_enumeration{nullptr};  ///< tag of the enumeration of all events
 };
 
 /// The same rows without their sizes in the type; refers to the table, which must outlive it.
@@ -64,12 +65,13 @@ struct ModeView {
     Span<const ModeMemberRow> members{};
     Span<const ModeTransitionRow> transitions{};
     Span<const ConnectionModeRow> connection_modes{};
+    const std::uint8_t* event_enumeration{nullptr};  ///< nullptr: rows filled by hand, for any enumeration
 };
 
 /// @param[in] table must outlive the view.
 template <std::size_t kM, std::size_t kC, std::size_t kT, std::size_t kN>
 constexpr ModeView make_view(const ModeTable<kM, kC, kT, kN>& table) noexcept {
-    return {table.modes, table.members, table.transitions, table.connection_modes};
+    return {table.modes, table.members, table.transitions, table.connection_modes, table.event_enumeration};
 }
 
 /// Mode in which a failed switch ends; kNoIndex when the table declares none. O(modes).

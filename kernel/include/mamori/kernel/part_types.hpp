@@ -20,6 +20,7 @@ struct NoTypes {
     using Ports = TypeList<>;
     using Faults = TypeList<>;
     using Members = TypeList<>;  ///< components that the modes run, mode by mode
+    using Events = TypeList<>;   ///< enumeration of each transition's event
     static constexpr std::size_t kWindows = 0U;
     static constexpr std::size_t kConnections = 0U;
     static constexpr std::size_t kReactions = 0U;
@@ -49,6 +50,7 @@ struct JoinedTypes {
     using Ports = typename Concat<typename TypesOfPart<Parts>::Ports...>::Type;
     using Faults = typename Concat<typename TypesOfPart<Parts>::Faults...>::Type;
     using Members = typename Concat<typename TypesOfPart<Parts>::Members...>::Type;
+    using Events = typename Concat<typename TypesOfPart<Parts>::Events...>::Type;
     static constexpr std::size_t kWindows = (TypesOfPart<Parts>::kWindows + ... + 0U);
     static constexpr std::size_t kConnections = (TypesOfPart<Parts>::kConnections + ... + 0U);
     static constexpr std::size_t kReactions = (TypesOfPart<Parts>::kReactions + ... + 0U);

@@ -7,9 +7,9 @@
 #define MAMORI_KERNEL_REACTION_PART_HPP
 
 #include <cstddef>
-#include <cstdint>
 #include <type_traits>
 
+#include "mamori/kernel/enumerator.hpp"
 #include "mamori/kernel/part_types.hpp"
 #include "mamori/kernel/system_table.hpp"
 #include "mamori/kernel/time.hpp"
@@ -53,12 +53,10 @@ struct ReactionPart {
     };
     ReactionRow row{};
 };
-/// What a fault leads to; both are enumerators of the application or of the safety layer, 0 .. 2^32 - 1.
+/// What a fault leads to; both are enumerators of the application or of the safety layer, of at most 32 bits.
 template <typename Fault, typename Reaction>
 constexpr ReactionPart react(Fault fault, Reaction reaction, Within time) noexcept {
-    static_assert(std::is_enum_v<Fault> && std::is_enum_v<Reaction>,
-                  "a fault and a reaction are enumerators");
-    return {{static_cast<std::uint32_t>(fault), static_cast<std::uint32_t>(reaction), time.limit}};
+    return {{detail::to_number(fault), detail::to_number(reaction), time.limit}};
 }
 
 }  // namespace mamori

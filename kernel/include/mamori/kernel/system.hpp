@@ -68,7 +68,7 @@ constexpr void add_part(Builder& builder, const WindowPart<Cs...>& part) noexcep
 }
 template <typename Builder, auto... kFaults>
 constexpr void add_part(Builder& builder, const FaultsPart<kFaults...>&) noexcept {
-    (builder.add(FaultRow{static_cast<std::uint32_t>(kFaults)}), ...);
+    (builder.add(FaultRow{to_number(kFaults)}), ...);
 }
 template <typename Builder, std::size_t kModeCount>
 constexpr void add_part(Builder& builder, const ConnectionPart<kModeCount>& part) noexcept {
@@ -90,9 +90,10 @@ template <typename Builder, typename... Cs>
 constexpr void add_part(Builder& builder, const SystemModePart<Cs...>& part) noexcept {
     builder.add_mode(part);
 }
-template <typename Builder>
-constexpr void add_part(Builder& builder, const ModeTransitionPart& part) noexcept {
+template <typename Builder, typename Event>
+constexpr void add_part(Builder& builder, const ModeTransitionPart<Event>& part) noexcept {
     builder.add(part.row);
+    builder.table.modes.event_enumeration = &kEnumerationTag<Event>;
 }
 
 template <typename Types>
@@ -116,6 +117,8 @@ template <typename... Parts>
 constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
     using Types = detail::JoinedTypes<Parts...>;
     static_assert(Types::kModes <= kSystemModeMax, "a system has at most 32 modes");
+    static_assert(detail::kIsOfOneType<typename Types::Events>,
+                  "the events of all transitions of a system are enumerators of one enumeration");
     detail::TableBuilder<DescribedSystem<Types>> builder{};
     builder.table.frame = frame_part.length;
     (detail::add_part(builder, parts), ...);

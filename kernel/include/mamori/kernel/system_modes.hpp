@@ -12,10 +12,10 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "mamori/kernel/assert.hpp"
 #include "mamori/kernel/configuration_admin.hpp"
+#include "mamori/kernel/enumerator.hpp"
 #include "mamori/kernel/mode_plan.hpp"
 #include "mamori/kernel/mode_step.hpp"
 #include "mamori/kernel/status.hpp"
@@ -58,14 +58,15 @@ class SystemModes final {
     SystemModes& operator=(const SystemModes&) = delete;
 
     /// Asks for the transition that `event` has in the current mode.
-    /// @param[in] event enumerator of a mode_transition().
+    /// @param[in] event enumerator of a mode_transition(); those of another enumeration are no events,
+    /// whatever
+    ///            their numbers (a table whose rows were filled by hand takes any).
     /// @return kOk: the cores take it two frames later; kBadParameter (no transition has this event);
     ///         kPreconditionNotMet (none in this mode, another request waits, a switch is under way, or a
     ///         failure is latched: ask again, or reset).
     template <typename Event>
     Status request(Event event) noexcept {
-        static_assert(std::is_enum_v<Event>, "the event of a transition is an enumerator");
-        return request_event(static_cast<std::uint32_t>(event));
+        return request_event(detail::to_number(event), &detail::kEnumerationTag<Event>);
     }
     /// Asks for the safe mode, whatever is under way; never refused where there is one.
     /// @return kOk; kUnsupported (the table has no safe mode).
@@ -116,7 +117,7 @@ class SystemModes final {
                    ? static_cast<std::uint32_t>(kNoConfigurationSet)
                    : static_cast<std::uint32_t>(view.modes[0U].set);
     }
-    Status request_event(std::uint32_t event) noexcept;
+    Status request_event(std::uint32_t event, const std::uint8_t* enumeration) noexcept;
     bool is_lead(std::size_t core) const noexcept;
     bool is_finished(ModePlan plan) const noexcept;
     bool is_failing() const noexcept;

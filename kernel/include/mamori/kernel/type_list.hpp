@@ -8,6 +8,7 @@
 #define MAMORI_KERNEL_TYPE_LIST_HPP
 
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 namespace mamori::detail {
@@ -32,6 +33,12 @@ template <typename... Ts, typename... Us, typename... Rest>
 struct Concat<TypeList<Ts...>, TypeList<Us...>, Rest...> {
     using Type = typename Concat<TypeList<Ts..., Us...>, Rest...>::Type;
 };
+
+/// True when all types of a list are the same one.
+template <typename List>
+inline constexpr bool kIsOfOneType = true;
+template <typename First, typename... Rest>
+inline constexpr bool kIsOfOneType<TypeList<First, Rest...>> = (std::is_same_v<First, Rest> && ...);
 
 /// Eight at a time, so that a window of a thousand components stays within the compiler's template depth.
 template <typename... As, typename... Bs, typename... Cs, typename... Ds, typename... Es, typename... Fs,
