@@ -19,8 +19,8 @@ enum class Rule {
     kComponentRowInvalid,  ///< component that is null, with a negative worst case, without a window that has
                            ///< it, or with rows that are not its own
     kPortRowInvalid,       ///< port row that names not exactly one port, or is no row of its owner and window
-    kConnectionRowInvalid,  ///< connection with a null end, without operations or the Crossing that they
-                            ///< need, or of windows, components or ports that it does not join
+    kConnectionRowInvalid,    ///< connection with a null end, without operations or the Crossing that they
+                              ///< need, or of windows, components or ports that it does not join
     kPeriodNotInFrame,        ///< window whose period does not divide the frame
     kWindowOutsideFrame,      ///< window that does not lie inside its period
     kWindowsOverlap,          ///< window; `other` is the earlier listed one of the same core
