@@ -14,7 +14,7 @@ void CoreRunner::run(std::uint64_t frame_count) noexcept {
     const Instant end = start + Duration{static_cast<std::int64_t>(frame_count) * frame};
     FrameSchedule schedule{executive_.get_view(), executive_.get_core(), start};
     while (schedule.get_next().release < end && !is_stop_wanted_.load(std::memory_order_relaxed)) {
-        clock_.sleep_until(schedule.get_next().release);
+        clock_.wait_until(schedule.get_next().release);
         if (!is_stop_wanted_.load(std::memory_order_relaxed)) {
             open(schedule.get_next());
         }

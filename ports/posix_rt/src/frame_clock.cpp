@@ -37,7 +37,7 @@ timespec FrameClock::to_timespec(Instant instant) const noexcept {
     return result;
 }
 
-void FrameClock::sleep_until(Instant instant) const noexcept {
+void FrameClock::wait_until(Instant instant) const noexcept {
     const timespec at = to_timespec(instant);
     int result = EINTR;
     while (result == EINTR) {

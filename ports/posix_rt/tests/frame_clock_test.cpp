@@ -62,7 +62,7 @@ TEST(FrameClockTest, ASleepThatSignalsInterruptEndsNoSooner) {
     ASSERT_EQ(setitimer(ITIMER_REAL, &each_2_ms, nullptr), 0);
     const FrameClock sut = FrameClock::starting_in(0_ms);
 
-    sut.sleep_until(Instant{0} + 50_ms);
+    sut.wait_until(Instant{0} + 50_ms);
     const Instant woken = sut.get_now();
 
     const itimerval none{};
@@ -76,8 +76,8 @@ TEST(FrameClockTest, AnInstantThatHasPassedIsNotWaitedFor) {
     verifies("SWR-PRT-001", Technique::kBoundaryValues);
     const FrameClock sut = FrameClock::starting_in(0_ms);
 
-    sut.sleep_until(Instant{0} - 1_s);
-    sut.sleep_until(sut.get_now());
+    sut.wait_until(Instant{0} - 1_s);
+    sut.wait_until(sut.get_now());
     SUCCEED() << "it came back";
 }
 

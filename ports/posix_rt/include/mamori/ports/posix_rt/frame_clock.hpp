@@ -27,7 +27,7 @@ class FrameClock final {
     /// zero.
     timespec to_timespec(Instant instant) const noexcept;
     /// Returns at `instant` or later, however often a signal comes in between; at once when it has passed.
-    void sleep_until(Instant instant) const noexcept;
+    void wait_until(Instant instant) const noexcept;
 
   private:
     constexpr explicit FrameClock(std::int64_t epoch_ns) noexcept : epoch_ns_(epoch_ns) {}
