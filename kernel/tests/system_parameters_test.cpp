@@ -248,6 +248,19 @@ TEST(SystemParametersTest, ASetThatIsRefusedAtAStartIsRefusedOnce) {
     EXPECT_EQ(plant.first.speed_at_start, 0.5);
 }
 
+TEST(SystemParametersTest, AResetOfATableWithoutModesKeepsTheSetThatHolds) {
+    verifies("SWR-MOD-008", Technique::kStateTransition);
+    Plant plant{1U};
+    ASSERT_TRUE(plant.begin());
+    ASSERT_EQ(plant.modes.get_configuration().set_value(plant.second.speed, 0.7), Status::kOk);
+    plant.run_frames(1);
+    plant.stop();
+    ASSERT_EQ(plant.modes.reset(), Status::kOk);
+
+    ASSERT_TRUE(plant.start());
+    EXPECT_EQ(plant.second.speed_at_start, 2.0);
+}
+
 TEST(SystemParametersTest, ASetThatHoldsAndIsCorruptedLaterKeepsTheSystemFromStarting) {
     verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
     Plant plant{1U};

@@ -40,7 +40,8 @@ inline constexpr std::int64_t kModeStepFrames = 3;
 ///
 /// Thread safety: requests and get_...() from any thread, without waiting; the part for executives each core
 ///                from its own context.
-/// Time:          O(transitions) for a request, O(cores + sets) per frame. Nothing blocks.
+/// Time:          O(transitions) for a request; O(cores) per frame, and O(values of the set) in the one in
+///                which a step with a set is over. Nothing blocks.
 /// Memory:        no heap; refers to the table.
 class SystemModes final {
   public:
