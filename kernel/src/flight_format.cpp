@@ -85,7 +85,7 @@ Status check_header(const HeaderBytes& bytes, std::size_t capacity) noexcept {
 
 SessionBytes encode_session(const FlightSession& session) noexcept {
     SessionBytes bytes{};
-    put(bytes, 0U, session.first_sequence);
+    put(bytes, 0U, session.next_sequence);
     put(bytes, 8U, session.number);
     put(bytes, kSessionCrcOffset, calc_crc(bytes, kSessionCrcOffset));
     return bytes;
@@ -94,7 +94,7 @@ SessionBytes encode_session(const FlightSession& session) noexcept {
 FlightSession decode_session(const SessionBytes& bytes) noexcept {
     const FlightSession session{get<std::uint32_t>(bytes, 8U), get<std::uint64_t>(bytes, 0U)};
     const bool is_whole = get<std::uint32_t>(bytes, kSessionCrcOffset) == calc_crc(bytes, kSessionCrcOffset);
-    const bool is_possible = session.first_sequence >= 1U && session.first_sequence <= kSequenceMax;
+    const bool is_possible = session.next_sequence >= 1U && session.next_sequence <= kSequenceMax;
     return is_whole && is_possible ? session : FlightSession{};
 }
 

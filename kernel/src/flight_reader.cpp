@@ -40,16 +40,23 @@ SlotState FlightReader::read(std::size_t slot, FlightRecord& record) const noexc
     return flight::decode_record(copy<flight::kRecordSize>(region_, offset), slot, capacity_, record);
 }
 
-FlightSession FlightReader::calc_session() const noexcept {
-    FlightSession newest{};
-    for (const std::size_t offset : flight::kSessionOffsets) {
-        if (capacity_ == 0U) {
-            break;
-        }
-        const FlightSession session = flight::decode_session(copy<flight::kSessionSize>(region_, offset));
-        newest = session.number > newest.number ? session : newest;
+FlightSession FlightReader::read_session(std::size_t place) const noexcept {
+    if (capacity_ == 0U) {
+        return {};
     }
-    return newest;
+    return flight::decode_session(copy<flight::kSessionSize>(region_, flight::kSessionOffsets[place]));
+}
+
+std::size_t FlightReader::calc_session_place() const noexcept {
+    const FlightSession first = read_session(0U);
+    const FlightSession second = read_session(1U);
+    const bool is_second_newer = second.number != first.number ? second.number > first.number
+                                                               : second.next_sequence > first.next_sequence;
+    return is_second_newer ? 1U : 0U;
+}
+
+FlightSession FlightReader::calc_session() const noexcept {
+    return read_session(calc_session_place());
 }
 
 std::uint64_t FlightReader::calc_newest_sequence() const noexcept {

@@ -38,7 +38,8 @@ bool is_blank(Span<const std::byte> region) noexcept {
     return true;
 }
 
-/// Newest session and newest record that can be read, wherever they are told of.
+/// The newest session, whether header or records tell of it, with the newest note of the header. Number 0:
+/// neither tells of any.
 FlightSession find_newest(const FlightReader& reader) noexcept {
     FlightSession newest = reader.calc_session();
     FlightRecord record{};
@@ -50,15 +51,29 @@ FlightSession find_newest(const FlightReader& reader) noexcept {
     return newest;
 }
 
-/// Number for the next record: behind every one that can be read and behind the slots after it that cannot,
-/// since their numbers may have been given. @param[in] first_of_session 0: no session is known.
-std::uint64_t find_next_sequence(const FlightReader& reader, std::uint64_t first_of_session) noexcept {
+bool is_without_slot_in_use(const FlightReader& reader) noexcept {
+    FlightRecord record{};
+    for (std::size_t slot = 0U; slot < reader.get_capacity(); ++slot) {
+        if (reader.read(slot, record) != SlotState::kEmpty) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Number for the next record: behind every one that can be read, not below the newest note of the header,
+/// and behind the slots after it that cannot be read, since their numbers may have been given. At most
+/// `capacity` numbers were given from the note on, so nothing is given twice even where no record can be
+/// read.
+std::uint64_t find_next_sequence(const FlightReader& reader, std::uint64_t noted) noexcept {
     const std::uint64_t newest = reader.calc_newest_sequence();
-    std::uint64_t next = newest < first_of_session ? first_of_session : newest + 1U;
+    std::uint64_t next = newest < noted ? noted : newest + 1U;
     FlightRecord record{};
     for (std::size_t i = 0U; i < reader.get_capacity(); ++i) {
         const SlotState state = reader.read(flight::calc_slot(next, reader.get_capacity()), record);
-        if (state != SlotState::kTorn && state != SlotState::kCorrupt) {
+        // In the first turn of the ring a slot is empty until its number is given; afterwards it was wiped.
+        const bool is_unwritten = state == SlotState::kEmpty && next <= reader.get_capacity();
+        if (state == SlotState::kWhole || is_unwritten) {
             break;
         }
         ++next;
@@ -102,24 +117,37 @@ Status FlightRecorder::open(Span<std::byte> region) noexcept {
         return status;
     }
     const FlightSession before = find_newest(reader);
-    const std::uint64_t next = find_next_sequence(reader, before.first_sequence);
+    if (before.number == 0U && !is_without_slot_in_use(reader)) {
+        return Status::kError;
+    }
+    const std::uint64_t next = find_next_sequence(reader, before.next_sequence);
     if (next > flight::kSequenceMax || before.number == std::numeric_limits<std::uint32_t>::max()) {
         return Status::kOutOfResources;
     }
-    const FlightSession session{before.number + 1U, next};
-    // Two places take turns, so one of them is whole whenever this ends.
-    store(region, flight::kSessionOffsets[session.number % 2U], flight::encode_session(session));
     region_ = region;
     capacity_ = reader.get_capacity();
-    session_ = session.number;
+    session_ = before.number + 1U;
     next_sequence_ = next;
     next_slot_ = flight::calc_slot(next, capacity_);
+    note_place_ = 1U - reader.calc_session_place();
+    note_progress();
     return Status::kOk;
+}
+
+void FlightRecorder::note_progress() noexcept {
+    // Two places take turns, so one of them is whole whenever this ends.
+    store(region_, flight::kSessionOffsets[note_place_], flight::encode_session({session_, next_sequence_}));
+    order_stores();
+    note_place_ = 1U - note_place_;
+    noted_until_ = next_sequence_ + capacity_;
 }
 
 void FlightRecorder::write(Instant time, Severity severity, std::uint16_t source, std::uint16_t code,
                            std::int64_t argument) noexcept {
     MAMORI_REQUIRE(1, is_open());
+    if (next_sequence_ == noted_until_) {
+        note_progress();
+    }
     const FlightRecord record{next_sequence_, time, argument, session_, source, code, severity};
     const flight::RecordBytes bytes = flight::encode_record(record);
     const std::size_t begin = flight::calc_region_size(next_slot_);

@@ -64,8 +64,8 @@ TEST(FlightFormatTest, BytesOfARecordAreThoseOfTheDesign) {
 TEST(FlightFormatTest, BytesOfTheHeaderAreThoseOfTheDesign) {
     verifies("SWR-REC-001", Technique::kBackToBack);
     const std::array<std::uint8_t, 24U> fixed{0x89U, 0x4DU, 0x52U, 0x45U, 0x43U, 0x0DU, 0x0AU, 0x1AU,
-                                              0x01U, 0x00U, 0x40U, 0x00U, 0x28U, 0x00U, 0x00U, 0x00U,
-                                              0x03U, 0x00U, 0x00U, 0x00U, 0x60U, 0x33U, 0x47U, 0x44U};
+                                              0x02U, 0x00U, 0x40U, 0x00U, 0x28U, 0x00U, 0x00U, 0x00U,
+                                              0x03U, 0x00U, 0x00U, 0x00U, 0x90U, 0xE1U, 0xD9U, 0x33U};
     const SessionBytes session{0x05U, 0x00U, 0x00U, 0x00U, 0x00U, 0x00U, 0x00U, 0x00U,
                                0x02U, 0x00U, 0x00U, 0x00U, 0xF4U, 0x79U, 0x7FU, 0x49U};
 
@@ -74,7 +74,7 @@ TEST(FlightFormatTest, BytesOfTheHeaderAreThoseOfTheDesign) {
     EXPECT_TRUE(std::all_of(header.begin() + 24, header.end(), [](std::uint8_t byte) { return byte == 0U; }));
     EXPECT_EQ(encode_session({2U, 5U}), session);
     EXPECT_EQ(decode_session(session).number, 2U);
-    EXPECT_EQ(decode_session(session).first_sequence, 5U);
+    EXPECT_EQ(decode_session(session).next_sequence, 5U);
 }
 
 TEST(FlightFormatTest, WhatDoesNotBeginLikeARecorderIsForeignWhateverVersionItShows) {

@@ -49,7 +49,7 @@ TEST(FlightReaderTest, GivesBackWhatWasWritten) {
     EXPECT_EQ(sut.get_capacity(), 4U);
     EXPECT_EQ(sut.calc_newest_sequence(), 2U);
     EXPECT_EQ(sut.calc_session().number, 1U);
-    EXPECT_EQ(sut.calc_session().first_sequence, 1U);
+    EXPECT_EQ(sut.calc_session().next_sequence, 1U);
     ASSERT_EQ(sut.read(1U, record), SlotState::kWhole);
     EXPECT_EQ(record.sequence, 2U);
     EXPECT_EQ(record.session, 1U);
@@ -145,12 +145,34 @@ TEST(FlightReaderTest, SessionIsTheNewerOfTwoOrTheOneThatIsLeft) {
     FlightReader sut;
     ASSERT_EQ(sut.open(view_const(region)), Status::kOk);
     EXPECT_EQ(sut.calc_session().number, 2U);
-    EXPECT_EQ(sut.calc_session().first_sequence, 2U);
+    EXPECT_EQ(sut.calc_session().next_sequence, 2U);
+
+    EXPECT_EQ(sut.calc_session_place(), 0U);
 
     region[flight::kSessionOffsets[0]] ^= std::byte{1U};
     EXPECT_EQ(sut.calc_session().number, 1U);
+    EXPECT_EQ(sut.calc_session_place(), 1U);
     region[flight::kSessionOffsets[1]] ^= std::byte{1U};
     EXPECT_EQ(sut.calc_session().number, 0U);
+    EXPECT_EQ(sut.calc_session_place(), 0U);
+}
+
+TEST(FlightReaderTest, OfTwoNotesOfOneSessionTheOneThatCameFurtherCounts) {
+    verifies("SWR-REC-006", Technique::kBoundaryValues);
+    for (const std::size_t newer : {0U, 1U}) {
+        Region region = make_region(2U, 0);
+        for (const std::size_t place : {0U, 1U}) {
+            const flight::SessionBytes bytes = flight::encode_session({1U, place == newer ? 4U : 3U});
+            for (std::size_t i = 0U; i < bytes.size(); ++i) {
+                region[flight::kSessionOffsets[place] + i] = std::byte{bytes[i]};
+            }
+        }
+        FlightReader sut;
+        ASSERT_EQ(sut.open(view_const(region)), Status::kOk);
+
+        EXPECT_EQ(sut.calc_session_place(), newer);
+        EXPECT_EQ(sut.calc_session().next_sequence, 4U);
+    }
 }
 
 }  // namespace

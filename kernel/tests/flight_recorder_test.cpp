@@ -161,6 +161,72 @@ TEST_F(FlightRecorderTest, RingWithoutAnyReadableRecordGoesOnBehindItsSession) {
     EXPECT_EQ(third.get_next_sequence(), 10U + kCapacity);
 }
 
+TEST_F(FlightRecorderTest, NoNumberIsGivenAgainWhateverSlotsAreSpoiledOrWipedHowManyWereGiven) {
+    verifies("SWR-REC-006", Technique::kFaultInjection, Polarity::kViolation);
+    for (int count = 1; count <= 14; ++count) {
+        for (unsigned spoiled = 0U; spoiled < 1U << kCapacity; ++spoiled) {
+            // Empty slots of the first turn were never written, for all that anybody can tell.
+            for (const bool is_wiped : {false, true}) {
+                if (is_wiped && count <= static_cast<int>(kCapacity)) {
+                    continue;
+                }
+                memory_.assign(memory_.size(), std::byte{0U});
+                FlightRecorder first;
+                ASSERT_EQ(first.open(region()), Status::kOk);
+                write(first, count);
+                const std::uint64_t next = first.get_next_sequence();
+                for (std::size_t slot = 0U; slot < kCapacity; ++slot) {
+                    for (std::size_t i = 0U; i < flight::kRecordSize && (spoiled >> slot) % 2U == 1U; ++i) {
+                        std::byte& byte = byte_of_slot(slot, i);
+                        byte = is_wiped ? std::byte{0U} : byte ^ std::byte{0x21U};
+                    }
+                }
+
+                FlightRecorder second;
+                ASSERT_EQ(second.open(region()), Status::kOk);
+                EXPECT_GE(second.get_next_sequence(), next) << count << " records, spoiled " << spoiled;
+                EXPECT_LE(second.get_next_sequence(), next + kCapacity);
+                EXPECT_EQ(second.get_session(), 2U);
+            }
+        }
+    }
+}
+
+TEST_F(FlightRecorderTest, NumbersThatNobodyKnowsAnyMoreAreRefused) {
+    verifies("SWR-REC-006", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    write(sut_, 9);
+    for (const std::size_t offset : flight::kSessionOffsets) {
+        memory_[offset] ^= std::byte{1U};
+    }
+    for (std::size_t slot = 1U; slot < kCapacity; ++slot) {
+        byte_of_slot(slot, 0U) ^= std::byte{0x80U};
+    }
+    std::vector<std::byte> one_left = memory_;
+    byte_of_slot(0U, 0U) ^= std::byte{0x80U};
+    const std::vector<std::byte> before = memory_;
+
+    FlightRecorder second;
+    EXPECT_EQ(second.open(region()), Status::kError);
+    EXPECT_FALSE(second.is_open());
+    EXPECT_EQ(memory_, before);
+    EXPECT_EQ(second.open({one_left.data(), one_left.size()}), Status::kOk) << "one record tells";
+    EXPECT_EQ(second.get_next_sequence(), 9U + kCapacity);
+}
+
+TEST_F(FlightRecorderTest, HeaderThatForgotItsSessionOpensWhenNothingWasEverWritten) {
+    verifies("SWR-REC-006", Technique::kBoundaryValues);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    for (const std::size_t offset : flight::kSessionOffsets) {
+        memory_[offset] ^= std::byte{1U};
+    }
+
+    FlightRecorder second;
+    ASSERT_EQ(second.open(region()), Status::kOk);
+    EXPECT_EQ(second.get_session(), 1U);
+    EXPECT_EQ(second.get_next_sequence(), 1U);
+}
+
 TEST_F(FlightRecorderTest, SessionIsKnownFromTheRecordsWhenTheHeaderForgotIt) {
     verifies("SWR-REC-006", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(sut_.open(region()), Status::kOk);
@@ -204,7 +270,9 @@ TEST_F(FlightRecorderTest, SessionIsKnownFromARecordInWhateverSlotItLies) {
 TEST_F(FlightRecorderTest, UsedUpRecordNumbersAreRefused) {
     verifies("SWR-REC-007", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
-    plant({flight::kSequenceMax - 1U, {}, 0, 1U, 0U, 0U, Severity::kInfo});
+    for (std::uint64_t i = kCapacity; i > 0U; --i) {
+        plant({flight::kSequenceMax - i, {}, 0, 1U, 0U, 0U, Severity::kInfo});
+    }
     EXPECT_EQ(sut_.open(region()), Status::kOk);
     EXPECT_EQ(sut_.get_next_sequence(), flight::kSequenceMax);
 
@@ -244,7 +312,7 @@ TEST_F(FlightRecorderTest, ForeignRegionIsRefusedAndLeftAsItWas) {
 TEST_F(FlightRecorderTest, RegionOfANewerVersionIsRefusedAndLeftAsItWas) {
     verifies("SWR-REC-007", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);
-    memory_[flight::kVersionOffset] = std::byte{2U};
+    memory_[flight::kVersionOffset] = std::byte{flight::kVersion + 1U};
     const std::vector<std::byte> before = memory_;
 
     EXPECT_EQ(sut_.open(region()), Status::kUnsupported);

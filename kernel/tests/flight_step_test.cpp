@@ -152,6 +152,33 @@ TEST_F(FlightStepTest, ASessionGoesOnAfterEachInstructionOfAWrite) {
     }
 }
 
+TEST_F(FlightStepTest, NoNumberIsGivenAgainAfterEachInstructionOfAWriteAndTheLossOfAllRecords) {
+    verifies("SWR-REC-006", Technique::kFaultInjection, Polarity::kViolation);
+    for (std::uint64_t sequence = 6U; sequence < 6U + 2U * kCapacity; ++sequence) {
+        before_ = Bytes(region_.begin(), region_.end());
+        const std::vector<Bytes> contents = step_through([this] { write_next(recorder_); });
+        if (contents.empty()) {
+            GTEST_SKIP() << "this machine does not let one process lead another (ptrace)";
+        }
+
+        for (std::size_t i = 0U; i < contents.size(); ++i) {
+            Bytes bytes = contents[i];
+            const bool is_given = holds(bytes, sequence);
+            for (std::size_t slot = 0U; slot < kCapacity; ++slot) {
+                bytes[flight::calc_region_size(slot)] ^= std::byte{0x80U};
+                bytes[flight::calc_region_size(slot) + flight::kCommitOffset] = std::byte{1U};
+            }
+            FlightRecorder next;
+            ASSERT_EQ(next.open(view(bytes)), Status::kOk) << i;
+            EXPECT_EQ(next.get_session(), 2U) << i;
+            EXPECT_GE(next.get_next_sequence(), is_given ? sequence + 1U : sequence) << i;
+            EXPECT_LE(next.get_next_sequence(), sequence + kCapacity) << i;
+        }
+        // What the child did went into the memory, but not into this process's recorder.
+        write_next(recorder_);
+    }
+}
+
 TEST_F(FlightStepTest, EachInstructionOfAnOpeningLeavesARecorderThatOpens) {
     verifies("SWR-REC-003", Technique::kFaultInjection, Polarity::kViolation);
     const std::vector<Bytes> contents = step_through([this] {

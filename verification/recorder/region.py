@@ -17,7 +17,7 @@ from pathlib import Path
 from mamori.profiles.input_error import InputError
 
 MAGIC = b"\x89MREC\r\n\x1a"
-VERSION = 1
+VERSION = 2
 HEADER = struct.Struct("<8sHHHHII")
 HEADER_BYTES = 64
 SESSION = struct.Struct("<QII")

@@ -139,7 +139,7 @@ def test_records_behind_a_damaged_header_are_read(tmp_path: Path, place: int) ->
         (b"x", "is no recorder file"),
         (make_header(4)[:40], "is cut in its header, after 40 bytes"),
         (make_header(4)[:8], "is cut in its header, after 8 bytes"),
-        (make_file(4, [make_record(1)], version=2), "is of format version 2, this release reads 1"),
+        (make_file(4, [make_record(1)], version=1), "is of format version 1, this release reads 2"),
     ],
 )
 def test_file_without_anything_to_print_is_refused_with_its_cause(tmp_path: Path, data: bytes, sentence: str) -> None:

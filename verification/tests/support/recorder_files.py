@@ -12,7 +12,7 @@ HEADER_BYTES = 64
 RECORD_BYTES = 40
 
 
-def make_header(capacity: int, version: int = 1, session: int = 1) -> bytes:
+def make_header(capacity: int, version: int = 2, session: int = 1) -> bytes:
     fixed = b"\x89MREC\r\n\x1a" + struct.pack("<HHHHI", version, HEADER_BYTES, RECORD_BYTES, 0, capacity)
     cell = struct.pack("<QI", 1, session)
     cells = [bytes(16), bytes(16)]

@@ -36,10 +36,12 @@ enum class SlotState : std::uint8_t {
     kCorrupt,  ///< written, but changed since, or not of this place
 };
 
-/// Which opening of the region is, or was, at work.
+/// Which opening of the region is, or was, at work, and how far it had come when it last said so: at its
+/// beginning, and before each record that goes into slot 0.
 struct FlightSession {
-    std::uint32_t number{0U};          ///< 1, 2, ...; 0: none
-    std::uint64_t first_sequence{0U};  ///< number of its first record
+    std::uint32_t number{0U};         ///< 1, 2, ...; 0: none
+    std::uint64_t next_sequence{0U};  ///< given to no record yet; this plus the capacity is never given
+                                      ///< before the session says so again
 };
 
 namespace flight {
@@ -47,14 +49,15 @@ namespace flight {
 inline constexpr std::size_t kHeaderSize = 64U;   ///< [byte]
 inline constexpr std::size_t kRecordSize = 40U;   ///< [byte]
 inline constexpr std::size_t kSessionSize = 16U;  ///< [byte]
-inline constexpr std::uint16_t kVersion = 1U;     ///< of this layout
+inline constexpr std::uint16_t kVersion = 2U;     ///< of this layout
 /// A file that went through a text conversion, or lost its eighth bits, no longer begins like this.
 inline constexpr std::array<std::uint8_t, 8U> kMagic{0x89U, 'M', 'R', 'E', 'C', '\r', '\n', 0x1AU};
 /// Largest number of a record: 146 years at one record per nanosecond. A larger one is no number of ours.
 inline constexpr std::uint64_t kSequenceMax = std::uint64_t{1} << 62U;
 
 inline constexpr std::size_t kVersionOffset = 8U;  ///< in the header [byte]
-/// Of the two sessions in the header [byte]: the newest one and the one before, in turns.
+/// Of the two places for the session in the header [byte]: what it says now and what it said before, in
+/// turns.
 inline constexpr std::array<std::size_t, 2U> kSessionOffsets{24U, 40U};
 /// Byte of a record [byte] that is written first, as 0, and last, as kCommitted.
 inline constexpr std::size_t kCommitOffset = 35U;

@@ -38,12 +38,17 @@ class FlightReader final {
     /// @return as flight::decode_record(). O(1).
     SlotState read(std::size_t slot, FlightRecord& record) const noexcept;
 
-    /// The newest session that the header knows; number 0 when it knows none. O(1).
+    /// The newest that the header knows of a session; number 0 when it knows none. O(1).
     FlightSession calc_session() const noexcept;
+    /// Which of flight::kSessionOffsets tells of it; 0 when neither does. O(1).
+    std::size_t calc_session_place() const noexcept;
     /// Number of the newest whole record, 0 without one. O(capacity).
     std::uint64_t calc_newest_sequence() const noexcept;
 
   private:
+    /// @param[in] place 0 or 1: index into flight::kSessionOffsets.
+    FlightSession read_session(std::size_t place) const noexcept;
+
     Span<const std::byte> region_{};
     std::size_t capacity_{0U};
 };

@@ -38,8 +38,9 @@ class FlightRecorder final {
     /// @param[in] region any alignment; must outlive this object.
     /// @return kOk; kBadParameter (room for no record, or for more than 2^32 - 1);
     ///         kPreconditionNotMet (open already); kUnsupported (written by another format version); kError
-    ///         (foreign, damaged header, or written for another size); kOutOfResources (record numbers used
-    ///         up). Unless kOk, neither region nor recorder was changed: the caller decides about format().
+    ///         (foreign, damaged header, written for another size, or damaged so that neither header nor any
+    ///         record tells which numbers were given); kOutOfResources (record numbers used up). Unless kOk,
+    ///         neither region nor recorder was changed: the caller decides about format().
     Status open(Span<std::byte> region) noexcept;
 
     /// Ends the session; the region may go.
@@ -59,11 +60,16 @@ class FlightRecorder final {
     std::uint64_t get_overwritten_count() const noexcept { return overwritten_count_; }
 
   private:
+    /// Notes in the header that next_sequence_ comes next, in the place that does not hold the newest note.
+    void note_progress() noexcept;
+
     Span<std::byte> region_{};
     std::size_t capacity_{0U};
     std::size_t next_slot_{0U};  ///< that of next_sequence_: no division when a record is written
+    std::size_t note_place_{0U};  ///< index into flight::kSessionOffsets of the next note
     std::uint32_t session_{0U};
     std::uint64_t next_sequence_{0U};
+    std::uint64_t noted_until_{0U};  ///< the newest note in the header covers the numbers below this one
     std::uint64_t overwritten_count_{0U};
 };
 
