@@ -67,8 +67,10 @@ class Recording:
     findings: tuple[Finding, ...]
 
     @property
-    def overwritten(self) -> int:
-        """Records of the ring's earlier turns."""
+    def overwritten(self) -> int | None:
+        """Records of the ring's earlier turns; None where the newest record or the size of the ring is not known."""
+        if self.count("cut") or self.count("header"):
+            return None
         return max(0, self.records[-1].sequence - self.capacity) if self.records else 0
 
     def count(self, kind: str) -> int:
@@ -77,8 +79,10 @@ class Recording:
 
 @dataclass
 class _Ring:
-    """Slots as they were read."""
+    """Slots as they were read: the first `slot_count` of a ring of `capacity`; the file may be cut behind them."""
 
+    capacity: int
+    slot_count: int
     records: list[Record] = field(default_factory=list)
     damaged: list[tuple[int, str]] = field(default_factory=list)  # slot, kind
 
@@ -100,7 +104,7 @@ def read_recording(path: Path) -> Recording:
         raise InputError(f"is no recorder file ({problem}); name the file that a flight recorder wrote", path)
     ring.records.sort(key=lambda record: record.sequence)
     if ring.records and not problem:
-        findings.extend(_find_missing(ring, capacity))
+        findings.extend(_find_missing(ring))
     else:
         findings.extend(_describe_damage(kind, slot, 0, "") for slot, kind in ring.damaged)
     findings.sort(key=lambda finding: (finding.place, finding.offset))
@@ -150,15 +154,16 @@ def _check_length(length: int, capacity: int) -> Iterator[Finding]:
     if length < wanted:
         whole = (length - HEADER_BYTES) // RECORD.size
         yield Finding("cut", SEQUENCE_MAX + 1, length,
-                      f"the file ends here, at {length} of {wanted} bytes: {capacity - whole} of {capacity} slots are cut off")
+                      f"the file ends here, at {length} of {wanted} bytes: {capacity - whole} of {capacity} slots are cut off; "
+                      "the records there may be older or newer than those shown")
     elif length > wanted:
         yield Finding("trailing", SEQUENCE_MAX + 1, wanted, f"{length - wanted} bytes behind the end of the recorder")
 
 
 def _read_slots(data: bytes, capacity: int, is_place_known: bool) -> _Ring:
-    ring = _Ring()
+    ring = _Ring(capacity, min(capacity, (len(data) - HEADER_BYTES) // RECORD.size))
     blank = bytes(RECORD.size)
-    for slot in range(min(capacity, (len(data) - HEADER_BYTES) // RECORD.size)):
+    for slot in range(ring.slot_count):
         offset = _offset_of(slot)
         raw = data[offset : offset + RECORD.size]
         if raw == blank:
@@ -174,8 +179,9 @@ def _read_slots(data: bytes, capacity: int, is_place_known: bool) -> _Ring:
     return ring
 
 
-def _find_missing(ring: _Ring, capacity: int) -> Iterator[Finding]:
-    """Findings of the ring: each slot ought to hold the one number of the newest turn that belongs to it."""
+def _find_missing(ring: _Ring) -> Iterator[Finding]:
+    """Findings of the ring: each slot that is there ought to hold the one number of the newest turn that belongs to it."""
+    capacity = ring.capacity
     newest = ring.records[-1].sequence
     first = max(1, newest - capacity + 1)
     have = {record.sequence for record in ring.records}
@@ -186,15 +192,16 @@ def _find_missing(ring: _Ring, capacity: int) -> Iterator[Finding]:
         number += capacity if number < 1 else 0
         before = number - capacity if number > newest else 0
         explained |= {number, before}
-        yield _describe_damage(kind, slot, number, f"record {number}{f' or {before}' if before > 0 else ''}, ")
+        # The newest may be among the records that are cut off: then the number is a place to print at, and no more.
+        is_known = ring.slot_count == capacity
+        yield _describe_damage(kind, slot, number, f"record {number}{f' or {before}' if before > 0 else ''}, " if is_known else "")
     for record in ring.records:
         if record.sequence < first:
             yield Finding("stale", record.sequence, record.offset,
                           f"record {record.sequence} is of an earlier turn of the ring; the one that replaced it did not arrive")
     before = first - 1
     for number in sorted(number for number in have | explained if first <= number <= newest):
-        if number > before + 1:
-            yield _describe_gap(before + 1, number - 1, capacity)
+        yield from _describe_gap(before + 1, number - 1, ring)
         before = number
 
 
@@ -203,9 +210,14 @@ def _describe_damage(kind: str, slot: int, number: int, what: str) -> Finding:
     return Finding(kind, number, _offset_of(slot), f"{what}slot {slot}: {why}")
 
 
-def _describe_gap(begin: int, end: int, capacity: int) -> Finding:
-    numbers = f"record {begin} is" if begin == end else f"records {begin} to {end} are"
-    return Finding("missing", begin, _offset_of((begin - 1) % capacity), f"{numbers} missing")
+def _describe_gap(first: int, last: int, ring: _Ring) -> Iterator[Finding]:
+    """Numbers `first` to `last`, less than a turn, as far as their slots are there: nobody knows what the others hold."""
+    for turn in range((first - 1) // ring.capacity, (last - 1) // ring.capacity + 1):
+        begin = max(first, turn * ring.capacity + 1)
+        end = min(last, turn * ring.capacity + ring.slot_count)
+        if begin <= end:
+            numbers = f"record {begin} is" if begin == end else f"records {begin} to {end} are"
+            yield Finding("missing", begin, _offset_of((begin - 1) % ring.capacity), f"{numbers} missing")
 
 
 def _read_session(data: bytes) -> int:

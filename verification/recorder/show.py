@@ -47,7 +47,8 @@ def format_summary(recording: Recording) -> str:
     parts = [f"{len(records)} record{'' if len(records) == 1 else 's'}"]
     if records:
         parts[0] += f", numbers {records[0].sequence} to {records[-1].sequence}"
-    parts += [f"session {recording.session}", f"room for {recording.capacity}", f"{recording.overwritten} overwritten before"]
+    overwritten = "unknown how many" if recording.overwritten is None else str(recording.overwritten)
+    parts += [f"session {recording.session}", f"room for {recording.capacity}", f"{overwritten} overwritten before"]
     return "; ".join([*parts, format_damage(recording) or "no damage"])
 
 

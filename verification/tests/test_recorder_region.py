@@ -110,6 +110,43 @@ def test_cut_file_gives_what_is_left(tmp_path: Path, length: int) -> None:
     assert ("cut", length) in findings(recording)
 
 
+@pytest.mark.verifies("SWR-REC-013", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize("newest", range(1, 25))
+@pytest.mark.parametrize("slots", range(8))
+def test_cut_file_claims_nothing_about_the_slots_that_are_gone(tmp_path: Path, newest: int, slots: int) -> None:
+    whole = make_file(8, [make_record(number) for number in range(1, newest + 1)])
+
+    recording = read(tmp_path, whole[: HEADER_BYTES + slots * RECORD_BYTES + 17])
+
+    assert [finding.kind for finding in recording.findings] == ["cut"]
+    assert f"{8 - slots} of 8 slots are cut off" in recording.findings[0].text
+    assert "may be older or newer than those shown" in recording.findings[0].text
+    assert recording.overwritten is None
+
+
+@pytest.mark.verifies("SWR-REC-013", technique="fault_injection", polarity="violation")
+def test_cut_file_still_names_what_is_missing_before_the_cut(tmp_path: Path) -> None:
+    numbers = [number for number in range(9, 17) if number not in (10, 12)]
+    data = bytearray(make_file(8, [make_record(number) for number in numbers])[: HEADER_BYTES + 5 * RECORD_BYTES])
+    data[HEADER_BYTES] ^= 1
+
+    recording = read(tmp_path, bytes(data))
+
+    assert sequences(recording) == [11, 13]
+    assert [finding.text for finding in recording.findings if finding.kind == "missing"] == ["record 10 is missing", "record 12 is missing"]
+    assert recording.findings[0].text == "slot 0: its bytes are not what was written", "it may have held 9 or 17"
+
+
+@pytest.mark.verifies("SWR-REC-013", technique="boundary_values", polarity="violation")
+def test_gap_that_begins_in_one_turn_and_ends_in_the_next_is_named_up_to_the_cut(tmp_path: Path) -> None:
+    data = make_file(8, [make_record(number) for number in (4, 11)])[: HEADER_BYTES + 6 * RECORD_BYTES]
+
+    recording = read(tmp_path, data)
+
+    assert [finding.text for finding in recording.findings if finding.kind == "missing"] == [
+        "records 5 to 6 are missing", "records 9 to 10 are missing"]  # fmt: skip
+
+
 @pytest.mark.verifies("SWR-REC-013", technique="fault_injection", polarity="violation")
 def test_bytes_behind_the_end_are_named(tmp_path: Path) -> None:
     data = make_file(2, [make_record(1)])
