@@ -291,6 +291,9 @@ TEST_F(IntrospectionTest, AQueueShowsItsHighWaterMarkAndWhatItLost) {
     }
     run_second(4);
 
+    EXPECT_TRUE(read_port(3U).has_value);
+    EXPECT_EQ(read_port(3U).published_at, Instant{3400}) << "the oldest of the two that wait";
+    EXPECT_EQ(read_port(3U).status, PortStatus::kOk);
     const QueueCounts queue = read_port(3U).queue;
 
     EXPECT_EQ(queue.capacity, 2U);

@@ -116,6 +116,71 @@ TEST(QueueInPortTest, AQueueIsNewWhileAValueWaitsThatIsDue) {
     EXPECT_FALSE(sut.in.is_new());
 }
 
+TEST(QueueInPortTest, AValueThatWaitsHasItsStatusAndAgeBeforeItIsRead) {
+    verifies("SWR-KRN-037", Technique::kBoundaryValues);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kReadback> sut;
+    sut.in.set_age_max(15_ns);
+    EXPECT_EQ(sut.in.calc_status(Instant{0}), PortStatus::kBufferEmpty);
+    sut.publish(1, Instant{10});
+    EXPECT_EQ(sut.in.calc_status(Instant{10}), PortStatus::kBufferEmpty) << "before the opening";
+
+    sut.in.open(Instant{9});
+    EXPECT_FALSE(sut.in.has_value()) << "not due yet";
+    sut.in.open(Instant{25});
+    EXPECT_TRUE(sut.in.has_value());
+    EXPECT_EQ(sut.in.get_published_at(), Instant{10});
+    EXPECT_EQ(sut.in.calc_age(Instant{25}), 15_ns);
+    EXPECT_EQ(sut.in.calc_status(Instant{25}), PortStatus::kOk);
+    EXPECT_EQ(sut.in.calc_status(Instant{26}), PortStatus::kBufferTimeout);
+}
+
+TEST(QueueInPortTest, StatusAndAgeAreThoseOfTheOldestThatWaitsThenOfWhatWasRead) {
+    verifies("SWR-KRN-037", Technique::kStateTransition);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
+    sut.in.set_age_max(20_ns);
+    sut.publish(1, Instant{10});
+    sut.publish(2, Instant{30});
+    std::int64_t value = 0;
+    sut.in.open(Instant{40});
+
+    EXPECT_EQ(sut.in.calc_status(Instant{40}), PortStatus::kBufferTimeout);
+    ASSERT_EQ(sut.in.read(value), Status::kOk);
+    EXPECT_EQ(sut.in.calc_age(Instant{40}), 30_ns) << "of the value in hand, though a newer one waits";
+    EXPECT_EQ(sut.in.calc_status(Instant{40}), PortStatus::kBufferTimeout);
+    ASSERT_EQ(sut.in.read(value), Status::kOk);
+    EXPECT_EQ(sut.in.calc_age(Instant{40}), 10_ns);
+    EXPECT_EQ(sut.in.calc_status(Instant{40}), PortStatus::kOk);
+    sut.in.open(Instant{60});
+    EXPECT_EQ(sut.in.calc_age(Instant{60}), 30_ns) << "none waits: still the one read last";
+    EXPECT_EQ(sut.in.calc_status(Instant{60}), PortStatus::kBufferTimeout);
+    sut.publish(3, Instant{60});
+    sut.in.open(Instant{60});
+    EXPECT_EQ(sut.in.calc_status(Instant{60}), PortStatus::kOk);
+}
+
+TEST(QueueInPortTest, AValueThatWaitedIsGoneWithItsStatusAfterARestart) {
+    verifies("SWR-MOD-009", Technique::kStateTransition, Polarity::kViolation);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kReadback> sut;
+    std::int64_t value = 7;
+    sut.publish(1, Instant{10});
+    sut.in.open(Instant{10});
+    ASSERT_EQ(sut.in.read(value), Status::kOk);
+    sut.publish(2, Instant{11});
+    sut.in.open(Instant{15});
+    ASSERT_TRUE(sut.in.has_value());
+
+    sut.in.restart(Instant{20}, 0U);
+    sut.in.open(Instant{20});
+
+    EXPECT_EQ(sut.in.calc_status(Instant{20}), PortStatus::kBufferEmpty);
+    sut.publish(3, Instant{30});
+    sut.in.open(Instant{30});
+    ASSERT_TRUE(sut.in.has_value());
+    sut.in.open(Instant{29});
+    EXPECT_EQ(sut.in.read(value), Status::kPreconditionNotMet) << "nothing was read in this mode to be read back";
+    EXPECT_EQ(value, 1);
+}
+
 TEST(QueueInPortTest, NothingOfAnotherModeIsLeftInAFullQueueOfWhichOneEntryIsHeld) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues, Polarity::kViolation);
     Queue<FullPolicy::kDoNothing, EmptyPolicy::kReadback> sut;
@@ -194,6 +259,56 @@ TEST(QueueInPortTest, AnEmptyQueueReadsTheLastValueBackWhenToldToAndOnlyOnceTher
     sut.publish(2, Instant{20});
     EXPECT_EQ(sut.read_all(Instant{19}, 2U), (Values{1, 1})) << "the next one waits for its instant";
     EXPECT_EQ(sut.in.calc_status(Instant{19}), PortStatus::kOk);
+}
+
+/// Asks for the status first, as one does with an input that keeps the latest value, and reads one value.
+class Asker final : public Component {
+  public:
+    Asker() : Component("asker") {}
+    QueueInPort<std::int64_t, 8U> in{"in"};
+    using Ports = mamori::Ports<&Asker::in>;
+    Values values;
+
+    Status on_execute(ContextHandle context) noexcept override {
+        std::int64_t value = 0;
+        if (in.calc_status(context.now) == PortStatus::kOk && in.is_new() && in.read(value) == Status::kOk) {
+            values.push_back(value);
+        }
+        return Status::kOk;
+    }
+};
+
+template <typename Table>
+Values run_four_frames(const Table& table, const Asker& asker) {
+    ExecutiveFor executive{table};
+    FakeHost host;
+    EXPECT_EQ(executive.initialize(), Status::kOk);
+    EXPECT_EQ(executive.start(), Status::kOk);
+    for (std::int64_t t = 0; t < 40; t += 10) {
+        host.now = Instant{t};
+        EXPECT_EQ(executive.run_window(0U, host), WindowOutcome::kCompleted);
+    }
+    return asker.values;
+}
+
+TEST(QueueSystemTest, AReaderThatAsksForTheStatusFirstGetsEveryValueThatWasPublished) {
+    verifies("SWR-KRN-037");
+    Counter counter;
+    Asker asker;
+    const auto table = system(frame(10_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(asker, counter)),
+                              connect(counter.out, asker.in, fresh_within(10_ns)));
+
+    EXPECT_EQ(run_four_frames(table, asker), (Values{10, 20, 30}));
+}
+
+TEST(QueueSystemTest, AReaderThatAsksForTheStatusFirstGetsEveryValueThatIsHandedOn) {
+    verifies("SWR-KRN-037");
+    Counter counter;
+    Asker asker;
+    const auto table = system(frame(10_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(counter, asker)),
+                              connect(counter.out, asker.in, fresh_within(10_ns)));
+
+    EXPECT_EQ(run_four_frames(table, asker), (Values{10, 20, 30, 40}));
 }
 
 /// Reads all that waits and notes it.

@@ -136,6 +136,7 @@ struct QueueConnection {
     }
     static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
         static_cast<Sink&>(sink).push(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
+        static_cast<Sink&>(sink).show_oldest();
     }
     static void restart(OutPortBase&, InPortBase& sink, Instant boundary) noexcept {
         static_cast<Sink&>(sink).restart(boundary, 0U);

@@ -4,7 +4,7 @@
 /// policies of OpenRTM. The source may run on another core: entries count by their planned instants, so what
 /// a cycle can read does not depend on which core was faster.
 ///
-/// @satisfies SWR-KRN-028, SWR-KRN-029      Design: docs/design/kernel.md#connections
+/// @satisfies SWR-KRN-028, SWR-KRN-029, SWR-KRN-037      Design: docs/design/kernel.md#connections
 /// Source:   OpenRTM-aist, buffer.write.full_policy and buffer.read.empty_policy of a data port
 #ifndef MAMORI_KERNEL_QUEUE_IN_PORT_HPP
 #define MAMORI_KERNEL_QUEUE_IN_PORT_HPP
@@ -19,6 +19,11 @@
 namespace mamori {
 
 /// Input of type T with room for `kCapacity` values (1 .. 254) that wait.
+///
+/// What InPortBase tells of "the value" (whether there is one, its instant, age and status) is told, when a
+/// cycle begins, of the value that the first read() gives: the oldest that waits, or the one read last when
+/// none does. After a read() it is told of the value that this read gave. The next one that waits is never
+/// older, so a cycle that takes it for as old errs on the safe side.
 ///
 /// Thread safety: read by its component; filled by the executive of the source's core, which may be another.
 /// Time:          wait-free; read() and push() copy one T. Memory: kCapacity + 3 T, no heap.
@@ -44,7 +49,8 @@ class QueueInPort final : public InPortBase {
     ///         the writer on the other core was faster: ask again).
     Status read(T& value) noexcept {
         const Status status = fetch();
-        if (status == Status::kOk || (status == Status::kPreconditionNotMet && is_readable_again())) {
+        const bool is_readable_again = kEmpty == EmptyPolicy::kReadback && was_read_;
+        if (status == Status::kOk || (status == Status::kPreconditionNotMet && is_readable_again)) {
             value = value_;
             return Status::kOk;
         }
@@ -84,8 +90,11 @@ class QueueInPort final : public InPortBase {
         static_cast<void>(buffer_.publish());  // the buffer counts what it refuses
     }
 
-    /// For connections: what waits now is not read any more, see open().
-    using InPortBase::restart;
+    /// For connections: what waits now is not read any more, see open(); neither is what was read last.
+    void restart(Instant boundary, std::uint64_t revision) noexcept {
+        InPortBase::restart(boundary, revision);
+        was_read_ = false;
+    }
 
     /// For connections, at the opening of the owner's window: what is published later waits for a later one.
     /// What was published up to the last restart() is of another mode and goes. A value that is handed on in
@@ -97,7 +106,17 @@ class QueueInPort final : public InPortBase {
         for (std::size_t i = 0U; i < kEntriesMax && is_front_of_another_mode(is_first); ++i) {
             buffer_.drop();
         }
+        show_oldest();
+    }
+
+    /// For connections, on the owner's core before its cycle: the oldest value that waits is the one to be told
+    /// of.
+    void show_oldest() noexcept {
         is_new_ = has_waiting();
+        if (is_new_) {
+            published_at_ = buffer_.get_front().published_at;
+            has_value_ = true;
+        }
     }
 
   private:
@@ -116,7 +135,6 @@ class QueueInPort final : public InPortBase {
         const Instant published_at = buffer_.get_front().published_at;
         return published_at < restarted_at_ || (is_first_opening && published_at == restarted_at_);
     }
-    bool is_readable_again() const noexcept { return kEmpty == EmptyPolicy::kReadback && has_value_; }
 
     Status fetch() noexcept {
         const Status status = buffer_.peek();
@@ -130,6 +148,7 @@ class QueueInPort final : public InPortBase {
         value_ = buffer_.get_front().value;
         published_at_ = buffer_.get_front().published_at;
         has_value_ = true;
+        was_read_ = true;
         buffer_.drop();
         return Status::kOk;
     }
@@ -139,6 +158,7 @@ class QueueInPort final : public InPortBase {
     Instant opening_{};
     std::uint64_t pushed_revision_{0U};  ///< the source's side
     std::uint32_t empty_read_count_{0U};
+    bool was_read_{false};  ///< since the last restart()
 };
 
 }  // namespace mamori
