@@ -70,6 +70,7 @@ void Introspection::publish_port(std::size_t index, Instant opening) noexcept {
         row.sequence = port.output->get_sequence();
         row.has_value = row.sequence != 0U;
         row.published_at = port.output->get_published_at();
+        row.status = port.output->get_status();
     } else {
         row.name = port.input->get_name();
         row.is_input = true;

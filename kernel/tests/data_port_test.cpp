@@ -351,11 +351,9 @@ TEST(PortStatusTest, NumbersAreThoseOfTheStandard) {
     verifies("SWR-KRN-016", Technique::kInterface);
 
     EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kOk), 0U);
-    EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kError), 1U);
     EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kBufferFull), 2U);
     EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kBufferEmpty), 3U);
     EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kBufferTimeout), 4U);
-    EXPECT_EQ(static_cast<std::uint32_t>(PortStatus::kUnknownError), 5U);
 }
 
 TEST(PortNeedTest, AnInputIsMandatoryUnlessItSaysOtherwise) {

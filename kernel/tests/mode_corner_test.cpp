@@ -410,15 +410,15 @@ TEST(ModeCornerTest, AQueueDropsWhatIsOlderThanItsRestartAndNothingElse) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues, Polarity::kViolation);
     QueueInPort<std::int64_t, 2U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut{"in"};
     std::int64_t value = 0;
-    sut.push({11, 1U, Instant{9}});
-    sut.push({12, 2U, Instant{9}});
+    ASSERT_EQ(sut.push({11, 1U, Instant{9}}), Status::kOk);
+    ASSERT_EQ(sut.push({12, 2U, Instant{9}}), Status::kOk);
     sut.restart(Instant{10}, 0U);
     sut.open(Instant{20});
     EXPECT_EQ(sut.read(value), Status::kPreconditionNotMet) << "full of old ones";
 
     sut.open(Instant{21});  // empty
-    sut.push({13, 3U, Instant{9}});
-    sut.push({14, 4U, Instant{10}});
+    ASSERT_EQ(sut.push({13, 3U, Instant{9}}), Status::kOk);
+    ASSERT_EQ(sut.push({14, 4U, Instant{10}}), Status::kOk);
     sut.open(Instant{22});
     EXPECT_TRUE(sut.is_new());
     ASSERT_EQ(sut.read(value), Status::kOk);

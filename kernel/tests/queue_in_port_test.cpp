@@ -29,7 +29,7 @@ class Queue {
     void publish(std::int64_t value, Instant at) {
         out.write(value);
         ASSERT_TRUE(out.publish(at));
-        in.push(out.get_published_sample());
+        static_cast<void>(in.push(out.get_published_sample()));
     }
     /// What reads at `opening` give until the first refusal, at most `limit`.
     Values read_all(Instant opening, std::size_t limit = 9U) {
@@ -73,10 +73,10 @@ TEST(QueueInPortTest, ASampleThatWasQueuedIsNotQueuedAgain) {
     verifies("SWR-KRN-028", Technique::kErrorGuessing, Polarity::kViolation);
     Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
     sut.out.write(1);
-    sut.in.push(sut.out.get_staged_sample(Instant{5}));
+    EXPECT_EQ(sut.in.push(sut.out.get_staged_sample(Instant{5})), Status::kOk);
     ASSERT_TRUE(sut.out.publish(Instant{10}));
-    sut.in.push(sut.out.get_published_sample());
-    sut.in.push(sut.out.get_staged_sample(Instant{20}));
+    EXPECT_EQ(sut.in.push(sut.out.get_published_sample()), Status::kOk);
+    EXPECT_EQ(sut.in.push(sut.out.get_staged_sample(Instant{20})), Status::kOk);
 
     EXPECT_EQ(sut.read_all(Instant{20}), Values{1});
 }
@@ -177,7 +177,8 @@ TEST(QueueInPortTest, AValueThatWaitedIsGoneWithItsStatusAfterARestart) {
     sut.in.open(Instant{30});
     ASSERT_TRUE(sut.in.has_value());
     sut.in.open(Instant{29});
-    EXPECT_EQ(sut.in.read(value), Status::kPreconditionNotMet) << "nothing was read in this mode to be read back";
+    EXPECT_EQ(sut.in.read(value), Status::kPreconditionNotMet)
+        << "nothing was read in this mode to be read back";
     EXPECT_EQ(value, 1);
 }
 
@@ -227,7 +228,7 @@ TEST(QueueInPortTest, AValueThatIsHandedOnAtTheInstantOfARestartIsOfTheNewMode) 
     sut.in.restart(Instant{20}, 0U);
     sut.in.open(Instant{20});
     sut.out.write(1);
-    sut.in.push(sut.out.get_staged_sample(Instant{20}));
+    ASSERT_EQ(sut.in.push(sut.out.get_staged_sample(Instant{20})), Status::kOk);
 
     EXPECT_TRUE(sut.in.has_waiting());
     EXPECT_EQ(sut.read_all(Instant{30}), Values{1}) << "not read at once, and still there";
@@ -351,6 +352,77 @@ TEST(QueueSystemTest, ASlowReaderGetsEveryValueOfAFastWriter) {
     }
 
     EXPECT_EQ(collector.cycles, (std::vector<Values>{{10}, {20, 30, 40, 50}}));
+}
+
+/// An input that refuses, one that gives up its oldest, and neither reads.
+template <FullPolicy kFull>
+class Sleeper final : public Component {
+  public:
+    Sleeper() : Component("sleeper") {}
+    QueueInPort<std::int64_t, 2U, kFull> in{"in"};
+    using Ports = mamori::Ports<&Sleeper::in>;
+    bool is_reading{false};
+
+    Status on_execute(ContextHandle) noexcept override {
+        std::int64_t value = 0;
+        return is_reading ? in.read(value) : Status::kOk;
+    }
+};
+
+template <typename Table, typename Reader>
+std::vector<PortStatus> run_and_ask_the_writer(const Table& table, const Counter& writer, Reader& reader) {
+    ExecutiveFor executive{table};
+    FakeHost host;
+    EXPECT_EQ(executive.initialize(), Status::kOk);
+    EXPECT_EQ(executive.start(), Status::kOk);
+    std::vector<PortStatus> statuses{writer.out.get_status()};
+    for (std::int64_t t = 0; t < 60; t += 10) {
+        reader.is_reading = t >= 40;
+        host.now = Instant{t};
+        EXPECT_EQ(executive.run_window(0U, host), WindowOutcome::kCompleted);
+        statuses.push_back(writer.out.get_status());
+    }
+    return statuses;
+}
+
+constexpr PortStatus kIn = PortStatus::kOk;
+constexpr PortStatus kRefused = PortStatus::kBufferFull;
+
+TEST(QueueSystemTest, TheWriterIsToldOfEachValueThatAFullQueueRefused) {
+    verifies("SWR-KRN-038", Technique::kBoundaryValues, Polarity::kViolation);
+    Counter counter;
+    Sleeper<FullPolicy::kDoNothing> reader;
+    const auto table = system(frame(10_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(reader, counter)),
+                              connect(counter.out, reader.in));
+
+    EXPECT_EQ(run_and_ask_the_writer(table, counter, reader),
+              (std::vector<PortStatus>{kIn, kIn, kIn, kIn, kRefused, kRefused, kIn}))
+        << "one is held, two wait; a read gives up the one that is held, the next opening takes one more";
+    EXPECT_EQ(reader.in.get_rejected_count(), 2U);
+}
+
+TEST(QueueSystemTest, TheWriterIsToldOfAValueThatWasRefusedWhenItWasHandedOn) {
+    verifies("SWR-KRN-038", Technique::kBoundaryValues, Polarity::kViolation);
+    Counter counter;
+    Sleeper<FullPolicy::kDoNothing> reader;
+    const auto table = system(frame(10_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(counter, reader)),
+                              connect(counter.out, reader.in));
+
+    EXPECT_EQ(run_and_ask_the_writer(table, counter, reader),
+              (std::vector<PortStatus>{kIn, kIn, kIn, kIn, kRefused, kRefused, kIn}))
+        << "in the first cycle that reads, the value comes before the read";
+    EXPECT_EQ(reader.in.get_rejected_count(), 2U);
+}
+
+TEST(QueueSystemTest, AQueueThatGivesUpItsOldestTakesEachValue) {
+    verifies("SWR-KRN-038", Technique::kEquivalenceClasses);
+    Counter counter;
+    Sleeper<FullPolicy::kOverwrite> reader;
+    const auto table = system(frame(10_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(reader, counter)),
+                              connect(counter.out, reader.in));
+
+    EXPECT_EQ(run_and_ask_the_writer(table, counter, reader), std::vector<PortStatus>(7U, kIn));
+    EXPECT_GT(reader.in.get_overwritten_count(), 0U) << "counted at the input";
 }
 
 TEST(QueueSystemTest, AQueueWithinAWindowGetsAValueOnceInTheSameCycle) {

@@ -129,13 +129,13 @@ struct CrossingConnection {
 template <typename T, typename Sink>
 struct QueueConnection {
     static void deliver(OutPortBase& source, InPortBase& sink, CrossingBase*) noexcept {
-        static_cast<Sink&>(sink).push(static_cast<OutPort<T>&>(source).get_published_sample());
+        push(source, sink, static_cast<OutPort<T>&>(source).get_published_sample());
     }
     static void latch(OutPortBase&, InPortBase& sink, CrossingBase*, Instant opening) noexcept {
         static_cast<Sink&>(sink).open(opening);
     }
     static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
-        static_cast<Sink&>(sink).push(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
+        push(source, sink, static_cast<OutPort<T>&>(source).get_staged_sample(opening));
         static_cast<Sink&>(sink).show_oldest();
     }
     static void restart(OutPortBase&, InPortBase& sink, Instant boundary) noexcept {
@@ -143,6 +143,14 @@ struct QueueConnection {
     }
     static constexpr ConnectionOperations kOperations{
         &deliver, &latch, &hand_on, &restart, Sink::kMayLeaveCore, false, true};
+
+  private:
+    static void push(OutPortBase& source, InPortBase& sink,
+                     const typename OutPort<T>::Sample& sample) noexcept {
+        if (static_cast<Sink&>(sink).push(sample) != Status::kOk) {
+            source.note_refused(sample.revision);
+        }
+    }
 };
 
 }  // namespace detail

@@ -4,7 +4,7 @@
 /// values at window boundaries, so what is read does not depend on how long the code took (logical execution
 /// time). Within one window the executive hands a value on to the components that come later in its order.
 ///
-/// @satisfies SWR-KRN-015, SWR-KRN-016      Design: docs/design/kernel.md#ports
+/// @satisfies SWR-KRN-015, SWR-KRN-016, SWR-KRN-038      Design: docs/design/kernel.md#ports
 #ifndef MAMORI_KERNEL_DATA_PORT_HPP
 #define MAMORI_KERNEL_DATA_PORT_HPP
 
@@ -19,15 +19,14 @@
 
 namespace mamori {
 
-/// What a port has to say about its data, with the numbers of the standard.
+/// What a port has to say about its data, with the numbers of the standard. Its PORT_ERROR (1) and
+/// UNKNOWN_ERROR (5) are missing on purpose: a connection is made by the compiler and cannot fail otherwise.
 /// Source: OpenRTM PortStatus (PORT_OK .. UNKNOWN_ERROR).
 enum class PortStatus : std::uint32_t {
     kOk = 0U,             ///< PORT_OK
-    kError = 1U,          ///< PORT_ERROR
-    kBufferFull = 2U,     ///< BUFFER_FULL
-    kBufferEmpty = 3U,    ///< BUFFER_EMPTY
-    kBufferTimeout = 4U,  ///< BUFFER_TIMEOUT: the data is older than it may be
-    kUnknownError = 5U,   ///< UNKNOWN_ERROR
+    kBufferFull = 2U,     ///< BUFFER_FULL, of an output: a queue that it feeds had no room
+    kBufferEmpty = 3U,    ///< BUFFER_EMPTY, of an input
+    kBufferTimeout = 4U,  ///< BUFFER_TIMEOUT, of an input: the data is older than it may be
 };
 
 /// Age limit of an input whose connection declares none.
@@ -62,6 +61,13 @@ class OutPortBase {
     Instant get_published_at() const noexcept { return published_at_; }
     /// Number of the write that is published; 0: none.
     std::uint64_t get_published_revision() const noexcept { return published_revision_; }
+    /// What became of the value that is published.
+    /// @return kBufferFull (a queue that it feeds was full and refuses what it has no room for, see
+    ///         FullPolicy::kDoNothing); else kOk, before the first publication as well.
+    PortStatus get_status() const noexcept {
+        const bool is_refused = refused_revision_ != 0U && refused_revision_ == published_revision_;
+        return is_refused ? PortStatus::kBufferFull : PortStatus::kOk;
+    }
     /// True when a value was written since the last publication.
     bool is_staged() const noexcept { return is_staged_; }
 
@@ -79,6 +85,9 @@ class OutPortBase {
     }
     /// Throws the staged value away: its window overran. What was published before stays.
     void discard() noexcept { is_staged_ = false; }
+    /// For connections: a queue had no room for what this write gave. @param[in] revision number of the
+    /// write.
+    void note_refused(std::uint64_t revision) noexcept { refused_revision_ = revision; }
     /// Adds the published value, its sequence and instant. For the executive, after a publication.
     void hash_into(TraceHash& hash) const noexcept;
 
@@ -101,6 +110,7 @@ class OutPortBase {
     /// write waits for the vector of the write before.
     Instant published_at_{};
     std::uint64_t published_revision_{0U};  ///< of the writes, the one that is published
+    std::uint64_t refused_revision_{0U};    ///< of the writes, the last that a full queue refused
     std::uint32_t sequence_{0U};
     bool is_staged_{false};
 };

@@ -65,7 +65,7 @@ class FlightRecorder final {
 
     Span<std::byte> region_{};
     std::size_t capacity_{0U};
-    std::size_t next_slot_{0U};  ///< that of next_sequence_: no division when a record is written
+    std::size_t next_slot_{0U};   ///< that of next_sequence_: no division when a record is written
     std::size_t note_place_{0U};  ///< index into flight::kSessionOffsets of the next note
     std::uint32_t session_{0U};
     std::uint64_t next_sequence_{0U};

@@ -66,7 +66,7 @@ struct PortSnapshot {
     Instant observed_at{};               ///< planned opening of its window that ran last
     Instant published_at{};              ///< of the value that it holds; without meaning before has_value
     std::uint32_t sequence{0U};          ///< outputs: publications so far (wraps at 2^32); inputs: 0
-    PortStatus status{PortStatus::kOk};  ///< inputs: as calc_status() at observed_at
+    PortStatus status{PortStatus::kOk};  ///< inputs: calc_status() at observed_at; outputs: get_status()
     QueueCounts queue{};                 ///< inputs that queue; else all 0
 
     /// Age of the value at observed_at; negative for what this window published at its close.

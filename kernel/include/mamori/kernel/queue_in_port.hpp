@@ -79,15 +79,18 @@ class QueueInPort final : public InPortBase {
 
     /// For connections, on the source's core: appends a sample when it comes from a later write than the
     /// last one. A full queue counts what it refuses; nothing waits.
-    void push(const typename OutPort<T>::Sample& sample) noexcept {
+    /// @return kOk (also when there was nothing to append); kOutOfResources (kFull is kDoNothing and
+    /// kCapacity
+    ///         values wait).
+    Status push(const typename OutPort<T>::Sample& sample) noexcept {
         if (sample.revision <= pushed_revision_) {
-            return;
+            return Status::kOk;
         }
         pushed_revision_ = sample.revision;
         Entry& entry = buffer_.get_write_slot();
         entry.value = sample.value;
         entry.published_at = sample.published_at;
-        static_cast<void>(buffer_.publish());  // the buffer counts what it refuses
+        return buffer_.publish();
     }
 
     /// For connections: what waits now is not read any more, see open(); neither is what was read last.
@@ -109,8 +112,8 @@ class QueueInPort final : public InPortBase {
         show_oldest();
     }
 
-    /// For connections, on the owner's core before its cycle: the oldest value that waits is the one to be told
-    /// of.
+    /// For connections, on the owner's core before its cycle: the oldest value that waits is the one to be
+    /// told of.
     void show_oldest() noexcept {
         is_new_ = has_waiting();
         if (is_new_) {
