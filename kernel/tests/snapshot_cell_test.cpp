@@ -47,6 +47,18 @@ TEST(SnapshotCellTest, NothingCanBeReadBeforeTheFirstWrite) {
     EXPECT_EQ(value, 7);
 }
 
+TEST(SnapshotCellTest, EachWriteCanBeReadAlsoWhereTheSequenceNumberWraps) {
+    verifies("SWR-BUF-007", Technique::kBoundaryValues, Polarity::kViolation);
+    SnapshotCell<std::int16_t, std::atomic<std::uint8_t>> sut;
+    for (std::int16_t written = 1; written <= 600; ++written) {
+        std::int16_t value = 0;
+        sut.write(written);
+
+        ASSERT_EQ(sut.try_read(value), Status::kOk) << written;
+        EXPECT_EQ(value, written);
+    }
+}
+
 struct Pair {
     std::uint32_t first;
     std::uint32_t second;

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "mamori/kernel/status.hpp"
@@ -48,7 +49,8 @@ class SnapshotCell final {
             // Release: whoever sees this word sees the odd number too.
             words_[i].store(copy[i], std::memory_order_release);
         }
-        ++sequence_;
+        // Behind the largest number comes 2, since 0 says that nothing was ever written.
+        sequence_ = sequence_ == kLastOdd ? Unit{2U} : static_cast<Unit>(sequence_ + 1U);
         shared_sequence_.store(sequence_, std::memory_order_release);
     }
 
@@ -78,6 +80,7 @@ class SnapshotCell final {
 
   private:
     using Unit = typename Word::value_type;
+    static constexpr Unit kLastOdd = std::numeric_limits<Unit>::max();
     static constexpr std::size_t kWordCount = (sizeof(T) + sizeof(Unit) - 1U) / sizeof(Unit);
 
     std::array<Word, kWordCount> words_{};
