@@ -263,6 +263,38 @@ TEST(ConstraintTest, RangesWithoutAnyValueAreNamed) {
     expect_finding<double>("x>0, 5<x<4", ConstraintRule::kRangeEmpty, 5U, 2U);
 }
 
+template <typename S>
+constexpr ConstraintRule find_rule(const char* text) {
+    return parse_constraint<S, 4U>(make_text(text)).finding.rule;
+}
+
+TEST(ConstraintTest, AnOpenRangeOfWholeNumbersNeedsOneBetweenItsLimits) {
+    verifies("SWR-PAR-001", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr ConstraintRule kEmpty = ConstraintRule::kRangeEmpty;
+
+    static_assert(find_rule<std::int32_t>("0<x<1") == kEmpty, "by the compiler as well");
+    static_assert(find_rule<std::int32_t>("0<x<2") == ConstraintRule::kNone);
+    expect_finding<std::int32_t>("0<x<1", kEmpty, 0U);
+    expect_finding<std::uint8_t>("254<x<255", kEmpty, 0U);
+    expect_finding<std::int8_t>("1, 127>x>126", kEmpty, 3U, 2U);
+    expect_finding<std::int64_t>("9223372036854775806<x<9223372036854775807", kEmpty, 0U);
+    expect_finding<std::int64_t>("-9223372036854775808<x<-9223372036854775807", kEmpty, 0U);
+    expect_finding<std::uint64_t>("18446744073709551614<x<18446744073709551615", kEmpty, 0U);
+    expect_finding<bool>("0<x<1", kEmpty, 0U);
+}
+
+TEST(ConstraintTest, ARangeWithOneWholeNumberOrOfFractionsIsNotEmpty) {
+    verifies("SWR-PAR-001", Technique::kBoundaryValues);
+
+    for (const char* const text : {"0<x<2", "0<=x<1", "0<x<=1", "-1<x<1", "0<=x<=1", "1<=x<=1"}) {
+        EXPECT_EQ(find_rule<std::int32_t>(text), ConstraintRule::kNone) << text;
+    }
+    EXPECT_EQ(find_rule<std::int64_t>("-9223372036854775808<x<9223372036854775807"), ConstraintRule::kNone);
+    EXPECT_EQ(find_rule<std::uint64_t>("0<x<18446744073709551615"), ConstraintRule::kNone);
+    EXPECT_EQ(find_rule<double>("0<x<1"), ConstraintRule::kNone);
+    EXPECT_EQ(find_rule<float>("0<x<1e-45"), ConstraintRule::kNone) << "nobody asks between neighbours";
+}
+
 TEST(ConstraintTest, BracketsKeysAndLooseEndsAreNamed) {
     verifies("SWR-PAR-001", Technique::kErrorGuessing, Polarity::kViolation);
 

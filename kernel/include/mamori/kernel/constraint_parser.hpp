@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "mamori/kernel/constraint.hpp"
 #include "mamori/kernel/constraint_finding.hpp"
@@ -32,6 +33,17 @@ struct Comparison {
     bool is_less{false};  ///< < or <=
     bool is_open{false};  ///< < or >
 };
+
+/// Is there a number between the two, neither of them counted? Of floating-point limits it is not asked how
+/// many numbers of the type lie between them. @param[in] lower below `upper`.
+template <typename S>
+constexpr bool has_number_between(S lower, S upper) noexcept {
+    if constexpr (std::is_floating_point_v<S>) {
+        return true;
+    } else {
+        return static_cast<Number<S>>(lower) + 1 < static_cast<Number<S>>(upper);
+    }
+}
 
 /// Recursive structures are not in the grammar, so neither is recursion here. Each loop takes at least one
 /// character per turn.
@@ -233,9 +245,16 @@ class ConstraintParser final {
         (comparison.is_less ? range_.is_upper_open : range_.is_lower_open) = comparison.is_open;
     }
 
+    constexpr bool is_range_empty() const noexcept {
+        if (!(range_.lower < range_.upper)) {
+            return range_.lower > range_.upper || range_.is_lower_open || range_.is_upper_open;
+        }
+        return range_.is_lower_open && range_.is_upper_open &&
+               !has_number_between(range_.lower, range_.upper);
+    }
+
     constexpr void add_range() noexcept {
-        const bool is_open = range_.is_lower_open || range_.is_upper_open;
-        if (range_.lower > range_.upper || (is_open && !(range_.lower < range_.upper))) {
+        if (is_range_empty()) {
             refuse_at(ConstraintRule::kRangeEmpty, item_position_);
         }
         if (is_good() && !result_.constraint.add(range_)) {
