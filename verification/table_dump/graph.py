@@ -17,6 +17,8 @@ from mamori.verification.table_dump.words import format_modes, format_time
 
 PLAIN_FROM = 400
 """Connections from which on edges are straight: the search for curves takes minutes there."""
+LABELS_MAX = 40
+"""Connections up to which labels within a window are part of the layout; for many more of them dot gives up."""
 LABEL_SIZE = 9
 GAP_MAX = 4.0
 """Largest distance of two columns [inch], whatever the ports are called."""
@@ -25,7 +27,8 @@ MODES_LENGTH_MAX = 24
 EDGE_STYLES = {
     "same_window": 'color="#1b1b1b", constraint=false',
     "later_window": 'color="#0072b2", constraint=false',
-    "next_frame": 'color="#0072b2", style=dashed, constraint=false',
+    # Where these run side by side a label in the middle would be anybody's: it stands above the edge, near the source.
+    "next_frame": 'color="#0072b2", style=dashed, labeldistance=6, labelangle=-18, constraint=false',
     "crossing": 'color="#d55e00", penwidth=2, constraint=false',
     "queue": 'color="#009e73", penwidth=2, arrowhead=normalnormal, constraint=false',
 }
@@ -76,9 +79,9 @@ def _make_core(table: Table, core: int) -> Iterator[str]:
         if partition:
             yield "}"
     # Left to right in the order of their openings.
-    firsts = [table.components_of(index)[0] for index in windows if table.components_of(index)]
-    for earlier, later in itertools.pairwise(firsts):
-        yield f"c{earlier} -> c{later} [style=invis, weight=100];"
+    columns = [name for index in windows if table.components_of(index) for name in _name_columns(table, index)]
+    for earlier, later in itertools.pairwise(columns):
+        yield f"{earlier} -> {later} [style=invis, weight=100];"
     yield "}"
 
 
@@ -88,6 +91,8 @@ def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator
     label = f"{window.name}, every {format_time(window.period_ns)}"
     yield f'subgraph cluster_window_{index} {{ label={quote(label)}; labelloc=t; style="filled,solid"; bgcolor="{colours[0]}"; ' \
           f'fillcolor="{colours[0]}"; color="{colours[1]}";'  # fmt: skip
+    for name in _name_columns(table, index)[:-1]:
+        yield f'{name} [shape=point, style=invis, width=0.01, height=0.01, label=""];'
     for component in table.components_of(index):
         yield _make_node(table, component)
     # One below the other in the order in which they run.
@@ -96,6 +101,20 @@ def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator
     for earlier, later in itertools.pairwise(components):
         yield f"c{later} -> c{earlier} [style=invis];"  # dot stacks upwards
     yield "}"
+
+
+def _name_columns(table: Table, index: int) -> list[str]:
+    """The columns of a window from left to right, each by a node in it; the last one has the components.
+
+    A connection past a component between its ends makes a bow to the left. dot does not count that as part of the window's box; an
+    empty column does.
+    """
+    components = table.components_of(index)
+    is_past_another = any(
+        connection.way == "same_window" and connection.source.component in components
+        and abs(components.index(connection.source.component) - components.index(connection.sink.component)) > 1
+        for connection in table.connections)  # fmt: skip
+    return [*([f"bow_{index}"] if is_past_another else []), f"c{components[0]}"]
 
 
 def _make_node(table: Table, index: int) -> str:
@@ -119,7 +138,8 @@ def _make_edge(table: Table, connection: Connection) -> Iterator[str]:
     ports = ", tailport=w, headport=w" if is_straight else ""
     # A circle at the source tells of modes; dot calls the end of a reversed edge its head.
     marks = {False: "dir=back" if is_back else "dir=forward", True: f"dir=both, arrow{'head' if is_back else 'tail'}=odot"}[bool(modes)]
-    yield f"{pair} [{marks}, xlabel={quote(*_make_label(table, connection))}, tooltip={quote(hint)}, {EDGE_STYLES[connection.way]}{ports}];"
+    place = {"same_window": "label" if len(table.connections) <= LABELS_MAX else "xlabel", "next_frame": "taillabel"}.get(connection.way, "xlabel")
+    yield f"{pair} [{marks}, {place}={quote(*_make_label(table, connection))}, tooltip={quote(hint)}, {EDGE_STYLES[connection.way]}{ports}];"
 
 
 def _make_label(table: Table, connection: Connection) -> list[str]:

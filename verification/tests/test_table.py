@@ -191,6 +191,30 @@ def test_graph_of_a_hundred_components_has_no_two_boxes_in_one_place(tmp_path: P
     assert all(abs(a[0] - b[0]) >= 150 or abs(a[1] - b[1]) >= 20 for number, a in enumerate(spots) for b in spots[number + 1 :])
 
 
+def _find_span(group: ElementTree.Element, shape: str, key: str) -> tuple[float, float]:
+    """The least and the largest x of the shape."""
+    drawn = next(group.iter(f"{SVG}{shape}")).get(key, "")
+    places = [float(pair.split(",")[0]) for pair in drawn.replace("M", "").replace("C", " ").split()]
+    return min(places), max(places)
+
+
+@needs_graphviz
+@pytest.mark.verifies("SWR-TAB-006", technique="error_guessing")
+@pytest.mark.parametrize("column", [0, 1])
+def test_connection_past_a_component_stays_in_the_box_of_its_window(tmp_path: Path, column: int) -> None:
+    windows = [window("first", 0, 0, 200 * US, MS, 150 * US), window("second", 0, 300 * US, 200 * US, MS, 150 * US)]
+    components = [component("other", 1 - column), *(component(name, column) for name in ("reader", "monitor", "supervisor"))]
+    links = [connection(1, "reading", 2, "reading", "same_window"), connection(2, "state", 3, "arm_state", "same_window"),
+             connection(1, "reading", 3, "reading", "same_window")]  # fmt: skip
+    assert table(write(tmp_path, windows=windows, components=components, connections=links, reactions=[]), "--svg-graph", tmp_path / "g.svg") == 0
+
+    groups = list(ElementTree.parse(tmp_path / "g.svg").getroot().iter(f"{SVG}g"))
+    box = _find_span(next(group for group in groups if group.findtext(f"{SVG}title") == f"cluster_window_{column}"), "polygon", "points")
+    edges = [_find_span(group, "path", "d") for group in groups if group.get("class") == "edge" and group.find(f".//{SVG}path") is not None]
+    assert len(edges) == 3
+    assert all(box[0] < left and right < box[1] for left, right in edges)
+
+
 @needs_graphviz
 @pytest.mark.verifies("SWR-TAB-006", technique="error_guessing", polarity="violation")
 def test_names_with_the_letters_of_the_graph_language_stay_names(tmp_path: Path) -> None:
@@ -205,7 +229,8 @@ def test_names_with_the_letters_of_the_graph_language_stay_names(tmp_path: Path)
 def test_connection_with_an_unknown_end_is_left_to_the_findings(tmp_path: Path) -> None:
     links = copy.deepcopy(TABLE["connections"])
     links[0]["from"]["component"] = None  # type: ignore[index]
-    assert 'xlabel="joints"' not in make_dot(read_table(write(tmp_path, connections=links)))
+    assert 'label="joints"' in make_dot(read_table(write(tmp_path)))
+    assert 'label="joints"' not in make_dot(read_table(write(tmp_path, connections=links)))
 
 
 @pytest.mark.verifies("SWR-TAB-006", technique="fault_injection", polarity="violation")
