@@ -24,7 +24,7 @@ struct FsmStep {
     FsmEvent event{};            ///< that is being served
 };
 
-/// State, queue and step of one machine. The getters mean what those of FsmComponent mean.
+/// State, queue and step of one machine.
 ///
 /// Thread safety: get_queue() and post() as the queue; the rest from the core that runs the component.
 /// Time:          O(transitions). Memory: no heap; the table, profile and cells must outlive it.
@@ -37,11 +37,17 @@ class FsmMachine final {
     FsmMachine(const FsmMachine&) = delete;
     FsmMachine& operator=(const FsmMachine&) = delete;
 
+    /// States, events and transitions; the one given at construction.
     const FsmTable& get_table() const noexcept { return table_; }
+    /// Given at construction.
     FsmProfile get_profile() const noexcept { return profile_; }
+    /// Row of the state; while on_action is called the old one until the entry.
     FsmIndex get_state() const noexcept { return state_; }
+    /// What on_action is called for; phase kNone outside it. Valid as long as this object.
     const FsmStep& get_step() const noexcept { return step_; }
+    /// Events that were used up without a transition (wraps at 2^32).
     std::uint32_t get_ignored_count() const noexcept { return ignored_count_; }
+    /// Events that wait, and what the queue counts; from any thread, as the queue allows.
     const FsmEventQueue& get_queue() const noexcept { return queue_; }
     /// @return as FsmEventQueue::post().
     Status post(const FsmEvent& event) noexcept { return queue_.post(event); }
