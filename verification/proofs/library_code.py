@@ -22,6 +22,8 @@ SUBTRACT = re.compile(r"(?:sp, )?sp, #(?P<bytes>\d+)")
 STORE = re.compile(r"\[sp, #-(?P<bytes>\d+)\]!")
 BRANCH = re.compile(r"(?:[0-9a-f]+) <(?P<name>[^>+]+)(?:\+0x[0-9a-f]+)?>")
 ENDS = ("b", "bx", "udf")
+FILL = ("nop", "movs r0, r0")
+"""What fills the gap behind a function, the second as two bytes of zeros; it has no part in the stack anywhere."""
 
 
 @dataclass
@@ -66,8 +68,8 @@ def _read_regions(text: str) -> tuple[dict[str, Region], dict[int, str]]:
 
 def _read_instruction(region: Region, symbol: str, name: str, operands: str) -> None:
     stem = name.partition(".")[0]
-    if stem == "nop":
-        return  # also fills the gap behind a function
+    if f"{stem} {operands}".strip() in FILL:
+        return
     loads_pc = (stem == "pop" or stem.startswith("ldm")) and "pc}" in operands
     region.ends = stem in ENDS or loads_pc or (stem == "ldr" and operands.startswith("pc,"))
     if stem in ("push", "vpush") or (stem == "stmdb" and operands.startswith("sp!")):
