@@ -155,6 +155,19 @@ TEST(ConfigurationCheckTest, AValueThatOnlyTheComponentCanJudgeIsFoundInEachPlac
     EXPECT_EQ(findings[1].assignment, 1U);
 }
 
+TEST(ConfigurationCheckTest, ARowThatMustNotBeFollowedHidesTheRest) {
+    verifies("SWR-PAR-006", Technique::kFaultInjection, Polarity::kViolation);
+    auto table = kConfiguration;
+    table.sets[0].name = nullptr;
+    std::array<ConfigurationFinding, 4> findings{};
+
+    const ConfigurationFinding first = check(make_view(table));
+    EXPECT_EQ(first.rule, ConfigurationRule::kSetRowInvalid);
+    EXPECT_EQ(first.set, 0U);
+    EXPECT_EQ(collect_findings(make_view(table), findings), 1U);
+    EXPECT_EQ(findings[0].rule, ConfigurationRule::kSetRowInvalid);
+}
+
 TEST(ConfigurationCheckTest, WhileRunningAllFindingsComeAtOnce) {
     verifies("SWR-PAR-006", Technique::kInterface, Polarity::kViolation);
     const auto table =

@@ -18,6 +18,7 @@ namespace mamori {
 namespace {
 
 using testing_support::Counter;
+using testing_support::FakeHost;
 using testing_support::SpyObserver;
 using verification::Polarity;
 using verification::Technique;
@@ -270,6 +271,38 @@ TEST_P(ExecutiveLateEntryTest, AStopThatComesLateHasTheBudgetOfItsWindow) {
     EXPECT_EQ(component_.deactivated, 1);
     EXPECT_EQ(observer_.heard,
               (Heard{"overrun window 0 component 0 @300", "overrun window 0 component 0 @1300"}));
+}
+
+/// Two components whose stop takes longer than the budget, on a clock that the test sets.
+TEST(ExecutiveLateStopTest, AStopThatTakesTooLongGoesOnInTheNextOpening) {
+    verifies("SWR-KRN-033", Technique::kFaultInjection, Polarity::kViolation);
+    TwoPasses first;
+    TwoPasses second;
+    const auto table = system(frame(1000_ns), window("w", 0_ns, 400_ns, budget(300_ns), run(first, second)));
+    ExecutiveFor sut{table};
+    FakeHost host;
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    host.hangs[{0U, Pass::kExecute}] = true;
+    host.is_work_out = true;
+    ASSERT_EQ(sut.run_window(0U, Instant{0}, host), WindowOutcome::kOverrun);
+    ASSERT_EQ(sut.stop(), Status::kPreconditionNotMet);
+    host.hangs.clear();
+    host.is_work_out = false;
+    host.durations[{0U, Pass::kModeStep}] = 301_ns;
+
+    host.now = Instant{1000};
+    EXPECT_EQ(sut.run_window(0U, Instant{1000}, host), WindowOutcome::kOverrun);
+    EXPECT_EQ(first.deactivated, 1);
+    EXPECT_EQ(second.deactivated, 0) << "its turn did not come";
+    EXPECT_FALSE(sut.get_context(0U).is_busy());
+    EXPECT_TRUE(sut.get_context(0U).is_running());
+    host.durations.clear();
+    host.now = Instant{2000};
+    EXPECT_EQ(sut.run_window(0U, Instant{2000}, host), WindowOutcome::kStopped);
+    EXPECT_EQ(first.deactivated, 1) << "not twice";
+    EXPECT_EQ(second.deactivated, 1);
+    EXPECT_EQ(first.executed + second.executed, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothPasses, ExecutiveLateEntryTest,

@@ -255,6 +255,18 @@ TEST(SystemModesSetupTest, AnExecutiveWantsTheModesOfItsTable) {
     ASSERT_TRUE(robot.begin());
 }
 
+TEST(SystemModesSetupTest, TheFirstModeNamesTheSetThatHoldsFirst) {
+    verifies("SWR-MOD-002", Technique::kEquivalenceClasses);
+    std::array<SystemModeRow, 2U> modes{};
+    modes[0].name = "work";
+    modes[1].name = "halt";
+    SystemView view{};
+
+    EXPECT_EQ(SystemModes{view}.prepare().get_value(), kNoConfigurationSet) << "a table without modes";
+    view.modes.modes = modes;
+    EXPECT_EQ(SystemModes{view}.prepare().get_value(), kNoConfigurationSet) << "a mode without a set";
+}
+
 TEST(SystemModesSetupTest, ARefusedFirstSetKeepsTheSystemFromStarting) {
     verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
     Robot robot;

@@ -403,6 +403,59 @@ TEST(TableRowsTest, EachPointerIndexRangeAndCountIsJudgedBeforeItIsFollowed) {
     EXPECT_GT(judged_count, 400U);
 }
 
+/// Each value is one that some row might have; it does not agree with the other rows. Node n has the ports
+/// 2n and 2n + 1 up to the filter (1); the log (2) has port 4.
+TEST(TableRowsTest, RowsThatDisagreeAreNamedThoughEachLeadsSomewhere) {
+    verifies("SWR-KRN-025", Technique::kFaultInjection, Polarity::kViolation);
+    struct Case {
+        const char* what;
+        Rule rule;
+        std::size_t element;
+        void (*apply)(Rig&);
+    };
+    const Case cases[] = {
+        {"window of a component", Rule::kComponentRowInvalid, 0U,
+         [](Rig& r) { r.table.component_rows[0].window = 1U; }},
+        {"owner of a port", Rule::kPortRowInvalid, 0U, [](Rig& r) { r.table.ports[0].owner = &r.log; }},
+        {"window of a port", Rule::kPortRowInvalid, 0U, [](Rig& r) { r.table.ports[0].window = 1U; }},
+        {"port of another component", Rule::kPortRowInvalid, 0U,
+         [](Rig& r) {
+             r.table.ports[0].owner = &r.filter;
+             r.table.ports[0].component = 1U;
+         }},
+        {"ports of a component, short of one", Rule::kPortRowInvalid, 1U,
+         [](Rig& r) { r.table.component_rows[0].port_count = 1U; }},
+        {"ports of a window, short of one", Rule::kPortRowInvalid, 3U,
+         [](Rig& r) { r.table.windows[0].port_count = 3U; }},
+        {"window of a source", Rule::kConnectionRowInvalid, 0U,
+         [](Rig& r) { r.table.connections[0].source_window = 1U; }},
+        {"output of another component", Rule::kConnectionRowInvalid, 0U,
+         [](Rig& r) { r.table.connections[0].source = &r.drive.out; }},
+        {"outgoing of a component, short of one", Rule::kConnectionRowInvalid, 0U,
+         [](Rig& r) { r.table.component_rows[0].outgoing_count = 0U; }},
+        {"window of a sink", Rule::kConnectionRowInvalid, 0U,
+         [](Rig& r) { r.table.connections[0].sink_window = 1U; }},
+        {"input of another component", Rule::kConnectionRowInvalid, 0U,
+         [](Rig& r) { r.table.connections[0].sink = &r.drive.in; }},
+        {"latches of a window, short of one", Rule::kConnectionRowInvalid, 0U,
+         [](Rig& r) { r.table.windows[0].latch_count = 0U; }},
+        {"parameters of a window, short of one", Rule::kParameterRowInvalid, 1U,
+         [](Rig& r) { r.table.windows[0].parameter_count = 1U; }},
+    };
+    for (const Case& one : cases) {
+        Rig rig;
+        one.apply(rig);
+        const std::vector<Finding> findings = rig.list_findings();
+
+        EXPECT_TRUE(std::any_of(
+            findings.begin(), findings.end(),
+            [&one](const Finding& found) { return found.rule == one.rule && found.element == one.element; }))
+            << one.what << ": " << findings.size() << " findings, first "
+            << (findings.empty() ? "none" : get_name(findings[0].rule));
+        EXPECT_EQ(rig.core_0.initialize(), Status::kBadParameter) << one.what;
+    }
+}
+
 TEST(TableRowsTest, WhatNothingFollowsDoesNoHarm) {
     verifies("SWR-KRN-025", Technique::kFaultInjection);
     for (const Damage& damage : list_damages()) {
