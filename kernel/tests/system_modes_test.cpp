@@ -265,6 +265,10 @@ TEST(SystemModesSetupTest, TheFirstModeNamesTheSetThatHoldsFirst) {
     EXPECT_EQ(SystemModes{view}.prepare().get_value(), kNoConfigurationSet) << "a table without modes";
     view.modes.modes = modes;
     EXPECT_EQ(SystemModes{view}.prepare().get_value(), kNoConfigurationSet) << "a mode without a set";
+    const std::array<ConfigurationSetRow, 2U> sets{{{"slow", 0U, 0U}, {"fast", 0U, 0U}}};
+    view.configuration.sets = sets;
+    modes[0].set = 1U;
+    EXPECT_EQ(SystemModes{view}.prepare().get_value(), 1U);
 }
 
 TEST(SystemModesSetupTest, ARefusedFirstSetKeepsTheSystemFromStarting) {
