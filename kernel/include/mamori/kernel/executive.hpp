@@ -3,8 +3,8 @@
 /// Runs the windows of a system table: latches inputs when a window opens, runs its components in order under
 /// a budget that the port enforces, hands values on within the window, and publishes outputs when it closes.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026, SWR-KRN-032, SWR-KRN-033,
-/// SWR-KRN-034, SWR-MOD-008, SWR-MOD-009
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026, SWR-KRN-032, SWR-KRN-033
+/// @satisfies SWR-KRN-034, SWR-MOD-008, SWR-MOD-009
 /// Design:   docs/design/kernel.md#windows, docs/design/modes.md#the-switch
 #ifndef MAMORI_KERNEL_EXECUTIVE_HPP
 #define MAMORI_KERNEL_EXECUTIVE_HPP
