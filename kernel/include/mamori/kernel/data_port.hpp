@@ -85,8 +85,7 @@ class OutPortBase {
     }
     /// Throws the staged value away: its window overran. What was published before stays.
     void discard() noexcept { is_staged_ = false; }
-    /// For connections: a queue had no room for what this write gave. @param[in] revision number of the
-    /// write.
+    /// For connections: a queue had no room for what a write gave. @param[in] revision its number.
     void note_refused(std::uint64_t revision) noexcept { refused_revision_ = revision; }
     /// Adds the published value, its sequence and instant. For the executive, after a publication.
     void hash_into(TraceHash& hash) const noexcept;

@@ -79,9 +79,8 @@ class QueueInPort final : public InPortBase {
 
     /// For connections, on the source's core: appends a sample when it comes from a later write than the
     /// last one. A full queue counts what it refuses; nothing waits.
-    /// @return kOk (also when there was nothing to append); kOutOfResources (kFull is kDoNothing and
-    /// kCapacity
-    ///         values wait).
+    /// @return kOk (also when there was nothing to append); kOutOfResources (kFull is kDoNothing, and as many
+    ///         values wait as there is room for).
     Status push(const typename OutPort<T>::Sample& sample) noexcept {
         if (sample.revision <= pushed_revision_) {
             return Status::kOk;

@@ -59,9 +59,8 @@ class SystemModes final {
     SystemModes& operator=(const SystemModes&) = delete;
 
     /// Asks for the transition that `event` has in the current mode.
-    /// @param[in] event enumerator of a mode_transition(); those of another enumeration are no events,
-    /// whatever
-    ///            their numbers (a table whose rows were filled by hand takes any).
+    /// @param[in] event enumerator of a mode_transition(); those of another enumeration are no events (but a
+    ///            table whose rows were filled by hand takes any that has the number).
     /// @return kOk: the cores take it two frames later; kBadParameter (no transition has this event);
     ///         kPreconditionNotMet (none in this mode, another request waits, a switch is under way, or a
     ///         failure is latched: ask again, or reset).
