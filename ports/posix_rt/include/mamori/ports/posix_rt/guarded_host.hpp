@@ -58,7 +58,7 @@ class GuardedHost final : public WindowHost {
   public:
     /// @param[in] threads one per window of the system table; must outlive the host, and the process when
     /// work
-    ///            of one hangs. @param[in] clock must outlive the host.
+    ///            of one hangs. @param[in] clock must outlive the host, and those threads.
     /// @param[in] place of the threads of the windows. The priority must be lower than that of the thread
     ///            that runs the windows; each gets it or, when it is refused, none.
     GuardedHost(Span<WindowThread> threads, const FrameClock& clock, ThreadPlace place) noexcept
