@@ -56,8 +56,7 @@ class WindowThread final {
 /// does. Time: two switches of threads per piece of work. Memory: none of its own.
 class GuardedHost final : public WindowHost {
   public:
-    /// @param[in] threads one per window of the system table; must outlive the host, and the process when
-    /// work
+    /// @param[in] threads one per window of the system table; must outlive the host, and for ever when work
     ///            of one hangs. @param[in] clock must outlive the host, and those threads.
     /// @param[in] place of the threads of the windows. The priority must be lower than that of the thread
     ///            that runs the windows; each gets it or, when it is refused, none.
