@@ -2,19 +2,22 @@
 // What an executive shows to an introspection. What it does: executive.cpp.
 #include "mamori/kernel/executive.hpp"
 #include "mamori/kernel/introspection.hpp"
+#include "mamori/kernel/system_check.hpp"
 
 namespace mamori {
 
 void Executive::set_introspection(Introspection* introspection) noexcept {
     MAMORI_REQUIRE(1, !is_busy_);
     MAMORI_REQUIRE(2, introspection == nullptr || introspection->is_of(view_));
+    is_table_sound_ = is_table_sound_ || check(view_).rule == Rule::kNone;
     introspection_ = introspection;
     prepare_work();
     show_windows();
 }
 
 void Executive::show_windows() noexcept {
-    if (introspection_ == nullptr) {
+    // The rows of a table that breaks a rule may lead anywhere.
+    if (introspection_ == nullptr || !is_table_sound_) {
         return;
     }
     for (std::size_t w = 0U; w < view_.windows.size(); ++w) {

@@ -71,7 +71,8 @@ Status Executive::initialize() noexcept {
         return Status::kPreconditionNotMet;
     }
     failed_component_ = kNoIndex;
-    if (check(view_).rule != Rule::kNone) {
+    is_table_sound_ = check(view_).rule == Rule::kNone;
+    if (!is_table_sound_) {
         return Status::kBadParameter;
     }
     is_busy_ = true;

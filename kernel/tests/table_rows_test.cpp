@@ -15,6 +15,7 @@
 
 #include "mamori/kernel/executive.hpp"
 #include "mamori/kernel/external_trigger.hpp"
+#include "mamori/kernel/introspection.hpp"
 #include "mamori/kernel/queue_in_port.hpp"
 #include "mamori/kernel/system.hpp"
 #include "mamori/verification/verifies.hpp"
@@ -91,6 +92,7 @@ struct Rig : Parts {
     SystemModes modes{make_view(table)};
     ExecutiveFor<Table> core_0{table, modes};
     ExecutiveFor<Table> core_1{table, modes, 1U};
+    IntrospectionFor<Table> introspection{table};
     FakeHost host;
 
     std::vector<Finding> list_findings() const {
@@ -396,6 +398,7 @@ TEST(TableRowsTest, EachPointerIndexRangeAndCountIsJudgedBeforeItIsFollowed) {
                                 }))
             << damage.what << ": " << findings.size() << " findings, first "
             << (findings.empty() ? "none" : get_name(findings[0].rule));
+        rig.core_0.set_introspection(&rig.introspection);
         EXPECT_EQ(rig.core_0.initialize(), Status::kBadParameter) << damage.what;
         EXPECT_EQ(rig.core_1.initialize(), Status::kBadParameter) << damage.what;
         ++judged_count;

@@ -130,7 +130,8 @@ class Executive {
     ///            called from within an action or from the observer (own bug).
     void set_observer(ExecutionObserver* observer) noexcept;
     /// Shows the course of execution to tools from now on: at the end of each opening of a window, and after
-    /// initialize(), start(), stop() and finalize(). No hash and no window depends on it.
+    /// initialize(), start(), stop() and finalize(). A table that breaks a rule shows nothing. No hash and no
+    /// window depends on it.
     /// @param[in] introspection of the same table, else an own bug; or nullptr; must outlive the executive.
     ///            Not to be called from within an action or from the observer (own bug).
     void set_introspection(Introspection* introspection) noexcept;
@@ -221,6 +222,7 @@ class Executive {
     bool has_joined_{false};  ///< takes part in what the cores agree on: from start() to stop()
     std::size_t core_;
     std::size_t failed_component_{kNoIndex};
+    bool is_table_sound_{false};  ///< it was judged, by initialize() or set_introspection()
     bool is_initialized_{false};
     bool is_busy_{false};  ///< an operation or a window is under way: another one must wait
 };
