@@ -348,6 +348,9 @@ TEST(ConstraintTest, EveryFindingHasItsOwnText) {
     for (std::uint8_t rule = 0U; rule <= static_cast<std::uint8_t>(ConstraintRule::kTooManyRanges) + 1U;
          ++rule) {
         texts.emplace_back(get_text(static_cast<ConstraintRule>(rule)));
+        const bool is_finding = rule != static_cast<std::uint8_t>(ConstraintRule::kNone);
+        EXPECT_EQ(texts.back().find("constraint: ") == 0U, is_finding) << texts.back();
+        EXPECT_FALSE(texts.back().empty());
     }
     for (std::size_t i = 0U; i < texts.size(); ++i) {
         for (std::size_t j = 0U; j < i; ++j) {

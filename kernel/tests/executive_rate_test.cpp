@@ -13,6 +13,7 @@ namespace mamori {
 namespace {
 
 using testing_support::FakeHost;
+using testing_support::SpyObserver;
 using verification::Polarity;
 using verification::Technique;
 using verification::verifies;
@@ -22,13 +23,14 @@ class Beat final : public Component {
     Beat() : Component("beat") {}
     std::vector<std::int64_t> cycles;
     int rate_changes{0};
+    Status rate_answer{Status::kOk};
     Status on_execute(ContextHandle context) noexcept override {
         cycles.push_back(context.now.ns);
         return Status::kOk;
     }
     Status on_rate_changed(ContextHandle) noexcept override {
         ++rate_changes;
-        return Status::kOk;
+        return rate_answer;
     }
 };
 
@@ -75,6 +77,28 @@ TEST_F(ExecutiveRateTest, AChosenRateComesWithTheNextFrame) {
     EXPECT_EQ(fast_.rate_changes, 1);
     EXPECT_EQ(slow_.cycles, (Times{5, 25, 45, 65}));
     EXPECT_EQ(slow_.rate_changes, 0);
+}
+
+TEST_F(ExecutiveRateTest, ATurnWithANewRateIsARunOfWhoeverWasActiveWhenItBegan) {
+    verifies("SWR-KRN-030", Technique::kStateTransition);
+    SpyObserver observer;
+    sut_.set_observer(&observer);
+    const auto take_turn_at_new_rate = [this, &observer](double rate_hz, std::int64_t boundary) {
+        EXPECT_EQ(sut_.get_context(0U).set_rate(rate_hz), Status::kOk);
+        run_until(boundary);
+        static_cast<void>(observer.take_seen(1U));
+        run_until(boundary + 1);
+        return observer.take_seen(1U)[0];
+    };
+
+    EXPECT_EQ(take_turn_at_new_rate(5.0e7, 40), ExecutionRecord::kWithin);
+    ASSERT_EQ(sut_.get_context(0U).deactivate_component(fast_, host_.now), Status::kOk);
+    EXPECT_EQ(take_turn_at_new_rate(1.0e8, 80), 0U);
+    ASSERT_EQ(sut_.get_context(0U).activate_component(fast_, host_.now), Status::kOk);
+    fast_.rate_answer = Status::kError;
+    EXPECT_EQ(take_turn_at_new_rate(5.0e7, 120), ExecutionRecord::kWithin) << "as after a failed on_execute";
+    EXPECT_EQ(take_turn_at_new_rate(1.0e8, 160), 0U) << "in Error";
+    EXPECT_EQ(fast_.rate_changes, 4);
 }
 
 TEST_F(ExecutiveRateTest, ARateThatTheTableDoesNotDeclareChangesNothing) {

@@ -219,6 +219,21 @@ TEST_F(ExecutiveTest, AnObserverWithTooFewRecordsIsAnOwnBug) {
     EXPECT_DEATH(sut_.set_observer(&few), "");
 }
 
+TEST_F(ExecutiveTest, TheTurnOfAComponentInErrorIsNoPartOfTheNextRun) {
+    verifies("SWR-KRN-030", Technique::kBoundaryValues, Polarity::kViolation);
+    counter_.answer = Status::kError;
+    run_frame(sut_, host_, 0);
+    SpyObserver observer;
+    observer.records[1].set_limits(40_ns, 40_ns);
+    sut_.set_observer(&observer);
+    host_.durations[{0U, WindowHost::Pass::kExecute}] = 30_ns;
+    host_.durations[{1U, WindowHost::Pass::kExecute}] = 40_ns;
+
+    run_frame(sut_, host_, 1);
+
+    EXPECT_EQ(observer.take_seen(2U), (Seen{0U, kWithin}));
+}
+
 TEST_F(ExecutiveTest, AComponentInErrorOrInactiveGivesNoSignOfLife) {
     verifies("SWR-KRN-030", Technique::kFaultInjection, Polarity::kViolation);
     SpyObserver observer;
