@@ -56,6 +56,25 @@ TEST_F(ContextPlanTest, APlanOfEachKindIsTaken) {
     EXPECT_EQ(try_attach(triggered), Status::kOk);
 }
 
+TEST_F(ContextPlanTest, AContextIsAttachedOnceAndAsNewAfterItWasDetached) {
+    verifies("SWR-RTC-001", Technique::kStateTransition, Polarity::kViolation);
+    ExecutionContext context;
+    const std::array<Component*, 1> participants{&stranger_};
+    ContextPlan plan{2_ms};
+    plan.kind = ExecutionKind::kOther;
+    plan.trigger = &trigger_;
+    ASSERT_EQ(context.attach(0, participants, plan), Status::kOk);
+    EXPECT_EQ(context.attach(0, participants, plan), Status::kPreconditionNotMet) << "0 is an identity";
+    EXPECT_EQ(context.get_kind(), ExecutionKind::kOther);
+
+    ASSERT_EQ(context.detach(), Status::kOk);
+    EXPECT_EQ(context.get_kind(), ExecutionKind::kPeriodic);
+    EXPECT_EQ(context.get_period(), 0_ms);
+    EXPECT_EQ(context.get_id(), -1);
+    EXPECT_EQ(context.get_participant_count(), 0U);
+    EXPECT_EQ(context.detach(), Status::kPreconditionNotMet);
+}
+
 TEST_F(ContextPlanTest, APlanThatContradictsItselfIsRefused) {
     verifies("SWR-RTC-001", Technique::kBoundaryValues, Polarity::kViolation);
     static constexpr std::array<Duration, 1> kSame{1_ms};

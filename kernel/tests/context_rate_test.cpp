@@ -53,6 +53,18 @@ TEST_F(ContextRateTest, ADeclaredRateComesIntoUseAtTheBoundary) {
     EXPECT_FALSE(sut_.apply_pending_rate()) << "nothing is pending any more";
 }
 
+TEST_F(ContextRateTest, TheNextWindowIsTheFirstAtTheNewRateWhereverTheOldOneStood) {
+    verifies("SWR-RTC-003", Technique::kBoundaryValues);
+    start_and_activate();
+    ASSERT_EQ(sut_.set_rate(500.0), Status::kOk);
+    ASSERT_TRUE(sut_.apply_pending_rate());
+    EXPECT_EQ(run_windows(1), "1") << "the next one would be left out";
+
+    ASSERT_EQ(sut_.set_rate(1000.0), Status::kOk);
+    ASSERT_TRUE(sut_.apply_pending_rate());
+    EXPECT_EQ(run_windows(2), "11");
+}
+
 TEST_F(ContextRateTest, ThePeriodIsMeantThatLiesWithinHalfANanosecond) {
     verifies("SWR-RTC-003", Technique::kBoundaryValues);
     start_and_activate();
