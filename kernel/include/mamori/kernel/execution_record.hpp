@@ -20,8 +20,8 @@ namespace mamori {
 /// until the owner clears it, so no run hides another.
 ///
 /// Thread safety: the executive writes while a window runs, the owner in the same execution context. A run
-///                that its host cuts off in the same moment, on another thread, may write as well: its flag is
-///                lost then, or a flag that was just taken comes back, and the overrun tells of it anyway.
+///                that its host cuts off in the same moment, on another thread, may write as well: its flag
+///                is lost then, or a flag that was just taken comes back, and the overrun tells of it anyway.
 class ExecutionRecord final {
   public:
     static constexpr std::uint32_t kWithin = 1U;   ///< a run within the limits
