@@ -26,7 +26,7 @@ using verification::Technique;
 using verification::verifies;
 using literals::operator""_ns;
 
-constexpr std::int64_t kFrames = 50'000;
+constexpr std::int64_t kFrames = 20'000;
 constexpr std::uint32_t kForEver = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kSeed = 20261122U;
 
