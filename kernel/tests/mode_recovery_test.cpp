@@ -13,7 +13,10 @@ namespace {
 using testing_support::Command;
 using testing_support::kHalt;
 using testing_support::kWork;
+using testing_support::ModeHost;
+using testing_support::Part;
 using testing_support::Robot;
+using testing_support::TroublePlan;
 using verification::Polarity;
 using verification::Technique;
 using verification::verifies;
@@ -108,6 +111,48 @@ TEST_F(ModeRecoveryTest, ASafeModeThatIsAskedForWhileNothingRunsHoldsFromTheStar
     EXPECT_EQ(sut_.modes.get_mode(), kHalt);
     sut_.run_frames(3);
     EXPECT_EQ(sut_.drive.cycle_count, cycles);
+}
+
+/// One core; each mode has a set of its own.
+TEST(SafeModeSetTest, TheSafeModeBringsItsOwnSetWhereverItIsEnteredFrom) {
+    verifies("SWR-MOD-007", Technique::kFaultInjection, Polarity::kViolation);
+    std::array<ModeHost, 1U> hosts;
+    const TroublePlan plan{};
+    Part guard{"guard", 1, hosts[0], plan};
+    Part drive{"drive", 2, hosts[0], plan};
+    const auto table = system(frame(1000_ns), window("w", 0_ns, 900_ns, budget(800_ns), run(guard, drive)),
+                              configuration_set("fast", assign(guard.speed, 2.0)),
+                              configuration_set("crawl", assign(guard.speed, 0.2)),
+                              system_mode("work", runs(guard, drive), parameters("fast")),
+                              safe_mode("halt", runs(guard), parameters("crawl")));
+    SystemModes modes{make_view(table)};
+    ExecutiveFor sut{table, modes};
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    std::int64_t frame_number = 0;
+    const auto run_frames = [&](int count) {
+        for (int i = 0; i < count; ++i, ++frame_number) {
+            hosts[0].now = Instant{frame_number * 1000};
+            ASSERT_EQ(sut.run_window(0U, hosts[0].now, hosts[0]), WindowOutcome::kCompleted);
+        }
+    };
+    run_frames(2);
+    ASSERT_EQ(guard.speeds.back(), 2.0);
+
+    ASSERT_EQ(modes.request_safe_mode(), Status::kOk);
+    run_frames(8);
+    EXPECT_EQ(modes.get_mode(), 1U);
+    EXPECT_EQ(guard.speeds.back(), 0.2);
+
+    ASSERT_EQ(sut.stop(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    run_frames(1);
+    EXPECT_EQ(guard.speeds.back(), 0.2) << "it is still the safe mode";
+    ASSERT_EQ(sut.stop(), Status::kOk);
+    ASSERT_EQ(modes.reset(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    run_frames(1);
+    EXPECT_EQ(guard.speeds.back(), 2.0);
 }
 
 TEST(ModePlanTest, WhatSeemsFurtherAheadThanAnybodyPlansIsOld) {
