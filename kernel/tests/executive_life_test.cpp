@@ -200,6 +200,23 @@ TEST_F(ExecutiveLifeTest, FinalizeIsRefusedWhileAComponentIsActiveAndReportsTheF
     EXPECT_FALSE(a_.is_alive() || b_.is_alive() || c_.is_alive());
 }
 
+TEST_F(ExecutiveLifeTest, TheAbortPolicyOfTheTableIsThatOfItsContexts) {
+    verifies("SWR-KRN-024", Technique::kInterface);
+    auto table = table_;
+    table.abort_policy = AbortPolicy::kOpenRtmCompat;
+    ExecutiveFor<decltype(table)> sut{table};
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    static_cast<void>(take(calls_));
+    a_.answers["on_execute"] = Status::kError;
+
+    ASSERT_EQ(sut.run_window(0U, host_), WindowOutcome::kCompleted);
+    const Calls calls = take(calls_);
+    ASSERT_GE(calls.size(), 3U);
+    EXPECT_EQ(Calls(calls.begin(), calls.begin() + 3),
+              (Calls{"a.on_execute", "a.on_deactivated", "a.on_aborting"}));
+}
+
 TEST_F(ExecutiveLifeTest, AComponentWhoseLifeHasEndedIsNotFinalizedAgain) {
     verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
     ASSERT_EQ(sut_.initialize(), Status::kOk);
