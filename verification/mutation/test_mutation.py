@@ -245,6 +245,9 @@ def test_likely_killers_come_first(sources: Sources) -> None:
     original = Baseline(replace(sources, units=units), sources.root / "work", 2)
 
     assert [test.stem for test in original.order_tests(SOURCE)] == ["limit_test", "limit_life_test", "limited_test", "another_test"]
+    original.note_kill(SOURCE, next(test for test in original.tests if test.stem == "another_test"))
+    assert original.order_tests(SOURCE)[0].stem == "another_test"
+    assert original.order_tests(HEADER)[0].stem == "limit_test"
 
 
 @pytest.mark.verifies("SWR-VER-005", technique="interface")

@@ -16,6 +16,7 @@ import shutil
 import signal
 import subprocess
 import time
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -70,6 +71,7 @@ class Baseline:
         self.links: dict[str, frozenset[str]] = {}
         self.archive = folder / "liblayer.a"
         self._took_s: dict[str, float] = {}
+        self._kills: Counter[tuple[str, str]] = Counter()  # by file that was mutated and path of the test
         self._assembler: dict[str, str] = {}
         (folder / "objects").mkdir(parents=True)
         self._make_prefix()
@@ -91,13 +93,13 @@ class Baseline:
         return self.folder / "objects" / (unit.path.replace("/", "_") + ".o")
 
     def order_tests(self, file: str) -> list[Unit]:
-        """Tests by how likely they find a fault in `file`: named after it, after its beginning, naming it, after its first
-        word, including it. Of equals the quick ones come first."""
+        """Tests by how likely they find a fault in `file`: those that found most of them so far, named after it, after its
+        beginning, naming it, after its first word, including it. Of equals the quick ones come first."""
         stem = Path(file).stem
         header = f"/{stem}.hpp"
         include = re.compile(rf'#include "[^"]*{re.escape(header)}"')
 
-        def rank(test: Unit) -> tuple[int, int, str]:
+        def rank(test: Unit) -> tuple[int, int, int, str]:
             marks = (
                 test.stem == f"{stem}_test",
                 test.stem.startswith(stem),
@@ -106,9 +108,13 @@ class Baseline:
                 any(name.endswith(header) for name in self.includes[test.path]),
             )
             place = next((place for place, mark in enumerate(marks) if mark), len(marks))
-            return place, int(self._took_s.get(test.path, 0.0)), test.path
+            return -self._kills[file, test.path], place, int(self._took_s.get(test.path, 0.0)), test.path
 
         return sorted(self.tests, key=rank)
+
+    def note_kill(self, file: str, test: Unit) -> None:
+        """Only the order depends on it, in which benches come to their verdicts; the verdicts do not."""
+        self._kills[file, test.path] += 1
 
     def find_units(self, name: str) -> list[Unit]:
         """Units that are or include the file `name` (relative to the layer): sources first, then tests in their order."""
@@ -237,6 +243,7 @@ class Bench:
                 continue  # not a byte of this program changed
             status, words = self.run_test(test, changed, self._baseline.calc_timeout(test))
             if status != 0:
+                self._baseline.note_kill(mutant.file, test)
                 return Result(mutant, KILLED, f"{test.path} {words}".strip() if words == TIMED_OUT else test.path)
         for unit in left.values():
             if refusal := self._recompile(unit, changed, mutant):
