@@ -10,16 +10,19 @@ using mamori::Duration;
 using mamori::Instant;
 using mamori::sim::FaultKind;
 
-/// The operator presses start once, long after the self test can have passed.
 constexpr Instant kStartPressed{100000000};
 constexpr Instant kStartReleased{200000000};
 
 }  // namespace
 
+bool is_start_pressed(Instant now) noexcept {
+    return now >= kStartPressed && now < kStartReleased;
+}
+
 void Machine::begin_frame(std::uint64_t, Instant now) noexcept {
     mamori::sim::apply_plant_faults(fault_, now, plant_.faults());
     apply_software_faults(now);
-    plant_.set_buttons(now >= kStartPressed && now < kStartReleased, false);
+    plant_.set_buttons(is_start_pressed(now), false);
     inputs = plant_.sample();
 }
 

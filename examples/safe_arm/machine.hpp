@@ -12,6 +12,9 @@
 
 namespace safe_arm {
 
+/// The operator presses start once, long after the self test can have passed.
+bool is_start_pressed(mamori::Instant now) noexcept;
+
 /// Devices of the run; calls the recorder after each frame. All references must outlive it.
 class Machine final : public mamori::ports::virtual_time::FrameDevices {
   public:

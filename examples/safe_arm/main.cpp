@@ -4,25 +4,23 @@
 #include <cmath>
 #include <iostream>
 
+#include "arm_start.hpp"
 #include "machine.hpp"
 #include "mamori/simbody_sim/computed_torque_controller.hpp"
-#include "model_check.hpp"
 #include "run_recorder.hpp"
 #include "safe_arm_system.hpp"
 #include "table_output.hpp"
+#include "timing_command.hpp"
 
 namespace {
 
 using mamori::Duration;
 using mamori::Instant;
-using mamori::Status;
 using namespace mamori::literals;  // NOLINT: units of the constants below
 
 constexpr int kExitOk = 0;
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
-/// The path begins here: operational since 0.1 s, brakes open, hold settled.
-constexpr Duration kMotionStart = 500_ms;
 /// Time after the path: long enough for a stop late in the motion and for the drift after it.
 constexpr Duration kSettling = 2000_ms;
 
@@ -32,18 +30,11 @@ int fail(int exit_code, const std::string& message) {
 }
 
 int run_scenario(const safe_arm::RunOptions& options) {
-    const mamori::sim::LoadedModel loaded = mamori::sim::load_arm_model(options.model);
-    if (!loaded.model.has_value()) {
-        return fail(kExitUsage, loaded.error);
-    }
-    const std::string refusal = safe_arm::check_model(*loaded.model);
-    if (!refusal.empty()) {
-        return fail(kExitUsage, options.model + ": " + refusal);
-    }
+    mamori::sim::LoadedModel loaded;
     safe_arm::MotionTrack track;
-    std::string error;
-    if (!track.read(options.motion, safe_arm::kFrameS, error)) {
-        return fail(kExitUsage, error);
+    const std::string refusal = safe_arm::load_inputs(options.model, options.motion, loaded, track);
+    if (!refusal.empty()) {
+        return fail(kExitUsage, refusal);
     }
     const std::string unwritable = safe_arm::claim_folder(options.out);
     if (!unwritable.empty()) {
@@ -57,23 +48,19 @@ int run_scenario(const safe_arm::RunOptions& options) {
         }
     }
     const auto motion_ns = static_cast<std::int64_t>(std::llround(track.get_duration_s() * 1.0e9));
-    const Instant motion_end = Instant{} + kMotionStart + Duration{motion_ns};
+    const Instant motion_end = Instant{} + safe_arm::kMotionStart + Duration{motion_ns};
     mamori::sim::FaultPlan fault = options.fault;
-    fault.at = fault.at + kMotionStart;
+    fault.at = fault.at + safe_arm::kMotionStart;
 
     mamori::sim::ArmPlant plant{*loaded.model};
     plant.reset(track.calc_point(0.0).position_rad);
     mamori::sim::ComputedTorqueController law{*loaded.model};
-    safe_arm::RunRecord record{options, *loaded.model, fault, Instant{} + kMotionStart, motion_end};
+    safe_arm::RunRecord record{options, *loaded.model, fault, Instant{} + safe_arm::kMotionStart, motion_end};
     plant.set_observer(&record.get_verdict());
-    safe_arm::controller.configure(track, law, Instant{} + kMotionStart);
-    if (safe_arm::reader.configure(safe_arm::get_encoder_scale(*loaded.model)) != Status::kOk ||
-        safe_arm::watch_components() != Status::kOk || safe_arm::executive.initialize() != Status::kOk ||
-        safe_arm::executive.start() != Status::kOk) {
-        return fail(kExitFailed, "the system refuses to start: component " +
-                                     std::to_string(safe_arm::executive.get_failed_component()));
+    const std::string obstacle = safe_arm::start_system(*loaded.model, track, law);
+    if (!obstacle.empty()) {
+        return fail(kExitFailed, obstacle);
     }
-    safe_arm::executive.set_observer(&safe_arm::supervision);
 
     std::array<Duration, safe_arm::kComponentCount> times{};
     times.fill(safe_arm::kSafetyComponentTime);
@@ -112,5 +99,8 @@ int main(int argc, char** argv) {
     if (command.exit_code >= 0) {
         return command.exit_code;
     }
-    return command.table.empty() ? run_scenario(command.options) : write_table(command.table);
+    if (!command.table.empty()) {
+        return write_table(command.table);
+    }
+    return command.is_timing ? safe_arm::run_timing_command(command.options) : run_scenario(command.options);
 }

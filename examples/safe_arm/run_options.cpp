@@ -19,8 +19,9 @@ std::string check_not_negative(const std::string& text) {
     return text.find('-') == std::string::npos ? std::string{} : "'" + text + "' must be 0 or more";
 }
 
-const std::vector<std::string_view> kWords{"run",     "table",  "--model",  "--motion",   "--out",
-                                           "--fault", "--seed", "--frames", "--recorder", "--help"};
+const std::vector<std::string_view> kWords{"run",      "table",      "timing",   "--model",
+                                           "--motion", "--out",      "--fault",  "--seed",
+                                           "--frames", "--recorder", "--cycles", "--help"};
 
 /// @return the first word that is neither known nor the value of an option.
 std::string find_unknown_word(int argc, const char* const* argv) {
@@ -62,6 +63,14 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
                     "by `mamori log`");
     CLI::App* table = app.add_subcommand("table", "Write the system table as JSON; `mamori table` shows it.");
     table->add_option("--out", result.table, "File for the table")->required();
+    CLI::App* timing =
+        app.add_subcommand("timing", "Run by the clock and measure; `mamori timing` shows it.");
+    timing->add_option("--model", options.model, "Arm model file (YAML)")->required();
+    timing->add_option("--motion", options.motion, "Motion table; without one the arm holds its position");
+    timing->add_option("--out", options.out, "Folder for the measured times")->required();
+    timing->add_option("--cycles", options.frames, "Frames of 1 ms to run")
+        ->required()
+        ->check(CLI::PositiveNumber);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {
@@ -80,6 +89,7 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
         result.exit_code = kExitUsage;
         return result;
     }
+    result.is_timing = timing->parsed();
     if (!options.fault_text.empty()) {
         const mamori::sim::ParsedFaultPlan parsed = mamori::sim::parse_fault_plan(options.fault_text);
         if (!parsed.plan.has_value()) {

@@ -26,7 +26,8 @@ struct RunOptions {
 /// or one line with the error).
 struct ParsedCommand {
     RunOptions options;
-    std::string table;  ///< file for the system table; not empty: write it instead of running
+    std::string table;      ///< file for the system table; not empty: write it instead of running
+    bool is_timing{false};  ///< run by the clock and measure, `frames` frames
     int exit_code{-1};
 };
 

@@ -34,7 +34,8 @@ static constexpr auto kSafeArm = mamori::system(
     mamori::connect(supervisor.stop, gate.stop), mamori::connect(channel.out, gate.command));
 MAMORI_CHECK(kSafeArm);
 
-static_assert(kSafeArm.components.size() == kComponentCount && kSafeArm.components[kReaderIndex] == &reader &&
+static_assert(kSafeArm.kWindowCount == kWindowCount && kSafeArm.components.size() == kComponentCount &&
+              kSafeArm.components[kReaderIndex] == &reader &&
               kSafeArm.components[kMonitorIndex] == &monitor &&
               kSafeArm.components[kSupervisorIndex] == &supervisor &&
               kSafeArm.components[kControllerIndex] == &controller &&

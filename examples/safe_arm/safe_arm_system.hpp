@@ -28,6 +28,7 @@ inline constexpr std::size_t kControllerIndex = 3U;
 inline constexpr std::size_t kChannelIndex = 4U;
 inline constexpr std::size_t kGateIndex = 5U;
 inline constexpr std::size_t kComponentCount = 6U;
+inline constexpr std::size_t kWindowCount = 4U;
 
 /// Messages that the channel can hold back: a delay of 63 ms at one message per frame.
 inline constexpr std::size_t kChannelCapacity = 64U;

@@ -291,5 +291,32 @@ TEST_F(RunTest, FolderThatCannotBeWrittenGivesOneLine) {
     EXPECT_NE(messages_.find("cannot be written"), std::string::npos) << messages_;
 }
 
+TEST_F(RunTest, TimingLeavesTheTimesOfEveryWindowOfEveryFrame) {
+    verifies("SWR-TIM-004");
+    const std::string place = "--model '" SAFE_ARM_MODEL_FILE "' --out '" + (folder_ / "out").string() + "' ";
+    ASSERT_EQ(run("timing --cycles 300 " + place + "--motion '" + (folder_ / "motion.dat").string() + "'"), 0)
+        << messages_;
+
+    const nlohmann::json facts = read_summary();
+    EXPECT_EQ(facts["schema"], "mamori.timing_run/1");
+    EXPECT_EQ(facts["cycles"]["run"], 300);
+    EXPECT_GT(fs::file_size(folder_ / "out" / "openings.npy"), 300U * 4U * 32U);
+    EXPECT_GT(fs::file_size(folder_ / "out" / "steps.npy"), 32U);
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream{folder_ / "out" / "table.json"})["reactions"].size(),
+              kArmFaultCount);
+    EXPECT_NE(messages_.find("safe_arm: state "), std::string::npos) << messages_;
+}
+
+TEST_F(RunTest, TimingOfNoCyclesIsRefused) {
+    verifies("SWR-TIM-004", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const char* cycles : {"0", "-1", "many"}) {
+        EXPECT_EQ(run("timing --model '" SAFE_ARM_MODEL_FILE "' --out '" + (folder_ / "out").string() +
+                      "' --cycles " + cycles),
+                  2)
+            << cycles;
+        expect_one_line("--cycles");
+    }
+}
+
 }  // namespace
 }  // namespace safe_arm

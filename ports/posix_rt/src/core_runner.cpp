@@ -23,8 +23,15 @@ void CoreRunner::run(std::uint64_t frame_count) noexcept {
 }
 
 void CoreRunner::open(const FrameSchedule::Opening& opening) noexcept {
-    const Duration lateness = clock_.get_now() - opening.release;
+    const Instant woke = clock_.get_now();
+    const Duration lateness = woke - opening.release;
+    if (observer_ != nullptr) {
+        observer_->before_opening(opening, woke);
+    }
     const WindowOutcome outcome = executive_.run_window(opening.window, opening.release, host_);
+    if (observer_ != nullptr) {
+        observer_->after_opening(opening, outcome);
+    }
     ++counts_.opened;
     counts_.overran += outcome == WindowOutcome::kOverrun ? 1U : 0U;
     counts_.missed += outcome == WindowOutcome::kMissed ? 1U : 0U;

@@ -227,6 +227,36 @@ TEST_F(CoreRunnerTest, EachWindowOpensAtItsPlaceOnTheGridHoweverLateTheMachineIs
     EXPECT_GE(a_.starts.size() + b_.starts.size() + counts.missed + counts.overran, 20U);
 }
 
+TEST_F(CoreRunnerTest, AListenerIsToldOfEachOpeningBeforeAndAfter) {
+    verifies("SWR-PRT-006");
+    class Listener final : public OpeningObserver {
+      public:
+        void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override {
+            is_early = is_early || woke < opening.release;
+            heard.push_back("before " + std::to_string(opening.window));
+        }
+        void after_opening(const FrameSchedule::Opening& opening, WindowOutcome) noexcept override {
+            heard.push_back("after " + std::to_string(opening.window));
+        }
+        std::vector<std::string> heard;
+        bool is_early{false};
+    } listener;
+    ASSERT_EQ(host_.open(), Status::kOk);
+    ASSERT_EQ(executive_.initialize(), Status::kOk);
+    ASSERT_EQ(executive_.start(), Status::kOk);
+    sut_.set_observer(&listener);
+
+    sut_.run(1U);
+    sut_.set_observer(nullptr);
+    sut_.run(1U);
+
+    EXPECT_EQ(listener.heard, (std::vector<std::string>{"before 0", "after 0", "before 1", "after 1"}));
+    EXPECT_FALSE(listener.is_early);
+    while (host_.close() != Status::kOk) {
+        std::this_thread::yield();
+    }
+}
+
 TEST_F(CoreRunnerTest, AStopEndsTheRunBeforeTheNextOpening) {
     verifies("SWR-PRT-005", Technique::kErrorGuessing, Polarity::kViolation);
     ASSERT_EQ(host_.open(), Status::kOk);

@@ -2,7 +2,7 @@
 /// @file
 /// Runs the windows of one core in real time: each opens at its place on the fixed grid of the frame.
 ///
-/// @satisfies SWR-PRT-005      Design: docs/design/posix_rt.md#grid
+/// @satisfies SWR-PRT-005, SWR-PRT-006      Design: docs/design/posix_rt.md#grid
 #ifndef MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
 #define MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
 
@@ -24,6 +24,22 @@ struct OpeningCounts {
     Duration worst_lateness{0};  ///< from the planned instant to the first reading of the clock after it
 };
 
+/// Listens to a runner, opening by opening: devices that are sampled before a window, a log of its times.
+///
+/// Calling context: the thread that runs the windows, when nothing of the core's windows is under way but
+/// work that was cut off. Implementations must not block; their time delays what comes after.
+class OpeningObserver {
+  public:
+    /// The runner is awake and has read the clock. @param[in] woke first reading of the clock after the
+    /// sleep.
+    virtual void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept = 0;
+    /// The window is over, or did not open.
+    virtual void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept = 0;
+
+  protected:
+    ~OpeningObserver() = default;
+};
+
 /// Thread safety: request_stop() from any thread or signal handler; the rest from the thread that runs the
 ///                windows, whose priority must be higher than that of the host's threads.
 /// Memory:        none of its own; all references must outlive it.
@@ -33,6 +49,10 @@ class CoreRunner final {
         : executive_(executive), host_(host), clock_(clock) {}
     CoreRunner(const CoreRunner&) = delete;
     CoreRunner& operator=(const CoreRunner&) = delete;
+
+    /// @param[in] observer must outlive the runner or be replaced; nullptr: none. Not while run() is under
+    /// way.
+    void set_observer(OpeningObserver* observer) noexcept { observer_ = observer; }
 
     /// Opens every window whose place lies in the next `frame_count` frames, from the first frame on that
     /// begins now or later; returns after the last, or soon after request_stop(). Sleeps in between. An
@@ -52,6 +72,7 @@ class CoreRunner final {
     Executive& executive_;
     WindowHost& host_;
     const FrameClock& clock_;
+    OpeningObserver* observer_{nullptr};
     OpeningCounts counts_{};
     std::atomic<bool> is_stop_wanted_{false};
 };

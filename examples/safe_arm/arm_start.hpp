@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What a run in virtual time and one by the clock have in common before their first frame.
+#ifndef EXAMPLES_SAFE_ARM_ARM_START_HPP
+#define EXAMPLES_SAFE_ARM_ARM_START_HPP
+
+#include <string>
+
+#include "mamori/kernel/time.hpp"
+#include "mamori/simbody_sim/arm_model.hpp"
+#include "mamori/simbody_sim/computed_torque_controller.hpp"
+#include "motion_track.hpp"
+
+namespace safe_arm {
+
+/// The path begins here: operational since 0.1 s, brakes open, hold settled.
+inline constexpr mamori::Duration kMotionStart{500'000'000};
+
+/// Reads the model, which must lie around the safe limits, and the motion, when one is named.
+/// @return one line with file and reason, or nothing.
+std::string load_inputs(const std::string& model_path, const std::string& motion_path,
+                        mamori::sim::LoadedModel& loaded, MotionTrack& track);
+
+/// Configures the components, initialises and starts the executive, and puts it under supervision.
+/// @param[in] track, law must outlive the run. @return why the system does not start, or nothing.
+std::string start_system(const mamori::sim::ArmModel& model, const MotionTrack& track,
+                         mamori::sim::ComputedTorqueController& law);
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_ARM_START_HPP

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Runs a system in real time for a number of frames and writes what was measured, for `mamori timing`. For
+/// hosts: link mamori::timing into your program and offer `timing --cycles N --out DIR`.
+///
+/// @satisfies SWR-TIM-002, SWR-TIM-003      Design: docs/design/timing_run.md#run
+#ifndef MAMORI_TIMING_TIMING_RUN_HPP
+#define MAMORI_TIMING_TIMING_RUN_HPP
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/ports/posix_rt/core_runner.hpp"
+#include "mamori/ports/posix_rt/guarded_host.hpp"
+
+namespace mamori::timing {
+
+/// One core of the system. The executive is initialised and started by whoever calls, and stopped.
+struct TimedCore {
+    Executive& executive;
+    /// One per window of the system table, static storage: see WindowThread.
+    Span<ports::posix_rt::WindowThread> threads;
+    /// Devices around the windows of this core; nullptr: none.
+    ports::posix_rt::OpeningObserver* devices{nullptr};
+};
+
+struct TimingOptions {
+    std::uint64_t cycles{60000U};  ///< major frames, > 0
+    std::string out;               ///< folder of the results; is made
+    int priority{80};  ///< of SCHED_FIFO for the threads that wait; those of the windows get 10 less
+    /// Writes table.json to the path that it is given; empty: the table without names. @return what is wrong.
+    std::function<std::string(const std::string&)> save_table{};
+};
+
+/// How a run ended.
+enum class TimingOutcome : std::uint8_t {
+    kWhole,        ///< all frames, all files written
+    kInterrupted,  ///< by SIGINT or SIGTERM: what there was is written, and marked as partial
+    kRefused,      ///< bad options, or fewer processors than cores; nothing ran, nothing was written
+    kFailed,       ///< no threads to be had, or a file could not be written
+};
+
+struct TimingResult {
+    TimingOutcome outcome{TimingOutcome::kRefused};
+    std::string message;  ///< what is wrong, where, and what to do; empty when nothing is
+};
+
+/// Exit status that `mamori timing` expects of the program: 0, 130, 2, 1 in the order of TimingOutcome.
+int get_exit_status(TimingOutcome outcome) noexcept;
+
+/// Runs all cores at once, each on a processor of its own, and writes table.json, openings.npy, steps.npy and
+/// run.json (docs/design/timing_run.md#files) into the folder. SIGINT and SIGTERM end it early while it runs.
+///
+/// Calling context: the main thread of a program, once per process; work that hangs for ever keeps its
+/// memory. Memory: heap, locked if the process has the right; about 30 bytes per opening and 40 per step.
+/// @param[in] cores one per core of the table, in their order.
+TimingResult run_timing(const std::vector<TimedCore>& cores, const TimingOptions& options);
+
+}  // namespace mamori::timing
+
+#endif  // MAMORI_TIMING_TIMING_RUN_HPP

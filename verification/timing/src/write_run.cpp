@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "write_run.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "npy.hpp"
+
+namespace mamori::timing {
+namespace {
+
+using ports::posix_rt::Right;
+
+/// Pointers to the rows of all cores, earlier instants first; of equal ones the lower core.
+template <typename Row, typename GetRows>
+std::vector<const Row*> merge(const std::vector<const RunLog*>& logs, const GetRows& get_rows) {
+    std::vector<const Row*> rows;
+    for (const RunLog* log : logs) {
+        for (const Row& row : get_rows(*log)) {
+            rows.push_back(&row);
+        }
+    }
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const Row* a, const Row* b) { return a->release < b->release; });
+    return rows;
+}
+
+std::string make_openings(const std::vector<const RunLog*>& logs) {
+    NpyTable table{{{"release_ns", 8U}, {"woke_ns", 8U}, {"closed_ns", 8U}, {"window", 4U}, {"outcome", 4U}}};
+    for (const OpeningRow* row :
+         merge<OpeningRow>(logs, [](const RunLog& log) { return log.get_openings(); })) {
+        table.add(row->release.ns);
+        table.add(row->woke.ns);
+        table.add(row->closed.ns);
+        table.add(static_cast<std::int64_t>(row->window));
+        table.add(static_cast<std::int64_t>(row->outcome));
+    }
+    return table.make();
+}
+
+/// Steps that never began are none.
+std::string make_steps(const std::vector<const RunLog*>& logs) {
+    NpyTable table{{{"release_ns", 8U}, {"start_ns", 8U}, {"end_ns", 8U}, {"component", 4U}, {"pass", 4U}}};
+    for (const StepRow* row : merge<StepRow>(logs, [](const RunLog& log) { return log.get_steps(); })) {
+        // In this order: work that is still out may end in between, and an end needs a start.
+        const std::int64_t end = row->end_ns.load(std::memory_order_acquire);
+        const std::int64_t start = row->start_ns.load(std::memory_order_acquire);
+        if (start != kNoInstant.ns) {
+            table.add(row->release.ns);
+            table.add(start);
+            table.add(end);
+            table.add(static_cast<std::int64_t>(row->component));
+            table.add(static_cast<std::int64_t>(row->pass));
+        }
+    }
+    return table.make();
+}
+
+std::string make_right(const Right& right) {
+    return std::string{"{\"is_granted\": "} + (right.is_granted ? "true" : "false") +
+           ", \"errno\": " + std::to_string(right.system_error) + "}";
+}
+
+std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& facts) {
+    std::uint64_t lost = 0U;
+    for (const RunLog* log : logs) {
+        lost += log->get_lost_count();
+    }
+    return "{\"schema\": \"mamori.timing_run/1\",\n \"cycles\": {\"asked\": " +
+           std::to_string(facts.asked_cycles) + ", \"run\": " + std::to_string(facts.run_cycles) +
+           "},\n \"is_partial\": " + (facts.is_partial ? "true" : "false") +
+           ",\n \"frame_ns\": " + std::to_string(facts.frame.ns) +
+           ",\n \"reference_ns\": " + std::to_string(facts.reference.ns) +
+           ",\n \"lost_rows\": " + std::to_string(lost) +
+           ",\n \"rights\": {\"priority\": " + make_right(facts.priority) +
+           ", \"processor\": " + make_right(facts.processor) + ", \"memory\": " + make_right(facts.memory) +
+           "}\n}\n";
+}
+
+bool write_whole(const std::string& path, const std::string& content) {
+    const std::string partial = path + ".part";
+    std::error_code error;
+    {
+        std::ofstream out{partial, std::ios::binary};
+        out.write(content.data(), static_cast<std::streamsize>(content.size()));
+        out.close();
+        if (out) {
+            std::filesystem::rename(partial, path, error);
+            if (!error) {
+                return true;
+            }
+        }
+    }
+    std::filesystem::remove(partial, error);
+    return false;
+}
+
+}  // namespace
+
+std::string write_run(const std::string& folder, const std::vector<const RunLog*>& logs,
+                      const RunFacts& facts) {
+    const std::vector<std::pair<std::string, std::string>> files{{"openings.npy", make_openings(logs)},
+                                                                 {"steps.npy", make_steps(logs)},
+                                                                 {"run.json", make_facts(logs, facts)}};
+    for (const auto& [name, content] : files) {
+        if (!write_whole(folder + "/" + name, content)) {
+            return folder + "/" + name +
+                   ": cannot be written; check the folder, its permissions and its room";
+        }
+    }
+    return {};
+}
+
+}  // namespace mamori::timing
