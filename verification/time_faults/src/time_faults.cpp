@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "time_faults.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <random>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/ports/posix_rt/core_runner.hpp"
+#include "mamori/ports/posix_rt/guarded_host.hpp"
+#include "stall_watch.hpp"
+
+namespace mamori::time_faults {
+namespace {
+
+using ports::posix_rt::CoreRunner;
+using ports::posix_rt::FrameClock;
+using ports::posix_rt::GuardedHost;
+using ports::posix_rt::OpeningObserver;
+using ports::posix_rt::WindowThread;
+using namespace literals;  // NOLINT: units of the table below
+
+constexpr std::size_t kComponentCount = 4U;
+constexpr std::size_t kWindowCount = 3U;
+constexpr Duration kBudget = 200_us;
+constexpr int kWatchPriority = 90;
+constexpr int kRunnerPriority = 80;
+constexpr int kWindowPriority = 70;
+
+/// What a component was told to do, and when it did.
+struct Deed {
+    std::size_t component{0U};
+    Instant begin{};
+    std::atomic<std::int64_t> end_ns{0};  ///< 0: not back yet
+};
+
+/// Set before the run, for work that never has to look for it.
+const FrameClock* time_line = nullptr;
+std::vector<Deed>* deeds = nullptr;
+std::atomic<std::size_t> deed_count{0U};
+
+class Victim final : public Component {
+  public:
+    constexpr explicit Victim(const char* name, std::size_t place) noexcept
+        : Component(name), place_(place) {}
+
+    /// The next cycle takes `size`. @param[in] size 0: as usual.
+    void arm(Kind kind, Duration size) noexcept {
+        kind_ = kind;
+        size_ns_.store(size.ns, std::memory_order_release);
+    }
+
+    Status on_execute(ContextHandle) noexcept override {
+        const std::int64_t size = size_ns_.exchange(0, std::memory_order_acquire);
+        if (size == 0) {
+            return Status::kOk;
+        }
+        const Instant begin = time_line->get_now();
+        Deed& deed = (*deeds)[deed_count.fetch_add(1U, std::memory_order_relaxed)];
+        deed.component = place_;
+        deed.begin = begin;
+        const Instant end = begin + Duration{size};
+        if (kind_ == Kind::kSleep) {
+            time_line->wait_until(end);
+        }
+        while (time_line->get_now() < end) {
+        }
+        deed.end_ns.store(time_line->get_now().ns, std::memory_order_release);
+        return Status::kOk;
+    }
+
+  private:
+    std::size_t place_;
+    Kind kind_{Kind::kLoop};
+    std::atomic<std::int64_t> size_ns_{0};
+};
+
+Victim alpha{"alpha", 0U};
+Victim beta{"beta", 1U};
+Victim gamma{"gamma", 2U};
+Victim delta{"delta", 3U};
+constexpr auto kSystem =
+    system(frame(kTick), window("first", 0_us, 300_us, budget(kBudget), mamori::run(alpha)),
+           window("second", 300_us, 300_us, budget(kBudget), mamori::run(beta, gamma)),
+           window("third", 600_us, 300_us, budget(kBudget), mamori::run(delta)));
+MAMORI_CHECK(kSystem);
+ExecutiveFor executive{kSystem};
+std::array<Victim*, kComponentCount> victims{&alpha, &beta, &gamma, &delta};
+constexpr std::array<std::size_t, kComponentCount> kWindowOf{0U, 1U, 1U, 2U};
+std::array<WindowThread, kWindowCount> threads;
+
+/// A window that was held back.
+struct Delay {
+    std::size_t window{0U};
+    Instant release{};
+    Instant end{};
+};
+
+/// Puts the faults in and takes the reports down, on the thread that runs the windows.
+class Director final : public OpeningObserver, public ExecutionObserver {
+  public:
+    Director(const FrameClock& clock, std::vector<Injection> injections)
+        : clock_(clock), injections_(std::move(injections)) {
+        reports.reserve(kRoom);
+        delays.reserve(injections_.size());
+    }
+
+    void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override {
+        release_ = opening.release;
+        woke_ = woke;
+        const auto frame = static_cast<std::uint64_t>(opening.release.ns / kTick.ns);
+        if (next_ == injections_.size() || frame < injections_[next_].frame) {
+            return;
+        }
+        const Injection& injection = injections_[next_];
+        if (injection.kind != Kind::kLateRelease) {
+            victims[injection.place]->arm(injection.kind, injection.size);
+            ++next_;
+        } else if (opening.window == injection.place) {
+            const Instant end = opening.release + injection.size;
+            while (clock_.get_now() < end) {
+            }
+            delays.push_back({opening.window, opening.release, clock_.get_now()});
+            ++next_;
+        }
+    }
+    void after_opening(const FrameSchedule::Opening&, WindowOutcome) noexcept override {}
+
+    void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override {
+        add({true, window, component, release_, woke_, now, Duration{0}});
+    }
+    void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override {
+        if (lateness > kTick) {
+            add({false, window, kNoIndex, release_, woke_, now, lateness});
+        }
+    }
+
+    std::vector<Report> reports;
+    std::vector<Delay> delays;
+
+  private:
+    static constexpr std::size_t kRoom = 1'000'000U;
+    void add(const Report& report) noexcept {
+        if (reports.size() < kRoom) {
+            reports.push_back(report);
+        }
+    }
+
+    const FrameClock& clock_;
+    std::vector<Injection> injections_;
+    std::size_t next_{0U};
+    Instant release_{};
+    Instant woke_{};
+};
+
+/// Reports in the order of their instants, each of which must have its reason.
+class Judge final {
+  public:
+    Judge(const std::vector<Report>& reports, const StallWatch& stalls) : reports_(reports), stalls_(stalls) {
+        explained_.resize(reports.size(), false);
+    }
+
+    /// Everything that is reported from the deed's begin to a tick after its end, about its window, is its
+    /// doing.
+    void judge(const Deed& deed, Verdict& verdict) {
+        const std::int64_t end = deed.end_ns.load(std::memory_order_acquire);
+        const Instant last =
+            end == 0 ? Instant{std::numeric_limits<std::int64_t>::max()} : Instant{end} + kTick;
+        const Report* first = nullptr;
+        bool is_misnamed = false;
+        for (std::size_t i = find(deed.begin); i < reports_.size() && reports_[i].at <= last; ++i) {
+            const Report& report = reports_[i];
+            if (!report.is_overrun) {
+                continue;
+            }
+            if (report.window == kWindowOf[deed.component] && report.component == deed.component) {
+                explained_[i] = true;
+                first = first == nullptr ? &report : first;
+            } else {
+                is_misnamed = true;
+            }
+        }
+        ++verdict.injected;
+        if (first == nullptr) {
+            ++(is_misnamed ? verdict.misnamed : verdict.unseen);
+            return;
+        }
+        ++verdict.seen;
+        const Instant deadline = first->woke + kBudget;
+        const Duration detection = first->at - deadline;
+        verdict.detection_ns.push_back(detection.ns);
+        if (detection > kTick) {
+            ++(stalls_.overlaps(deadline, first->at) ? verdict.tardy_by_host : verdict.tardy);
+        }
+    }
+
+    /// The opening that was held back is reported as late; those after it, until the grid is met again, too.
+    /// One of them may open just before its close, and then what is left of its budget is too short for
+    /// anything.
+    void judge(const Delay& delay, Verdict& verdict) {
+        ++verdict.injected;
+        bool is_seen = false;
+        for (std::size_t i = find(delay.release); i < reports_.size() && reports_[i].release <= delay.end;
+             ++i) {
+            if (!reports_[i].is_overrun || is_cut_short(reports_[i])) {
+                explained_[i] = true;
+                is_seen = is_seen || (!reports_[i].is_overrun && reports_[i].window == delay.window &&
+                                      reports_[i].release == delay.release);
+            }
+        }
+        ++(is_seen ? verdict.seen : verdict.unseen);
+    }
+
+    /// What is left is the machine's doing or nobody's. A window that is reported in two frames in a row is
+    /// reported for one reason: its work was not back yet.
+    void judge_rest(Verdict& verdict) {
+        for (std::size_t i = 0U; i < reports_.size(); ++i) {
+            const Report& report = reports_[i];
+            if (explained_[i] || is_aftermath(i)) {
+                explained_[i] = true;
+            } else if (stalls_.overlaps(report.release, report.at)) {
+                ++verdict.by_host;
+            } else {
+                ++verdict.invented;
+                verdict.unexplained.push_back(report);
+            }
+        }
+    }
+
+  private:
+    /// The window opened so late that less than its budget was left to its close.
+    static bool is_cut_short(const Report& report) noexcept {
+        return report.woke + kBudget > report.release + kSystem.windows[report.window].length;
+    }
+    bool is_aftermath(std::size_t index) const {
+        const Report& report = reports_[index];
+        for (std::size_t i = index; i > 0U && reports_[i - 1U].release + kTick >= report.release; --i) {
+            const Report& before = reports_[i - 1U];
+            if (before.is_overrun && report.is_overrun && before.window == report.window &&
+                before.release + kTick == report.release) {
+                return explained_[i - 1U];
+            }
+        }
+        return false;
+    }
+    /// The first report at `from` or later.
+    std::size_t find(Instant from) const {
+        const auto place = std::lower_bound(reports_.begin(), reports_.end(), from,
+                                            [](const Report& report, Instant at) { return report.at < at; });
+        return static_cast<std::size_t>(place - reports_.begin());
+    }
+
+    const std::vector<Report>& reports_;
+    const StallWatch& stalls_;
+    std::vector<bool> explained_;
+};
+
+std::string to_text(const Report& report) {
+    return std::string{"{\"is_overrun\": "} + (report.is_overrun ? "true" : "false") +
+           ", \"window\": " + std::to_string(report.window) +
+           ", \"component\": " + (report.is_overrun ? std::to_string(report.component) : "null") +
+           ", \"release_ns\": " + std::to_string(report.release.ns) +
+           ", \"woke_ns\": " + std::to_string(report.woke.ns) +
+           ", \"at_ns\": " + std::to_string(report.at.ns) +
+           ", \"lateness_ns\": " + std::to_string(report.lateness.ns) + "}";
+}
+
+}  // namespace
+
+std::vector<Injection> make_injections(const Request& request) {
+    std::mt19937_64 random{request.seed};
+    std::vector<Injection> injections;
+    const std::uint64_t stride =
+        request.injection_count == 0U ? 1U : request.frame_count / request.injection_count;
+    for (std::size_t i = 0U; i < request.injection_count; ++i) {
+        Injection injection;
+        injection.frame = i * stride + random() % (stride - kDistance + 1U);
+        injection.kind = static_cast<Kind>(random() % 3U);
+        injection.place = random() % (injection.kind == Kind::kLateRelease ? kWindowCount : kComponentCount);
+        injection.size = Duration{kTick.ns * 11 / 10 + static_cast<std::int64_t>(random() % 2'900'000U)};
+        injections.push_back(injection);
+    }
+    return injections;
+}
+
+Verdict run(const Request& request) {
+    // Work that hangs longer than the run may still look at these.
+    static const FrameClock clock = FrameClock::starting_in(500_ms);
+    static std::vector<Deed> storage(request.injection_count + 1U);
+    time_line = &clock;
+    deeds = &storage;
+    static_cast<void>(ports::posix_rt::lock_memory(256U * 1024U));
+    const ports::posix_rt::Right right = ports::posix_rt::set_priority(pthread_self(), kRunnerPriority);
+    static_cast<void>(ports::posix_rt::set_processor(pthread_self(), 0));
+    static GuardedHost host{threads, clock, {kWindowPriority, 0}};
+    Director director{clock, make_injections(request)};
+    CoreRunner runner{executive, host, clock};
+    runner.set_observer(&director);
+    Verdict verdict;
+    if (host.open() != Status::kOk || executive.initialize() != Status::kOk ||
+        executive.start() != Status::kOk) {
+        return verdict;
+    }
+    executive.set_observer(&director);
+    StallWatch stalls{clock, Duration{kTick.ns / 20}, {kWatchPriority, 0}};
+    runner.run(request.frame_count);
+    stalls.stop();
+    while (host.close() != Status::kOk) {
+        clock.wait_until(clock.get_now() + kTick);
+    }
+    verdict.frames = request.frame_count;
+    verdict.has_priority = right.is_granted && host.get_priority_right().is_granted;
+    verdict.stalls = stalls.get_stalls().size();
+    for (const Stall& stall : stalls.get_stalls()) {
+        verdict.longest_stall = std::max(verdict.longest_stall, stall.end - stall.begin);
+    }
+    Judge judge{director.reports, stalls};
+    for (std::size_t i = 0U; i < deed_count.load(std::memory_order_relaxed); ++i) {
+        judge.judge(storage[i], verdict);
+    }
+    for (const Delay& delay : director.delays) {
+        judge.judge(delay, verdict);
+    }
+    judge.judge_rest(verdict);
+    return verdict;
+}
+
+std::string to_json(const Request& request, const Verdict& verdict) {
+    std::vector<std::int64_t> sorted = verdict.detection_ns;
+    std::sort(sorted.begin(), sorted.end());
+    const auto quantile = [&sorted](std::size_t percent) {
+        return sorted.empty() ? std::int64_t{0} : sorted[(sorted.size() - 1U) * percent / 100U];
+    };
+    const auto number = [](const char* key, std::int64_t value) {
+        return ",\n \"" + std::string{key} + "\": " + std::to_string(value);
+    };
+    const auto count = [&number](const char* key, std::uint64_t value) {
+        return number(key, static_cast<std::int64_t>(value));
+    };
+    std::string list;
+    for (const Report& report : verdict.unexplained) {
+        list += (list.empty() ? "\n  " : ",\n  ") + to_text(report);
+    }
+    return "{\"schema\": \"mamori.time_faults/1\"" + count("seed", request.seed) +
+           count("frames", verdict.frames) + count("injected", verdict.injected) +
+           count("seen", verdict.seen) + count("misnamed", verdict.misnamed) +
+           count("unseen", verdict.unseen) + count("tardy", verdict.tardy) +
+           count("tardy_by_host", verdict.tardy_by_host) + count("invented", verdict.invented) +
+           count("by_host", verdict.by_host) + count("stalls", verdict.stalls) +
+           number("longest_stall_ns", verdict.longest_stall.ns) + number("detection_p50_ns", quantile(50U)) +
+           number("detection_p99_ns", quantile(99U)) + number("detection_max_ns", quantile(100U)) +
+           ",\n \"unexplained\": [" + list + "]" +
+           ",\n \"has_priority\": " + (verdict.has_priority ? "true" : "false") +
+           ",\n \"is_well\": " + (verdict.is_well() ? "true" : "false") + "\n}\n";
+}
+
+}  // namespace mamori::time_faults
