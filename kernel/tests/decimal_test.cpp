@@ -110,6 +110,14 @@ TEST(DecimalTest, RealNumbersThatWouldBecomeInfiniteOrZeroAreRefused) {
     expect_refused<float>({"3.4028236e38", "1e39", "7e-46", "-7e-46"});
 }
 
+TEST(DecimalTest, AnExponentIsJudgedTogetherWithTheZerosBeforeIt) {
+    verifies("SWR-PAR-002", Technique::kBoundaryValues);
+    const std::string zeros(95'000U, '0');
+
+    expect_value(("0." + zeros + "1e95001").c_str(), 1.0);
+    expect_value(("1" + zeros + "e-95000").c_str(), 1.0);
+}
+
 TEST(DecimalTest, WholeNumbersAreExactOrRefused) {
     verifies("SWR-PAR-002", Technique::kBoundaryValues, Polarity::kViolation);
 
@@ -121,6 +129,8 @@ TEST(DecimalTest, WholeNumbersAreExactOrRefused) {
     expect_value<std::int32_t>("-0", 0);
     expect_value<std::uint8_t>("-0.0", 0U);
     expect_value<bool>("1", true);
+    expect_value<std::uint64_t>("1844674407370955161e1", 18446744073709551610U);
+    expect_refused<std::uint64_t>({"1844674407370955162e1"});
     expect_refused<std::int8_t>({"128", "-129", "0.5", "1e-1", "1e30"});
     expect_refused<std::uint8_t>({"256", "-1"});
     expect_refused<std::int64_t>({"9223372036854775808", "-9223372036854775809"});

@@ -38,6 +38,9 @@ std::uint32_t note_unlimited(Instant started, Instant finished) {
     return record.get_seen();
 }
 
+/// Each has a bit of its own, since both may be seen at once; supervision keeps them.
+static_assert(kWithin == 1U && kOutside == 2U);
+
 TEST(ExecutionRecordTest, ARunWithinItsLimitsIsNoted) {
     verifies("SWR-KRN-030", Technique::kBoundaryValues);
     const auto limits = std::make_pair(10_ns, 20_ns);
