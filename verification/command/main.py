@@ -90,6 +90,13 @@ def make_parser(with_trace: bool = False) -> Parser:
     mutate.add_argument("--seed", type=int, default=1, metavar="S")
     mutate.add_argument("--list", action="store_true")
     mutate.add_argument("--store", action="store_true")
+    timing = add("timing")
+    timing.add_argument("system", metavar="SYSTEM")
+    timing.add_argument("--cycles", type=at_least_one, default=60_000, metavar="N")
+    timing.add_argument("--out", type=Path, metavar="DIR")
+    timing.add_argument("--load", action="store_true")
+    timing.add_argument("--check", type=Path, metavar="BASELINE")
+    timing.add_argument("--accept", type=Path, metavar="BASELINE")
     fuzz = add("fuzz")
     fuzz.add_argument("names", nargs="*", metavar="NAME")
     fuzz.add_argument("--seconds", type=at_least_one, default=30, metavar="N")
@@ -103,7 +110,8 @@ def make_parser(with_trace: bool = False) -> Parser:
 
 def run(argv: list[str]) -> int:
     """Runs the command. @return the exit status."""
-    arguments = make_parser(with_trace=argv[:1] == ["trace"]).parse_args(argv)
+    own, passed_on = _split(argv)
+    arguments = make_parser(with_trace=argv[:1] == ["trace"]).parse_args(own)
     match arguments.command:
         case "demo":
             return jobs.demo(arguments.jobs, arguments.motion, tuple(arguments.scenario), arguments.instants)
@@ -119,6 +127,8 @@ def run(argv: list[str]) -> int:
             return table_dump.run(arguments)
         case "bench":
             return _run_bench(arguments)
+        case "timing":
+            return _run_timing(arguments, passed_on)
         case "mutate":
             from mamori.verification.mutation import command as mutation
 
@@ -136,6 +146,14 @@ def run(argv: list[str]) -> int:
             return run_trace(arguments)
 
 
+def _split(argv: list[str]) -> tuple[list[str], tuple[str, ...]]:
+    """@return our own words, and those that `timing` passes on: what comes after the first `--`."""
+    if argv[:1] != ["timing"] or "--" not in argv:
+        return argv, ()
+    place = argv.index("--")
+    return argv[:place], tuple(argv[place + 1 :])
+
+
 def _run_bench(arguments: argparse.Namespace) -> int:
     from mamori.verification.bench.command import Request, bench, list_benches
 
@@ -145,8 +163,15 @@ def _run_bench(arguments: argparse.Namespace) -> int:
     return bench(request, arguments.jobs)
 
 
+def _run_timing(arguments: argparse.Namespace, passed_on: tuple[str, ...]) -> int:
+    from mamori.verification.timing.command import Request, timing
+
+    request = Request(arguments.system, arguments.cycles, arguments.out, arguments.load, arguments.check, arguments.accept, passed_on)
+    return timing(request, arguments.jobs)
+
+
 def main(argv: Sequence[str] | None = None) -> int:
-    """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input) or 130 (stopped)."""
+    """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input), 4 (timing without rights) or 130 (stopped)."""
     raise_on_signals()
     try:
         return run(list(sys.argv[1:] if argv is None else argv))

@@ -16,13 +16,14 @@ HOW_TO_MEND = "write it again with mamori::table_dump"
 class JsonNode:
     """One JSON value with its place, which every complaint names."""
 
-    def __init__(self, path: Path, place: str, value: object) -> None:
+    def __init__(self, path: Path, place: str, value: object, mend: str = HOW_TO_MEND) -> None:
         self._path = path
         self._place = place
         self._value = value
+        self._mend = mend
 
     def complain(self, text: str) -> InputError:
-        return InputError(f"{self._place} {text}; {HOW_TO_MEND}", self._path)
+        return InputError(f"{self._place} {text}; {self._mend}", self._path)
 
     def at(self, key: str) -> JsonNode:
         place = f"{self._place}.{key}" if self._place != "the table" else key
@@ -30,12 +31,12 @@ class JsonNode:
             raise self.complain("must be an object")
         if key not in self._value:
             raise self.complain(f"has no '{key}'")
-        return JsonNode(self._path, place, self._value[key])
+        return JsonNode(self._path, place, self._value[key], self._mend)
 
     def items(self) -> list[JsonNode]:
         if not isinstance(self._value, list):
             raise self.complain("must be a list")
-        return [JsonNode(self._path, f"{self._place}[{index}]", value) for index, value in enumerate(self._value)]
+        return [JsonNode(self._path, f"{self._place}[{index}]", value, self._mend) for index, value in enumerate(self._value)]
 
     def is_none(self) -> bool:
         return self._value is None

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a measurement says about windows and components: pure functions from arrays to figures.
+
+@satisfies SWR-TIM-012, SWR-TIM-013, SWR-TIM-014      Design: docs/design/timing.md#figures
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mamori.verification.timing.reader import COMPLETED, MISSED, NOT_BACK, OUTCOMES, OVERRUN, Array, Measurement
+
+OPENED = (COMPLETED, OVERRUN, MISSED)
+"""Outcomes that tell how late a window was; the others had nothing to be late for."""
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """Order statistics of times [ns]: each quantile is a value that was measured (nearest rank)."""
+
+    count: int
+    min: int
+    p50: int
+    p99: int
+    p999: int
+    max: int
+
+
+@dataclass(frozen=True)
+class Series:
+    """Values in order of time [ns], and the release [ns] of the opening that each belongs to."""
+
+    releases: Array
+    values: Array
+
+
+@dataclass(frozen=True)
+class Miss:
+    """An opening that overran or was missed. `component` is the guilty one; nobody, where the window was released too late."""
+
+    cycle: int
+    release_ns: int
+    window: str
+    outcome: str
+    component: str | None
+    late_ns: int
+    reason: str
+
+
+@dataclass(frozen=True)
+class WindowRow:
+    """One window: plan and measurement. `response` is closed - release, `used` is closed - woke; the margins are what is left
+    of length and of budget at the worst; None where nothing was measured."""
+
+    window: str
+    core: int
+    offset_ns: int
+    length_ns: int
+    period_ns: int
+    budget_ns: int
+    outcomes: dict[str, int]
+    lateness: Distribution | None
+    response: Distribution | None
+    used_max_ns: int | None
+    budget_margin_ns: int | None
+    length_margin_ns: int | None
+
+
+@dataclass(frozen=True)
+class ComponentRow:
+    """One component: execution time per opening against the declared worst case. `unfinished` openings had not come back."""
+
+    component: str
+    window: str
+    declared_ns: int | None
+    execution: Distribution | None
+    margin_ns: int | None
+    unfinished: int
+
+
+def describe(values: Array) -> Distribution | None:
+    """@param values [ns], any order. @return None where there is no value."""
+    if not len(values):
+        return None
+    ordered = np.sort(values)
+    return Distribution(len(ordered), int(ordered[0]), _pick(ordered, 500), _pick(ordered, 990), _pick(ordered, 999), int(ordered[-1]))
+
+
+def _pick(ordered: Array, permille: int) -> int:
+    """The smallest value that at least `permille` thousandths of all do not exceed; in whole numbers, since 0.999 is none."""
+    return int(ordered[-(-permille * len(ordered) // 1000) - 1])
+
+
+def calc_lateness(run: Measurement, window: int) -> Series:
+    """woke - release of each opening that was released."""
+    rows = run.openings[run.rows_of(window)]
+    rows = rows[np.isin(rows["outcome"], OPENED)]
+    return Series(rows["release_ns"], rows["woke_ns"] - rows["release_ns"])
+
+
+def calc_execution(run: Measurement, component: int) -> tuple[Series, int]:
+    """Sum of the steps of one component in each opening, where all of them came back. @return it, and the number of openings
+    where one did not."""
+    of_it = run.steps["component"] == component
+    steps, rows = run.steps[of_it], run.opening_of_step[of_it]
+    if not len(steps):
+        return Series(np.zeros(0, np.int64), np.zeros(0, np.int64)), 0
+    first = int(rows.min())
+    length = int(rows.max()) - first + 1
+    is_open = np.bincount(rows - first, weights=steps["end_ns"] == NOT_BACK, minlength=length) > 0
+    # Sums of a float are exact here: instants are below 2**53 ns.
+    sums = np.bincount(rows - first, weights=steps["end_ns"] - steps["start_ns"], minlength=length).astype(np.int64)
+    ran = np.bincount(rows - first, minlength=length) > 0
+    whole = ran & ~is_open
+    return Series(run.openings["release_ns"][first : first + length][whole], sums[whole]), int(is_open.sum())
+
+
+def list_windows(run: Measurement) -> list[WindowRow]:
+    """The schedulability table, window by window."""
+    return [_make_window(run, index) for index in range(len(run.table.windows))]
+
+
+def _make_window(run: Measurement, index: int) -> WindowRow:
+    window = run.table.windows[index]
+    rows = run.openings[run.rows_of(index)]
+    counts = np.bincount(rows["outcome"], minlength=len(OUTCOMES))
+    ran = rows[np.isin(rows["outcome"], (COMPLETED, OVERRUN))]
+    response = describe(ran["closed_ns"] - ran["release_ns"])
+    used = int((ran["closed_ns"] - ran["woke_ns"]).max()) if len(ran) else None
+    return WindowRow(
+        window.name, window.core, window.offset_ns, window.length_ns, window.period_ns, window.budget_ns,
+        {name: int(count) for name, count in zip(OUTCOMES, counts, strict=True)},
+        describe(calc_lateness(run, index).values), response, used,
+        None if used is None else window.budget_ns - used,
+        None if response is None else window.length_ns - response.max,
+    )  # fmt: skip
+
+
+def list_components(run: Measurement) -> list[ComponentRow]:
+    """Execution times of all components that a window runs."""
+    rows = []
+    for index, component in enumerate(run.table.components):
+        if component.window is None:
+            continue
+        series, unfinished = calc_execution(run, index)
+        execution = describe(series.values)
+        declared = component.worst_case_ns
+        margin = None if execution is None or declared is None else declared - execution.max
+        rows.append(ComponentRow(component.name, run.table.windows[component.window].name, declared, execution, margin, unfinished))
+    return rows
+
+
+def list_misses(run: Measurement) -> list[Miss]:
+    """Each opening that overran or was missed, in order of time."""
+    chosen = np.flatnonzero(np.isin(run.openings["outcome"], (OVERRUN, MISSED)))
+    order = np.argsort(run.openings["release_ns"][chosen], kind="stable")
+    return [_make_miss(run, int(row)) for row in chosen[order]]
+
+
+def _make_miss(run: Measurement, row: int) -> Miss:
+    opening = run.openings[row]
+    window = run.table.windows[int(opening["window"])]
+    release, late = int(opening["release_ns"]), int(opening["woke_ns"] - opening["release_ns"])
+    cycle = release // run.table.frame_ns
+    if opening["outcome"] == MISSED:
+        return Miss(cycle, release, window.name, OUTCOMES[MISSED], None, late, "released after its planned close")
+    name, reason = _find_guilty(run, row)
+    return Miss(cycle, release, window.name, OUTCOMES[OVERRUN], name, late, reason)
+
+
+def _find_guilty(run: Measurement, row: int) -> tuple[str | None, str]:
+    """@return the component that was not back at the deadline of an overrun, and what it did; nobody where no step tells."""
+    opening = run.openings[row]
+    index = int(opening["window"])
+    window = run.table.windows[index]
+    # As the executive does: a window that opens late keeps its budget, but not beyond its planned close.
+    deadline = min(int(opening["woke_ns"]) + window.budget_ns, int(opening["release_ns"]) + window.length_ns)
+    first = run.rows_of(index).start
+    # Also steps of earlier openings: work that hangs keeps its window closed.
+    mine = (run.opening_of_step >= first) & (run.opening_of_step <= row)
+    steps = run.steps[mine]
+    late = steps[(steps["start_ns"] <= deadline) & ((steps["end_ns"] == NOT_BACK) | (steps["end_ns"] > deadline))]
+    if len(late):
+        step = late[int(np.argmin(late["start_ns"]))]
+        since = "" if step["release_ns"] == opening["release_ns"] else f"; it began in cycle {int(step['release_ns']) // run.table.frame_ns}"
+        end = int(step["end_ns"])
+        text = "never came back" if end == NOT_BACK else f"came back {(end - deadline) / 1e3:.1f} us after the deadline"
+        return run.table.component_name(int(step["component"])), text + since
+    ran = set(run.steps["component"][run.opening_of_step == row].tolist())
+    waiting = [component for component in run.table.components_of(index) if component not in ran]
+    if waiting:
+        return run.table.component_name(waiting[0]), "had not begun by the deadline: its thread did not get the processor"
+    return None, "no step was late: the processor was taken between steps"
+
+
+def list_findings(windows: list[WindowRow], components: list[ComponentRow], misses: list[Miss]) -> list[str]:
+    """What the code is to blame for, one line each: overruns and declared worst cases that are too low.
+
+    An opening that was missed is none: the window was released too late, which is the host's doing.
+    """
+    findings = []
+    for row in components:
+        if row.execution is not None and row.margin_ns is not None and row.margin_ns < 0:
+            findings.append(f"component '{row.component}': declared worst case {(row.declared_ns or 0) / 1e3:g} us, "
+                            f"measured {row.execution.max / 1e3:g} us")  # fmt: skip
+    for window in windows:
+        overran = [miss for miss in misses if miss.window == window.window and miss.outcome == OUTCOMES[OVERRUN]]
+        if overran:
+            findings.append(f"window '{window.window}': {len(overran)} overran, first in cycle {overran[0].cycle} by "
+                            f"'{overran[0].component or 'nobody'}', which {overran[0].reason}")  # fmt: skip
+    return findings

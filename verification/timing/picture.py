@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The pictures of a run: how late windows were released, how long components took, how long chains were on their way.
+
+@satisfies SWR-TIM-027      Design: docs/design/timing.md#pictures
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+import numpy as np  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.ticker import FixedFormatter, FixedLocator, NullFormatter, NullLocator  # noqa: E402
+
+from mamori.verification.timing.analysis import calc_execution, calc_lateness  # noqa: E402
+from mamori.verification.timing.reader import Array  # noqa: E402
+from mamori.verification.timing.report import Report  # noqa: E402
+from mamori.verification.timing.text import format_us, shorten  # noqa: E402
+
+# Told apart by everybody, also in grey: measured, limit, and what is drawn beside them.
+MEASURED, LIMIT, INK, FAINT, WARN = "#0072b2", "#d55e00", "#222222", "#cccccc", "#b00020"
+SUFFIXES = (".svg", ".png")
+ROWS_MAX = 16
+"""More rows than that no screen shows; the worst are drawn, all are in timing.json."""
+BINS = 80
+POINTS_MAX = 2000
+ROW_INCH = 1.5
+WIDTH_INCH = 11.0
+FRACTION_SPAN = 3.0
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A line at `ns` with its name."""
+
+    name: str
+    ns: int
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of a picture: measured values [ns] and the limits they are held against."""
+
+    title: str
+    values: Array
+    limits: tuple[Limit, ...] = ()
+
+
+def draw_report(report: Report, folder: Path) -> list[Path]:
+    """Writes each picture as SVG and PNG, each whole or not at all. @return their paths."""
+    pictures = {
+        "release_lateness": ("Release lateness: first clock reading after the wake-up, less the planned opening", _list_lateness(report)),
+        "execution_time": ("Execution time of each component per opening", _list_execution(report)),
+        "chain_latency": ("End-to-end latency: start of the first component to end of the last one", _list_latency(report)),
+    }
+    paths = []
+    for name, (title, rows) in pictures.items():
+        measured = [row for row in rows if len(row.values)]
+        if measured:
+            paths += _save(make_figure(title, measured, _make_subtitle(report), report.marks), folder, name)
+    return paths
+
+
+def _list_lateness(report: Report) -> list[Row]:
+    table = report.run.table
+    return [Row(f"window {window.name}", calc_lateness(report.run, index).values, (Limit("window length", window.length_ns),))
+            for index, window in enumerate(table.windows)]  # fmt: skip
+
+
+def _list_execution(report: Report) -> list[Row]:
+    table = report.run.table
+    rows = []
+    for index, component in enumerate(table.components):
+        if component.window is None:
+            continue
+        window = table.windows[component.window]
+        limits = [Limit(f"budget of {window.name}", window.budget_ns)]
+        if component.worst_case_ns is not None:
+            limits.append(Limit("declared worst case", component.worst_case_ns))
+        rows.append(Row(component.name, calc_execution(report.run, index)[0].values, tuple(limits)))
+    return rows
+
+
+def _list_latency(report: Report) -> list[Row]:
+    return [Row(row.name, row.times.values, (Limit("virtual time, at most", row.virtual.max_ns),)) for row in report.chains]
+
+
+def _make_subtitle(report: Report) -> str:
+    setting = report.host["setting"]
+    return (f"{report.system}, {report.run.cycles_run} cycles of {format_us(report.run.table.frame_ns)} µs; kernel {setting['kernel']} "
+            f"({setting['preemption']}), governor {setting['governor']}, load {report.host['before']['load_1_min']} .. "
+            f"{report.host['after']['load_1_min']}, steal {100 * report.steal_share:.2f} %"
+            f"{', beside stress-ng' if report.with_load else ''}")  # fmt: skip
+
+
+def make_figure(title: str, rows: Sequence[Row], subtitle: str, marks: Sequence[str]) -> Figure:
+    """One line per row: histogram on the left, tail on the right, one axis of time for all."""
+    worst_first = sorted(range(len(rows)), key=lambda index: -int(rows[index].values.max()))
+    shown = [rows[index] for index in sorted(worst_first[:ROWS_MAX])]
+    height = ROW_INCH * len(shown) + 1.5 + 0.25 * len(marks)
+    figure = Figure(figsize=(WIDTH_INCH, height))
+    lines = [(title, 13, INK, "normal"), (subtitle, 8.5, INK, "normal"), *((mark, 9.5, WARN, "bold") for mark in marks)]
+    if len(shown) < len(rows):
+        lines.append((f"the {len(shown)} of {len(rows)} with the greatest maximum; all are in timing.json", 8.5, INK, "normal"))
+    y = height - 0.12
+    for text, size, colour, weight in lines:
+        figure.text(0.5, y / height, text, ha="center", va="top", fontsize=size, color=colour, weight=weight)
+        y -= size / 72 * 1.5
+    axes = figure.subplots(len(shown), 2, squeeze=False, gridspec_kw={
+        "left": 0.065, "right": 0.985, "bottom": 0.55 / height, "top": (y - 0.28) / height, "hspace": 0.5, "wspace": 0.13})  # fmt: skip
+    low, high = _find_span(shown)
+    for row, (left, right) in zip(shown, axes, strict=True):
+        _draw_histogram(left, row, low, high)
+        _draw_tail(right, row, low, high)
+    for axis in axes[-1]:
+        axis.set_xlabel("µs (logarithmic)", fontsize=9)
+    return figure
+
+
+def _find_span(rows: Sequence[Row]) -> tuple[float, float]:
+    """Span [µs] of the axis of time, which takes all values and all limits."""
+    ends = [float(one) for row in rows for one in (max(1, int(row.values.min())), int(row.values.max()), *(limit.ns for limit in row.limits))]
+    low, high = max(1.0, min(ends)), max(ends)
+    if high < FRACTION_SPAN * low:
+        low, high = high / FRACTION_SPAN, high
+    return low / 1e3 / 1.15, high / 1e3 * 1.3
+
+
+def _draw_histogram(axis: Any, row: Row, low: float, high: float) -> None:
+    axis.hist(np.maximum(row.values, 1) / 1e3, bins=np.geomspace(low, high, BINS), color=MEASURED)
+    _set_time_axis(axis, low, high)
+    _draw_limits(axis, row, with_names=False)
+    axis.set_title(f"{shorten(row.title)}   (n = {len(row.values)})", fontsize=9.5, color=INK, loc="left")
+    axis.set_ylabel("openings", fontsize=8.5)
+    axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axis.locator_params(axis="y", nbins=4)
+
+
+def _draw_tail(axis: Any, row: Row, low: float, high: float) -> None:
+    """The share of openings that took longer, exactly: each point is one of the empirical distribution."""
+    times, share = calc_tail(row.values)
+    axis.step(times / 1e3, share, where="post", color=MEASURED, linewidth=1.6)
+    axis.plot(times[-1:] / 1e3, share[-1:], marker="o", markersize=4, color=MEASURED)
+    _set_time_axis(axis, low, high)
+    axis.set_yscale("log")
+    axis.set_ylim(0.5 / len(row.values), 1.6)
+    exponents = range(0, -12, -1 if len(row.values) < 3000 else -2)
+    ticks = [10.0**exponent for exponent in exponents if 10.0**exponent > 0.5 / len(row.values)]
+    axis.yaxis.set_major_locator(FixedLocator(ticks))
+    axis.yaxis.set_minor_locator(NullLocator())
+    axis.yaxis.set_major_formatter(FixedFormatter([f"{tick:g}" for tick in ticks]))
+    _draw_limits(axis, row, with_names=True)
+    axis.set_ylabel("share above", fontsize=8.5)
+    worst = int(row.values.max())
+    axis.set_title(f"max {format_us(worst)} µs", fontsize=9.5, color=INK, loc="left")
+
+
+def calc_tail(values: Array) -> tuple[Array, Array]:
+    """@return at most POINTS_MAX points: values [ns], ascending, and the share of all that is greater; the last, which none is
+    above, has that of the greatest itself, since a logarithmic axis has no 0. All of the tail, and a part of the bulk."""
+    ordered = np.sort(values)
+    count = len(ordered)
+    from_end = np.unique(np.concatenate((np.arange(min(count, POINTS_MAX // 2)), np.geomspace(1, count, POINTS_MAX // 2).astype(np.int64) - 1)))
+    times = np.unique(ordered[count - 1 - from_end])
+    above = count - np.searchsorted(ordered, times, side="right")
+    return np.maximum(times, 1), np.maximum(above, 1) / count
+
+
+def _draw_limits(axis: Any, row: Row, with_names: bool) -> None:
+    for number, limit in enumerate(row.limits):
+        style = ("-", "--")[number % 2]
+        label = f"{limit.name} {format_us(limit.ns)} µs"
+        axis.axvline(limit.ns / 1e3, color=LIMIT, linewidth=1.6, linestyle=style, label=label)
+    if with_names and row.limits:
+        axis.legend(fontsize=8, frameon=False, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(row.limits), borderaxespad=0.1)
+
+
+def _set_time_axis(axis: Any, low: float, high: float) -> None:
+    """A logarithmic axis with plain numbers: at 1, 2 and 5 of each decade, or at 1 where there are many decades."""
+    steps = (1.0, 2.0, 5.0) if high / low < 500.0 else (1.0,)
+    ticks = [step * 10.0**exponent for exponent in range(-4, 9) for step in steps if low <= step * 10.0**exponent <= high]
+    axis.set_xscale("log")
+    axis.set_xlim(low, high)
+    axis.xaxis.set_major_locator(FixedLocator(ticks))
+    axis.xaxis.set_minor_locator(NullLocator())
+    axis.xaxis.set_major_formatter(FixedFormatter([f"{tick:g}" for tick in ticks]))
+    axis.xaxis.set_minor_formatter(NullFormatter())
+    axis.tick_params(labelsize=8)
+    axis.grid(color=FAINT, linewidth=0.6)
+    axis.set_axisbelow(True)
+
+
+def _save(figure: Figure, folder: Path, name: str) -> list[Path]:
+    paths = []
+    for suffix in SUFFIXES:
+        path = folder / f"{name}{suffix}"
+        partial = path.with_name(f".{name}.{os.getpid()}.part{suffix}")
+        try:
+            figure.savefig(partial, dpi=130, metadata={"Date": None} if suffix == ".svg" else None)
+            os.replace(partial, path)
+        finally:
+            partial.unlink(missing_ok=True)
+        paths.append(path)
+    return paths

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What SYSTEM means: a folder with a `timing.toml`, or a program that is there already.
+
+@satisfies SWR-TIM-022      Design: docs/design/timing.md#system
+"""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.profiles.input_error import InputError, nearest_names
+from mamori.profiles.text_file import read_text
+from mamori.verification.command.errors import UsageError
+from mamori.verification.command.project import Project
+
+FILE = "timing.toml"
+KEYS = ("program", "target", "arguments")
+
+
+@dataclass(frozen=True)
+class System:
+    """A program that keeps the contract of docs/design/timing.md#files. `target`: what CMake builds it as; empty: nothing to build."""
+
+    name: str
+    program: Path
+    target: str = ""
+    arguments: tuple[str, ...] = ()
+
+
+def find_system(text: str, project: Project) -> System:
+    """@raise UsageError or InputError when `text` names no system."""
+    path = Path(text)
+    if not path.exists() and (project.root / text).exists():
+        path = project.root / text  # the command may be called from any folder
+    if path.is_dir():
+        return _read_folder(path.resolve(), project)
+    if not path.is_file():
+        raise UsageError(f"timing: there is no system '{text}'; {nearest_names(text, list_systems(project))}")
+    if not os.access(path, os.X_OK):
+        raise UsageError(f"timing: '{text}' is no program that may be run; name a folder with a {FILE}, or an executable file")
+    return System(path.resolve().name, path.resolve())
+
+
+def list_systems(project: Project) -> list[str]:
+    """Folders of the project that can be measured, relative to its root."""
+    return sorted(str(path.parent.relative_to(project.root)) for path in project.root.glob(f"examples/*/{FILE}"))
+
+
+def _read_folder(folder: Path, project: Project) -> System:
+    file = folder / FILE
+    if not file.is_file():
+        raise UsageError(f"timing: '{folder}' has no {FILE}; {nearest_names(folder.name, list_systems(project))}")
+    try:
+        data = tomllib.loads(read_text(file, "description of a system", 100_000).text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InputError(f"is no TOML: {error}; correct it", file) from error
+    for key in data:
+        if key not in KEYS:
+            raise InputError(f"has an unknown key '{key}'; {nearest_names(key, KEYS)}", file)
+    program, target = (_read_text(data, key, file) for key in ("program", "target"))
+    arguments = data.get("arguments", [])
+    if not isinstance(arguments, list) or not all(isinstance(word, str) for word in arguments):
+        raise InputError("'arguments' must be a list of texts", file)
+    words = tuple(word.replace("{root}", str(project.root)) for word in arguments)
+    path = (project.build / program).resolve()
+    if not path.is_relative_to(project.build.resolve()):
+        raise InputError(f"'program' is '{program}', which leads out of the build folder; name a path below it", file)
+    return System(folder.name, path, target, words)
+
+
+def _read_text(data: dict[str, object], key: str, file: Path) -> str:
+    value = data.get(key)
+    if not isinstance(value, str) or not value:
+        raise InputError(f"has no '{key}'; it must be a text that is not empty", file)
+    return value
