@@ -79,6 +79,8 @@ def estimate(values: Array) -> Estimate:
     if failed:
         return _refuse(tuple(tests), f"the tail is not that of the model: {'; '.join(failed)}")
     quantiles = {p: location - scale * math.log(-block * math.log1p(-p)) for p in PROBABILITIES}
+    if (greatest := float(values.max())) > (rarest := quantiles[PROBABILITIES[-1]]):
+        return _refuse(tuple(tests), f"the estimate of {rarest:.0f} ns for {PROBABILITIES[-1]:g} is below the {greatest:.0f} ns that were measured")
     return Estimate(tuple(tests), quantiles)
 
 

@@ -33,7 +33,8 @@ BINS = 80
 POINTS_MAX = 2000
 ROW_INCH = 1.5
 WIDTH_INCH = 11.0
-FRACTION_SPAN = 3.0
+LOGARITHMIC_FROM = 20.0
+"""From this ratio of greatest to least on, an axis of time is logarithmic."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,7 @@ def _list_execution(report: Report) -> list[Row]:
         if component.window is None:
             continue
         window = table.windows[component.window]
-        limits = [Limit(f"budget of {window.name}", window.budget_ns)]
+        limits = [Limit("budget of its window", window.budget_ns)]
         if component.worst_case_ns is not None:
             limits.append(Limit("declared worst case", component.worst_case_ns))
         rows.append(Row(component.name, calc_execution(report.run, index)[0].values, tuple(limits)))
@@ -101,7 +102,7 @@ def _make_subtitle(report: Report) -> str:
 
 
 def make_figure(title: str, rows: Sequence[Row], subtitle: str, marks: Sequence[str]) -> Figure:
-    """One line per row: histogram on the left, tail on the right, one axis of time for all."""
+    """One line per row: histogram on the left, tail with the limits on the right, where all rows share the axis of time."""
     worst_first = sorted(range(len(rows)), key=lambda index: -int(rows[index].values.max()))
     shown = [rows[index] for index in sorted(worst_first[:ROWS_MAX])]
     height = ROW_INCH * len(shown) + 1.5 + 0.25 * len(marks)
@@ -114,29 +115,31 @@ def make_figure(title: str, rows: Sequence[Row], subtitle: str, marks: Sequence[
         figure.text(0.5, y / height, text, ha="center", va="top", fontsize=size, color=colour, weight=weight)
         y -= size / 72 * 1.5
     axes = figure.subplots(len(shown), 2, squeeze=False, gridspec_kw={
-        "left": 0.065, "right": 0.985, "bottom": 0.55 / height, "top": (y - 0.28) / height, "hspace": 0.5, "wspace": 0.13})  # fmt: skip
-    low, high = _find_span(shown)
+        "left": 0.065, "right": 0.985, "bottom": 0.55 / height, "top": (y - 0.28) / height, "hspace": 0.5, "wspace": 0.17})  # fmt: skip
+    low, high = _find_span([float(one) for row in shown for one in (row.values.min(), row.values.max(), *(limit.ns for limit in row.limits))])
     for row, (left, right) in zip(shown, axes, strict=True):
-        _draw_histogram(left, row, low, high)
+        _draw_histogram(left, row)
         _draw_tail(right, row, low, high)
     for axis in axes[-1]:
-        axis.set_xlabel("µs (logarithmic)", fontsize=9)
+        axis.set_xlabel("µs", fontsize=9)
     return figure
 
 
-def _find_span(rows: Sequence[Row]) -> tuple[float, float]:
-    """Span [µs] of the axis of time, which takes all values and all limits."""
-    ends = [float(one) for row in rows for one in (max(1, int(row.values.min())), int(row.values.max()), *(limit.ns for limit in row.limits))]
-    low, high = max(1.0, min(ends)), max(ends)
-    if high < FRACTION_SPAN * low:
-        low, high = high / FRACTION_SPAN, high
-    return low / 1e3 / 1.15, high / 1e3 * 1.3
+def _find_span(values: Sequence[float]) -> tuple[float, float]:
+    """@param values times [ns]. @return span [µs] of an axis of time that takes all of them."""
+    low, high = max(1.0, min(values)) / 1e3, max(values) / 1e3
+    if high >= LOGARITHMIC_FROM * low:
+        return low / 1.15, high * 1.3
+    margin = 0.06 * (high - low) or 0.06 * high
+    return low - margin, high + 2 * margin
 
 
-def _draw_histogram(axis: Any, row: Row, low: float, high: float) -> None:
-    axis.hist(np.maximum(row.values, 1) / 1e3, bins=np.geomspace(low, high, BINS), color=MEASURED)
+def _draw_histogram(axis: Any, row: Row) -> None:
+    """The bulk from near: an axis of its own, without the limits, which may lie far away."""
+    low, high = _find_span([float(row.values.min()), float(row.values.max())])
+    edges = np.geomspace(low, high, BINS) if _is_logarithmic(low, high) else np.linspace(low, high, BINS)
+    axis.hist(np.maximum(row.values, 1) / 1e3, bins=edges, color=MEASURED)
     _set_time_axis(axis, low, high)
-    _draw_limits(axis, row, with_names=False)
     axis.set_title(f"{shorten(row.title)}   (n = {len(row.values)})", fontsize=9.5, color=INK, loc="left")
     axis.set_ylabel("openings", fontsize=8.5)
     axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -156,10 +159,9 @@ def _draw_tail(axis: Any, row: Row, low: float, high: float) -> None:
     axis.yaxis.set_major_locator(FixedLocator(ticks))
     axis.yaxis.set_minor_locator(NullLocator())
     axis.yaxis.set_major_formatter(FixedFormatter([f"{tick:g}" for tick in ticks]))
-    _draw_limits(axis, row, with_names=True)
+    _draw_limits(axis, row)
     axis.set_ylabel("share above", fontsize=8.5)
-    worst = int(row.values.max())
-    axis.set_title(f"max {format_us(worst)} µs", fontsize=9.5, color=INK, loc="left")
+    axis.set_title(f"max {format_us(int(row.values.max()))} µs", fontsize=9.5, color=INK, loc="left")
 
 
 def calc_tail(values: Array) -> tuple[Array, Array]:
@@ -173,28 +175,33 @@ def calc_tail(values: Array) -> tuple[Array, Array]:
     return np.maximum(times, 1), np.maximum(above, 1) / count
 
 
-def _draw_limits(axis: Any, row: Row, with_names: bool) -> None:
-    for number, limit in enumerate(row.limits):
-        style = ("-", "--")[number % 2]
-        label = f"{limit.name} {format_us(limit.ns)} µs"
-        axis.axvline(limit.ns / 1e3, color=LIMIT, linewidth=1.6, linestyle=style, label=label)
-    if with_names and row.limits:
+def _draw_limits(axis: Any, row: Row) -> None:
+    for limit, style in zip(row.limits, ("-", "--"), strict=False):
+        axis.axvline(limit.ns / 1e3, color=LIMIT, linewidth=1.6, linestyle=style, label=f"{limit.name} {format_us(limit.ns)} µs")
+    if row.limits:
         axis.legend(fontsize=8, frameon=False, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(row.limits), borderaxespad=0.1)
 
 
+def _is_logarithmic(low: float, high: float) -> bool:
+    return high >= LOGARITHMIC_FROM * low > 0.0
+
+
 def _set_time_axis(axis: Any, low: float, high: float) -> None:
-    """A logarithmic axis with plain numbers: at 1, 2 and 5 of each decade, or at 1 where there are many decades."""
-    steps = (1.0, 2.0, 5.0) if high / low < 500.0 else (1.0,)
-    ticks = [step * 10.0**exponent for exponent in range(-4, 9) for step in steps if low <= step * 10.0**exponent <= high]
-    axis.set_xscale("log")
-    axis.set_xlim(low, high)
-    axis.xaxis.set_major_locator(FixedLocator(ticks))
-    axis.xaxis.set_minor_locator(NullLocator())
-    axis.xaxis.set_major_formatter(FixedFormatter([f"{tick:g}" for tick in ticks]))
-    axis.xaxis.set_minor_formatter(NullFormatter())
+    """Plain numbers; on a logarithmic axis at 1, 2 and 5 of each decade, or at 1 where there are many decades."""
     axis.tick_params(labelsize=8)
     axis.grid(color=FAINT, linewidth=0.6)
     axis.set_axisbelow(True)
+    if _is_logarithmic(low, high):
+        steps = (1.0, 2.0, 5.0) if high / low < 500.0 else (1.0,)
+        ticks = [step * 10.0**exponent for exponent in range(-4, 9) for step in steps if low <= step * 10.0**exponent <= high]
+        axis.set_xscale("log")
+        axis.xaxis.set_major_locator(FixedLocator(ticks))
+        axis.xaxis.set_minor_locator(NullLocator())
+        axis.xaxis.set_major_formatter(FixedFormatter([f"{tick:g}" for tick in ticks]))
+        axis.xaxis.set_minor_formatter(NullFormatter())
+    else:
+        axis.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axis.set_xlim(low, high)
 
 
 def _save(figure: Figure, folder: Path, name: str) -> list[Path]:

@@ -117,7 +117,7 @@ def _make_estimates(report: Report, is_whole: bool) -> list[str]:
     if refused and is_whole:
         lines += [f"extreme values: '{name}': refused: {one.refusal}" for name, one in refused]
     elif refused:
-        others = f", {len(refused) - 1} others: timing.txt" if len(refused) > 1 else ""
+        others = f" (and for {len(refused) - 1} more: timing.txt)" if len(refused) > 1 else ""
         lines.append(f"extreme values: refused for '{refused[0][0]}': {refused[0][1].refusal}{others}")
     return lines
 
