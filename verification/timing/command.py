@@ -177,13 +177,13 @@ def _conclude(job: Job, ending: Ending, problems: Sequence[str], host: dict[str,
         if run.cycles_asked != job.request.cycles:
             raise InputError(f"tells of {run.cycles_asked} cycles, {job.request.cycles} were asked for", job.data / "run.json")
     except InputError as error:
-        if not ending.reason and not ending.was_interrupted:
+        if not ending.reason and not ending.was_stopped:
             raise
         _show_failure(job, ending.reason or "stopped before there was anything to keep")
         job.context.screen.say(f"nothing to analyse: {error}")
-        return EXIT_INTERRUPTED if ending.was_interrupted else EXIT_FAILED
-    report = make_report(job.system.name, run, host, job.request.with_load, [*findings, *_judge(job, run)], ())
-    return show(job, report, ending)
+        return EXIT_INTERRUPTED if ending.was_stopped else EXIT_FAILED
+    report = make_report(job.system.name, run, host, job.request.with_load, ending.was_stopped, [*findings, *_judge(job, run)])
+    return show(job, report)
 
 
 def _judge(job: Job, run: Measurement) -> list[str]:
@@ -196,7 +196,7 @@ def _judge(job: Job, run: Measurement) -> list[str]:
     return judge_ratios(job.baseline, list_ratios(list_components(run), run.reference_ns))
 
 
-def show(job: Job, report: Report, ending: Ending) -> int:
+def show(job: Job, report: Report) -> int:
     """Writes all results, figures first and pictures last, and prints one screen. @return exit status."""
     screen = job.context.screen
     environment = collect_environment(job.context.project, ["./mamori", *sys.argv[1:]])
@@ -211,7 +211,7 @@ def show(job: Job, report: Report, ending: Ending) -> int:
     screen.say(f"results: {job.folder}: {', '.join(path.name for path in paths)}")
     if job.request.accept is not None:
         _accept(job, report, job.request.accept)
-    return EXIT_INTERRUPTED if ending.was_interrupted else report.status
+    return report.status
 
 
 def _accept(job: Job, report: Report, path: Path) -> None:

@@ -33,7 +33,7 @@ VIOLATIONS_STORED = 1_000
 @dataclass(frozen=True)
 class Report:
     """One call. `estimates`: one for each row of `components`. `findings`: what the code or the run is to blame for.
-    `host` holds setting and state before and after (environment.py)."""
+    `host` holds setting and state before and after (environment.py). `was_stopped`: somebody wanted it to end early."""
 
     system: str
     run: Measurement
@@ -47,6 +47,7 @@ class Report:
     notes: Sequence[str]
     host: dict[str, Any]
     with_load: bool
+    was_stopped: bool
 
     @property
     def steal_share(self) -> float:
@@ -59,8 +60,8 @@ class Report:
 
     @property
     def status(self) -> int:
-        """The worst comes first: a stopped run says little, a finding more than a missing right."""
-        if self.run.is_partial:
+        """The worst comes first: a stopped run was not judged, and a finding says more than a missing right."""
+        if self.was_stopped:
             return EXIT_INTERRUPTED
         if self.findings:
             return EXIT_FAILED
@@ -78,15 +79,16 @@ class Report:
         return marks
 
 
-def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: bool, findings: Sequence[str], notes: Sequence[str]
+def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: bool, was_stopped: bool, findings: Sequence[str]
                 ) -> Report:  # fmt: skip
-    """Analyses `run`. @param findings, notes what is known of it already, from outside of its files."""
+    """Analyses `run`. @param findings what is known of it already, from outside of its files."""
     windows, components, misses = list_windows(run), list_components(run), list_misses(run)
     chains, chain_note = list_chains(run)
     indices = [index for index, one in enumerate(run.table.components) if one.window is not None]
     estimates = [estimate(calc_execution(run, index)[0].values) for index in indices]
-    found = [*findings, *list_findings(windows, components, misses), *list_violations(chains)]
-    return Report(system, run, windows, components, misses, chains, chain_note, estimates, found, [*run.notes, *notes], host, with_load)
+    early = [] if was_stopped or not run.is_partial else [f"the program ended after {run.cycles_run} of {run.cycles_asked} cycles"]
+    found = [*findings, *early, *list_findings(windows, components, misses), *list_violations(chains)]
+    return Report(system, run, windows, components, misses, chains, chain_note, estimates, found, run.notes, host, with_load, was_stopped)
 
 
 def make_record(report: Report, environment: dict[str, object]) -> dict[str, Any]:

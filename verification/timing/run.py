@@ -24,6 +24,7 @@ GRACE_S = 10.0
 OVERTIME_FACTOR = 1.5
 OVERTIME_S = 30.0
 """A program lives at most this much longer than its cycles take: the grid of its frames is absolute, so it cannot fall behind."""
+INTERRUPTED = 130
 LOAD_TOOL = "stress-ng"
 LOAD_MARGIN_S = 60
 
@@ -41,11 +42,16 @@ class Ending:
     was_late: bool = False
 
     @property
+    def was_stopped(self) -> bool:
+        """Somebody wanted it to end: through us, or by a signal to the program itself."""
+        return self.was_interrupted or (self.status == INTERRUPTED and not self.was_late)
+
+    @property
     def reason(self) -> str:
         """What is wrong with it, or nothing."""
         if self.was_late:
             return f"the program did not end by itself and was stopped after {self.seconds:.0f} s"
-        if self.was_interrupted or self.status in (0, 130):
+        if self.was_stopped or self.status == 0:
             return ""
         if self.status < 0:
             return f"the program was ended by {signal.Signals(-self.status).name}"

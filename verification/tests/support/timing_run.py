@@ -4,11 +4,8 @@ that writes them."""
 
 from __future__ import annotations
 
-import argparse
 import json
-import signal
 import sys
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -91,54 +88,51 @@ def write_run(folder: Path, table: dict[str, Any], openings: np.ndarray[Any, Any
     return folder
 
 
+# Plays a system: copies what was prepared for as many cycles, so that it starts as fast as a program of C++ does.
+PROGRAM = """#!{python} -SE
+import os, shutil, signal, sys, time
+
+words = sys.argv
+cycles, out = int(words[words.index("--cycles") + 1]), words[words.index("--out") + 1]
+is_probe = cycles == 1
+stopped = []
+if "usage" in words:
+    print("fake_system: there is no such joint")
+    sys.exit(2)
+if "wait" in words and not is_probe:
+    signal.signal(signal.SIGINT, signal.SIG_IGN if "deaf" in words else lambda *_: stopped.append(1))
+    open(out + "/begun", "w").close()
+    begin = time.monotonic()
+    while not stopped and time.monotonic() - begin < cycles / 1000:
+        time.sleep(0.01)
+if "nothing" not in words or is_probe:
+    shutil.copytree("{data}/" + ("probe" if is_probe else "partial" if stopped else "whole"), out, dirs_exist_ok=True)
+sys.exit(130 if stopped else 1 if "fail" in words and not is_probe else 0)
+"""
+
+
 def make_program(folder: Path) -> Path:
-    """A program that keeps the contract. @return its path."""
+    """A program that keeps the contract with what prepare() last left in `folder`. @return its path."""
     path = folder / "fake_system"
-    path.write_text(f"#!{sys.executable} -P\nimport sys\nsys.path.insert(0, {str(Path(__file__).parent)!r})\n"
-                    "from timing_run import main\nsys.exit(main())\n", encoding="utf-8")  # fmt: skip
+    path.write_text(PROGRAM.format(python=sys.executable, data=folder / "data"), encoding="utf-8")
     path.chmod(0o755)
     return path
 
 
-def main() -> int:
-    """The program: writes what it would have measured, at once or, with --wait, in real time until it is stopped."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("command", choices=["timing"])
-    parser.add_argument("--cycles", type=int)
-    parser.add_argument("--out", type=Path)
-    parser.add_argument("--fault", default="", choices=["", "overrun", "missed", "fail", "deaf", "usage", "nothing"])
-    parser.add_argument("--refuse", nargs="*", default=[])
-    parser.add_argument("--slower", type=float, default=1.0)
-    parser.add_argument("--longer-table", action="store_true")
-    parser.add_argument("--wait", action="store_true")
-    asked = parser.parse_args()
-    if asked.fault == "usage":
-        print("fake_system: there is no such joint", file=sys.stderr)
-        return 2
-    done = asked.cycles if asked.cycles == 1 or not asked.wait else _wait(asked.cycles, asked.out, asked.fault == "deaf")
-    if asked.fault == "nothing" and asked.cycles > 1:
-        return 0
-    table = make_table(frame_us=2000 if asked.longer_table else 1000)
-    openings, steps = make_rows(table, [row[3] * asked.slower for row in COMPONENTS], done)
-    if asked.cycles > 1:
-        _spoil(openings, steps, asked.fault)
-    write_run(asked.out, table, openings, steps, make_run(table, asked.cycles, done, asked.refuse))
-    return 130 if done < asked.cycles else 1 if asked.fault == "fail" and asked.cycles > 1 else 0
-
-
-def _wait(cycles: int, folder: Path, is_deaf: bool) -> int:
-    """@return cycles that passed until it was stopped."""
-    stopped = []
-    signal.signal(signal.SIGINT, signal.SIG_IGN if is_deaf else lambda *_: stopped.append(1))
-    (folder / "begun").touch()
-    begin = time.monotonic()
-    while not stopped and time.monotonic() - begin < cycles / 1000:
-        time.sleep(0.01)
-    return min(cycles, 100) if stopped else cycles
+def prepare(folder: Path, cycles: int = 100, fault: str = "", refused: Sequence[str] = (), slower: float = 1.0, frame_us: int = 1000) -> None:
+    """What the program of `folder` is to measure. `fault`: overrun or missed, once; a stopped run has 100 cycles."""
+    table = make_table(frame_us=frame_us)
+    for name, asked, done in (("probe", 1, 1), ("whole", cycles, cycles), ("partial", cycles, min(100, cycles - 1))):
+        openings, steps = make_rows(table, [row[3] * slower for row in COMPONENTS], done)
+        if name == "whole":
+            _spoil(openings, steps, fault)
+        write_run(folder / "data" / name, table, openings, steps, make_run(table, asked, done, refused))
 
 
 def _spoil(openings: np.ndarray[Any, Any], steps: np.ndarray[Any, Any], fault: str) -> None:
     """One fault in the control window of the tenth cycle of the run."""
+    if not fault:
+        return
     row = int(np.flatnonzero(openings["window"] == 1)[10])
     release = openings["release_ns"][row]
     of_it = (steps["release_ns"] == release) & (steps["component"] == 2)
@@ -149,5 +143,5 @@ def _spoil(openings: np.ndarray[Any, Any], steps: np.ndarray[Any, Any], fault: s
     if fault == "missed":
         openings["outcome"][row] = 2
         openings["woke_ns"][row] = openings["closed_ns"][row] = release + 450_000
-        steps["component"][of_it], steps["start_ns"][of_it] = 3, release + 500_000  # it runs in the next window instead
+        steps["component"][of_it], steps["start_ns"][of_it] = 3, release + 500_000  # it ran in the next window instead
         steps["end_ns"][of_it], steps["release_ns"][of_it] = release + 501_000, release + 500_000
