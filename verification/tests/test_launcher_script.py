@@ -106,6 +106,8 @@ def test_second_run_installs_nothing(box: Box) -> None:
     [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
      (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
+     (("timing", "x", "--load"), "stress-ng", "valgrind"), (("timing", "x"), "cmake", "stress-ng"),
+     (("timing", "x", "--", "--load"), "cmake", "stress-ng"),
      (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev"),
      (("table", "t.json", "--text"), "python3-venv", "graphviz"), (("table", "t.json", "--out", "d"), "graphviz", "cmake")],
 )  # fmt: skip
@@ -231,7 +233,7 @@ def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004")
-@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench", "table"])
+@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench", "timing", "table"])
 def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
     bare = box.folder / "bare"
     bare.mkdir()
@@ -246,14 +248,15 @@ def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
-@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench", "table"])
+@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench", "timing", "table"])
 def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
     subparsers = next(action for action in make_parser()._actions if action.dest == "command")
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}
 
+    # What follows a bare -- is another program's.
     shown = {word.strip("[],") for word in box.run(command, "--help").stdout.split() if word.strip("[").startswith("--")}
 
-    assert shown - {"--help"} == taken - {"--help", "-h"}
+    assert shown - {"--help", "--"} == taken - {"--help", "-h"}
 
 
 @pytest.mark.verifies("SWR-CLI-005", technique="equivalence_classes", polarity="violation")
@@ -263,6 +266,8 @@ def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, co
         (("tset",), "there is no command 'tset'; nearest: test or "),
         (("demo", "--montion", "x"), "demo has no option '--montion'; nearest: --motion or "),
         (("test", "--quik"), "test has no option '--quik'; nearest: --quick or "),
+        (("timing", "x", "--lod"), "timing has no option '--lod'; nearest: --load or "),
+        (("timing", "x", "--cycles", "-5"), "timing: argument --cycles: '-5' is no whole number from 1 on"),
         (("mutate", "--jobs", "-1"), "mutate: argument --jobs: '-1' is no whole number from 1 on"),
         (("demo", "--motion", "gone.yaml"), "motion file 'gone.yaml' cannot be read"),
         (("demo", "--motion=gone.yaml"), "motion file 'gone.yaml' cannot be read"),
@@ -295,6 +300,14 @@ def test_right_words_reach_the_command_unchanged(box: Box, tmp_path: Path) -> No
     box.run("demo", "--motion", str(motion), "--scenario", "a b", "c", "--instants=2")
 
     assert f"python -P -m mamori.verification.command demo --motion {motion} --scenario a b c --instants=2" in box.take_calls()
+
+
+@pytest.mark.verifies("SWR-CLI-005", technique="equivalence_classes")
+def test_words_for_another_program_are_not_judged(box: Box) -> None:
+    done = box.run("timing", "x", "--", "--strange", "-5", "--help")
+
+    assert done.returncode == 0, done.stderr
+    assert "python -P -m mamori.verification.command timing x -- --strange -5 --help" in box.take_calls()
 
 
 @pytest.mark.verifies("SWR-CLI-005", technique="boundary_values")

@@ -127,7 +127,7 @@ def make_figure(title: str, rows: Sequence[Row], subtitle: str, marks: Sequence[
 
 def _find_span(values: Sequence[float]) -> tuple[float, float]:
     """@param values times [ns]. @return span [µs] of an axis of time that takes all of them."""
-    low, high = max(1.0, min(values)) / 1e3, max(values) / 1e3
+    low, high = max(1.0, min(values)) / 1e3, max(1.0, max(values)) / 1e3
     if high >= LOGARITHMIC_FROM * low:
         return low / 1.15, high * 1.3
     margin = 0.06 * (high - low) or 0.06 * high
