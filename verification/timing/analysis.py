@@ -38,7 +38,8 @@ class Series:
 
 @dataclass(frozen=True)
 class Miss:
-    """An opening that overran or was missed. `component` is the guilty one; nobody, where the window was released too late."""
+    """An opening that overran or was missed. `component`: the one that was not back, or had not begun; nobody, where nothing ran.
+    `is_host`: the window was released too late to have its whole budget, or did not get the processor in it."""
 
     cycle: int
     release_ns: int
@@ -47,6 +48,7 @@ class Miss:
     component: str | None
     late_ns: int
     reason: str
+    is_host: bool
 
 
 @dataclass(frozen=True)
@@ -165,13 +167,13 @@ def _make_miss(run: Measurement, row: int) -> Miss:
     release, late = int(opening["release_ns"]), int(opening["woke_ns"] - opening["release_ns"])
     cycle = release // run.table.frame_ns
     if opening["outcome"] == MISSED:
-        return Miss(cycle, release, window.name, OUTCOMES[MISSED], None, late, "released after its planned close")
-    name, reason = _find_guilty(run, row)
-    return Miss(cycle, release, window.name, OUTCOMES[OVERRUN], name, late, reason)
+        return Miss(cycle, release, window.name, OUTCOMES[MISSED], None, late, "released after its planned close", True)
+    name, reason, is_host = _find_guilty(run, row)
+    return Miss(cycle, release, window.name, OUTCOMES[OVERRUN], name, late, reason, is_host)
 
 
-def _find_guilty(run: Measurement, row: int) -> tuple[str | None, str]:
-    """@return the component that was not back at the deadline of an overrun, and what it did; nobody where no step tells."""
+def _find_guilty(run: Measurement, row: int) -> tuple[str | None, str, bool]:
+    """@return the component that was not back at the deadline of an overrun, or nobody; what happened; whether by the host."""
     opening = run.openings[row]
     index = int(opening["window"])
     window = run.table.windows[index]
@@ -184,21 +186,25 @@ def _find_guilty(run: Measurement, row: int) -> tuple[str | None, str]:
     late = steps[(steps["start_ns"] <= deadline) & ((steps["end_ns"] == NOT_BACK) | (steps["end_ns"] > deadline))]
     if len(late):
         step = late[int(np.argmin(late["start_ns"]))]
-        since = "" if step["release_ns"] == opening["release_ns"] else f"; it began in cycle {int(step['release_ns']) // run.table.frame_ns}"
-        end = int(step["end_ns"])
+        end, name = int(step["end_ns"]), run.table.component_name(int(step["component"]))
         text = "never came back" if end == NOT_BACK else f"came back {(end - deadline) / 1e3:.1f} us after the deadline"
-        return run.table.component_name(int(step["component"])), text + since
+        if step["release_ns"] != opening["release_ns"]:
+            return name, f"{text}; it began in cycle {int(step['release_ns']) // run.table.frame_ns}", False
+        given = deadline - int(opening["woke_ns"])
+        if given < window.budget_ns and NOT_BACK != end <= deadline + window.budget_ns - given:
+            return name, f"{text}, which came {(window.budget_ns - given) / 1e3:.1f} us early: the window was released late", True
+        return name, text, False
     ran = set(run.steps["component"][run.opening_of_step == row].tolist())
     waiting = [component for component in run.table.components_of(index) if component not in ran]
     if waiting:
-        return run.table.component_name(waiting[0]), "had not begun by the deadline: its thread did not get the processor"
-    return None, "no step was late: the processor was taken between steps"
+        return run.table.component_name(waiting[0]), "had not begun by the deadline: its thread did not get the processor", True
+    return None, "no step was late: the processor was taken between steps", True
 
 
 def list_findings(windows: list[WindowRow], components: list[ComponentRow], misses: list[Miss]) -> list[str]:
     """What the code is to blame for, one line each: overruns and declared worst cases that are too low.
 
-    An opening that was missed is none: the window was released too late, which is the host's doing.
+    What the host did is none: openings that were missed or cut short since the window was released too late.
     """
     findings = []
     for row in components:
@@ -206,8 +212,8 @@ def list_findings(windows: list[WindowRow], components: list[ComponentRow], miss
             findings.append(f"component '{row.component}': declared worst case {(row.declared_ns or 0) / 1e3:g} us, "
                             f"measured {row.execution.max / 1e3:g} us")  # fmt: skip
     for window in windows:
-        overran = [miss for miss in misses if miss.window == window.window and miss.outcome == OUTCOMES[OVERRUN]]
+        overran = [miss for miss in misses if miss.window == window.window and not miss.is_host]
         if overran:
             findings.append(f"window '{window.window}': {len(overran)} overran, first in cycle {overran[0].cycle} by "
-                            f"'{overran[0].component or 'nobody'}', which {overran[0].reason}")  # fmt: skip
+                            f"'{overran[0].component}', which {overran[0].reason}")  # fmt: skip
     return findings

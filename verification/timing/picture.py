@@ -32,6 +32,7 @@ ROWS_MAX = 16
 BINS = 80
 POINTS_MAX = 2000
 ROW_INCH = 1.5
+TITLE_LENGTH = 56
 WIDTH_INCH = 11.0
 LOGARITHMIC_FROM = 20.0
 """From this ratio of greatest to least on, an axis of time is logarithmic."""
@@ -90,7 +91,8 @@ def _list_execution(report: Report) -> list[Row]:
 
 
 def _list_latency(report: Report) -> list[Row]:
-    return [Row(row.name, row.times.values, (Limit("virtual time, at most", row.virtual.max_ns),)) for row in report.chains]
+    return [Row(f"{number}: {row.name}", row.times.values, (Limit("virtual time, at most", row.virtual.max_ns),))
+            for number, row in enumerate(report.chains, start=1)]  # fmt: skip
 
 
 def _make_subtitle(report: Report) -> str:
@@ -140,7 +142,7 @@ def _draw_histogram(axis: Any, row: Row) -> None:
     edges = np.geomspace(low, high, BINS) if _is_logarithmic(low, high) else np.linspace(low, high, BINS)
     axis.hist(np.maximum(row.values, 1) / 1e3, bins=edges, color=MEASURED)
     _set_time_axis(axis, low, high)
-    axis.set_title(f"{shorten(row.title)}   (n = {len(row.values)})", fontsize=9.5, color=INK, loc="left")
+    axis.set_title(f"{shorten(row.title, TITLE_LENGTH)}   (n = {len(row.values)})", fontsize=9.5, color=INK, loc="left")
     axis.set_ylabel("openings", fontsize=8.5)
     axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axis.locator_params(axis="y", nbins=4)

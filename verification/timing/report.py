@@ -15,13 +15,13 @@ from typing import Any
 
 from mamori.profiles.text_file import write_text
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
-from mamori.verification.timing.analysis import (OUTCOMES, ComponentRow, Miss, WindowRow, calc_execution, list_components,
+from mamori.verification.timing.analysis import (ComponentRow, Miss, WindowRow, calc_execution, list_components,
                                                  list_findings, list_misses, list_windows)  # fmt: skip
 from mamori.verification.timing.baseline import list_ratios, make_fingerprint
 from mamori.verification.timing.chain_times import ChainRow, list_chains, list_violations
 from mamori.verification.timing.environment import calc_steal_share
 from mamori.verification.timing.evt import Estimate, estimate
-from mamori.verification.timing.reader import MISSED, Measurement
+from mamori.verification.timing.reader import Measurement
 
 SCHEMA = "mamori.timing/1"
 EXIT_NO_RIGHTS = 4
@@ -54,9 +54,9 @@ class Report:
         return calc_steal_share(self.host["before"], self.host["after"])
 
     @property
-    def missed(self) -> list[Miss]:
-        """Openings that were released too late."""
-        return [miss for miss in self.misses if miss.outcome == OUTCOMES[MISSED]]
+    def host_misses(self) -> list[Miss]:
+        """Openings that were lost to the host: released too late, or without the processor."""
+        return [miss for miss in self.misses if miss.is_host]
 
     @property
     def status(self) -> int:

@@ -144,11 +144,18 @@ def test_step_that_ends_on_the_deadline_is_not_the_guilty_one(rows: Rows, tmp_pa
 
 
 @pytest.mark.verifies("SWR-TIM-014", technique="error_guessing")
-def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Path) -> None:
-    rows.openings[2] = [250, 301, OVERRUN]  # woke + budget would be 450 us
-    rows.steps[2] = [[2, 0, 0, 252, 290], [2, 1, 0, 291, 305]]
+@pytest.mark.parametrize(("end", "is_host"), [(450, True), (451, False), (None, False)])
+def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Path, end: int | None, is_host: bool) -> None:
+    rows.openings[2] = [250, 301, OVERRUN]  # with its whole budget it would have had until 450 us
+    rows.steps[2] = [[2, 0, 0, 252, 290], [2, 1, 0, 291, end]]
+    rows.steps[3] = [] if end is None else rows.steps[3]
 
-    assert list_misses(rows.read(tmp_path))[0].component == "second"
+    run = rows.read(tmp_path)
+    miss = list_misses(run)[0]
+
+    assert (miss.component, miss.is_host) == ("second", is_host)
+    assert ("which came 150.0 us early: the window was released late" in miss.reason) == is_host
+    assert bool(list_findings(list_windows(run), [], [miss])) != is_host
 
 
 @pytest.mark.verifies("SWR-TIM-014", technique="error_guessing")
@@ -158,6 +165,7 @@ def test_component_that_had_not_begun_is_named_when_no_step_was_late(rows: Rows,
 
     miss = list_misses(rows.read(tmp_path))[0]
 
+    assert miss.is_host
     assert (miss.component, miss.reason) == ("second", "had not begun by the deadline: its thread did not get the processor")
 
 
@@ -165,7 +173,9 @@ def test_component_that_had_not_begun_is_named_when_no_step_was_late(rows: Rows,
 def test_nobody_is_named_when_all_steps_were_in_time(rows: Rows, tmp_path: Path) -> None:
     rows.openings[2] = [10, 211, OVERRUN]
 
-    assert list_misses(rows.read(tmp_path))[0].component is None
+    miss = list_misses(rows.read(tmp_path))[0]
+
+    assert (miss.component, miss.is_host) == (None, True)
 
 
 @pytest.mark.verifies("SWR-TIM-014", polarity="violation")

@@ -92,7 +92,7 @@ def test_late_release_is_told_with_the_steal_and_is_no_finding(program: Path, ca
     assert measure(program, fault="missed") == 0
 
     said = capsys.readouterr().out
-    assert "released too late by the host: 1 openings, up to 450 us, steal" in said
+    assert "lost to the host: 1 openings missed and 0 cut short, late by up to 450 us, steal" in said
     assert load_record(program)["misses"][0]["outcome"] == "missed"
 
 

@@ -10,12 +10,13 @@ from collections.abc import Sequence
 
 from mamori.verification.timing.analysis import ComponentRow, Distribution
 from mamori.verification.timing.evt import Estimate
+from mamori.verification.timing.reader import MISSED, OUTCOMES
 from mamori.verification.timing.report import Report
 
 MISSES_SHOWN = 5
 CHAINS_SHOWN = 6
 ROWS_SHOWN = 12
-NAME_LENGTH = 60
+NAME_LENGTH = 90
 FINDINGS_SHOWN = 8
 
 
@@ -71,14 +72,14 @@ def _make_component(row: ComponentRow, reference_ns: int) -> tuple[str, ...]:
 def _make_chains(report: Report, is_whole: bool) -> list[str]:
     if not report.chains:
         return ["chains: none", *([report.chain_note] if report.chain_note else [])]
-    head = ("chain (opening that samples .. planned close that acts)", "virtual", "reaction max", "measured p50", "p99", "max", "broken",
+    head = ("no.", "chain (opening that samples .. planned close that acts)", "virtual", "reaction max", "measured p50", "p99", "max", "broken",
             "over bound")  # fmt: skip
     rows = []
     chosen = report.chains if is_whole else report.chains[:CHAINS_SHOWN]
-    for row in chosen:
+    for number, row in enumerate(chosen, start=1):
         virtual = row.virtual
         span = format_us(virtual.max_ns) if virtual.min_ns == virtual.max_ns else f"{format_us(virtual.min_ns)} .. {format_us(virtual.max_ns)}"
-        rows.append((row.name if is_whole else shorten(row.name), span, format_us(virtual.reaction_max_ns),
+        rows.append((str(number), row.name if is_whole else shorten(row.name), span, format_us(virtual.reaction_max_ns),
                      *_format_quantiles(row.measured, ("p50", "p99", "max")), str(row.broken), str(len(row.violations))))  # fmt: skip
     lines = format_columns([head, *rows])
     if len(chosen) < len(report.chains):
@@ -89,7 +90,7 @@ def _make_chains(report: Report, is_whole: bool) -> list[str]:
 
 
 def _make_sensitivity(report: Report) -> list[str]:
-    head = ("window in chain", "chain", "budget", "length", "budget may grow", "length may grow to next window", "to next reader",
+    head = ("window", "chain no.", "budget", "length", "budget may grow", "length may grow to next window", "to next reader",
             "response grows per length")  # fmt: skip
     rows = [
         (one.window, str(number), format_us(one.budget_ns), format_us(one.length_ns), format_us(one.budget_growth_ns), format_us(one.core_gap_ns),
@@ -128,10 +129,11 @@ def _format_estimate(one: Estimate) -> str:
 
 def _make_verdict(report: Report, is_whole: bool) -> list[str]:
     lines = []
-    if report.missed:
-        worst = max(miss.late_ns for miss in report.missed)
-        lines.append(f"released too late by the host: {len(report.missed)} openings, up to {format_us(worst)} us, steal "
-                     f"{100 * report.steal_share:.2f} % of all processor time; no finding of the code")  # fmt: skip
+    if lost := report.host_misses:
+        missed = sum(miss.outcome == OUTCOMES[MISSED] for miss in lost)
+        lines.append(f"lost to the host: {missed} openings missed and {len(lost) - missed} cut short, late by up to "
+                     f"{format_us(max(miss.late_ns for miss in lost))} us, steal {100 * report.steal_share:.2f} % of all processor time; "
+                     "no finding of the code")  # fmt: skip
     lines += [f"note: {note}" for note in report.notes]
     shown = report.findings if is_whole else report.findings[:FINDINGS_SHOWN]
     lines += [f"finding: {text}" for text in shown]
@@ -160,9 +162,9 @@ def format_us(ns: int | None) -> str:
     return f"{us:.1f}" if abs(us) >= 10.0 else f"{us:.2f}"
 
 
-def shorten(name: str) -> str:
-    """Both ends of a long chain."""
-    return name if len(name) <= NAME_LENGTH else f"{name[: NAME_LENGTH // 2 - 2]} .. {name[-NAME_LENGTH // 2 + 2 :]}"
+def shorten(name: str, length: int = NAME_LENGTH) -> str:
+    """Both ends of a long chain; `length` is even."""
+    return name if len(name) <= length else f"{name[: length // 2 - 2]} .. {name[-length // 2 + 2 :]}"
 
 
 def format_columns(rows: Sequence[tuple[str, ...]]) -> list[str]:
