@@ -7,9 +7,11 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -90,7 +92,8 @@ def timing(request: Request, jobs: int) -> int:
     host: dict[str, Any] = {"setting": collect_setting(), "before": collect_state()}
     ending, problems = _measure(job, expected_s)
     host["after"] = collect_state()
-    return _conclude(job, ending, problems, host)
+    with _undisturbed():
+        return _conclude(job, ending, problems, host)
 
 
 def check(request: Request, jobs: int) -> Job:
@@ -167,6 +170,17 @@ def _measure(job: Job, expected_s: float) -> tuple[Ending, list[str]]:
         ending = run_program(job.make_argv(job.request.cycles, job.data), job.log, expected_s,
                              lambda passed: tick(f"of {expected_s:.0f} s"))  # fmt: skip
     return ending, problems
+
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Ctrl-C and SIGTERM are not heard while results are written: it takes seconds, and would lose what an earlier one kept."""
+    handlers = {number: signal.signal(number, signal.SIG_IGN) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
 
 
 def _conclude(job: Job, ending: Ending, problems: Sequence[str], host: dict[str, Any]) -> int:

@@ -22,7 +22,7 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, NullFormatter, NullL
 from mamori.verification.timing.analysis import calc_execution, calc_lateness  # noqa: E402
 from mamori.verification.timing.reader import Array  # noqa: E402
 from mamori.verification.timing.report import Report  # noqa: E402
-from mamori.verification.timing.text import format_us, shorten  # noqa: E402
+from mamori.verification.timing.text import format_us, make_printable, shorten  # noqa: E402
 
 # Told apart by everybody, also in grey: measured, limit, and what is drawn beside them.
 MEASURED, LIMIT, INK, FAINT, WARN = "#0072b2", "#d55e00", "#222222", "#cccccc", "#b00020"
@@ -114,7 +114,7 @@ def make_figure(title: str, rows: Sequence[Row], subtitle: str, marks: Sequence[
         lines.append((f"the {len(shown)} of {len(rows)} with the greatest maximum; all are in timing.json", 8.5, INK, "normal"))
     y = height - 0.12
     for text, size, colour, weight in lines:
-        figure.text(0.5, y / height, text, ha="center", va="top", fontsize=size, color=colour, weight=weight)
+        figure.text(0.5, y / height, text, ha="center", va="top", fontsize=size, color=colour, weight=weight, parse_math=False)
         y -= size / 72 * 1.5
     axes = figure.subplots(len(shown), 2, squeeze=False, gridspec_kw={
         "left": 0.065, "right": 0.985, "bottom": 0.55 / height, "top": (y - 0.28) / height, "hspace": 0.5, "wspace": 0.17})  # fmt: skip
@@ -142,7 +142,8 @@ def _draw_histogram(axis: Any, row: Row) -> None:
     edges = np.geomspace(low, high, BINS) if _is_logarithmic(low, high) else np.linspace(low, high, BINS)
     axis.hist(np.maximum(row.values, 1) / 1e3, bins=edges, color=MEASURED)
     _set_time_axis(axis, low, high)
-    axis.set_title(f"{shorten(row.title, TITLE_LENGTH)}   (n = {len(row.values)})", fontsize=9.5, color=INK, loc="left")
+    axis.set_title(f"{make_printable(shorten(row.title, TITLE_LENGTH))}   (n = {len(row.values)})", fontsize=9.5, color=INK,
+                   loc="left", parse_math=False)  # fmt: skip
     axis.set_ylabel("openings", fontsize=8.5)
     axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axis.locator_params(axis="y", nbins=4)

@@ -258,6 +258,17 @@ def test_program_that_never_ends_is_stopped_and_is_a_finding(program: Path, monk
     assert record["is_partial"] is True
 
 
+@pytest.mark.verifies("SWR-TIM-024", technique="error_guessing", polarity="violation")
+def test_results_are_finished_when_ctrl_c_comes_while_they_are_written(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def draw(report: Any, folder: Path) -> list[Path]:
+        os.kill(os.getpid(), signal.SIGINT)
+        os.kill(os.getpid(), signal.SIGTERM)
+        return []
+
+    monkeypatch.setattr("mamori.verification.timing.picture.draw_report", draw)
+    assert measure(program) == 0
+
+
 CMAKE = """#!/bin/sh
 case "$*" in
   *--build*) mkdir -p {root}/build/host-release/examples && cp {program} {root}/build/host-release/examples/fake_system;;

@@ -14,7 +14,7 @@ from mamori.verification.timing.environment import collect_setting, collect_stat
 from mamori.verification.timing.picture import POINTS_MAX, ROWS_MAX, Limit, Row, calc_tail, draw_report, make_figure
 from mamori.verification.timing.reader import read_measurement
 from mamori.verification.timing.report import Report, make_report
-from mamori.verification.timing.text import format_us, make_text, shorten
+from mamori.verification.timing.text import format_us, make_printable, make_text, shorten
 
 
 @pytest.fixture
@@ -51,6 +51,15 @@ def test_any_values_can_be_drawn(values: list[int], tmp_path: Path) -> None:
 
     figure.savefig(tmp_path / "out.png")
     assert (tmp_path / "out.png").stat().st_size > 0
+
+
+@pytest.mark.verifies("SWR-TIM-027", technique="error_guessing")
+def test_names_with_markup_and_control_letters_are_shown_as_they_are(tmp_path: Path) -> None:
+    figure = make_figure("title", [Row("a$x^{_}$ \x1b[31m", np.array([5_000]))], "$\\bad{$", [])
+
+    figure.savefig(tmp_path / "out.svg")
+    assert "a$x^{_}$ \N{REPLACEMENT CHARACTER}[31m   (n = 1)" in figure.axes[0].get_title(loc="left")
+    assert make_printable("a\x1b\nb") == "a\N{REPLACEMENT CHARACTER}\nb"
 
 
 @pytest.mark.verifies("SWR-TIM-027", technique="boundary_values")

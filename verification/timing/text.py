@@ -24,7 +24,7 @@ def make_text(report: Report, is_whole: bool) -> str:
     """@param is_whole all rows and reasons; else what fits on a screen, with a word on the rest."""
     parts = [_make_head(report), _make_windows(report, is_whole), _make_components(report, is_whole), _make_chains(report, is_whole),
              _make_misses(report, is_whole), _make_estimates(report, is_whole), _make_verdict(report, is_whole)]  # fmt: skip
-    return "\n\n".join("\n".join(part) for part in parts if part) + "\n"
+    return make_printable("\n\n".join("\n".join(part) for part in parts if part) + "\n")
 
 
 def _make_head(report: Report) -> list[str]:
@@ -160,6 +160,11 @@ def format_us(ns: int | None) -> str:
     if us == int(us) or abs(us) >= 1000.0:
         return f"{us:.0f}"
     return f"{us:.1f}" if abs(us) >= 10.0 else f"{us:.2f}"
+
+
+def make_printable(text: str) -> str:
+    """Names come from a file, and control letters in them must not reach a terminal."""
+    return "".join(letter if letter.isprintable() or letter == "\n" else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 
 def shorten(name: str, length: int = NAME_LENGTH) -> str:
