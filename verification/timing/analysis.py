@@ -158,31 +158,61 @@ def list_misses(run: Measurement) -> list[Miss]:
     """Each opening that overran or was missed, in order of time."""
     chosen = np.flatnonzero(np.isin(run.openings["outcome"], (OVERRUN, MISSED)))
     order = np.argsort(run.openings["release_ns"][chosen], kind="stable")
-    return [_make_miss(run, int(row)) for row in chosen[order]]
+    index = _index_steps(run)
+    return [_make_miss(run, index, int(row)) for row in chosen[order]]
 
 
-def _make_miss(run: Measurement, row: int) -> Miss:
+@dataclass(frozen=True)
+class _StepIndex:
+    """Steps sorted by the row of their opening, and those of them that outlasted the period of their window: a run in which
+    everything overruns must not take minutes to judge."""
+
+    steps: Array
+    rows: Array
+    long_steps: Array
+    long_rows: Array
+
+    def list_candidates(self, first: int, row: int) -> Array:
+        """Steps of opening `row`, and the last long one before it, from row `first` on: nothing else of a window runs while work
+        of it hangs."""
+        begin, end = np.searchsorted(self.rows, [row, row + 1])
+        long_begin, long_end = np.searchsorted(self.long_rows, [first, row])
+        return np.concatenate((self.long_steps[max(long_begin, long_end - 1) : long_end], self.steps[begin:end]))
+
+    def list_components(self, row: int) -> set[int]:
+        """Components that had a step in opening `row`."""
+        begin, end = np.searchsorted(self.rows, [row, row + 1])
+        return set(self.steps["component"][begin:end].tolist())
+
+
+def _index_steps(run: Measurement) -> _StepIndex:
+    order = np.argsort(run.opening_of_step, kind="stable")
+    steps, rows = run.steps[order], run.opening_of_step[order]
+    period = np.array([window.period_ns for window in run.table.windows])[run.openings["window"][rows]]
+    is_long = (steps["end_ns"] == NOT_BACK) | (steps["end_ns"] >= steps["release_ns"] + period)
+    return _StepIndex(steps, rows, steps[is_long], rows[is_long])
+
+
+def _make_miss(run: Measurement, index: _StepIndex, row: int) -> Miss:
     opening = run.openings[row]
     window = run.table.windows[int(opening["window"])]
     release, late = int(opening["release_ns"]), int(opening["woke_ns"] - opening["release_ns"])
     cycle = release // run.table.frame_ns
     if opening["outcome"] == MISSED:
         return Miss(cycle, release, window.name, OUTCOMES[MISSED], None, late, "released after its planned close", True)
-    name, reason, is_host = _find_guilty(run, row)
+    name, reason, is_host = _find_guilty(run, index, row)
     return Miss(cycle, release, window.name, OUTCOMES[OVERRUN], name, late, reason, is_host)
 
 
-def _find_guilty(run: Measurement, row: int) -> tuple[str | None, str, bool]:
+def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | None, str, bool]:
     """@return the component that was not back at the deadline of an overrun, or nobody; what happened; whether by the host."""
     opening = run.openings[row]
-    index = int(opening["window"])
-    window = run.table.windows[index]
+    number = int(opening["window"])
+    window = run.table.windows[number]
     # As the executive does: a window that opens late keeps its budget, but not beyond its planned close.
     deadline = min(int(opening["woke_ns"]) + window.budget_ns, int(opening["release_ns"]) + window.length_ns)
-    first = run.rows_of(index).start
     # Also steps of earlier openings: work that hangs keeps its window closed.
-    mine = (run.opening_of_step >= first) & (run.opening_of_step <= row)
-    steps = run.steps[mine]
+    steps = index.list_candidates(run.rows_of(number).start, row)
     late = steps[(steps["start_ns"] <= deadline) & ((steps["end_ns"] == NOT_BACK) | (steps["end_ns"] > deadline))]
     if len(late):
         step = late[int(np.argmin(late["start_ns"]))]
@@ -194,8 +224,8 @@ def _find_guilty(run: Measurement, row: int) -> tuple[str | None, str, bool]:
         if given < window.budget_ns and NOT_BACK != end <= deadline + window.budget_ns - given:
             return name, f"{text}, which came {(window.budget_ns - given) / 1e3:.1f} us early: the window was released late", True
         return name, text, False
-    ran = set(run.steps["component"][run.opening_of_step == row].tolist())
-    waiting = [component for component in run.table.components_of(index) if component not in ran]
+    ran = index.list_components(row)
+    waiting = [component for component in run.table.components_of(number) if component not in ran]
     if waiting:
         return run.table.component_name(waiting[0]), "had not begun by the deadline: its thread did not get the processor", True
     return None, "no step was late: the processor was taken between steps", True

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from mamori.verification.timing.analysis import ComponentRow, Distribution
 from mamori.verification.timing.evt import Estimate
 from mamori.verification.timing.reader import MISSED, OUTCOMES
-from mamori.verification.timing.report import Report
+from mamori.verification.timing.report import MISSES_STORED, Report
 
 MISSES_SHOWN = 5
 CHAINS_SHOWN = 6
@@ -103,11 +103,11 @@ def _make_sensitivity(report: Report) -> list[str]:
 def _make_misses(report: Report, is_whole: bool) -> list[str]:
     if not report.misses:
         return ["misses: none"]
-    chosen = report.misses if is_whole else report.misses[:MISSES_SHOWN]
+    chosen = report.misses[: MISSES_STORED if is_whole else MISSES_SHOWN]
     rows = [(str(one.cycle), one.window, one.outcome, one.component or "-", format_us(one.late_ns), one.reason) for one in chosen]
     lines = format_columns([("cycle", "window", "outcome", "guilty", "late", "what happened"), *rows])
     if len(chosen) < len(report.misses):
-        lines.append(f"and {len(report.misses) - len(chosen)} more: timing.txt")
+        lines.append(f"and {len(report.misses) - len(chosen)} more{'' if is_whole else ': timing.txt'}")
     return lines
 
 
