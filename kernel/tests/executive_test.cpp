@@ -116,6 +116,20 @@ TEST_F(ExecutiveTest, TheHashTellsADifferentValueApart) {
     EXPECT_NE(sut_.get_trace_hash(), after_two) << "the relay still publishes";
 }
 
+TEST_F(ExecutiveTest, TheHashIsThatOfEachPublishedPortAndWhatItPublished) {
+    verifies("SWR-KRN-021", Technique::kBackToBack);
+    run_frame(sut_, host_, 0);
+
+    TraceHash expected;
+    for (std::size_t p = 0U; p < table_.ports.size(); ++p) {
+        if (table_.ports[p].output != nullptr && table_.ports[p].output->get_sequence() != 0U) {
+            expected(static_cast<std::uint64_t>(p));
+            table_.ports[p].output->hash_into(expected);
+        }
+    }
+    EXPECT_EQ(sut_.get_trace_hash(), expected.get_value());
+}
+
 TEST_F(ExecutiveTest, AValueIsNotSeenBeforeItsWindowHasClosed) {
     verifies("SWR-KRN-021", Technique::kFaultInjection, Polarity::kViolation);
     run_frame(sut_, host_, 0);
