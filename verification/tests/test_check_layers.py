@@ -15,8 +15,8 @@ from mamori.verification.tools.target_limits import MEASURED_HEADERS
 
 
 def seed(root: Path, name: str, text: str) -> list[str]:
-    """@return findings in a tree with two ports and the seeded file."""
-    for port in ("posix_rt", "virtual_time"):
+    """@return findings in a tree with three ports and the seeded file."""
+    for port in ("conformance", "posix_rt", "virtual_time"):
         (root / "ports" / port).mkdir(parents=True)
     (root / "safety" / "src").mkdir(parents=True)
     for hidden in ("src/inner.hpp", "hidden.hpp"):
@@ -58,6 +58,8 @@ ALLOWED = {
     "safety/src/arm/a.cpp": "#include <Eigen/Core>\n#include \"mamori/kernel/span.hpp\"\n",
     "safety/src/a.cpp": "#include \"inner.hpp\"\n",
     "ports/virtual_time/src/a.cpp": "#include <vector>\n#include <time.h>\n#include \"mamori/virtual_time/clock.hpp\"\n",
+    "ports/virtual_time/tests/a_test.cpp": "#include \"mamori/ports/conformance/host_contract.hpp\"\n",
+    "ports/virtual_time/CMakeLists.txt": "mamori_library(virtual_time DEPENDS mamori::kernel)\nmamori_test(t DEPENDS mamori::conformance)\n",
     "simbody_sim/src/a.cpp": "#include <Simbody.h>\n#include <kdl/chain.hpp>\n#include \"mamori/virtual_time/clock.hpp\"\n",
     "examples/a/main.cpp": "#include <iostream>\n#include \"mamori/simbody_sim/arm.hpp\"\n",
     "trace/a.py": "import mamori.trace.model\nfrom pathlib import Path\n",
@@ -86,6 +88,10 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
         ("safety/src/a.cpp", "#include <Eigen/Core>", "include: safety may not include 'Eigen/Core'"),
         ("safety/src/a.cpp", '#include "mamori/virtual_time/clock.hpp"', "include: safety may not include"),
         ("ports/posix_rt/src/a.cpp", '#include "mamori/virtual_time/clock.hpp"', "include: ports/posix_rt may not include"),
+        ("ports/posix_rt/src/a.cpp", '#include "mamori/ports/conformance/trial.hpp"', "include: ports/posix_rt may not include"),
+        ("ports/posix_rt/tests/a.cpp", '#include "mamori/ports/virtual_time/virtual_host.hpp"', "include: ports/posix_rt may not"),
+        ("ports/conformance/src/a.cpp", '#include "mamori/ports/posix_rt/mapped_file.hpp"', "include: ports/conformance may not"),
+        ("safety/tests/a.cpp", '#include "mamori/ports/conformance/trial.hpp"', "include: safety may not include"),
         ("simbody_sim/src/a.cpp", '#include "mamori/posix_rt/clock.hpp"', "include: simbody_sim may not include"),
         ("simbody_sim/src/a.cpp", "#include <boost/any.hpp>", "include: simbody_sim may not include 'boost/any.hpp'"),
         ("examples/a/main.cpp", '#include "../../safety/src/inner.hpp"', "include: '../../safety/src/inner.hpp' reaches into"),
@@ -93,6 +99,7 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
         ("trace/a.cpp", "", "include: this layer has no C++"),
         ("kernel/CMakeLists.txt", "mamori_library(kernel DEPENDS mamori::safety)", "link: kernel may not link mamori::safety"),
         ("ports/posix_rt/CMakeLists.txt", "mamori_library(posix_rt DEPENDS mamori::virtual_time)", "link: ports/posix_rt may"),
+        ("ports/posix_rt/CMakeLists.txt", "mamori_library(posix_rt DEPENDS mamori::conformance)", "link: ports/posix_rt may"),
         ("trace/a.py", "import mamori.verification.command", "import: trace may not import mamori.verification.command"),
         ("trace/a.py", "from mamori import profiles", "import: trace may not import mamori.profiles"),
         ("profiles/a.py", "from mamori.trace.model import item", "import: profiles may not import mamori.trace.model.item"),

@@ -87,7 +87,8 @@ def _check_includes(root: Path, path: Path, layer: Layer, text: str, is_test: bo
         if ".." in include.split("/") or "src" in include.split("/"):
             yield line, f"'{include}' reaches into a src/ or parent folder; include a public header"
         elif include.startswith("mamori/"):
-            if not include.startswith(layer.headers) and not (is_test and include in TEST_INCLUDES):
+            is_for_tests = include in TEST_INCLUDES or include.startswith(layer.test_headers)
+            if not include.startswith(layer.headers) and not (is_test and is_for_tests):
                 yield line, f"{layer.name} may not include '{include}'"
         elif match["open"] == '"' and (found := _find_beside(root, path, include)):
             if get_layer(found) != layer:

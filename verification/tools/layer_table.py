@@ -11,6 +11,7 @@ from dataclasses import dataclass
 # A new name needs an ADR.
 LISTED_STD = frozenset("array atomic cstddef cstdint limits new type_traits utility".split())
 TEST_INCLUDES = ("mamori/verification/verifies.hpp", "gtest/", "gmock/")
+PORT_TEST_INCLUDES = ("mamori/ports/conformance/",)  # the rules that each port must pass: ADR 0012
 SIMULATION_INCLUDES = ("Simbody.h", "SimTK", "simbody/", "simmath/", "kdl/", "Eigen/", "yaml-cpp/")
 
 
@@ -23,6 +24,7 @@ class Layer:
     links: tuple[str, ...]  # layers
     any_std: bool = True
     any_library: bool = False  # an OS or library of its own, to be named in the folder's CMakeLists.txt
+    test_headers: tuple[str, ...] = ()  # prefixes of include paths, in its tests
     target: bool = False  # runs on a controller: limits of size and words hold
 
 
@@ -37,7 +39,7 @@ def get_layer(path: tuple[str, ...]) -> Layer | None:
         case ("ports", port, *_):
             own = (f"mamori/{port}/", f"mamori/ports/{port}/")
             return Layer(f"ports/{port}", ("mamori/kernel/", "mamori/safety/", *own), ("kernel", "safety"),
-                         any_library=True, target=True)
+                         any_library=True, test_headers=PORT_TEST_INCLUDES, target=True)
         case ("simbody_sim", *_):
             below = ("kernel", "safety", "virtual_time")
             own = ("mamori/simbody_sim/", "mamori/ports/virtual_time/")
