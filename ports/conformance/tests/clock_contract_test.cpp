@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the clock rules accept a clock that keeps its contract and report each way to break it. Method:
+// clocks with one flaw each.
+#include "mamori/ports/conformance/clock_contract.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "mamori/ports/conformance/rule_runner.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::ports::conformance {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+enum class ClockFlaw {
+    kNone,
+    kGoesBack,
+    kSetBackByWaiting,
+    kWakesEarly,
+    kSkipsShortWaits,
+    kOversleeps,
+    kRunsAlone
+};
+
+class FlawedClock final : public ClockRig {
+  public:
+    FlawedClock(ClockFlaw flaw, bool is_exact) : flaw_(flaw), is_exact_(is_exact) {}
+
+    Instant get_now() const override {
+        ++readings_;
+        if (flaw_ == ClockFlaw::kGoesBack && readings_ % 100U == 0U) {
+            return now_ - 1_ns;
+        }
+        return flaw_ == ClockFlaw::kRunsAlone ? now_ + Duration{readings_} : now_;
+    }
+    void wait_until(Instant instant) override {
+        const bool is_skipped = flaw_ == ClockFlaw::kSkipsShortWaits && instant <= now_ + 1_ns;
+        if (instant > now_ && !is_skipped) {
+            now_ = flaw_ == ClockFlaw::kWakesEarly   ? instant - 1_ns
+                   : flaw_ == ClockFlaw::kOversleeps ? instant + 1_ns
+                                                     : instant;
+        } else if (flaw_ == ClockFlaw::kSetBackByWaiting) {
+            now_ = instant;
+        }
+    }
+    Duration get_tick() const override { return 1_ms; }
+    bool is_exact() const override { return is_exact_; }
+
+  private:
+    ClockFlaw flaw_;
+    bool is_exact_;
+    Instant now_{};
+    mutable std::int64_t readings_{0};
+};
+
+TrialFactory make(ClockFlaw flaw, bool is_exact) {
+    return make_clock_trials([flaw, is_exact] { return std::make_unique<FlawedClock>(flaw, is_exact); });
+}
+
+struct FlawCase {
+    ClockFlaw flaw;
+    bool is_exact;
+    const char* sentence;
+};
+void PrintTo(const FlawCase& flaw, std::ostream* out) {
+    *out << flaw.sentence << (flaw.is_exact ? ", exact" : "");
+}
+
+class ClockFlawTest : public ::testing::TestWithParam<FlawCase> {};
+
+TEST_P(ClockFlawTest, IsReportedInEachOrder) {
+    verifies("SWR-CNF-001", Technique::kFaultInjection, Polarity::kViolation);
+    const TrialFactory factory = make(GetParam().flaw, GetParam().is_exact);
+
+    const Report report = run_in_order(factory);
+    ASSERT_FALSE(report.is_kept());
+    EXPECT_NE(report.findings[0].find(GetParam().sentence), std::string::npos) << report.to_text();
+    EXPECT_FALSE(run_randomly(factory, 1U, 1000U).is_kept());
+    EXPECT_FALSE(explore(factory, 3U).is_kept());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ClockFlawTest,
+    ::testing::Values(FlawCase{ClockFlaw::kGoesBack, false, "the clock went back"},
+                      FlawCase{ClockFlaw::kSetBackByWaiting, false, "the clock went back"},
+                      FlawCase{ClockFlaw::kWakesEarly, false, "ended before its instant"},
+                      FlawCase{ClockFlaw::kSkipsShortWaits, false, "ended before its instant"},
+                      FlawCase{ClockFlaw::kOversleeps, true, "did not end at its instant"},
+                      FlawCase{ClockFlaw::kRunsAlone, true, "time passed though nobody waited"}));
+
+TEST(ClockContractTest, AClockThatKeepsItIsAccepted) {
+    verifies("SWR-CNF-001", Technique::kEquivalenceClasses);
+    EXPECT_TRUE(explore(make(ClockFlaw::kNone, true), 3U).is_kept());
+    EXPECT_TRUE(explore(make(ClockFlaw::kNone, false), 3U).is_kept());
+    EXPECT_TRUE(run_in_order(make(ClockFlaw::kOversleeps, false)).is_kept()) << "a busy machine";
+    EXPECT_TRUE(run_in_order(make(ClockFlaw::kRunsAlone, false)).is_kept()) << "as real time does";
+}
+
+}  // namespace
+}  // namespace mamori::ports::conformance

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the runners apply what may be applied, find what a rule finds, and say how to see it again. Method: a
+// trial whose port is a number.
+#include "mamori/ports/conformance/rule_runner.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mamori/ports/conformance/rule_trial.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::ports::conformance {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+struct Number {
+    int value{0};
+    std::string describe_state() const { return std::to_string(value); }
+};
+
+bool is_always(const Number&) {
+    return true;
+}
+void add_one(Number& number, Judge&) {
+    ++number.value;
+}
+
+/// Up and down within 0 .. 3; `limit` is what the number must not reach.
+Rules<Number> make_steps(int limit) {
+    return {{"down", "SWR-A-001", [](const Number& number) { return number.value > 0; },
+             [](Number& number, Judge&) { --number.value; }},
+            {"up", "SWR-A-002", [](const Number& number) { return number.value < 3; },
+             [limit](Number& number, Judge& judge) {
+                 ++number.value;
+                 judge.expect(number.value < limit, "too high");
+             }}};
+}
+TrialFactory make(const Rules<Number>& rules) {
+    return [shared = std::make_shared<const Rules<Number>>(rules)] {
+        return std::make_unique<RuleTrial<Number>>(shared, std::make_unique<Number>());
+    };
+}
+
+TEST(RuleRunnerTest, TheFixedOrderWaitsForAPreconditionAndRunsEachRule) {
+    verifies("SWR-CNF-008", Technique::kStateTransition);
+    const Report report = run_in_order(make(make_steps(10)));
+
+    EXPECT_TRUE(report.is_kept()) << report.to_text();
+    ASSERT_EQ(report.rules.size(), 2U);
+    EXPECT_EQ(report.rules[0].count, 1U);
+    EXPECT_EQ(report.rules[1].count, 1U);
+    EXPECT_EQ(report.to_text(), "2 rules, 1 sequences, 2 steps, 2 states\n");
+}
+
+TEST(RuleRunnerTest, TheFixedOrderRepeatsRulesWhereOneNeedsIt) {
+    verifies("SWR-CNF-008", Technique::kBoundaryValues);
+    Rules<Number> rules = make_steps(10);
+    rules.push_back({"at three", "SWR-A-003", [](const Number& number) { return number.value == 3; },
+                     [](Number&, Judge&) {}});
+    rules.erase(rules.begin());
+
+    EXPECT_TRUE(run_in_order(make(rules)).is_kept());
+}
+
+TEST(RuleRunnerTest, ASeedGivesTheSameWalkAgainAndAnotherSeedAnotherOne) {
+    verifies("SWR-CNF-008", Technique::kBackToBack);
+    const std::string first = run_randomly(make(make_steps(3)), 7U, 1000U).to_text();
+
+    EXPECT_EQ(run_randomly(make(make_steps(3)), 7U, 1000U).to_text(), first);
+    EXPECT_NE(run_randomly(make(make_steps(3)), 8U, 1000U).to_text(), first);
+}
+
+TEST(RuleRunnerTest, AFindingNamesSeedWalkRuleAndRequirementAndIsTheLast) {
+    verifies("SWR-CNF-008", Technique::kErrorGuessing, Polarity::kViolation);
+    const Report report = run_randomly(make(make_steps(1)), 7U, 1000U);
+
+    ASSERT_EQ(report.findings.size(), 1U);
+    EXPECT_EQ(report.findings[0],
+              "random order, seed 7, after 1 steps: rule 'up' (SWR-A-002): too high; walk: 1");
+    EXPECT_EQ(report.step_count, 1U);
+    EXPECT_EQ(report.to_text(), report.findings[0] + "\n  0 down\n  1 up\n");
+}
+
+TEST(RuleRunnerTest, AWalkIsAppliedAgain) {
+    verifies("SWR-CNF-008", Technique::kEquivalenceClasses);
+    EXPECT_TRUE(replay(make(make_steps(3)), {1U, 0U, 1U}).is_kept());
+    EXPECT_TRUE(replay(make(make_steps(3)), {}).is_kept());
+    EXPECT_EQ(replay(make(make_steps(3)), {1U, 1U, 1U}).findings.at(0),
+              "replay, after 3 steps: rule 'up' (SWR-A-002): too high; walk: 1 1 1");
+}
+
+TEST(RuleRunnerTest, AWalkThatCannotBeAppliedIsAFinding) {
+    verifies("SWR-CNF-008", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_EQ(replay(make(make_steps(3)), {0U}).findings.at(0),
+              "replay, after 0 steps: rule 0 cannot be applied here; walk:");
+    EXPECT_FALSE(replay(make(make_steps(3)), {2U}).is_kept());
+}
+
+TEST(RuleRunnerTest, ARuleThatNeverRanIsAFindingInEachOrder) {
+    verifies("SWR-CNF-009", Technique::kErrorGuessing, Polarity::kViolation);
+    Rules<Number> rules = make_steps(10);
+    rules.push_back({"never", "SWR-A-003", [](const Number& number) { return number.value > 3; }, &add_one});
+
+    for (const Report& report :
+         {run_in_order(make(rules)), run_randomly(make(rules), 1U, 100U), explore(make(rules), 4U)}) {
+        ASSERT_EQ(report.findings.size(), 1U);
+        EXPECT_NE(report.findings[0].find("rule 'never' (SWR-A-003) never ran"), std::string::npos);
+    }
+}
+
+TEST(RuleRunnerTest, AStateWithoutAWayOnIsAFinding) {
+    verifies("SWR-CNF-009", Technique::kErrorGuessing, Polarity::kViolation);
+    Rules<Number> rules = make_steps(10);
+    rules.erase(rules.begin());
+
+    EXPECT_EQ(run_randomly(make(rules), 1U, 100U).findings.at(0),
+              "random order, seed 1, after 3 steps: no rule can be applied in the state 3; walk: 0 0 0");
+    EXPECT_FALSE(explore(make(rules), 4U).is_kept());
+    EXPECT_TRUE(explore(make(rules), 3U).is_kept());
+}
+
+TEST(RuleRunnerTest, AllRulesThatRanAreNoFinding) {
+    verifies("SWR-CNF-009");
+    EXPECT_TRUE(run_randomly(make(make_steps(10)), 1U, 100U).is_kept());
+}
+
+TEST(RuleRunnerTest, EveryOrderIsTriedOnce) {
+    verifies("SWR-CNF-010", Technique::kBoundaryValues);
+    const Rules<Number> rules{{"a", "SWR-A-001", &is_always, &add_one},
+                              {"b", "SWR-A-002", &is_always, &add_one},
+                              {"c", "SWR-A-003", &is_always, &add_one}};
+
+    EXPECT_EQ(explore(make(rules), 1U).to_text(), "3 rules, 3 sequences, 3 steps, 2 states\n");
+    EXPECT_EQ(explore(make(rules), 4U).to_text(), "3 rules, 81 sequences, 324 steps, 5 states\n");
+    // Up and down between 0 and 3: u{ud{u},du}
+    EXPECT_EQ(explore(make(make_steps(10)), 3U).to_text(), "2 rules, 3 sequences, 9 steps, 4 states\n");
+}
+
+TEST(RuleRunnerTest, AFindingInEveryOrderShowsOneOfTheShortestWalks) {
+    verifies("SWR-CNF-010", Technique::kErrorGuessing, Polarity::kViolation);
+    const Report report = explore(make(make_steps(2)), 9U);
+
+    ASSERT_EQ(report.findings.size(), 1U);
+    EXPECT_EQ(report.findings[0],
+              "every order, depth 2, after 2 steps: rule 'up' (SWR-A-002): too high; walk: 1 1");
+}
+
+TEST(RuleRunnerTest, APortThatAnswersOtherwiseTheSecondTimeIsAFinding) {
+    verifies("SWR-CNF-010", Technique::kFaultInjection, Polarity::kViolation);
+    int trials = 0;
+    Rules<Number> rules = make_steps(10);
+    rules.push_back({"moody", "SWR-A-003", [&trials](const Number&) { return trials % 2 == 1; }, &add_one});
+    const TrialFactory inner = make(rules);
+
+    const Report report = explore(
+        [&trials, &inner] {
+            ++trials;
+            return inner();
+        },
+        2U);
+
+    ASSERT_FALSE(report.is_kept());
+    EXPECT_NE(report.findings[0].find("led to another state"), std::string::npos) << report.to_text();
+}
+
+}  // namespace
+}  // namespace mamori::ports::conformance

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the watchdog rules accept a watchdog that keeps its contract and report each way to break it. Method:
+// watchdogs with one flaw each, in simulated time and in a time that also passes between two readings.
+#include "mamori/ports/conformance/watchdog_contract.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "mamori/ports/conformance/rule_runner.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::ports::conformance {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+enum class WatchdogFlaw {
+    kNone,
+    kStartsByItself,
+    kBitesEarly,
+    kBitesLate,
+    kNeverBites,
+    kClosesAgain,
+    kTakesServiceWhenOpen,
+    kLateServiceHidesIt,
+    kRefusesInTime,
+};
+
+class FlawedWatchdog final : public WatchdogRig, public safety::Watchdog {
+  public:
+    /// @param[in] step time that each reading of the clock takes.
+    FlawedWatchdog(WatchdogFlaw flaw, Duration step) : flaw_(flaw), step_(step) {}
+
+    safety::Watchdog& get_watchdog() override { return *this; }
+    Duration get_timeout() const override { return kTimeout; }
+    Instant get_now() const override {
+        now_ = now_ + step_;
+        return now_;
+    }
+    void let_pass(Duration time) override {
+        now_ = now_ + time;
+        if (!has(WatchdogFlaw::kLateServiceHidesIt)) {
+            check();
+        }
+    }
+    bool has_expired() const override {
+        const_cast<FlawedWatchdog*>(this)->check();
+        return is_open_;
+    }
+    Status service(Instant) noexcept override {
+        check_unless_hidden();
+        if (has(WatchdogFlaw::kClosesAgain)) {
+            is_open_ = false;
+        }
+        if ((is_open_ && !has(WatchdogFlaw::kTakesServiceWhenOpen)) ||
+            (has(WatchdogFlaw::kRefusesInTime) && is_started_)) {
+            return Status::kError;
+        }
+        is_started_ = true;
+        serviced_at_ = now_;
+        return Status::kOk;
+    }
+
+  private:
+    static constexpr Duration kTimeout{1000};
+
+    bool has(WatchdogFlaw flaw) const noexcept { return flaw_ == flaw; }
+    void check_unless_hidden() noexcept {
+        if (!has(WatchdogFlaw::kLateServiceHidesIt)) {
+            check();
+        }
+    }
+    void check() noexcept {
+        const Duration limit = has(WatchdogFlaw::kBitesEarly)  ? kTimeout - 1_ns
+                               : has(WatchdogFlaw::kBitesLate) ? kTimeout * 4
+                                                               : kTimeout;
+        const bool is_counting = is_started_ || has(WatchdogFlaw::kStartsByItself);
+        const bool is_over = is_counting && now_ - serviced_at_ > limit;
+        is_open_ = is_open_ || (is_over && !has(WatchdogFlaw::kNeverBites));
+    }
+
+    WatchdogFlaw flaw_;
+    Duration step_;
+    mutable Instant now_{};
+    Instant serviced_at_{};
+    bool is_started_{false};
+    bool is_open_{false};
+};
+
+TrialFactory make(WatchdogFlaw flaw, Duration step) {
+    return make_watchdog_trials([flaw, step] { return std::make_unique<FlawedWatchdog>(flaw, step); });
+}
+
+struct FlawCase {
+    WatchdogFlaw flaw;
+    const char* sentence;
+};
+void PrintTo(const FlawCase& flaw, std::ostream* out) {
+    *out << flaw.sentence;
+}
+
+class WatchdogFlawTest : public ::testing::TestWithParam<FlawCase> {};
+
+TEST_P(WatchdogFlawTest, IsReportedInEachOrder) {
+    verifies("SWR-CNF-006", Technique::kFaultInjection, Polarity::kViolation);
+    const TrialFactory factory = make(GetParam().flaw, 0_ns);
+
+    const Report report = run_in_order(factory);
+    ASSERT_FALSE(report.is_kept());
+    EXPECT_NE(report.findings[0].find(GetParam().sentence), std::string::npos) << report.to_text();
+    EXPECT_FALSE(run_randomly(factory, 1U, 1000U).is_kept());
+    EXPECT_FALSE(explore(factory, 3U).is_kept());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WatchdogFlawTest,
+    ::testing::Values(
+        FlawCase{WatchdogFlaw::kStartsByItself, "opened before the time was over"},
+        FlawCase{WatchdogFlaw::kBitesEarly, "opened before the time was over"},
+        FlawCase{WatchdogFlaw::kBitesLate, "a service was taken though the relay is open"},
+        FlawCase{WatchdogFlaw::kNeverBites, "a service was taken though the relay is open"},
+        FlawCase{WatchdogFlaw::kClosesAgain, "a service was taken though the relay is open"},
+        FlawCase{WatchdogFlaw::kTakesServiceWhenOpen, "a service was taken though the relay is open"},
+        FlawCase{WatchdogFlaw::kLateServiceHidesIt, "a service was taken though the relay is open"},
+        FlawCase{WatchdogFlaw::kRefusesInTime, "a service that came in time was refused"}));
+
+TEST(WatchdogContractTest, AWatchdogThatKeepsItIsAcceptedInEachOrder) {
+    verifies("SWR-CNF-006", Technique::kStateTransition);
+    for (const Duration step : {0_ns, 1_ns, 300_ns}) {
+        EXPECT_TRUE(run_in_order(make(WatchdogFlaw::kNone, step)).is_kept());
+        EXPECT_TRUE(explore(make(WatchdogFlaw::kNone, step), 4U).is_kept());
+    }
+}
+
+TEST(WatchdogContractTest, ATimeThatPassesMeanwhileHidesNoGrossFlaw) {
+    verifies("SWR-CNF-006", Technique::kErrorGuessing, Polarity::kViolation);
+    for (const WatchdogFlaw flaw :
+         {WatchdogFlaw::kStartsByItself, WatchdogFlaw::kNeverBites, WatchdogFlaw::kClosesAgain,
+          WatchdogFlaw::kTakesServiceWhenOpen, WatchdogFlaw::kRefusesInTime}) {
+        EXPECT_FALSE(run_in_order(make(flaw, 10_ns)).is_kept()) << static_cast<int>(flaw);
+    }
+}
+
+}  // namespace
+}  // namespace mamori::ports::conformance
