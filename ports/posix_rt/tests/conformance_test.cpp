@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the port for real time keeps the contracts of a port. Method: the rules of ports/conformance in their
+// order and in a random order, by the clock; those of the storage also in every order up to a depth. Nothing
+// is asked of the speed of the machine: the rules demand order, counts and lower bounds only. A crash is a
+// process that kills itself.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <thread>
+
+#include "mamori/ports/conformance/clock_contract.hpp"
+#include "mamori/ports/conformance/host_contract.hpp"
+#include "mamori/ports/conformance/rule_runner.hpp"
+#include "mamori/ports/conformance/storage_contract.hpp"
+#include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/ports/posix_rt/guarded_host.hpp"
+#include "mamori/ports/posix_rt/mapped_file.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+using conformance::explore;
+using conformance::Report;
+using conformance::run_in_order;
+using conformance::run_randomly;
+using conformance::TrialFactory;
+using verification::Technique;
+using verification::verifies;
+
+constexpr std::uint64_t kSeed = 20261122U;
+
+class FrameClockRig final : public conformance::ClockRig {
+  public:
+    Instant get_now() const override { return clock_.get_now(); }
+    void wait_until(Instant instant) override { clock_.wait_until(instant); }
+    Duration get_tick() const override { return 1_ms; }
+    bool is_exact() const override { return false; }
+
+  private:
+    const FrameClock clock_ = FrameClock::starting_in(0_ms);
+};
+
+class GuardedHostRig final : public conformance::HostRig {
+  public:
+    GuardedHostRig() { EXPECT_EQ(host_.open(), Status::kOk); }
+    ~GuardedHostRig() override {
+        while (host_.close() != Status::kOk) {
+            std::this_thread::yield();
+        }
+    }
+
+    Instant get_now() const override { return clock_.get_now(); }
+    void wait_until(Instant instant) override { clock_.wait_until(instant); }
+    Duration get_tick() const override { return 1_ms; }
+    bool is_exact() const override { return false; }
+    WindowHost& get_host() override { return host_; }
+    void plan(const WindowHost::Work& work, const std::vector<conformance::StepPlan>&) override {
+        is_released_.at(work.window).store(false, std::memory_order_relaxed);
+    }
+    void spend(std::size_t window, const conformance::StepPlan& step) noexcept override {
+        while (step.is_hang && !is_released_[window].load(std::memory_order_relaxed)) {
+            std::this_thread::yield();
+        }
+        const Instant end = clock_.get_now() + step.time;
+        while (clock_.get_now() < end) {
+        }
+    }
+    void release(std::size_t window) noexcept override {
+        is_released_[window].store(true, std::memory_order_relaxed);
+    }
+
+  private:
+    const FrameClock clock_ = FrameClock::starting_in(0_ms);
+    std::array<WindowThread, kWindowCount> threads_;
+    std::array<std::atomic<bool>, kWindowCount> is_released_{};
+    GuardedHost host_{threads_, clock_, {}};
+};
+
+/// A file of its own, which goes with it.
+class MappedFileRig final : public conformance::StorageRig {
+  public:
+    ~MappedFileRig() override {
+        file_.close();
+        std::filesystem::remove(path_);
+    }
+
+    Status open(std::size_t size) override { return file_.open(path_.c_str(), size); }
+    void close() override { file_.close(); }
+    Span<std::byte> get_region() override { return file_.get_region(); }
+    Status open_as_another(std::size_t size) override {
+        MappedFile another;
+        return another.open(path_.c_str(), size);
+    }
+    void crash(std::size_t size, const std::function<void(Span<std::byte>)>& write) override {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            MappedFile file;
+            if (file.open(path_.c_str(), size) != Status::kOk) {
+                ::_exit(1);
+            }
+            write(file.get_region());
+            ::kill(::getpid(), SIGKILL);
+        }
+        int status = 0;
+        EXPECT_EQ(::waitpid(child, &status, 0), child);
+        EXPECT_TRUE(WIFSIGNALED(status)) << "the file could not be opened";
+    }
+
+  private:
+    std::string path_ = ::testing::TempDir() + "conformance_" + std::to_string(::getpid());
+    MappedFile file_;
+};
+
+TrialFactory make_clock() {
+    return conformance::make_clock_trials([] { return std::make_unique<FrameClockRig>(); });
+}
+TrialFactory make_host() {
+    return conformance::make_host_trials([] { return std::make_unique<GuardedHostRig>(); });
+}
+TrialFactory make_storage() {
+    return conformance::make_storage_trials([] { return std::make_unique<MappedFileRig>(); });
+}
+
+void expect_kept(const Report& report) {
+    EXPECT_TRUE(report.is_kept()) << report.to_text();
+    std::cout << report.to_text();
+}
+
+TEST(PosixRtConformanceTest, ClockKeepsItsContract) {
+    verifies("SWR-CNF-001", Technique::kStateTransition);
+    expect_kept(run_in_order(make_clock()));
+    expect_kept(run_randomly(make_clock(), kSeed, 300U));
+}
+
+TEST(PosixRtConformanceTest, StepsRunOnceAndInOrder) {
+    verifies("SWR-CNF-002", Technique::kStateTransition);
+    expect_kept(run_in_order(make_host()));
+}
+
+TEST(PosixRtConformanceTest, OnlyStepsThatEndByTheDeadlineAreCounted) {
+    verifies("SWR-CNF-003", Technique::kStateTransition);
+    expect_kept(run_randomly(make_host(), kSeed, 400U));
+}
+
+TEST(PosixRtConformanceTest, WorkThatHangsIsCutOffAndCostsNoOtherWindow) {
+    verifies("SWR-CNF-004", Technique::kStateTransition);
+    expect_kept(run_randomly(make_host(), kSeed + 1U, 400U));
+}
+
+TEST(PosixRtConformanceTest, WorkThatWasCutOffHasReturnedOnlyWhenItIsOver) {
+    verifies("SWR-CNF-005", Technique::kStateTransition);
+    expect_kept(run_randomly(make_host(), kSeed + 2U, 400U));
+}
+
+TEST(PosixRtConformanceTest, StorageKeepsItsContract) {
+    verifies("SWR-CNF-007", Technique::kStateTransition);
+    expect_kept(run_in_order(make_storage()));
+    expect_kept(run_randomly(make_storage(), kSeed, 1000U));
+}
+
+TEST(PosixRtConformanceTest, StorageKeepsItsContractInEveryOrder) {
+    verifies("SWR-CNF-010", Technique::kStateTransition);
+    const Report report = explore(make_storage(), 3U);
+    expect_kept(report);
+    EXPECT_EQ(report.to_text(), "12 rules, 108 sequences, 324 steps, 9 states\n");
+}
+
+}  // namespace
+}  // namespace mamori::ports::posix_rt
