@@ -19,6 +19,8 @@
 #include "mamori/ports/conformance/host_contract.hpp"
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/ports/conformance/storage_contract.hpp"
+#include "mamori/ports/conformance/timer_contract.hpp"
+#include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/mapped_file.hpp"
@@ -84,6 +86,36 @@ class GuardedHostRig final : public conformance::HostRig {
     GuardedHost host_{threads_, clock_, {}};
 };
 
+class CoreRunnerRig final : public conformance::TimerRig {
+  public:
+    explicit CoreRunnerRig(Executive& executive) : runner_(executive, host_, clock_) {
+        EXPECT_EQ(host_.open(), Status::kOk);
+    }
+    ~CoreRunnerRig() override {
+        while (host_.close() != Status::kOk) {
+            std::this_thread::yield();
+        }
+    }
+
+    void run(std::uint64_t frame_count) override { runner_.run(frame_count); }
+    Counts get_counts() const override { return {runner_.get_counts().missed, runner_.get_counts().overran}; }
+    WindowHost& get_host() override { return host_; }
+    void wait_until(Instant instant) override { clock_.wait_until(instant); }
+    bool is_exact() const override { return false; }
+    void plan(std::size_t, Duration) override {}
+    void spend(Duration time) noexcept override {
+        const Instant end = clock_.get_now() + time;
+        while (clock_.get_now() < end) {
+        }
+    }
+
+  private:
+    const FrameClock clock_ = FrameClock::starting_in(0_ms);
+    std::array<WindowThread, kWindowCount> threads_;
+    GuardedHost host_{threads_, clock_, {}};
+    CoreRunner runner_;
+};
+
 /// A file of its own, which goes with it.
 class MappedFileRig final : public conformance::StorageRig {
   public:
@@ -125,6 +157,10 @@ TrialFactory make_clock() {
 TrialFactory make_host() {
     return conformance::make_host_trials([] { return std::make_unique<GuardedHostRig>(); });
 }
+TrialFactory make_timer() {
+    return conformance::make_timer_trials(
+        [](Executive& executive) { return std::make_unique<CoreRunnerRig>(executive); });
+}
 TrialFactory make_storage() {
     return conformance::make_storage_trials([] { return std::make_unique<MappedFileRig>(); });
 }
@@ -158,6 +194,12 @@ TEST(PosixRtConformanceTest, WorkThatHangsIsCutOffAndCostsNoOtherWindow) {
 TEST(PosixRtConformanceTest, WorkThatWasCutOffHasReturnedOnlyWhenItIsOver) {
     verifies("SWR-CNF-005", Technique::kStateTransition);
     expect_kept(run_randomly(make_host(), kSeed + 2U, 400U));
+}
+
+TEST(PosixRtConformanceTest, TimerKeepsItsContract) {
+    verifies("SWR-CNF-011", Technique::kStateTransition);
+    expect_kept(run_in_order(make_timer()));
+    expect_kept(run_randomly(make_timer(), kSeed, 40U));
 }
 
 TEST(PosixRtConformanceTest, StorageKeepsItsContract) {

@@ -10,7 +10,9 @@
 #include "mamori/ports/conformance/clock_contract.hpp"
 #include "mamori/ports/conformance/host_contract.hpp"
 #include "mamori/ports/conformance/rule_runner.hpp"
+#include "mamori/ports/conformance/timer_contract.hpp"
 #include "mamori/ports/conformance/watchdog_contract.hpp"
+#include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
 #include "mamori/verification/verifies.hpp"
@@ -69,11 +71,47 @@ class VirtualWatchdogRig final : public conformance::WatchdogRig {
     VirtualWatchdog watchdog_{10_ms};
 };
 
+class NoDevices final : public FrameDevices {
+  public:
+    void begin_frame(std::uint64_t, Instant) noexcept override {}
+    void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
+};
+
+class FrameRunnerRig final : public conformance::TimerRig {
+  public:
+    explicit FrameRunnerRig(Executive& executive) : cores_{SimulatedCore{executive, host_}} {}
+
+    void run(std::uint64_t frame_count) override {
+        for (std::uint64_t i = 0U; i < frame_count; ++i) {
+            runner_.run_frame();
+        }
+    }
+    Counts get_counts() const override { return {0U, runner_.get_overrun_count()}; }
+    WindowHost& get_host() override { return host_; }
+    void wait_until(Instant) override {}  // no work is ever out
+    bool is_exact() const override { return true; }
+    void plan(std::size_t component, Duration time) override {
+        ASSERT_EQ(host_.set_duration(component, time), Status::kOk);
+    }
+    void spend(Duration) noexcept override {}
+
+  private:
+    std::array<Duration, kWindowCount> durations_{};
+    VirtualHost host_{durations_};
+    NoDevices devices_;
+    std::array<SimulatedCore, 1U> cores_;
+    FrameRunner runner_{cores_, devices_};
+};
+
 TrialFactory make_clock() {
     return conformance::make_clock_trials([] { return std::make_unique<VirtualHostRig>(); });
 }
 TrialFactory make_host() {
     return conformance::make_host_trials([] { return std::make_unique<VirtualHostRig>(); });
+}
+TrialFactory make_timer() {
+    return conformance::make_timer_trials(
+        [](Executive& executive) { return std::make_unique<FrameRunnerRig>(executive); });
 }
 TrialFactory make_watchdog() {
     return conformance::make_watchdog_trials([] { return std::make_unique<VirtualWatchdogRig>(); });
@@ -116,6 +154,17 @@ TEST(VirtualTimeConformanceTest, OnlyStepsThatEndByTheDeadlineAreCounted) {
 TEST(VirtualTimeConformanceTest, HostKeepsItsContractInEveryOrder) {
     verifies("SWR-CNF-010", Technique::kStateTransition);
     expect_all_tried(explore(make_host(), 4U), "28 rules, 197152 sequences, 788608 steps, 36 states\n");
+}
+
+TEST(VirtualTimeConformanceTest, TimerKeepsItsContract) {
+    verifies("SWR-CNF-011", Technique::kStateTransition);
+    EXPECT_TRUE(run_in_order(make_timer()).is_kept());
+    walk(make_timer());
+}
+
+TEST(VirtualTimeConformanceTest, TimerKeepsItsContractInEveryOrder) {
+    verifies("SWR-CNF-010", Technique::kStateTransition);
+    expect_all_tried(explore(make_timer(), 8U), "6 rules, 6561 sequences, 52488 steps, 4 states\n");
 }
 
 TEST(VirtualTimeConformanceTest, WatchdogKeepsItsContract) {
