@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clock of the port that docs/manual/porting.md puts under the rules.
+#ifndef MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_MY_CLOCK_HPP
+#define MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_MY_CLOCK_HPP
+
+#include "mamori/kernel/time.hpp"
+
+class MyClock final {
+  public:
+    mamori::Instant get_now() const { return now_; }
+    void wait_until(mamori::Instant instant) { now_ = instant > now_ ? instant : now_; }
+
+  private:
+    mamori::Instant now_{};
+};
+
+#endif  // MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_MY_CLOCK_HPP
