@@ -60,11 +60,11 @@ class VirtualWatchdogRig final : public conformance::WatchdogRig {
     safety::Watchdog& get_watchdog() override { return watchdog_; }
     Duration get_timeout() const override { return 10_ms; }
     Instant get_now() const override { return now_; }
-    void let_pass(Duration time) override {
-        now_ = now_ + time;
+    void let_pass(Duration time) override { now_ = now_ + time; }
+    bool has_expired() override {
         watchdog_.check(now_);
+        return watchdog_.has_expired();
     }
-    bool has_expired() const override { return watchdog_.has_expired(); }
 
   private:
     Instant now_{};

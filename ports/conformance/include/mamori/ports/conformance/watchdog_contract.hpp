@@ -28,8 +28,9 @@ class WatchdogRig {
     virtual Instant get_now() const = 0;
     /// At least this much time passes, also for the watchdog.
     virtual void let_pass(Duration time) = 0;
-    /// Whether the relay is open.
-    virtual bool has_expired() const = 0;
+    /// Whether the relay is open now. A watchdog that is simulated looks at its clock here and in its
+    /// service, not in let_pass(): else the rules cannot see that a late service is refused.
+    virtual bool has_expired() = 0;
 };
 
 /// @param[in] make_rig a new port each time. @return the trials, for the runners of rule_runner.hpp.
