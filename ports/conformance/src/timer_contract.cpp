@@ -116,7 +116,8 @@ class TimerSubject final {
         Instant last = last_;
         for (const Opening& opening : openings) {
             const Duration since = opening.planned - Instant{0} - kOffsets.at(window);
-            judge.expect(since >= Duration{0} && since.ns % kFrame.ns == 0, "a window opened beside the grid");
+            judge.expect(since >= Duration{0} && since.ns % kFrame.ns == 0,
+                         "a window opened beside the grid");
             judge.expect(opening.planned > last, "a window opened twice in a frame, or out of order");
             judge.expect(opening.seen >= opening.planned, "a window opened before its instant");
             if (rig_->is_exact()) {

@@ -147,6 +147,21 @@ TEST(RuleRunnerTest, AFindingInEveryOrderShowsOneOfTheShortestWalks) {
               "every order, depth 2, after 2 steps: rule 'up' (SWR-A-002): too high; walk: 1 1");
 }
 
+TEST(RuleRunnerTest, AChoiceOfRulesIsTriedAsIfThereWereNoOthers) {
+    verifies("SWR-CNF-010", Technique::kEquivalenceClasses);
+    const TrialFactory up = select_rules(make(make_steps(10)), {"up"});
+
+    EXPECT_EQ(explore(up, 3U).to_text(), "1 rules, 1 sequences, 3 steps, 4 states\n");
+    EXPECT_EQ(run_in_order(up).rules.at(0).requirement, "SWR-A-002");
+    EXPECT_EQ(run_in_order(select_rules(make(make_steps(10)), {"up", "down"})).rules.size(), 2U);
+}
+
+TEST(RuleRunnerTest, AChoiceThatNamesNoRuleEndsInTheAssertion) {
+    verifies("SWR-CNF-010", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_DEATH(static_cast<void>(select_rules(make(make_steps(10)), {"u"})()), "");
+    EXPECT_DEATH(static_cast<void>(select_rules(make(make_steps(10)), {})()), "");
+}
+
 TEST(RuleRunnerTest, APortThatAnswersOtherwiseTheSecondTimeIsAFinding) {
     verifies("SWR-CNF-010", Technique::kFaultInjection, Polarity::kViolation);
     int trials = 0;

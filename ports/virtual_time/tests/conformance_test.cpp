@@ -156,6 +156,15 @@ TEST(VirtualTimeConformanceTest, HostKeepsItsContractInEveryOrder) {
     expect_all_tried(explore(make_host(), 4U), "28 rules, 197152 sequences, 788608 steps, 36 states\n");
 }
 
+TEST(VirtualTimeConformanceTest, WindowsThatHangKeepTheContractInEveryLongOrder) {
+    verifies("SWR-CNF-010", Technique::kStateTransition);
+    const TrialFactory hangs = conformance::select_rules(
+        make_host(), {"work that fits, window 0", "work that fits, window 1", "a late step, window 1",
+                      "a hang in the middle, window 1", "ask while it hangs, window 1", "release, window 1",
+                      "a hang at once, window 2", "release, window 2", "time passes"});
+    expect_all_tried(explore(hangs, 7U), "9 rules, 219018 sequences, 1533126 steps, 24 states\n");
+}
+
 TEST(VirtualTimeConformanceTest, TimerKeepsItsContract) {
     verifies("SWR-CNF-011", Technique::kStateTransition);
     EXPECT_TRUE(run_in_order(make_timer()).is_kept());

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "mamori/kernel/time.hpp"
 
@@ -61,6 +62,10 @@ class Trial {
 
 /// Makes a new trial with a new port.
 using TrialFactory = std::function<std::unique_ptr<Trial>()>;
+
+/// The same trials with some of their rules: a smaller choice lets explore() go deeper.
+/// @param[in] names of rules, at least one; one that no rule has is an own bug.
+TrialFactory select_rules(TrialFactory factory, std::vector<std::string> names);
 
 /// Makes a new port with what the rules of a contract need around it.
 template <typename Rig>
