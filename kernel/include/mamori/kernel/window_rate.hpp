@@ -47,6 +47,7 @@ namespace detail {
 
 /// Period whose rate is `value`, to the nearest nanosecond; 0 for a rate that is no positive number.
 constexpr Duration to_period(Rate value) noexcept {
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): the quotient is 1 or more, and <cmath> is not listed
     return value.hz > 0.0 && value.hz <= 1.0e9 ? Duration{static_cast<std::int64_t>(1.0e9 / value.hz + 0.5)}
                                                : Duration{0};
 }
