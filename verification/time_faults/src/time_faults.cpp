@@ -221,6 +221,7 @@ class Judge final {
             if (explained_[i] || is_aftermath(i)) {
                 explained_[i] = true;
             } else if (stalls_.overlaps(report.release, report.at)) {
+                explained_[i] = true;
                 ++verdict.by_host;
             } else {
                 ++verdict.invented;
