@@ -9,9 +9,6 @@
 namespace safe_arm {
 namespace {
 
-/// Places of the first and the last window of a frame in the table.
-constexpr std::size_t kProtectWindow = 0U;
-constexpr std::size_t kActWindow = 3U;
 /// Below the windows, above everything that has no fixed priority; without the right for it the plant runs
 /// all the same and is late more often.
 constexpr int kPlantPriority = 60;
@@ -53,7 +50,7 @@ void RealTimeMachine::serve() {
 }
 
 void RealTimeMachine::before_opening(const mamori::FrameSchedule::Opening& opening, Instant) noexcept {
-    if (opening.window != kProtectWindow) {
+    if (opening.window != kFirstWindow) {
         return;
     }
     if (is_stepping_ && sem_trywait(&done_) == 0) {
@@ -68,7 +65,7 @@ void RealTimeMachine::before_opening(const mamori::FrameSchedule::Opening& openi
 
 void RealTimeMachine::after_opening(const mamori::FrameSchedule::Opening& opening,
                                     mamori::WindowOutcome) noexcept {
-    if (opening.window != kActWindow) {
+    if (opening.window != kLastWindow) {
         return;
     }
     const auto frame = opening.release.ns / kFrame.ns;

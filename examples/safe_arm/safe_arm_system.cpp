@@ -41,6 +41,10 @@ static_assert(kSafeArm.kWindowCount == kWindowCount && kSafeArm.components.size(
               kSafeArm.components[kControllerIndex] == &controller &&
               kSafeArm.components[kChannelIndex] == &channel && kSafeArm.components[kGateIndex] == &gate);
 
+static_assert(kSafeArm.windows[kFirstWindow].offset == 0_us &&
+              kSafeArm.windows[kLastWindow].offset > kSafeArm.windows[kLastWindow - 1U].offset &&
+              kLastWindow + 1U == kWindowCount);
+
 static mamori::ExecutiveFor executive_of_table{kSafeArm};
 mamori::Executive& executive = executive_of_table;
 

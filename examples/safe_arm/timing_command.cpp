@@ -22,26 +22,28 @@ int fail(int exit_code, const std::string& message) {
 }
 
 /// What the supervisor made of the run: lateness of the machine may well have stopped the arm.
-void tell_end(const RealTimeMachine& machine) {
-    std::cerr << "safe_arm: state " << get_name(supervisor.get_state());
+std::vector<std::string> make_notes(const RealTimeMachine& machine) {
+    std::string state = std::string{"the arm ended in state "} + get_name(supervisor.get_state());
     if (supervisor.get_first_fault() < kArmFaultCount) {
-        std::cerr << ", first fault " << kArmFaultNames[supervisor.get_first_fault()];
+        state += std::string{", first fault "} + kArmFaultNames[supervisor.get_first_fault()];
     }
-    std::cerr << ", the plant was late for " << machine.get_late_count() << " frames\n";
+    return {state,
+            "the simulated arm was not ready for " + std::to_string(machine.get_late_count()) + " frames"};
 }
 
 }  // namespace
 
 int run_timing_command(const RunOptions& options) {
-    mamori::sim::LoadedModel loaded;
-    MotionTrack track;
+    // Static: work that hangs when the run is over may still use them.
+    static mamori::sim::LoadedModel loaded;
+    static MotionTrack track;
     const std::string refusal = load_inputs(options.model, options.motion, loaded, track);
     if (!refusal.empty()) {
         return fail(kExitUsage, refusal);
     }
     mamori::sim::ArmPlant plant{*loaded.model};
     plant.reset(track.calc_point(0.0).position_rad);
-    mamori::sim::ComputedTorqueController law{*loaded.model};
+    static mamori::sim::ComputedTorqueController law{*loaded.model};
     const std::string obstacle = start_system(*loaded.model, track, law);
     if (!obstacle.empty()) {
         return fail(kExitFailed, obstacle);
@@ -52,12 +54,15 @@ int run_timing_command(const RunOptions& options) {
     timing.cycles = options.frames;
     timing.out = options.out;
     timing.save_table = save_table;
+    timing.tell_notes = [&machine] { return make_notes(machine); };
     const mamori::timing::TimingResult result =
         mamori::timing::run_timing({{executive, threads, &machine}}, timing);
     if (!result.message.empty()) {
         return fail(get_exit_status(result.outcome), result.message);
     }
-    tell_end(machine);
+    for (const std::string& note : make_notes(machine)) {
+        std::cerr << "safe_arm: " << note << '\n';
+    }
     if (!machine.is_plant_sound()) {
         return fail(kExitFailed, "the simulated plant diverged");
     }

@@ -119,6 +119,12 @@ def calc_execution(run: Measurement, component: int) -> tuple[Series, int]:
     return Series(run.openings["release_ns"][first : first + length][whole], sums[whole]), int(is_open.sum())
 
 
+def count_cut(run: Measurement, component: int) -> int:
+    """Openings of the component's window that overran: what they took in all is not known."""
+    window = run.table.components[component].window
+    return 0 if window is None else int((run.openings[run.rows_of(window)]["outcome"] == OVERRUN).sum())
+
+
 def list_windows(run: Measurement) -> list[WindowRow]:
     """The schedulability table, window by window."""
     return [_make_window(run, index) for index in range(len(run.table.windows))]

@@ -7,11 +7,9 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,7 +26,7 @@ from mamori.verification.timing.baseline import Baseline, check_table, judge_rat
 from mamori.verification.timing.environment import collect_setting, collect_state
 from mamori.verification.timing.reader import FILES, Measurement, read_measurement
 from mamori.verification.timing.report import Report, make_record, make_report, write_record
-from mamori.verification.timing.run import Ending, check_load, make_load, run_program
+from mamori.verification.timing.run import Ending, check_load, make_load, run_program, undisturbed
 from mamori.verification.timing.system import System, find_system
 from mamori.verification.timing.text import make_text
 
@@ -80,19 +78,18 @@ class Job:
 def timing(request: Request, jobs: int) -> int:
     """@return exit status: 0, 1 (a finding), 4 (without real-time rights) or 130 (stopped). @raise UsageError, InputError."""
     job = check(request, jobs)
-    _prepare_folder(job.folder)
+    _prepare_folder(job)
     if job.system.target and not _build(job):
         return EXIT_FAILED
     if not os.access(job.system.program, os.X_OK):
         raise UsageError(f"timing: '{job.system.program}' was not built; correct 'program' in {request.system}/timing.toml")
-    job.log.write_text("", encoding="utf-8")
     expected_s = _probe(job)
     if expected_s is None:
         return EXIT_FAILED
     host: dict[str, Any] = {"setting": collect_setting(), "before": collect_state()}
     ending, problems = _measure(job, expected_s)
     host["after"] = collect_state()
-    with _undisturbed():
+    with undisturbed():
         return _conclude(job, ending, problems, host)
 
 
@@ -124,11 +121,15 @@ def check_folder(folder: Path) -> None:
         raise UsageError(f"timing: {folder}: nothing can be written there ({error.strerror}); name a folder that you may write to") from error
 
 
-def _prepare_folder(folder: Path) -> None:
-    """Takes earlier results away, so that none can be taken for those of this run."""
-    for path in [*(folder / name for name in RESULTS), *(folder / "run" / name for name in FILES)]:
-        path.unlink(missing_ok=True)
-    (folder / "run").mkdir(exist_ok=True)
+def _prepare_folder(job: Job) -> None:
+    """Takes earlier results away, so that none can be taken for those of this run. @raise UsageError."""
+    try:
+        for path in [*(job.folder / name for name in RESULTS), job.log, *(job.data / name for name in FILES)]:
+            path.unlink(missing_ok=True)
+        job.data.mkdir(exist_ok=True)
+        job.log.write_text("", encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"timing: '{error.filename}' is in the way of a result: {error.strerror}; name another folder") from error
 
 
 def _build(job: Job) -> bool:
@@ -170,17 +171,6 @@ def _measure(job: Job, expected_s: float) -> tuple[Ending, list[str]]:
         ending = run_program(job.make_argv(job.request.cycles, job.data), job.log, expected_s,
                              lambda passed: tick(f"of {expected_s:.0f} s"))  # fmt: skip
     return ending, problems
-
-
-@contextmanager
-def _undisturbed() -> Iterator[None]:
-    """Ctrl-C and SIGTERM are not heard while results are written: it takes seconds, and would lose what an earlier one kept."""
-    handlers = {number: signal.signal(number, signal.SIG_IGN) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield
-    finally:
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
 
 
 def _conclude(job: Job, ending: Ending, problems: Sequence[str], host: dict[str, Any]) -> int:

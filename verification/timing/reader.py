@@ -88,7 +88,8 @@ def read_measurement(folder: Path) -> Measurement:
     steps = read_rows(folder / "steps.npy", STEP, "steps")
     _check_steps(steps, table, folder / "steps.npy")
     steps, opening_of_step, notes = _match_steps(steps, openings, table, is_partial, folder / "steps.npy")
-    return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, notes)
+    own = tuple(f"the program: {note.text()}" for note in run.at("notes").items())
+    return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, (*own, *notes))
 
 
 def _load_json(path: Path) -> object:
@@ -114,6 +115,8 @@ def _read_run(run: JsonNode, table: Table) -> tuple[int, int, bool, int]:
     reference = run.at("reference_ns").whole()
     if reference < 1:
         raise run.at("reference_ns").complain(f"is {reference}, must be positive")
+    if lost := run.at("lost_rows").count():
+        raise run.at("lost_rows").complain(f"says that {lost} rows had no room; measure fewer cycles")
     return asked, done, is_partial, reference
 
 

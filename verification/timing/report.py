@@ -15,7 +15,7 @@ from typing import Any
 
 from mamori.profiles.text_file import write_text
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
-from mamori.verification.timing.analysis import (ComponentRow, Miss, WindowRow, calc_execution, list_components,
+from mamori.verification.timing.analysis import (ComponentRow, Miss, WindowRow, calc_execution, count_cut, list_components,
                                                  list_findings, list_misses, list_windows)  # fmt: skip
 from mamori.verification.timing.baseline import list_ratios, make_fingerprint
 from mamori.verification.timing.chain_times import ChainRow, list_chains, list_violations
@@ -85,7 +85,7 @@ def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: 
     windows, components, misses = list_windows(run), list_components(run), list_misses(run)
     chains, chain_note = list_chains(run)
     indices = [index for index, one in enumerate(run.table.components) if one.window is not None]
-    estimates = [estimate(calc_execution(run, index)[0].values) for index in indices]
+    estimates = [estimate(calc_execution(run, index)[0].values, count_cut(run, index)) for index in indices]
     early = [] if was_stopped or not run.is_partial else [f"the program ended after {run.cycles_run} of {run.cycles_asked} cycles"]
     found = [*findings, *early, *list_findings(windows, components, misses), *list_violations(chains)]
     return Report(system, run, windows, components, misses, chains, chain_note, estimates, found, run.notes, host, with_load, was_stopped)

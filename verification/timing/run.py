@@ -19,7 +19,7 @@ from pathlib import Path
 from mamori.verification.command.errors import UsageError
 
 POLL_S = 0.1
-GRACE_S = 10.0
+GRACE_S = 30.0
 """How long a program that was asked to stop may take to write its files."""
 OVERTIME_FACTOR = 1.5
 OVERTIME_S = 30.0
@@ -85,18 +85,33 @@ def run_program(argv: Sequence[str], log: Path, expected_s: float, tick: Tick) -
             _kill(child)
 
 
-def _stop(child: subprocess.Popen[bytes], number: signal.Signals) -> int:
-    """Asks, waits GRACE_S, does not ask. @return exit status."""
-    child.send_signal(number)
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Ctrl-C and SIGTERM are not heard while results are written: it takes seconds, and would lose what an earlier one kept."""
+    handlers = {number: signal.signal(number, signal.SIG_IGN) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        return child.wait(GRACE_S)
-    except subprocess.TimeoutExpired:
-        _kill(child)
-        return child.wait()
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+
+
+def _stop(child: subprocess.Popen[bytes], number: signal.Signals) -> int:
+    """Asks, waits GRACE_S, does not ask. A second Ctrl-C would cost the files that the first one asked for, so it is not heard.
+
+    @return exit status.
+    """
+    with undisturbed():
+        child.send_signal(number)
+        try:
+            return child.wait(GRACE_S)
+        except subprocess.TimeoutExpired:
+            _kill(child)
+            return child.wait()
 
 
 def _kill(child: subprocess.Popen[bytes]) -> None:
-    """Ends what is left of the program's group, after an exception as well."""
+    """Ends the program's group while the program lives, after an exception as well."""
     if child.poll() is None:
         os.killpg(child.pid, signal.SIGKILL)
         child.wait()

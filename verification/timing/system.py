@@ -62,8 +62,8 @@ def _read_folder(folder: Path, project: Project) -> System:
             raise InputError(f"has an unknown key '{key}'; {nearest_names(key, KEYS)}", file)
     program, target = (_read_text(data, key, file) for key in ("program", "target"))
     arguments = data.get("arguments", [])
-    if not isinstance(arguments, list) or not all(isinstance(word, str) for word in arguments):
-        raise InputError("'arguments' must be a list of texts", file)
+    if not isinstance(arguments, list) or not all(isinstance(word, str) and "\0" not in word for word in arguments):
+        raise InputError("'arguments' must be a list of texts without NUL", file)
     words = tuple(word.replace("{root}", str(project.root)) for word in arguments)
     path = (project.build / program).resolve()
     if not path.is_relative_to(project.build.resolve()):
@@ -73,6 +73,6 @@ def _read_folder(folder: Path, project: Project) -> System:
 
 def _read_text(data: dict[str, object], key: str, file: Path) -> str:
     value = data.get(key)
-    if not isinstance(value, str) or not value:
-        raise InputError(f"has no '{key}'; it must be a text that is not empty", file)
+    if not isinstance(value, str) or not value or "\0" in value:
+        raise InputError(f"has no '{key}'; it must be a text that is not empty, without NUL", file)
     return value

@@ -189,11 +189,11 @@ def test_load_without_its_tool_ends_with_2(program: Path, capsys: pytest.Capture
 @pytest.mark.verifies("SWR-TIM-023")
 def test_load_runs_beside_the_program_with_an_end_of_its_own(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tool = program.parent / "stress-ng"
-    tool.write_text(f'#!/bin/sh\necho "$*" >{program.parent}/load\necho $$ >{program.parent}/pid\nexec sleep 60\n', encoding="utf-8")
+    tool.write_text(f'#!/bin/sh\necho $$ >{program.parent}/pid\necho "$*" >{program.parent}/load\nexec sleep 60\n', encoding="utf-8")
     tool.chmod(0o755)
     monkeypatch.setenv("PATH", f"{program.parent}:{os.environ['PATH']}")
 
-    assert measure(program, own=("--load",)) == 0
+    assert measure(program, "await-load", own=("--load",)) == 0
     assert "--timeout 90s" in (program.parent / "load").read_text(encoding="utf-8")
     assert not Path("/proc", (program.parent / "pid").read_text().strip()).exists()
     assert load_record(program)["with_load"] is True
@@ -202,12 +202,24 @@ def test_load_runs_beside_the_program_with_an_end_of_its_own(program: Path, monk
 @pytest.mark.verifies("SWR-TIM-023", technique="fault_injection", polarity="violation")
 def test_load_that_ends_early_is_a_finding(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tool = program.parent / "stress-ng"
-    tool.write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
+    tool.write_text(f"#!/bin/sh\ntouch {program.parent}/load\nexit 3\n", encoding="utf-8")
     tool.chmod(0o755)
     monkeypatch.setenv("PATH", f"{program.parent}:{os.environ['PATH']}")
 
-    assert measure(program, own=("--load",)) == 1
+    assert measure(program, "await-load", own=("--load",)) == 1
     assert "the load ended before the run, with status 3" in load_record(program)["findings"]
+
+
+@pytest.mark.parametrize("name", ["run", "timing.json/full", "program.log/full"])
+@pytest.mark.verifies("SWR-TIM-026", technique="error_guessing", polarity="violation")
+def test_what_is_in_the_way_of_a_result_is_named(program: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    obstacle = program.parent / "out" / name
+    obstacle.parent.mkdir(parents=True)
+    obstacle.write_text("mine", encoding="utf-8")
+
+    assert measure(program) == 2
+    assert "is in the way of a result" in capsys.readouterr().err
+    assert obstacle.read_text(encoding="utf-8") == "mine"
 
 
 def stop_while_measuring(program: Path, number: signal.Signals, grace_s: float, *words: str) -> tuple[int, str]:
@@ -307,7 +319,8 @@ def test_folder_is_built_and_run_with_its_arguments(project: Path, capsys: pytes
 @pytest.mark.parametrize(
     ("text", "said"),
     [("program = 1", "has no 'program'"), ('program = "a"', "has no 'target'"), ('program = "../../x"\ntarget = "x"', "leads out of the build folder"),
-     ('programm = "a"', "unknown key 'programm'; nearest: program"), ("program", "is no TOML"),
+     ('programm = "a"', "unknown key 'programm'; nearest: program"),
+     ('program = "a\\u0000"\ntarget = "x"', "without NUL"), ('program = "a"\ntarget = "x"\narguments = ["\\u0000"]', "without NUL"), ("program", "is no TOML"),
      ('program = "a"\ntarget = "b"\narguments = [1]', "must be a list of texts")],
 )  # fmt: skip
 def test_wrong_description_ends_before_the_build(project: Path, capsys: pytest.CaptureFixture[str], text: str, said: str) -> None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mamori.verification.timing.evt import (BLOCK, BLOCKS_MIN, calc_chi_squared_tail, calc_l_moments, check_correlation, check_fit, check_runs,
+from mamori.verification.timing.evt import (BLOCK, BLOCKS_MIN, BLOCKS_WANTED, calc_chi_squared_tail, calc_l_moments, check_correlation, check_fit, check_runs,
                                             check_tail, estimate, fit_gumbel)  # fmt: skip
 
 N = 20_000
@@ -101,3 +101,19 @@ def test_single_tests_fail_where_they_should() -> None:
     assert not check_tail(np.exp(maxima / 3_000.0)).is_passed
     assert not check_runs(np.ones(100)).is_passed
     assert not check_correlation(np.arange(1000)).is_passed
+
+
+@pytest.mark.verifies("SWR-TIM-018", technique="boundary_values", polarity="violation")
+def test_openings_that_were_cut_off_are_the_longest_and_forbid_an_estimate() -> None:
+    assert estimate(draw(), 1).refusal.startswith("1 openings were cut off")
+
+
+@pytest.mark.verifies("SWR-TIM-018", technique="error_guessing", polarity="violation")
+def test_fitted_maxima_that_are_all_equal_are_refused() -> None:
+    values = draw()
+    block = max(BLOCK, len(values) // BLOCKS_WANTED)
+    for first in range(0, len(values), 2 * block):
+        values[first : first + block] = np.minimum(values[first : first + block], 50_000)
+        values[first] = 50_000
+
+    assert "have 1 different values" in estimate(values).refusal

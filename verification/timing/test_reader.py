@@ -102,10 +102,17 @@ def test_damaged_file_is_answered_with_its_name(tmp_path: Path, name: str, damag
      ({"is_partial": 1}, "must be true or false"),
      ({"frame_ns": 999_999}, "but the table's is 1000000"),
      ({"reference_ns": 0}, "must be positive"),
+     ({"lost_rows": 2}, "2 rows had no room; measure fewer cycles"),
+     ({"notes": [1]}, "must be a text"),
      ({"rights": {}}, "has no 'priority'")],
 )  # fmt: skip
 def test_record_that_contradicts_itself_is_refused(tmp_path: Path, change: dict[str, Any], said: str) -> None:
     assert said in refuse(write(tmp_path, **change))
+
+
+@pytest.mark.verifies("SWR-TIM-010")
+def test_what_the_program_has_to_say_is_passed_on(tmp_path: Path) -> None:
+    assert read_measurement(write(tmp_path, notes=["the arm stands"])).notes == ("the program: the arm stands",)
 
 
 @pytest.mark.verifies("SWR-TIM-011", technique="error_guessing", polarity="violation")

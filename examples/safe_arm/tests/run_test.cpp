@@ -304,7 +304,9 @@ TEST_F(RunTest, TimingLeavesTheTimesOfEveryWindowOfEveryFrame) {
     EXPECT_GT(fs::file_size(folder_ / "out" / "steps.npy"), 32U);
     EXPECT_EQ(nlohmann::json::parse(std::ifstream{folder_ / "out" / "table.json"})["reactions"].size(),
               kArmFaultCount);
-    EXPECT_NE(messages_.find("safe_arm: state "), std::string::npos) << messages_;
+    ASSERT_EQ(facts["notes"].size(), 2U);
+    EXPECT_EQ(facts["notes"][0].get<std::string>().find("the arm ended in state "), 0U) << facts["notes"];
+    EXPECT_NE(messages_.find("the simulated arm was not ready for "), std::string::npos) << messages_;
 }
 
 TEST_F(RunTest, TimingOfNoCyclesIsRefused) {

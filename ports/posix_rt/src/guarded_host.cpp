@@ -25,13 +25,6 @@ bool wait_for(sem_t& semaphore, const timespec& until) noexcept {
     return true;
 }
 
-/// The first refusal counts.
-void add(Right& sum, const Right& right) noexcept {
-    if (sum.is_granted) {
-        sum = right;
-    }
-}
-
 }  // namespace
 
 void* WindowThread::serve(void* argument) noexcept {
@@ -70,9 +63,9 @@ Status GuardedHost::start(WindowThread& thread) noexcept {
     }
     thread.is_open_ = true;
     if (place_.priority != 0) {
-        add(priority_right_, set_priority(thread.thread_, place_.priority));
+        priority_right_ = combine(priority_right_, set_priority(thread.thread_, place_.priority));
     }
-    add(processor_right_, set_processor(thread.thread_, place_.processor));
+    processor_right_ = combine(processor_right_, set_processor(thread.thread_, place_.processor));
     return Status::kOk;
 }
 

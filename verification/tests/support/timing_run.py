@@ -75,7 +75,7 @@ def make_run(table: dict[str, Any], asked: int, done: int, refused: Sequence[str
     """The document of run.json."""
     rights = {name: {"is_granted": name not in refused, "errno": 1 if name in refused else 0} for name in ("priority", "processor", "memory")}
     return {"schema": "mamori.timing_run/1", "cycles": {"asked": asked, "run": done}, "is_partial": done < asked,
-            "frame_ns": table["frame_ns"], "reference_ns": REFERENCE_NS, "rights": rights}  # fmt: skip
+            "frame_ns": table["frame_ns"], "reference_ns": REFERENCE_NS, "lost_rows": 0, "notes": [], "rights": rights}  # fmt: skip
 
 
 def write_run(folder: Path, table: dict[str, Any], openings: np.ndarray[Any, Any], steps: np.ndarray[Any, Any], run: dict[str, Any]) -> Path:
@@ -105,6 +105,8 @@ if "wait" in words and not is_probe:
     begin = time.monotonic()
     while not stopped and time.monotonic() - begin < cycles / 1000:
         time.sleep(0.01)
+while "await-load" in words and not is_probe and not os.path.exists(os.path.dirname(words[0]) + "/load"):
+    time.sleep(0.01)
 if "nothing" not in words or is_probe:
     shutil.copytree("{data}/" + ("probe" if is_probe else "partial" if stopped else "whole"), out, dirs_exist_ok=True)
 sys.exit(130 if stopped else 1 if "fail" in words and not is_probe else 0)

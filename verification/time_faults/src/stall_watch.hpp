@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tells when nobody ran on a processor: a thread above all others there that looks at the clock four times
-/// per tick. What the machine does to a run is told apart from what the run does to itself.
+/// Tells when nobody ran on a processor: a thread above all others there that looks at the clock again and
+/// again. What the machine does to a run is told apart from what the run does to itself.
 #ifndef MAMORI_TIME_FAULTS_STALL_WATCH_HPP
 #define MAMORI_TIME_FAULTS_STALL_WATCH_HPP
 

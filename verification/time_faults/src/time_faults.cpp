@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "time_faults.hpp"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -258,6 +260,20 @@ class Judge final {
     std::vector<bool> explained_;
 };
 
+/// The first one that this process may use.
+int find_processor() noexcept {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    if (sched_getaffinity(0, sizeof(set), &set) == 0) {
+        for (int processor = 0; processor < CPU_SETSIZE; ++processor) {
+            if (CPU_ISSET(static_cast<std::size_t>(processor), &set)) {
+                return processor;
+            }
+        }
+    }
+    return 0;
+}
+
 std::string to_text(const Report& report) {
     return std::string{"{\"is_overrun\": "} + (report.is_overrun ? "true" : "false") +
            ", \"window\": " + std::to_string(report.window) +
@@ -293,9 +309,12 @@ Verdict run(const Request& request) {
     time_line = &clock;
     deeds = &storage;
     static_cast<void>(ports::posix_rt::lock_memory(256U * 1024U));
-    const ports::posix_rt::Right right = ports::posix_rt::set_priority(pthread_self(), kRunnerPriority);
-    static_cast<void>(ports::posix_rt::set_processor(pthread_self(), 0));
-    static GuardedHost host{threads, clock, {kWindowPriority, 0}};
+    // All on one processor, or whoever tells of stalls would watch another one.
+    static const int processor = find_processor();
+    const ports::posix_rt::Right right =
+        combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
+                ports::posix_rt::set_processor(pthread_self(), processor));
+    static GuardedHost host{threads, clock, {kWindowPriority, processor}};
     Director director{clock, make_injections(request)};
     CoreRunner runner{executive, host, clock};
     runner.set_observer(&director);
@@ -305,14 +324,16 @@ Verdict run(const Request& request) {
         return verdict;
     }
     executive.set_observer(&director);
-    StallWatch stalls{clock, Duration{kTick.ns / 20}, {kWatchPriority, 0}};
+    StallWatch stalls{clock, Duration{kTick.ns / 20}, {kWatchPriority, processor}};
     runner.run(request.frame_count);
     stalls.stop();
     while (host.close() != Status::kOk) {
         clock.wait_until(clock.get_now() + kTick);
     }
     verdict.frames = request.frame_count;
-    verdict.has_priority = right.is_granted && host.get_priority_right().is_granted;
+    verdict.requested = request.injection_count;
+    verdict.has_priority =
+        combine(right, combine(host.get_priority_right(), host.get_processor_right())).is_granted;
     verdict.stalls = stalls.get_stalls().size();
     for (const Stall& stall : stalls.get_stalls()) {
         verdict.longest_stall = std::max(verdict.longest_stall, stall.end - stall.begin);
@@ -345,14 +366,14 @@ std::string to_json(const Request& request, const Verdict& verdict) {
         list += (list.empty() ? "\n  " : ",\n  ") + to_text(report);
     }
     return "{\"schema\": \"mamori.time_faults/1\"" + count("seed", request.seed) +
-           count("frames", verdict.frames) + count("injected", verdict.injected) +
-           count("seen", verdict.seen) + count("misnamed", verdict.misnamed) +
-           count("unseen", verdict.unseen) + count("tardy", verdict.tardy) +
-           count("tardy_by_host", verdict.tardy_by_host) + count("invented", verdict.invented) +
-           count("by_host", verdict.by_host) + count("stalls", verdict.stalls) +
-           number("longest_stall_ns", verdict.longest_stall.ns) + number("detection_p50_ns", quantile(50U)) +
-           number("detection_p99_ns", quantile(99U)) + number("detection_max_ns", quantile(100U)) +
-           ",\n \"unexplained\": [" + list + "]" +
+           count("frames", verdict.frames) + count("requested", verdict.requested) +
+           count("injected", verdict.injected) + count("seen", verdict.seen) +
+           count("misnamed", verdict.misnamed) + count("unseen", verdict.unseen) +
+           count("tardy", verdict.tardy) + count("tardy_by_host", verdict.tardy_by_host) +
+           count("invented", verdict.invented) + count("by_host", verdict.by_host) +
+           count("stalls", verdict.stalls) + number("longest_stall_ns", verdict.longest_stall.ns) +
+           number("detection_p50_ns", quantile(50U)) + number("detection_p99_ns", quantile(99U)) +
+           number("detection_max_ns", quantile(100U)) + ",\n \"unexplained\": [" + list + "]" +
            ",\n \"has_priority\": " + (verdict.has_priority ? "true" : "false") +
            ",\n \"is_well\": " + (verdict.is_well() ? "true" : "false") + "\n}\n";
 }

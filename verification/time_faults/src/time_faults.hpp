@@ -54,10 +54,11 @@ struct Report {
     Duration lateness{};  ///< of a late release
 };
 
-/// What became of a run. All is well when `seen == injected`, and `misnamed` and `invented` and `tardy` are
-/// 0.
+/// What became of a run. All is well when nearly all faults took effect, each was seen, and nothing was
+/// misnamed, unseen, tardy or invented.
 struct Verdict {
     std::uint64_t frames{0U};
+    std::uint64_t requested{0U};      ///< faults
     std::uint64_t injected{0U};       ///< that took effect; one may not when the machine stood still
     std::uint64_t seen{0U};           ///< reported, under the right name
     std::uint64_t misnamed{0U};       ///< reported in its time, under another name only
@@ -72,7 +73,11 @@ struct Verdict {
     std::vector<Report> unexplained{};         ///< those that were invented
     bool has_priority{false};
 
-    bool is_well() const noexcept { return seen == injected && misnamed + unseen + tardy + invented == 0U; }
+    /// A fault may miss its place while the machine stands still; more than a few that do are no test.
+    bool is_well() const noexcept {
+        return 20U * injected >= 19U * requested && seen == injected &&
+               misnamed + unseen + tardy + invented == 0U;
+    }
 };
 
 /// Runs it: `frame_count` ticks. To be called once per process.

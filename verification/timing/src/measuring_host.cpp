@@ -9,7 +9,8 @@ void MeasuringHost::measure(void* argument, std::size_t begin, std::size_t end) 
         StepRow& row = piece.rows[step - piece.work.first];
         row.start_ns.store(piece.clock->get_now().ns, std::memory_order_relaxed);
         piece.work.run(piece.work.argument, step, step + 1U);
-        row.end_ns.store(piece.clock->get_now().ns, std::memory_order_relaxed);
+        // Whoever sees an end sees its begin, also in a row that is still out when the run is written.
+        row.end_ns.store(piece.clock->get_now().ns, std::memory_order_release);
     }
 }
 
@@ -32,7 +33,8 @@ void MeasuringHost::before_opening(const FrameSchedule::Opening& opening, Instan
     }
     current_ = {};
     current_.release = opening.release;
-    current_.woke = woke;
+    // The executive reads the clock after the devices, and the budget begins there.
+    current_.woke = next_ == nullptr ? woke : inner_.get_now();
     current_.window = opening.window;
 }
 

@@ -2,14 +2,20 @@
 #include "mamori/timing/timing_run.hpp"
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <csignal>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <new>
 #include <numeric>
+#include <optional>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 #include "mamori/kernel/crc32.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
@@ -23,62 +29,78 @@ namespace {
 using ports::posix_rt::CoreRunner;
 using ports::posix_rt::FrameClock;
 using ports::posix_rt::GuardedHost;
+using ports::posix_rt::OpeningObserver;
 using ports::posix_rt::Right;
 using ports::posix_rt::ThreadPlace;
 
-/// From the first thread to the first frame: longer than a busy machine takes for its memory and threads.
+/// From the first thread to the first frame: longer than a busy machine takes to start them.
 constexpr Duration kLead{500'000'000};
+/// Work that was cut off at the end of the run gets so much longer to come back.
+constexpr Duration kPatience{1'000'000'000};
+constexpr Duration kPoll{5'000'000};
 /// Windows run below the thread that guards them.
 constexpr int kPriorityGap = 10;
 /// Steps of mode switches and late stops are no part of a cycle.
 constexpr std::size_t kSpareSteps = 4096U;
 constexpr std::size_t kStackSize = 256U * 1024U;
 
-/// Everything of one core that the threads of its windows may still touch when the run is over.
-struct CoreSession {
-    CoreSession(const TimedCore& core, const FrameClock& clock, ThreadPlace place, std::size_t opening_count,
-                std::size_t step_count)
-        : log{opening_count, step_count},
-          guard{core.threads, clock, place},
-          host{guard, log, core.executive.get_view().windows.size(), core.devices},
-          runner{core.executive, host, clock} {
-        runner.set_observer(&host);
+std::atomic<bool> is_interrupted{false};
+
+extern "C" void note_signal(int) {
+    is_interrupted.store(true, std::memory_order_relaxed);
+}
+
+/// Ends the run of a core once a signal has come.
+class Stopper final : public OpeningObserver {
+  public:
+    Stopper(OpeningObserver& next, CoreRunner& runner) noexcept : next_(next), runner_(runner) {}
+    void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override {
+        next_.before_opening(opening, woke);
+    }
+    void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override {
+        next_.after_opening(opening, outcome);
+        if (is_interrupted.load(std::memory_order_relaxed)) {
+            runner_.request_stop();
+        }
     }
 
-    RunLog log;
+  private:
+    OpeningObserver& next_;
+    CoreRunner& runner_;
+};
+
+/// Everything of one core that the threads of its windows may still touch when the run is over.
+struct CoreSession {
+    CoreSession(const TimedCore& core, RunLog& rows, const FrameClock& clock, ThreadPlace place)
+        : log{rows},
+          guard{core.threads, clock, place},
+          host{guard, log, core.executive.get_view().windows.size(), core.devices},
+          runner{core.executive, host, clock},
+          stopper{host, runner} {
+        runner.set_observer(&stopper);
+    }
+
+    RunLog& log;
     GuardedHost guard;
     MeasuringHost host;
     CoreRunner runner;
+    Stopper stopper;
     Right priority{};
     Right processor{};
 };
 
 struct Session {
-    explicit Session(FrameClock time_line) noexcept : clock{time_line} {}
-    FrameClock clock;
+    std::vector<std::unique_ptr<RunLog>> logs;
+    std::unique_ptr<FrameClock> clock;
     std::vector<std::unique_ptr<CoreSession>> cores;
 };
 
-/// Set while a run is under way, for the handler of signals.
-std::atomic<Session*> running{nullptr};
-std::atomic<bool> is_interrupted{false};
-
-extern "C" void stop_running(int) {
-    is_interrupted.store(true, std::memory_order_relaxed);
-    const Session* const session = running.load(std::memory_order_acquire);
-    if (session != nullptr) {
-        for (const std::unique_ptr<CoreSession>& core : session->cores) {
-            core->runner.request_stop();
-        }
-    }
-}
-
-/// SIGINT and SIGTERM go to stop_running() as long as it lives.
+/// SIGINT and SIGTERM only set a flag as long as it lives.
 class SignalGuard final {
   public:
     SignalGuard() noexcept {
         struct sigaction action{};
-        action.sa_handler = &stop_running;
+        action.sa_handler = &note_signal;
         for (std::size_t i = 0U; i < kSignals.size(); ++i) {
             static_cast<void>(sigaction(kSignals[i], &action, &before_[i]));
         }
@@ -130,20 +152,19 @@ Duration measure_reference(const FrameClock& clock) {
     return Duration{times[times.size() / 2U]};
 }
 
-/// The first refusal counts.
-void add(Right& sum, const Right& right) noexcept {
-    if (sum.is_granted) {
-        sum = right;
-    }
-}
-
 struct Room {
     std::size_t openings{1U};
     std::size_t steps{kSpareSteps};
 };
 
-Room calc_room(const Executive& executive, std::uint64_t cycles) {
+/// @return nothing when so many cycles cannot be counted.
+std::optional<Room> calc_room(const Executive& executive, std::uint64_t cycles) {
     const SystemView& view = executive.get_view();
+    const auto cycles_max =
+        static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max() / view.frame.ns);
+    if (cycles > cycles_max) {
+        return std::nullopt;
+    }
     Room room;
     for (std::size_t w = 0U; w < view.windows.size(); ++w) {
         const WindowRow& row = view.windows[w];
@@ -157,15 +178,40 @@ Room calc_room(const Executive& executive, std::uint64_t cycles) {
     return room;
 }
 
+/// What the rows of all cores need [byte], while they are gathered and written.
+double calc_memory(const std::vector<TimedCore>& cores, std::uint64_t cycles) {
+    double bytes = 0.0;
+    for (const TimedCore& core : cores) {
+        const std::optional<Room> room = calc_room(core.executive, cycles);
+        if (!room.has_value()) {
+            return std::numeric_limits<double>::infinity();
+        }
+        bytes += 2.0 * (static_cast<double>(room->openings) * sizeof(OpeningRow) +
+                        static_cast<double>(room->steps) * sizeof(StepRow));
+    }
+    return bytes;
+}
+
+/// Half of what the machine has free, so that others can go on.
+double get_memory() {
+    return 0.5 * static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
 std::string check(const std::vector<TimedCore>& cores, const TimingOptions& options,
                   const std::vector<int>& processors) {
-    if (cores.empty() || options.cycles == 0U || options.out.empty()) {
-        return "a timing run needs a core, at least one cycle and a folder for its results";
+    if (cores.empty() || options.cycles == 0U || options.out.empty() || options.priority <= kPriorityGap ||
+        options.priority > 99) {
+        return "a timing run needs a core, at least one cycle, a folder for its results, and a priority of "
+               "11 .. 99";
     }
     if (cores.size() > processors.size()) {
         return "the system has " + std::to_string(cores.size()) + " cores, and this process may use " +
                std::to_string(processors.size()) +
                " processor(s): give it more (taskset, container limits) or take another machine";
+    }
+    if (calc_memory(cores, options.cycles) > get_memory()) {
+        return std::to_string(options.cycles) +
+               " cycles need more memory than this machine has free: run fewer";
     }
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
@@ -194,24 +240,48 @@ bool open_guards(Session& session) {
     return true;
 }
 
-/// @return false when work of a window still hangs.
+/// Work that is merely late is waited for. @return false when work of a window still hangs.
 bool close_guards(Session& session) {
-    bool is_closed = true;
-    for (const std::unique_ptr<CoreSession>& core : session.cores) {
-        is_closed = core->guard.close() == Status::kOk && is_closed;
+    const Instant last = session.clock->get_now() + kPatience;
+    bool is_closed = false;
+    while (!is_closed) {
+        is_closed = true;
+        for (const std::unique_ptr<CoreSession>& core : session.cores) {
+            is_closed = core->guard.close() == Status::kOk && is_closed;
+        }
+        const Instant now = session.clock->get_now();
+        if (!is_closed && now >= last) {
+            return false;
+        }
+        if (!is_closed) {
+            session.clock->wait_until(now + kPoll);
+        }
     }
-    return is_closed;
+    return true;
 }
 
+/// @throw std::system_error no thread to be had: those that had begun have ended.
 void run_all(Session& session, const TimingOptions& options, const std::vector<int>& processors) {
     std::vector<std::thread> threads;
-    for (std::size_t i = 0U; i < session.cores.size(); ++i) {
-        threads.emplace_back(run_core, std::ref(*session.cores[i]), options.cycles,
-                             ThreadPlace{options.priority, processors[i]});
+    const auto join = [&threads] {
+        for (std::thread& thread : threads) {
+            thread.join();
+        }
+    };
+    try {
+        for (std::size_t i = 0U; i < session.cores.size(); ++i) {
+            threads.emplace_back(run_core, std::ref(*session.cores[i]), options.cycles,
+                                 ThreadPlace{options.priority, processors[i]});
+        }
+    } catch (const std::system_error&) {
+        for (const std::unique_ptr<CoreSession>& core : session.cores) {
+            core->runner.request_stop();
+        }
+        join();
+        static_cast<void>(close_guards(session));
+        throw;
     }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
+    join();
 }
 
 RunFacts collect(const Session& session, const TimingOptions& options, Duration frame) {
@@ -225,15 +295,83 @@ RunFacts collect(const Session& session, const TimingOptions& options, Duration 
     for (const std::unique_ptr<CoreSession>& core : session.cores) {
         const Span<const OpeningRow> rows = core->log.get_openings();
         if (facts.is_partial) {
-            const std::int64_t last = rows.empty() ? 0 : rows[rows.size() - 1U].release.ns;
-            facts.run_cycles = std::min(facts.run_cycles, static_cast<std::uint64_t>(last / frame.ns));
+            const Duration time =
+                rows.empty() ? Duration{0} : rows[rows.size() - 1U].release - rows[0].release;
+            facts.run_cycles = std::min(facts.run_cycles, static_cast<std::uint64_t>(time.ns / frame.ns));
         }
-        add(facts.priority, core->priority);
-        add(facts.priority, core->guard.get_priority_right());
-        add(facts.processor, core->processor);
-        add(facts.processor, core->guard.get_processor_right());
+        facts.priority = combine(facts.priority, combine(core->priority, core->guard.get_priority_right()));
+        facts.processor =
+            combine(facts.processor, combine(core->processor, core->guard.get_processor_right()));
     }
     return facts;
+}
+
+/// Everything that the threads of the run use, before the first of them begins.
+std::unique_ptr<Session> make_session(const std::vector<TimedCore>& cores, const TimingOptions& options,
+                                      const std::vector<int>& processors) {
+    auto session = std::make_unique<Session>();
+    for (const TimedCore& core : cores) {
+        const Room room = calc_room(core.executive, options.cycles).value_or(Room{});
+        session->logs.push_back(std::make_unique<RunLog>(room.openings, room.steps));
+    }
+    session->clock = std::make_unique<FrameClock>(FrameClock::starting_in(kLead));
+    for (std::size_t i = 0U; i < cores.size(); ++i) {
+        const ThreadPlace place{options.priority - kPriorityGap, processors[i]};
+        session->cores.push_back(
+            std::make_unique<CoreSession>(cores[i], *session->logs[i], *session->clock, place));
+    }
+    return session;
+}
+
+std::string write_all(const Session& session, const TimingOptions& options, const RunFacts& facts) {
+    std::vector<const RunLog*> logs;
+    for (const std::unique_ptr<RunLog>& log : session.logs) {
+        logs.push_back(log.get());
+    }
+    return write_run(options.out, logs, facts);
+}
+
+/// Work that hangs uses it for as long as the process lives: nothing may destroy it, not even at the exit.
+void keep_for_ever(std::unique_ptr<Session> session) {
+    static auto* const kept = new std::vector<std::unique_ptr<Session>>;
+    kept->push_back(std::move(session));
+}
+
+TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& options,
+                     const std::vector<int>& processors) {
+    const SystemView& view = cores.front().executive.get_view();
+    std::string problem = remove_files(options.out);
+    if (problem.empty()) {
+        const std::string table = options.out + "/table.json";
+        problem = options.save_table ? options.save_table(table) : table_dump::save_json(table, view);
+    }
+    if (!problem.empty()) {
+        return {TimingOutcome::kFailed, problem};
+    }
+    is_interrupted.store(false, std::memory_order_relaxed);
+    const SignalGuard signals;  // until everything is written
+    const Right memory = ports::posix_rt::lock_memory(kStackSize);
+    const Duration reference = measure_reference(FrameClock::starting_in(Duration{0}));
+    std::unique_ptr<Session> session = make_session(cores, options, processors);
+    if (!open_guards(*session)) {
+        return {TimingOutcome::kFailed, "no threads for the windows: raise the limit (ulimit -u)"};
+    }
+    run_all(*session, options, processors);
+    const bool is_closed = close_guards(*session);
+    RunFacts facts = collect(*session, options, view.frame);
+    facts.reference = reference;
+    facts.memory = memory;
+    if (options.tell_notes) {
+        facts.notes = options.tell_notes();
+    }
+    problem = write_all(*session, options, facts);
+    if (!is_closed) {
+        keep_for_ever(std::move(session));
+    }
+    if (!problem.empty()) {
+        return {TimingOutcome::kFailed, problem};
+    }
+    return {facts.is_partial ? TimingOutcome::kInterrupted : TimingOutcome::kWhole, {}};
 }
 
 }  // namespace
@@ -247,59 +385,24 @@ int get_exit_status(TimingOutcome outcome) noexcept {
         case TimingOutcome::kRefused:
             return 2;
         case TimingOutcome::kFailed:
-        default:
-            return 1;
+            break;
     }
+    return 1;
 }
 
 TimingResult run_timing(const std::vector<TimedCore>& cores, const TimingOptions& options) {
     const std::vector<int> processors = list_processors();
-    std::string problem = check(cores, options, processors);
+    const std::string problem = check(cores, options, processors);
     if (!problem.empty()) {
         return {TimingOutcome::kRefused, problem};
     }
-    const SystemView& view = cores.front().executive.get_view();
-    const std::string table = options.out + "/table.json";
-    problem = options.save_table ? options.save_table(table) : table_dump::save_json(table, view);
-    if (!problem.empty()) {
-        return {TimingOutcome::kFailed, problem};
+    try {
+        return measure(cores, options, processors);
+    } catch (const std::bad_alloc&) {
+        return {TimingOutcome::kFailed, "not enough memory for so many cycles: run fewer"};
+    } catch (const std::system_error& error) {
+        return {TimingOutcome::kFailed, std::string{"no threads to be had: "} + error.what()};
     }
-    const Right memory = ports::posix_rt::lock_memory(kStackSize);
-    const Duration reference = measure_reference(FrameClock::starting_in(Duration{0}));
-    auto session = std::make_unique<Session>(FrameClock::starting_in(kLead));
-    for (std::size_t i = 0U; i < cores.size(); ++i) {
-        const Room room = calc_room(cores[i].executive, options.cycles);
-        const ThreadPlace place{options.priority - kPriorityGap, processors[i]};
-        session->cores.push_back(
-            std::make_unique<CoreSession>(cores[i], session->clock, place, room.openings, room.steps));
-    }
-    if (!open_guards(*session)) {
-        return {TimingOutcome::kFailed, "no threads for the windows: raise the limit (ulimit -u)"};
-    }
-    is_interrupted.store(false, std::memory_order_relaxed);
-    running.store(session.get(), std::memory_order_release);
-    {
-        const SignalGuard signals;
-        run_all(*session, options, processors);
-    }
-    running.store(nullptr, std::memory_order_release);
-    const bool is_closed = close_guards(*session);
-    RunFacts facts = collect(*session, options, view.frame);
-    facts.reference = reference;
-    facts.memory = memory;
-    std::vector<const RunLog*> logs;
-    for (const std::unique_ptr<CoreSession>& core : session->cores) {
-        logs.push_back(&core->log);
-    }
-    problem = write_run(options.out, logs, facts);
-    if (!is_closed) {
-        // Work that hangs still uses it, for as long as the process lives.
-        static_cast<void>(session.release());
-    }
-    if (!problem.empty()) {
-        return {TimingOutcome::kFailed, problem};
-    }
-    return {facts.is_partial ? TimingOutcome::kInterrupted : TimingOutcome::kWhole, {}};
 }
 
 }  // namespace mamori::timing

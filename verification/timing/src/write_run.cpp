@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <utility>
 
 #include "npy.hpp"
 
@@ -12,18 +14,22 @@ namespace {
 
 using ports::posix_rt::Right;
 
-/// Pointers to the rows of all cores, earlier instants first; of equal ones the lower core.
+/// Pointers to the rows of all cores, earlier instants first; of equal ones the lower core. Those of one core
+/// are in order already.
 template <typename Row, typename GetRows>
 std::vector<const Row*> merge(const std::vector<const RunLog*>& logs, const GetRows& get_rows) {
-    std::vector<const Row*> rows;
+    std::vector<const Row*> merged;
     for (const RunLog* log : logs) {
+        std::vector<const Row*> rows;
         for (const Row& row : get_rows(*log)) {
             rows.push_back(&row);
         }
+        std::vector<const Row*> both;
+        std::merge(merged.begin(), merged.end(), rows.begin(), rows.end(), std::back_inserter(both),
+                   [](const Row* a, const Row* b) { return a->release < b->release; });
+        merged = std::move(both);
     }
-    std::stable_sort(rows.begin(), rows.end(),
-                     [](const Row* a, const Row* b) { return a->release < b->release; });
-    return rows;
+    return merged;
 }
 
 std::string make_openings(const std::vector<const RunLog*>& logs) {
@@ -45,7 +51,7 @@ std::string make_steps(const std::vector<const RunLog*>& logs) {
     for (const StepRow* row : merge<StepRow>(logs, [](const RunLog& log) { return log.get_steps(); })) {
         // In this order: work that is still out may end in between, and an end needs a start.
         const std::int64_t end = row->end_ns.load(std::memory_order_acquire);
-        const std::int64_t start = row->start_ns.load(std::memory_order_acquire);
+        const std::int64_t start = row->start_ns.load(std::memory_order_relaxed);
         if (start != kNoInstant.ns) {
             table.add(row->release.ns);
             table.add(start);
@@ -62,6 +68,25 @@ std::string make_right(const Right& right) {
            ", \"errno\": " + std::to_string(right.system_error) + "}";
 }
 
+/// A note is plain text: what JSON would have to escape becomes a blank.
+std::string make_plain(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(),
+        [](char letter) {
+            return letter == '"' || letter == '\\' || static_cast<unsigned char>(letter) < 0x20U;
+        },
+        ' ');
+    return text;
+}
+
+std::string make_list(const std::vector<std::string>& notes) {
+    std::string list;
+    for (const std::string& note : notes) {
+        list += (list.empty() ? "\"" : ", \"") + make_plain(note) + "\"";
+    }
+    return "[" + list + "]";
+}
+
 std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& facts) {
     std::uint64_t lost = 0U;
     for (const RunLog* log : logs) {
@@ -72,7 +97,7 @@ std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& f
            "},\n \"is_partial\": " + (facts.is_partial ? "true" : "false") +
            ",\n \"frame_ns\": " + std::to_string(facts.frame.ns) +
            ",\n \"reference_ns\": " + std::to_string(facts.reference.ns) +
-           ",\n \"lost_rows\": " + std::to_string(lost) +
+           ",\n \"lost_rows\": " + std::to_string(lost) + ",\n \"notes\": " + make_list(facts.notes) +
            ",\n \"rights\": {\"priority\": " + make_right(facts.priority) +
            ", \"processor\": " + make_right(facts.processor) + ", \"memory\": " + make_right(facts.memory) +
            "}\n}\n";
@@ -96,13 +121,28 @@ bool write_whole(const std::string& path, const std::string& content) {
     return false;
 }
 
+constexpr const char* kOpenings = "openings.npy";
+constexpr const char* kSteps = "steps.npy";
+constexpr const char* kFacts = "run.json";
+
 }  // namespace
+
+std::string remove_files(const std::string& folder) {
+    // The facts first: without them no folder counts as complete.
+    for (const char* name : {kFacts, kOpenings, kSteps}) {
+        std::error_code error;
+        std::filesystem::remove(folder + "/" + name, error);
+        if (error) {
+            return folder + "/" + name + ": an earlier result cannot be removed: " + error.message();
+        }
+    }
+    return {};
+}
 
 std::string write_run(const std::string& folder, const std::vector<const RunLog*>& logs,
                       const RunFacts& facts) {
-    const std::vector<std::pair<std::string, std::string>> files{{"openings.npy", make_openings(logs)},
-                                                                 {"steps.npy", make_steps(logs)},
-                                                                 {"run.json", make_facts(logs, facts)}};
+    const std::vector<std::pair<std::string, std::string>> files{
+        {kOpenings, make_openings(logs)}, {kSteps, make_steps(logs)}, {kFacts, make_facts(logs, facts)}};
     for (const auto& [name, content] : files) {
         if (!write_whole(folder + "/" + name, content)) {
             return folder + "/" + name +

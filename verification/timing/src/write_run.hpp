@@ -23,7 +23,12 @@ struct RunFacts {
     ports::posix_rt::Right priority{};
     ports::posix_rt::Right processor{};
     ports::posix_rt::Right memory{};
+    std::vector<std::string> notes{};  ///< of the application
 };
+
+/// Takes the files of an earlier run away, so that none can pass for one of this run.
+/// @return empty when done, else one sentence with the path and the cause.
+std::string remove_files(const std::string& folder);
 
 /// Writes openings.npy, steps.npy and run.json, each whole or not at all, run.json last: a folder with it is
 /// complete. Rows of all cores, in the order of their planned instants.

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -90,11 +91,10 @@ class TimingRunTest : public ::testing::Test {
     ExecutiveFor<decltype(table_)> lower_{table_, 1U};
     std::array<WindowThread, 2U> upper_threads_;
     std::array<WindowThread, 2U> lower_threads_;
-    TimingOptions options_{5U, {}, 80, {}};
+    TimingOptions options_{5U, {}, 80, {}, {}};
 };
 
 TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
-    verifies("SWR-TIM-002");
     verifies("SWR-TIM-003");
     if (!has_two_processors()) {
         GTEST_SKIP() << "needs two processors";
@@ -119,6 +119,22 @@ TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
     const auto run_count = static_cast<std::size_t>(first_.run_count + second_.run_count);
     EXPECT_GE(read_row_count(folder_ + "/steps.npy"), run_count);
     EXPECT_LE(read_row_count(folder_ + "/steps.npy"), 2U * run_count);
+}
+
+TEST_F(TimingRunTest, EachCoreOpensItsWindowsInAllFramesThatWereAskedFor) {
+    verifies("SWR-TIM-002");
+    if (!has_two_processors()) {
+        GTEST_SKIP() << "needs two processors";
+    }
+    EXPECT_EQ(run_timing({{upper_, upper_threads_}, {lower_, lower_threads_}}, options_).outcome,
+              TimingOutcome::kWhole);
+
+    EXPECT_EQ(get_exit_status(TimingOutcome::kWhole), 0);
+    // A machine that stands still for a whole window costs an opening its run.
+    EXPECT_GE(first_.run_count, 1);
+    EXPECT_LE(first_.run_count, 5);
+    EXPECT_GE(second_.run_count, 1);
+    EXPECT_LE(second_.run_count, 5);
 }
 
 TEST_F(TimingRunTest, AnInterruptedRunKeepsWhatItHasAndSaysSo) {
@@ -153,10 +169,11 @@ TEST_F(TimingRunTest, WorkThatHangsIsAStepWithoutEndAndTheRunGoesOn) {
     ASSERT_EQ(hanging.executive.initialize(), Status::kOk);
     ASSERT_EQ(hanging.executive.start(), Status::kOk);
 
+    options_.cycles = 50U;  // in which even a busy machine runs it twice
     const TimingResult result = run_timing({{hanging.executive, hanging.threads}}, options_);
 
     EXPECT_EQ(result.outcome, TimingOutcome::kWhole);
-    EXPECT_EQ(read_row_count(folder_ + "/openings.npy"), 5U);
+    EXPECT_EQ(read_row_count(folder_ + "/openings.npy"), 50U);
     const std::string steps = read_file(folder_ + "/steps.npy");
     EXPECT_EQ(steps.substr(steps.size() - 16U, 8U), std::string(8U, '\xFF')) << "the end of the last step";
     hanging.worker.is_freed = true;
@@ -175,6 +192,63 @@ TEST_F(TimingRunTest, BadOptionsAreRefusedBeforeAnythingRuns) {
 
     EXPECT_EQ(first_.run_count, 0);
     EXPECT_FALSE(std::filesystem::exists(folder_));
+}
+
+TEST_F(TimingRunTest, MoreCyclesThanMemoryHoldsAreRefused) {
+    verifies("SWR-TIM-002", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const std::uint64_t cycles :
+         {std::uint64_t{100'000'000'000U}, std::numeric_limits<std::uint64_t>::max()}) {
+        options_.cycles = cycles;
+        const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+        EXPECT_EQ(result.outcome, TimingOutcome::kRefused) << cycles;
+        EXPECT_NE(result.message.find("run fewer"), std::string::npos) << result.message;
+    }
+    options_.cycles = 1U;
+    for (const int priority : {10, 100}) {
+        options_.priority = priority;
+        EXPECT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kRefused)
+            << priority;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_));
+}
+
+TEST_F(TimingRunTest, AFileThatCannotBeWrittenFailsTheRunAndLeavesNoFacts) {
+    verifies("SWR-TIM-003", Technique::kFaultInjection, Polarity::kViolation);
+    std::filesystem::create_directories(folder_ + "/steps.npy.part");
+    std::ofstream{folder_ + "/run.json"} << "of an earlier run";
+
+    const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kFailed);
+    EXPECT_EQ(get_exit_status(result.outcome), 1);
+    EXPECT_NE(result.message.find("steps.npy: cannot be written"), std::string::npos) << result.message;
+    EXPECT_FALSE(std::filesystem::exists(folder_ + "/run.json")) << "a folder with it counts as complete";
+}
+
+TEST_F(TimingRunTest, AnEarlierResultThatCannotBeRemovedIsNamedBeforeAnythingRuns) {
+    verifies("SWR-TIM-003", Technique::kFaultInjection, Polarity::kViolation);
+    std::filesystem::create_directories(folder_ + "/openings.npy/full");
+
+    const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kFailed);
+    EXPECT_NE(result.message.find("openings.npy: an earlier result cannot be removed"), std::string::npos)
+        << result.message;
+    EXPECT_EQ(first_.run_count, 0);
+}
+
+TEST_F(TimingRunTest, ASignalWhileTheFilesAreWrittenLosesNothing) {
+    verifies("SWR-TIM-002", Technique::kErrorGuessing, Polarity::kViolation);
+    options_.tell_notes = [] {
+        static_cast<void>(raise(SIGTERM));
+        return std::vector<std::string>{"said \"at the end\""};
+    };
+
+    EXPECT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    EXPECT_FALSE(read_facts()["is_partial"]);
+    EXPECT_EQ(read_facts()["notes"], (Json{"said  at the end "}));
 }
 
 TEST_F(TimingRunTest, MoreCoresThanProcessorsAreRefused) {

@@ -23,8 +23,9 @@ class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningOb
   public:
     /// @param[in] inner, log must outlive it, and for ever when work hangs for ever; so must this object.
     /// @param[in] window_count of the system table.
-    /// @param[in] next told of every opening as well, before the window's clock starts and after it stopped;
-    ///            nullptr: nobody.
+    /// @param[in] next told of every opening as well, before and after; nullptr: nobody. What it takes before
+    /// a
+    ///            window counts as lateness of the window.
     MeasuringHost(WindowHost& inner, RunLog& log, std::size_t window_count,
                   ports::posix_rt::OpeningObserver* next)
         : inner_(inner), log_(log), next_(next), pieces_(window_count) {}

@@ -24,7 +24,7 @@ inline constexpr Instant kNoInstant{-1};
 /// One opening of a window.
 struct OpeningRow {
     Instant release{};  ///< planned
-    Instant woke{};     ///< first reading of the clock after the sleep
+    Instant woke{};     ///< reading of the clock when everything was ready for the window
     Instant closed{};   ///< the window was over
     std::size_t window{0U};
     WindowOutcome outcome{WindowOutcome::kCompleted};

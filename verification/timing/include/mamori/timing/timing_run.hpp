@@ -33,14 +33,16 @@ struct TimingOptions {
     int priority{80};  ///< of SCHED_FIFO for the threads that wait; those of the windows get 10 less
     /// Writes table.json to the path that it is given; empty: the table without names. @return what is wrong.
     std::function<std::string(const std::string&)> save_table{};
+    /// Asked when the run is over: what whoever reads the times should know of it. Empty: nothing.
+    std::function<std::vector<std::string>()> tell_notes{};
 };
 
 /// How a run ended.
 enum class TimingOutcome : std::uint8_t {
     kWhole,        ///< all frames, all files written
     kInterrupted,  ///< by SIGINT or SIGTERM: what there was is written, and marked as partial
-    kRefused,      ///< bad options, or fewer processors than cores; nothing ran, nothing was written
-    kFailed,       ///< no threads to be had, or a file could not be written
+    kRefused,      ///< bad options, fewer processors than cores, or not enough memory; nothing ran
+    kFailed,       ///< no threads to be had, or a file could not be written or removed
 };
 
 struct TimingResult {
@@ -52,7 +54,8 @@ struct TimingResult {
 int get_exit_status(TimingOutcome outcome) noexcept;
 
 /// Runs all cores at once, each on a processor of its own, and writes table.json, openings.npy, steps.npy and
-/// run.json (docs/design/timing_run.md#files) into the folder. SIGINT and SIGTERM end it early while it runs.
+/// run.json (docs/design/timing_run.md#files) into the folder. SIGINT and SIGTERM end it early, and are not
+/// heard while it writes. Work that is still out when the windows are over is waited for, a second at most.
 ///
 /// Calling context: the main thread of a program, once per process; work that hangs for ever keeps its
 /// memory. Memory: heap, locked if the process has the right; about 30 bytes per opening and 40 per step.

@@ -19,6 +19,11 @@ struct Right {
     int system_error{0};
 };
 
+/// Of two rights that are needed together: granted only when both are, else the first refusal.
+constexpr Right combine(const Right& first, const Right& second) noexcept {
+    return first.is_granted ? second : first;
+}
+
 /// Where a thread shall run.
 struct ThreadPlace {
     static constexpr int kAnyProcessor = -1;
