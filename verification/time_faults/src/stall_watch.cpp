@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stall_watch.hpp"
 
-#include <algorithm>
-
 namespace mamori::time_faults {
 namespace {
 
@@ -37,13 +35,6 @@ void StallWatch::watch(Duration step, ports::posix_rt::ThreadPlace place) {
         }
         before = now;
     }
-}
-
-bool StallWatch::overlaps(Instant begin, Instant end) const noexcept {
-    const auto first =
-        std::lower_bound(stalls_.begin(), stalls_.end(), begin,
-                         [](const Stall& stall, Instant instant) { return stall.end < instant; });
-    return first != stalls_.end() && first->begin <= end;
 }
 
 }  // namespace mamori::time_faults

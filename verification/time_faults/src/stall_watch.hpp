@@ -9,16 +9,11 @@
 #include <thread>
 #include <vector>
 
+#include "judge.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 
 namespace mamori::time_faults {
-
-/// From one look at the clock to the next, much later one.
-struct Stall {
-    Instant begin{};
-    Instant end{};
-};
 
 /// Thread safety: get_stalls() after stop(). Memory: heap, taken in the constructor.
 class StallWatch final {
@@ -31,8 +26,6 @@ class StallWatch final {
 
     void stop();
     const std::vector<Stall>& get_stalls() const noexcept { return stalls_; }
-    /// Whether a stall lies, in part, within the two instants.
-    bool overlaps(Instant begin, Instant end) const noexcept;
 
   private:
     void watch(Duration step, ports::posix_rt::ThreadPlace place);

@@ -31,16 +31,16 @@ constexpr int kWatchPriority = 90;
 constexpr int kRunnerPriority = 80;
 constexpr int kWindowPriority = 70;
 
-/// What a component was told to do, and when it did.
-struct Deed {
+/// A deed that is under way. The thread that does it may be given up meanwhile, and comes back all the same.
+struct Doing {
     std::size_t component{0U};
     Instant begin{};
-    std::atomic<std::int64_t> end_ns{0};  ///< 0: not back yet
+    std::atomic<std::int64_t> end_ns{0};
 };
 
 /// Set before the run, for work that never has to look for it.
 const FrameClock* time_line = nullptr;
-std::vector<Deed>* deeds = nullptr;
+std::vector<Doing>* deeds = nullptr;
 std::atomic<std::size_t> deed_count{0U};
 
 class Victim final : public Component {
@@ -60,7 +60,7 @@ class Victim final : public Component {
             return Status::kOk;
         }
         const Instant begin = time_line->get_now();
-        Deed& deed = (*deeds)[deed_count.fetch_add(1U, std::memory_order_relaxed)];
+        Doing& deed = (*deeds)[deed_count.fetch_add(1U, std::memory_order_relaxed)];
         deed.component = place_;
         deed.begin = begin;
         const Instant end = begin + Duration{size};
@@ -92,13 +92,6 @@ ExecutiveFor executive{kSystem};
 std::array<Victim*, kComponentCount> victims{&alpha, &beta, &gamma, &delta};
 constexpr std::array<std::size_t, kComponentCount> kWindowOf{0U, 1U, 1U, 2U};
 std::array<WindowThread, kWindowCount> threads;
-
-/// A window that was held back.
-struct Delay {
-    std::size_t window{0U};
-    Instant release{};
-    Instant end{};
-};
 
 /// Puts the faults in and takes the reports down, on the thread that runs the windows.
 class Director final : public OpeningObserver, public ExecutionObserver {
@@ -157,108 +150,13 @@ class Director final : public OpeningObserver, public ExecutionObserver {
     Instant woke_{};
 };
 
-/// Reports in the order of their instants, each of which must have its reason.
-class Judge final {
-  public:
-    Judge(const std::vector<Report>& reports, const StallWatch& stalls) : reports_(reports), stalls_(stalls) {
-        explained_.resize(reports.size(), false);
+Plan make_plan() {
+    Plan plan{kBudget, {kWindowOf.begin(), kWindowOf.end()}, {}};
+    for (const WindowRow& row : kSystem.windows) {
+        plan.window_lengths.push_back(row.length);
     }
-
-    /// Everything that is reported from the deed's begin to a tick after its end, about its window, is its
-    /// doing.
-    void judge(const Deed& deed, Verdict& verdict) {
-        const std::int64_t end = deed.end_ns.load(std::memory_order_acquire);
-        const Instant last =
-            end == 0 ? Instant{std::numeric_limits<std::int64_t>::max()} : Instant{end} + kTick;
-        const Report* first = nullptr;
-        bool is_misnamed = false;
-        for (std::size_t i = find(deed.begin); i < reports_.size() && reports_[i].at <= last; ++i) {
-            const Report& report = reports_[i];
-            if (!report.is_overrun) {
-                continue;
-            }
-            if (report.window == kWindowOf[deed.component] && report.component == deed.component) {
-                explained_[i] = true;
-                first = first == nullptr ? &report : first;
-            } else {
-                is_misnamed = true;
-            }
-        }
-        ++verdict.injected;
-        if (first == nullptr) {
-            ++(is_misnamed ? verdict.misnamed : verdict.unseen);
-            return;
-        }
-        ++verdict.seen;
-        const Instant deadline = first->woke + kBudget;
-        const Duration detection = first->at - deadline;
-        verdict.detection_ns.push_back(detection.ns);
-        if (detection > kTick) {
-            ++(stalls_.overlaps(deadline, first->at) ? verdict.tardy_by_host : verdict.tardy);
-        }
-    }
-
-    /// The opening that was held back is reported as late; those after it, until the grid is met again, too.
-    /// One of them may open just before its close, and then what is left of its budget is too short for
-    /// anything.
-    void judge(const Delay& delay, Verdict& verdict) {
-        ++verdict.injected;
-        bool is_seen = false;
-        for (std::size_t i = find(delay.release); i < reports_.size() && reports_[i].release <= delay.end;
-             ++i) {
-            if (!reports_[i].is_overrun || is_cut_short(reports_[i])) {
-                explained_[i] = true;
-                is_seen = is_seen || (!reports_[i].is_overrun && reports_[i].window == delay.window &&
-                                      reports_[i].release == delay.release);
-            }
-        }
-        ++(is_seen ? verdict.seen : verdict.unseen);
-    }
-
-    /// What is left is the machine's doing or nobody's. A window that is reported in two frames in a row is
-    /// reported for one reason: its work was not back yet.
-    void judge_rest(Verdict& verdict) {
-        for (std::size_t i = 0U; i < reports_.size(); ++i) {
-            const Report& report = reports_[i];
-            if (explained_[i] || is_aftermath(i)) {
-                explained_[i] = true;
-            } else if (stalls_.overlaps(report.release, report.at)) {
-                explained_[i] = true;
-                ++verdict.by_host;
-            } else {
-                ++verdict.invented;
-                verdict.unexplained.push_back(report);
-            }
-        }
-    }
-
-  private:
-    /// The window opened so late that less than its budget was left to its close.
-    static bool is_cut_short(const Report& report) noexcept {
-        return report.woke + kBudget > report.release + kSystem.windows[report.window].length;
-    }
-    bool is_aftermath(std::size_t index) const {
-        const Report& report = reports_[index];
-        for (std::size_t i = index; i > 0U && reports_[i - 1U].release + kTick >= report.release; --i) {
-            const Report& before = reports_[i - 1U];
-            if (before.is_overrun && report.is_overrun && before.window == report.window &&
-                before.release + kTick == report.release) {
-                return explained_[i - 1U];
-            }
-        }
-        return false;
-    }
-    /// The first report at `from` or later.
-    std::size_t find(Instant from) const {
-        const auto place = std::lower_bound(reports_.begin(), reports_.end(), from,
-                                            [](const Report& report, Instant at) { return report.at < at; });
-        return static_cast<std::size_t>(place - reports_.begin());
-    }
-
-    const std::vector<Report>& reports_;
-    const StallWatch& stalls_;
-    std::vector<bool> explained_;
-};
+    return plan;
+}
 
 /// The first one that this process may use.
 int find_processor() noexcept {
@@ -305,7 +203,7 @@ std::vector<Injection> make_injections(const Request& request) {
 Verdict run(const Request& request) {
     // Work that hangs longer than the run may still look at these.
     static const FrameClock clock = FrameClock::starting_in(500_ms);
-    static std::vector<Deed> storage(request.injection_count + 1U);
+    static std::vector<Doing> storage(request.injection_count + 1U);
     time_line = &clock;
     deeds = &storage;
     static_cast<void>(ports::posix_rt::lock_memory(256U * 1024U));
@@ -330,22 +228,16 @@ Verdict run(const Request& request) {
     while (host.close() != Status::kOk) {
         clock.wait_until(clock.get_now() + kTick);
     }
+    Course course{std::move(director.reports), {}, std::move(director.delays), stalls.get_stalls()};
+    for (std::size_t i = 0U; i < deed_count.load(std::memory_order_relaxed); ++i) {
+        const Instant end{storage[i].end_ns.load(std::memory_order_acquire)};
+        course.deeds.push_back({storage[i].component, storage[i].begin, end});
+    }
+    verdict = judge(make_plan(), course);
     verdict.frames = request.frame_count;
     verdict.requested = request.injection_count;
     verdict.has_priority =
         combine(right, combine(host.get_priority_right(), host.get_processor_right())).is_granted;
-    verdict.stalls = stalls.get_stalls().size();
-    for (const Stall& stall : stalls.get_stalls()) {
-        verdict.longest_stall = std::max(verdict.longest_stall, stall.end - stall.begin);
-    }
-    Judge judge{director.reports, stalls};
-    for (std::size_t i = 0U; i < deed_count.load(std::memory_order_relaxed); ++i) {
-        judge.judge(storage[i], verdict);
-    }
-    for (const Delay& delay : director.delays) {
-        judge.judge(delay, verdict);
-    }
-    judge.judge_rest(verdict);
     return verdict;
 }
 

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "judge.hpp"
+
+#include <algorithm>
+
+namespace mamori::time_faults {
+namespace {
+
+/// Reports in the order of their instants, each of which must have its reason.
+class Judge final {
+  public:
+    Judge(const Plan& plan, const Course& course)
+        : plan_(plan), reports_(course.reports), stalls_(course.stalls) {
+        explained_.resize(reports_.size(), false);
+    }
+
+    /// Everything that is reported from the deed's begin to a tick after its end, about its window, is its
+    /// doing.
+    void judge(const Deed& deed, Verdict& verdict) {
+        const Instant last = deed.end + kTick;
+        const Report* first = nullptr;
+        bool is_misnamed = false;
+        for (std::size_t i = find(deed.begin); i < reports_.size() && reports_[i].at <= last; ++i) {
+            const Report& report = reports_[i];
+            if (!report.is_overrun) {
+                continue;
+            }
+            if (report.window == plan_.window_of[deed.component] && report.component == deed.component) {
+                explained_[i] = true;
+                first = first == nullptr ? &report : first;
+            } else {
+                is_misnamed = true;
+            }
+        }
+        ++verdict.injected;
+        if (first == nullptr) {
+            ++(is_misnamed ? verdict.misnamed : verdict.unseen);
+            return;
+        }
+        ++verdict.seen;
+        const Instant deadline = first->woke + plan_.budget;
+        const Duration detection = first->at - deadline;
+        verdict.detection_ns.push_back(detection.ns);
+        if (detection > kTick) {
+            ++(overlaps(deadline, first->at) ? verdict.tardy_by_host : verdict.tardy);
+        }
+    }
+
+    /// The opening that was held back is reported as late; those after it, until the grid is met again, too.
+    /// One of them may open just before its close, and then what is left of its budget is too short for
+    /// anything.
+    void judge(const Delay& delay, Verdict& verdict) {
+        ++verdict.injected;
+        bool is_seen = false;
+        for (std::size_t i = find(delay.release); i < reports_.size() && reports_[i].release <= delay.end;
+             ++i) {
+            if (!reports_[i].is_overrun || is_cut_short(reports_[i])) {
+                explained_[i] = true;
+                is_seen = is_seen || (!reports_[i].is_overrun && reports_[i].window == delay.window &&
+                                      reports_[i].release == delay.release);
+            }
+        }
+        ++(is_seen ? verdict.seen : verdict.unseen);
+    }
+
+    /// What is left is the machine's doing or nobody's. A window that is reported in two frames in a row is
+    /// reported for one reason: its work was not back yet.
+    void judge_rest(Verdict& verdict) {
+        for (std::size_t i = 0U; i < reports_.size(); ++i) {
+            const Report& report = reports_[i];
+            if (explained_[i] || is_aftermath(i)) {
+                explained_[i] = true;
+            } else if (overlaps(report.release, report.at)) {
+                explained_[i] = true;
+                ++verdict.by_host;
+            } else {
+                ++verdict.invented;
+                verdict.unexplained.push_back(report);
+            }
+        }
+    }
+
+  private:
+    /// The window opened so late that less than its budget was left to its close.
+    bool is_cut_short(const Report& report) const {
+        return report.woke + plan_.budget > report.release + plan_.window_lengths[report.window];
+    }
+    bool is_aftermath(std::size_t index) const {
+        const Report& report = reports_[index];
+        for (std::size_t i = index; i > 0U && reports_[i - 1U].release + kTick >= report.release; --i) {
+            const Report& before = reports_[i - 1U];
+            if (before.is_overrun && report.is_overrun && before.window == report.window &&
+                before.release + kTick == report.release) {
+                return explained_[i - 1U];
+            }
+        }
+        return false;
+    }
+    /// The first report at `from` or later.
+    std::size_t find(Instant from) const {
+        const auto place = std::lower_bound(reports_.begin(), reports_.end(), from,
+                                            [](const Report& report, Instant at) { return report.at < at; });
+        return static_cast<std::size_t>(place - reports_.begin());
+    }
+
+    /// Whether a stall lies, in part, within the two instants.
+    bool overlaps(Instant begin, Instant end) const {
+        const auto first = std::lower_bound(stalls_.begin(), stalls_.end(), begin,
+                                            [](const Stall& stall, Instant at) { return stall.end < at; });
+        return first != stalls_.end() && first->begin <= end;
+    }
+
+    const Plan& plan_;
+    const std::vector<Report>& reports_;
+    const std::vector<Stall>& stalls_;
+    std::vector<bool> explained_;
+};
+
+}  // namespace
+
+Verdict judge(const Plan& plan, const Course& course) {
+    Verdict verdict;
+    verdict.stalls = course.stalls.size();
+    for (const Stall& stall : course.stalls) {
+        verdict.longest_stall = std::max(verdict.longest_stall, stall.end - stall.begin);
+    }
+    Judge judge{plan, course};
+    for (const Deed& deed : course.deeds) {
+        judge.judge(deed, verdict);
+    }
+    for (const Delay& delay : course.delays) {
+        judge.judge(delay, verdict);
+    }
+    judge.judge_rest(verdict);
+    return verdict;
+}
+
+}  // namespace mamori::time_faults

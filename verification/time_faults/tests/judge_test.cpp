@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the judgement about faults of time can fail, in each of its ways. Method: courses made by hand, of a
+// system with two windows and three components; instants in microseconds.
+#include "judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::time_faults {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+constexpr Instant at(std::int64_t us) noexcept {
+    return Instant{us * 1000};
+}
+Report overrun(std::size_t window, std::size_t component, std::int64_t release_us, std::int64_t woke_us,
+               std::int64_t at_us) {
+    return {true, window, component, at(release_us), at(woke_us), at(at_us), Duration{0}};
+}
+Report late(std::size_t window, std::int64_t release_us, std::int64_t at_us) {
+    return {false, window, kNoIndex, at(release_us), at(at_us), at(at_us), at(at_us) - at(release_us)};
+}
+/// Windows of 300 us with a budget of 200 us at 0 and 300; the first runs component 0, the second 1 and 2.
+Verdict judge(const Course& course) {
+    return judge({Duration{200'000}, {0U, 1U, 1U}, {Duration{300'000}, Duration{300'000}}}, course);
+}
+/// Component 1 takes 1.5 ms, from 5310 us on.
+const Deed kDeed{1U, at(5310), at(6810)};
+
+TEST(JudgeTest, AnOverrunIsSeenFromItsReportToTheReturnOfItsWork) {
+    verifies("SWR-PRT-007");
+    const Verdict verdict =
+        judge({{overrun(1U, 1U, 5300, 5310, 5515), overrun(1U, 1U, 6300, 6310, 6310)}, {kDeed}, {}, {}});
+
+    EXPECT_EQ(verdict.injected, 1U);
+    EXPECT_TRUE(verdict.is_well());
+    EXPECT_EQ(verdict.detection_ns, (std::vector<std::int64_t>{5000})) << "from the end of the budget";
+}
+
+TEST(JudgeTest, AReportUnderAnotherNameIsMisnamedAndNoneIsUnseen) {
+    verifies("SWR-PRT-007", Technique::kFaultInjection, Polarity::kViolation);
+    const Verdict misnamed = judge({{overrun(1U, 2U, 5300, 5310, 5515)}, {kDeed}, {}, {}});
+    EXPECT_EQ(misnamed.misnamed, 1U);
+    EXPECT_FALSE(misnamed.is_well());
+    const Verdict unseen = judge({{}, {kDeed}, {}, {}});
+    EXPECT_EQ(unseen.unseen, 1U);
+    EXPECT_FALSE(unseen.is_well());
+}
+
+TEST(JudgeTest, AReportOneFrameAfterTheDeadlineIsInTimeAndALaterOneIsTardyUnlessTheMachineStoodStill) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_TRUE(judge({{overrun(1U, 1U, 5300, 5310, 6510)}, {kDeed}, {}, {}}).is_well());
+    const Course tardy{{overrun(1U, 1U, 5300, 5310, 6511)}, {kDeed}, {}, {}};
+    EXPECT_EQ(judge(tardy).tardy, 1U);
+    EXPECT_FALSE(judge(tardy).is_well());
+    const Verdict excused = judge({tardy.reports, tardy.deeds, {}, {{at(6000), at(6400)}}});
+    EXPECT_EQ(excused.tardy_by_host, 1U);
+    EXPECT_TRUE(excused.is_well());
+}
+
+TEST(JudgeTest, AReportWithoutAFaultIsInventedUnlessTheMachineStoodStill) {
+    verifies("SWR-PRT-007", Technique::kFaultInjection, Polarity::kViolation);
+    const std::vector<Report> reports{overrun(0U, 0U, 8000, 8010, 8215)};
+    EXPECT_EQ(judge({reports, {kDeed}, {}, {}}).invented, 1U);
+    EXPECT_EQ(judge({reports, {}, {}, {}}).unexplained.size(), 1U);
+    EXPECT_FALSE(judge({reports, {}, {}, {}}).is_well());
+    EXPECT_EQ(judge({reports, {}, {}, {{at(7000), at(7999)}}}).invented, 1U)
+        << "over before the window opened";
+    EXPECT_EQ(judge({reports, {}, {}, {{at(7000), at(8000)}}}).by_host, 1U);
+    EXPECT_EQ(judge({reports, {}, {}, {{at(8216), at(9000)}}}).invented, 1U)
+        << "not begun when it was reported";
+    EXPECT_EQ(judge({{late(0U, 8000, 9100)}, {}, {}, {}}).invented, 1U);
+}
+
+TEST(JudgeTest, WorkThatIsOutOneFrameAfterTheMachineStoodStillIsItsDoingToo) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues);
+    const std::vector<Stall> stalls{{at(8000), at(8210)}};
+    EXPECT_TRUE(
+        judge({{overrun(0U, 0U, 8000, 8010, 8215), overrun(0U, 0U, 9000, 9010, 9010)}, {}, {}, stalls})
+            .is_well());
+    EXPECT_EQ(
+        judge({{overrun(0U, 0U, 8000, 8010, 8215), overrun(0U, 0U, 10000, 10010, 10010)}, {}, {}, stalls})
+            .invented,
+        1U);
+}
+
+TEST(JudgeTest, ALateReleaseIsSeenAtItsWindowAndExplainsThoseUntilTheGridIsMet) {
+    verifies("SWR-PRT-007");
+    const Delay delay{0U, at(5000), at(6290)};
+    const std::vector<Report> reports{late(0U, 5000, 6290), late(1U, 5300, 6291),
+                                      overrun(0U, 0U, 6000, 6292, 6300)};
+    EXPECT_TRUE(judge({reports, {}, {delay}, {}}).is_well()) << "the last one opened 8 us before its close";
+
+    const Verdict other = judge({{reports[1]}, {}, {delay}, {}});
+    EXPECT_EQ(other.unseen, 1U) << "told of another window only";
+    const Verdict own = judge({{reports[0], overrun(0U, 0U, 6000, 6050, 6255)}, {}, {delay}, {}});
+    EXPECT_EQ(own.invented, 1U) << "that window had its whole budget";
+}
+
+TEST(JudgeTest, ARunInWhichHardlyAFaultTookEffectIsNoTest) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    Verdict verdict;
+    verdict.requested = 100U;
+    verdict.injected = verdict.seen = 95U;
+    EXPECT_TRUE(verdict.is_well());
+    verdict.injected = verdict.seen = 94U;
+    EXPECT_FALSE(verdict.is_well());
+}
+
+}  // namespace
+}  // namespace mamori::time_faults
