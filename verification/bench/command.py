@@ -34,7 +34,7 @@ EXACT = "exact"
 BENCHES = {
     "port": "write and read of a port, one thread: 8 B, 64 B, 1 KB, 64 KB",
     "scheduler": "a component per cycle, with and without supervision: 10, 100, 1000 components",
-    "wake-up": "wake-up of another thread: the floor only, until there is a real-time port",
+    "wake-up": "wake-up of another thread: the guarded host of the real-time port, and the floor",
     EXACT: "exact instruction counts (callgrind), and no heap or system call after start",
 }
 SEALED = ("port_8", "port_64", "cycle_20", "supervised_cycle_20")

@@ -35,6 +35,7 @@ std::vector<Case> make_catalogue() {
 
     std::vector<Case> wake_ups{
         {"wake-up", 64U, "ns per wake-up, same processor", 2U, &calc_sum_of_words, {}}};
+    add_mamori_wake_up(wake_ups);
     add_wake_up_floor(wake_ups);
 
     std::vector<Case> all = std::move(ports);

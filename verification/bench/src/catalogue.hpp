@@ -21,6 +21,7 @@ void add_mamori_port(std::vector<Case>& ports);
 void add_scheduler_floors(std::vector<Case>& schedulers);
 void add_mamori_executive(std::vector<Case>& schedulers);
 void add_wake_up_floor(std::vector<Case>& wake_ups);
+void add_mamori_wake_up(std::vector<Case>& wake_ups);
 /// @}
 
 /// @name Written by CMake
