@@ -104,6 +104,15 @@ class CampaignCase:
 
 
 @dataclass(slots=True)
+class TimingRun:
+    """One system by the clock, as `mamori timing` wrote it; its reader has checked `record`. `folder` holds the pictures."""
+
+    folder: str
+    record: dict[str, Any]
+    place: Place
+
+
+@dataclass(slots=True)
 class Evidence:
     """Everything below one evidence folder. `folder` is its path as given, `shown` as findings name it."""
 
@@ -112,6 +121,7 @@ class Evidence:
     results: list[TestResult] = field(default_factory=list)
     cases: list[CampaignCase] = field(default_factory=list)
     has_campaign: bool = False
+    timing_runs: list[TimingRun] = field(default_factory=list)
     environment: dict[str, Any] = field(default_factory=dict)
     environment_place: Place = Place("environment.json", 1)
     campaign_environment: dict[str, Any] = field(default_factory=dict)

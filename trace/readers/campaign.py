@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads campaign.json, environment.json and the series of one simulated run (docs/design/evidence.md).
+"""Reads campaign.json and environment.json (docs/design/evidence.md).
 
 @satisfies SWR-TRC-005      Design: docs/design/trace.md#evidence-in
 """
@@ -13,7 +13,8 @@ from typing import Any
 
 from mamori.trace.model.evidence import CampaignCase, Evidence
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE, get_shown_path, read_text
+from mamori.trace.readers.files import UNREADABLE, get_shown_path
+from mamori.trace.readers.json_file import read_json
 
 _CASE_ID = re.compile(r'"id"\s*:\s*("(?:\\.|[^"\\])*")')
 
@@ -23,7 +24,7 @@ def read_environment(folder: Path, root: Path, evidence: Evidence, problems: lis
     path = folder / "environment.json"
     evidence.environment_place = Place(get_shown_path(path, root), 1)
     if path.exists():
-        table = _read_json(path, "mamori.environment/1", root, problems)
+        table = read_json(path, "mamori.environment/1", root, problems)
         evidence.environment = table[0] if table else {}
 
 
@@ -33,7 +34,7 @@ def read_campaign(folder: Path, root: Path, evidence: Evidence, problems: list[P
     evidence.campaign_place = Place(get_shown_path(path, root), 1)
     if not path.exists():
         return
-    table = _read_json(path, "mamori.campaign/1", root, problems)
+    table = read_json(path, "mamori.campaign/1", root, problems)
     if table is None:
         return
     content, text = table
@@ -50,24 +51,6 @@ def read_campaign(folder: Path, root: Path, evidence: Evidence, problems: list[P
             problems.append(Problem(UNREADABLE, evidence.campaign_place, message))
     if not isinstance(rows, list):
         problems.append(Problem(UNREADABLE, evidence.campaign_place, "holds no list 'cases'; run the campaign again"))
-
-
-def _read_json(path: Path, schema: str, root: Path, problems: list[Problem]) -> tuple[dict[str, Any], str] | None:
-    shown = get_shown_path(path, root)
-    text = read_text(path, shown, problems)
-    try:
-        content = json.loads(text)
-    except json.JSONDecodeError as error:
-        problems.append(Problem(UNREADABLE, Place(shown, error.lineno), f"is not whole JSON ({error.msg}); make it again"))
-        return None
-    except RecursionError:
-        problems.append(Problem(UNREADABLE, Place(shown, 1), "is nested too deeply to be evidence; make it again"))
-        return None
-    if not isinstance(content, dict) or content.get("schema") != schema:
-        found = content.get("schema") if isinstance(content, dict) else type(content).__name__
-        problems.append(Problem(UNREADABLE, Place(shown, 1), f"schema is {found!r}; this tool reads {schema!r}"))
-        return None
-    return content, text
 
 
 def _find_id_lines(text: str) -> dict[str, int]:

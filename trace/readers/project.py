@@ -18,6 +18,7 @@ from mamori.trace.readers.markdown_items import read_items
 from mamori.trace.readers.python_sources import read_python
 from mamori.trace.readers.schema import read_schema
 from mamori.trace.readers.script_tags import read_script_tags
+from mamori.trace.readers.timing import read_timing
 
 
 def find_evidence(root: Path) -> Path:
@@ -80,4 +81,5 @@ def _read_evidence(folder: Path, project: Project) -> Evidence:
     evidence.results = read_junit(folder / "junit", project.root, project.problems)
     read_environment(folder, project.root, evidence, project.problems)
     read_campaign(folder, project.root, evidence, project.problems)
+    read_timing(folder, project.root, evidence, project.problems)
     return evidence

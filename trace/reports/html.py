@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
-from typing import Any
 
 import jinja2
 
@@ -19,7 +18,8 @@ from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import VERIFIED, WORST_FIRST, Verdict, calc_verdicts
 from mamori.trace.reports import v_overview
 from mamori.trace.reports.campaign_view import find_slowest, make_scenario_views
-from mamori.trace.reports.view import group_tags, make_item_views, make_suite_views
+from mamori.trace.reports.timing_view import make_timing_views
+from mamori.trace.reports.view import describe_environment, group_tags, make_item_views, make_suite_views
 from mamori.trace.write import write_whole
 
 _TEMPLATES = Path(__file__).parent / "templates"
@@ -38,14 +38,15 @@ GLOSSARY = (
 
 
 def write_report(project: Project, out: Path) -> list[Finding]:
-    """Checks, judges, draws and writes. @return the findings, including those about series that cannot be drawn."""
+    """Checks, judges, draws and writes. @return the findings, including those about series and pictures that cannot be shown."""
     scenarios = make_scenario_views(project, project.problems)
+    timing = make_timing_views(project, project.problems)
     findings = run_checks(project)
     verdicts = calc_verdicts(project)
     words = Counter(verdict.word for verdict in verdicts.values())
     page = _make_environment().get_template("report.html.j2").render(
         project=project,
-        environment=_describe_environment(project.evidence.environment),
+        environment=describe_environment(project.evidence.environment),
         findings=findings,
         findings_of_rule=_group_by_rule(findings),
         errors=sum(finding.severity == ERROR for finding in findings),
@@ -61,6 +62,7 @@ def write_report(project: Project, out: Path) -> list[Finding]:
         scenarios=scenarios,
         anchors={view.case.id: view.anchor for scenario in scenarios for view in scenario.cases},
         slowest=find_slowest(scenarios),
+        timing=timing,
         drawings=[(layout, v_overview.make_boxes(project, verdicts, layout)) for layout in v_overview.LAYOUTS],
         v=v_overview,
         glossary=GLOSSARY,
@@ -81,19 +83,6 @@ def _make_environment() -> jinja2.Environment:
     environment.globals["style"] = (_TEMPLATES / "style.css").read_text(encoding="utf-8")
     environment.globals["script"] = (_TEMPLATES / "script.js").read_text(encoding="utf-8")
     return environment
-
-
-def _describe_environment(environment: dict[str, Any]) -> dict[str, Any]:
-    """The record with every entry present, as text or as a table of texts; empty where there is no record."""
-    if not environment:
-        return {}
-    texts = ("commit", "date_utc", "command", "os", "cpu", "cores", "python")
-    shown: dict[str, Any] = {name: str(environment.get(name) or "unknown") for name in texts}
-    for name in ("compilers", "packages"):
-        table = environment.get(name)
-        shown[name] = {str(key): str(value) for key, value in table.items()} if isinstance(table, dict) else {}
-    shown["dirty"] = environment.get("dirty") is True
-    return shown
 
 
 def _list_levels(project: Project) -> list[Level]:

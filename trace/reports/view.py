@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from dataclasses import dataclass, field
+from typing import Any
 
 from mamori.trace.model.evidence import CampaignCase, CodeTag, SourceTest, TestResult
 from mamori.trace.model.finding import Finding
@@ -93,6 +94,19 @@ def group_tags(tags: list[CodeTag]) -> list[tuple[str, list[CodeTag]]]:
     for tag in sorted(tags, key=lambda tag: (tag.place, tag.requirement)):
         files[tag.place.file].append(tag)
     return sorted(files.items())
+
+
+def describe_environment(environment: dict[str, Any]) -> dict[str, Any]:
+    """The record with every entry present, as text or as a table of texts; empty where there is no record."""
+    if not environment:
+        return {}
+    texts = ("commit", "date_utc", "command", "os", "cpu", "cores", "python")
+    shown: dict[str, Any] = {name: str(environment.get(name) or "unknown") for name in texts}
+    for name in ("compilers", "packages"):
+        table = environment.get(name)
+        shown[name] = {str(key): str(value) for key, value in table.items()} if isinstance(table, dict) else {}
+    shown["dirty"] = environment.get("dirty") is True
+    return shown
 
 
 def _make_item_view(project: Project, item: Item, verdicts: dict[str, Verdict], findings: list[Finding]) -> ItemView:
