@@ -2,6 +2,7 @@
 # Goal: wrong arguments and input end with status 2 and one line that helps, before anything is built or thrown away.
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from mamori.verification.command import jobs, plans
 from mamori.verification.command.errors import UsageError
 from mamori.verification.command.main import main, make_parser
 from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
+from mamori.verification.command.steps import Context, run_steps
 
 
 @pytest.mark.parametrize(
@@ -78,6 +80,34 @@ def test_each_step_of_the_plans_is_named_once_and_needs_earlier_ones_only(quick:
             assert step.name not in seen
             assert set(step.needs) <= set(seen)
             seen.append(step.name)
+
+
+@pytest.mark.parametrize(
+    ("script", "verdict"),
+    [(f"touch {{product}}; exit {status}", "passed") for status in (0, 1, 4)]
+    + [("touch {product}; exit 2", "failed"), ("touch {product}; exit 130", "failed"), ("exit 0", "failed"), ("exit 1", "failed")],
+)
+@pytest.mark.verifies("SWR-CLI-006", technique="equivalence_classes", polarity="violation")
+def test_a_late_machine_does_not_fail_the_timing_run_but_a_missing_result_does(script: str, verdict: str, tmp_path: Path) -> None:
+    step = plans.timing_step()
+    product = tmp_path / step.produces
+    product.parent.mkdir(parents=True)
+    command = ("sh", "-c", script.format(product=product))
+
+    outcomes = run_steps([replace(step, commands=(command,), needs=())], Context(Project(tmp_path), 1))
+
+    assert [outcome.verdict for outcome in outcomes] == [verdict]
+
+
+@pytest.mark.verifies("SWR-CLI-006", technique="interface")
+def test_the_words_of_the_timing_run_are_those_of_the_command_and_its_result_is_where_the_report_looks() -> None:
+    step = plans.timing_step()
+    words = step.commands[0][step.commands[0].index("timing") :]
+
+    arguments = make_parser().parse_args([word.format(jobs=1) for word in words])
+
+    assert (ROOT / arguments.system / "timing.toml").is_file()
+    assert ROOT / step.produces == Project(ROOT).evidence / "timing" / "safe_arm" / "timing.json"
 
 
 @pytest.mark.verifies("SWR-CLI-005", technique="error_guessing", polarity="violation")
