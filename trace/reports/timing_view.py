@@ -192,7 +192,7 @@ def _make_windows(record: dict[str, Any]) -> Table:
         response, outcomes = row["response"], row["outcomes"]
         return [
             Cell(row["window"], is_name=True), Cell(str(row["core"])), *map(_make_time, (row["offset_ns"], row["length_ns"], row["budget_ns"])),
-            *_list_times(row["lateness"], ("p50", "p99", "p999", "max")), _make_time(response and response["max"]),
+            *_list_times(row["lateness"], ("p50", "p99", "p999", "max")), _make_time(response["max"] if response else None),
             _make_margin(row["length_margin_ns"]), _make_time(row["used_max_ns"]), _make_margin(row["budget_margin_ns"]),
             _make_count(outcomes["missed"]), _make_count(outcomes["overrun"]),
         ]  # fmt: skip
@@ -289,7 +289,7 @@ def _make_table(
 
 
 def _list_times(times: dict[str, int] | None, names: tuple[str, ...]) -> list[Cell]:
-    return [_make_time(times and times[name]) for name in names]
+    return [_make_time(times[name] if times else None) for name in names]
 
 
 def _make_time(ns: int | None) -> Cell:
