@@ -19,8 +19,8 @@ from pathlib import Path
 from mamori.verification.command.errors import UsageError
 
 POLL_S = 0.1
-GRACE_S = 30.0
-"""How long a program that was asked to stop may take to write its files."""
+GRACE_S, GRACE_SHARE = 30.0, 0.05
+"""How long a program that was asked to stop may take to write its files; the more cycles, the longer."""
 OVERTIME_FACTOR = 1.5
 OVERTIME_S = 30.0
 """A program lives at most this much longer than its cycles take: the grid of its frames is absolute, so it cannot fall behind."""
@@ -63,6 +63,7 @@ def run_program(argv: Sequence[str], log: Path, expected_s: float, tick: Tick) -
     then is waited for. @raise UsageError when it cannot be run."""
     begin = time.monotonic()
     limit_s = expected_s * OVERTIME_FACTOR + OVERTIME_S
+    grace_s = GRACE_S + expected_s * GRACE_SHARE
     with log.open("a", encoding="utf-8") as out:
         print("$", *argv, file=out, flush=True)
         try:
@@ -78,9 +79,9 @@ def run_program(argv: Sequence[str], log: Path, expected_s: float, tick: Tick) -
                 except subprocess.TimeoutExpired:
                     tick(passed)
                 if passed > limit_s:
-                    return Ending(_stop(child, signal.SIGINT), passed, was_late=True)
+                    return Ending(_stop(child, signal.SIGINT, grace_s), passed, was_late=True)
         except KeyboardInterrupt:
-            return Ending(_stop(child, signal.SIGINT), time.monotonic() - begin, was_interrupted=True)
+            return Ending(_stop(child, signal.SIGINT, grace_s), time.monotonic() - begin, was_interrupted=True)
         finally:
             _kill(child)
 
@@ -96,15 +97,15 @@ def undisturbed() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _stop(child: subprocess.Popen[bytes], number: signal.Signals) -> int:
-    """Asks, waits GRACE_S, does not ask. A second Ctrl-C would cost the files that the first one asked for, so it is not heard.
+def _stop(child: subprocess.Popen[bytes], number: signal.Signals, grace_s: float) -> int:
+    """Asks, waits, does not ask. A second Ctrl-C would cost the files that the first one asked for, so it is not heard.
 
     @return exit status.
     """
     with undisturbed():
         child.send_signal(number)
         try:
-            return child.wait(GRACE_S)
+            return child.wait(grace_s)
         except subprocess.TimeoutExpired:
             _kill(child)
             return child.wait()
@@ -144,4 +145,4 @@ def make_load(is_wanted: bool, expected_s: float, log: Path) -> Iterator[list[st
                 problems.append(f"the load ended before the run, with status {child.returncode}")
         finally:
             if child.poll() is None:
-                _stop(child, signal.SIGTERM)
+                _stop(child, signal.SIGTERM, GRACE_S)
