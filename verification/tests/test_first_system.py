@@ -42,11 +42,10 @@ def test_example_is_one_short_file() -> None:
     assert sorted(path.name for path in SOURCE.parent.iterdir()) == ["CMakeLists.txt", "main.cpp"]
 
 
+# g++ comes with every command that builds; clang with those that check.
 @pytest.mark.verifies("SWR-TAB-009", technique="fault_injection", polarity="violation")
-@pytest.mark.parametrize("compiler", ["g++", "clang++-19"])
+@pytest.mark.parametrize("compiler", [name for name in ("g++", "clang++-19") if shutil.which(name) is not None])
 def test_missing_connection_is_refused_with_the_message_of_the_page(compiler: str, tmp_path: Path) -> None:
-    if shutil.which(compiler) is None:
-        pytest.skip(f"{compiler} is not installed")
     source = SOURCE.read_text(encoding="utf-8")
     assert source.count(CONNECTION) == 1
 

@@ -18,7 +18,7 @@ from mamori.verification.command.main import make_parser
 from mamori.verification.command.project import ROOT
 
 PACKAGES_OF_DEMO = ("python3 python3-venv g++ cmake ninja-build libsimbody-dev liborocos-kdl-dev libeigen3-dev "
-                    "libyaml-cpp-dev libgtest-dev relacy-dev libcli11-dev nlohmann-json3-dev").split()  # fmt: skip
+                    "libyaml-cpp-dev libgtest-dev relacy-dev libcli11-dev nlohmann-json3-dev graphviz").split()  # fmt: skip
 
 TOOLS = {
     "id": 'echo "${FAKE_UID:-0}"',
@@ -106,6 +106,7 @@ def test_second_run_installs_nothing(box: Box) -> None:
     [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
      (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
+     (("demo",), "graphviz", "cppcheck"), (("verify",), "graphviz", "cppcheck"),
      (("timing", "x", "--load"), "stress-ng", "valgrind"), (("timing", "x"), "cmake", "stress-ng"),
      (("timing", "x", "--", "--load"), "cmake", "stress-ng"),
      (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev"),
