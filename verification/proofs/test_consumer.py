@@ -89,19 +89,24 @@ def test_first_system_builds_against_the_package_and_prints_what_the_manual_says
         assert (ran.returncode, ran.stdout) == (0, shown)
 
 
-@pytest.mark.verifies("SWR-PRT-005", technique="interface")
-def test_first_system_runs_in_real_time_as_the_manual_says(project: Project, prefix: Path, tmp_path: Path) -> None:
-    folder = tmp_path / "minimal"
+def build_page(project: Project, prefix: Path, folder: Path, name: str, library: str) -> Path:
+    """The first system with the end that a page of the manual gives it, on the library that the page names. @return `folder`."""
     configure(project, prefix, folder, "examples/minimal")
     source, lists = folder / "main.cpp", folder / "CMakeLists.txt"
-    page = (project.root / "docs" / "manual" / "real_time.md").read_text(encoding="utf-8")
+    page = (project.root / "docs" / "manual" / name).read_text(encoding="utf-8")
     (block,) = re.findall(r"^```cpp\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
     text = source.read_text(encoding="utf-8").replace('#include "mamori/ports/virtual_time/frame_runner.hpp"\n', "")
     source.write_text(text[: text.index("/// What surrounds the components")] + block, encoding="utf-8")
-    lists.write_text(lists.read_text(encoding="utf-8").replace("mamori::virtual_time", "mamori::posix_rt"), encoding="utf-8")
+    lists.write_text(lists.read_text(encoding="utf-8").replace("mamori::virtual_time", library), encoding="utf-8")
 
     built = run("cmake", "--build", folder / "build")
     assert built.returncode == 0, built.stdout
+    return folder
+
+
+@pytest.mark.verifies("SWR-PRT-005", technique="interface")
+def test_first_system_runs_in_real_time_as_the_manual_says(project: Project, prefix: Path, tmp_path: Path) -> None:
+    folder = build_page(project, prefix, tmp_path / "minimal", "real_time.md", "mamori::posix_rt")
     ran = run(folder / "build" / "minimal")
     form = r"40 openings, (\d+) overran, (\d+) missed, latest by \d+\.\d{3} ms; priority (fixed|not granted), memory (locked|not locked)\n"
     # A machine that runs other work may be late, and says so; then the last window may still be out at the stop.
@@ -112,17 +117,7 @@ def test_first_system_runs_in_real_time_as_the_manual_says(project: Project, pre
 
 @pytest.mark.verifies("SWR-TIM-003", technique="interface")
 def test_first_system_is_measured_as_the_manual_says(project: Project, prefix: Path, tmp_path: Path) -> None:
-    folder = tmp_path / "minimal"
-    configure(project, prefix, folder, "examples/minimal")
-    source, lists = folder / "main.cpp", folder / "CMakeLists.txt"
-    page = (project.root / "docs" / "manual" / "timing.md").read_text(encoding="utf-8")
-    (block,) = re.findall(r"^```cpp\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
-    text = source.read_text(encoding="utf-8").replace('#include "mamori/ports/virtual_time/frame_runner.hpp"\n', "")
-    source.write_text(text[: text.index("/// What surrounds the components")] + block, encoding="utf-8")
-    lists.write_text(lists.read_text(encoding="utf-8").replace("mamori::virtual_time", "mamori::timing"), encoding="utf-8")
-
-    built = run("cmake", "--build", folder / "build")
-    assert built.returncode == 0, built.stdout
+    folder = build_page(project, prefix, tmp_path / "minimal", "timing.md", "mamori::timing")
     out = tmp_path / "times"
     shown = run(sys.executable, "-P", "-m", "mamori.verification.command", "timing", folder / "build" / "minimal",
                 "--cycles", "50", "--out", out)  # fmt: skip
