@@ -2,7 +2,7 @@
 /// @file
 /// Runs the windows of one core in real time: each opens at its place on the fixed grid of the frame.
 ///
-/// @satisfies SWR-PRT-005, SWR-PRT-006, SWR-PRT-007      Design: docs/design/posix_rt.md#grid
+/// @satisfies SWR-PRT-005, SWR-PRT-006, SWR-PRT-007, SWR-PRT-038      Design: docs/design/posix_rt.md#grid
 #ifndef MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
 #define MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
 

@@ -10,17 +10,19 @@
 #include <time.h>
 
 #include "mamori/kernel/time.hpp"
+#include "mamori/ports/posix_rt/time_source.hpp"
 
 namespace mamori::ports::posix_rt {
 
 /// Instant 0 is the epoch: frame n of every core begins n frames after it.
 ///
-/// Thread safety: any thread. Time: one reading of CLOCK_MONOTONIC, or a sleep. Memory: one word.
+/// Thread safety: any thread. Time: one reading of CLOCK_MONOTONIC, or a sleep. Memory: two words.
 class FrameClock final {
   public:
     /// @param[in] lead from now to the epoch, >= 0; gives the threads time to be ready for their first
-    /// window.
-    static FrameClock starting_in(Duration lead) noexcept;
+    /// window. @param[in] source clock behind it, which must outlive it; another one than Linux's is for
+    /// tests.
+    static FrameClock starting_in(Duration lead, const TimeSource& source = get_monotonic_clock()) noexcept;
 
     Instant get_now() const noexcept;
     /// The same instant for a system call with an absolute time. One before the clock's own zero is that
@@ -30,9 +32,11 @@ class FrameClock final {
     void wait_until(Instant instant) const noexcept;
 
   private:
-    constexpr explicit FrameClock(std::int64_t epoch_ns) noexcept : epoch_ns_(epoch_ns) {}
+    constexpr FrameClock(const TimeSource& source, std::int64_t epoch_ns) noexcept
+        : source_(&source), epoch_ns_(epoch_ns) {}
 
-    std::int64_t epoch_ns_;  ///< of CLOCK_MONOTONIC
+    const TimeSource* source_;
+    std::int64_t epoch_ns_;  ///< of the source
 };
 
 }  // namespace mamori::ports::posix_rt

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A clock that stands still until a test moves it, and one that lets a test hold up whoever waits by it.
+#ifndef MAMORI_PORTS_POSIX_RT_TESTS_FAKE_CLOCK_HPP
+#define MAMORI_PORTS_POSIX_RT_TESTS_FAKE_CLOCK_HPP
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+#include "mamori/ports/posix_rt/time_source.hpp"
+
+namespace mamori::ports::posix_rt {
+
+class FakeClock final : public TimeSource {
+  public:
+    explicit FakeClock(std::int64_t ns) noexcept : now_ns(ns) {}
+    std::int64_t read_ns() const noexcept override { return now_ns; }
+    void sleep_until(std::int64_t ns) const noexcept override { slept_until_ns = ns; }
+    std::int64_t to_monotonic(std::int64_t ns) const noexcept override { return ns + monotonic_offset_ns; }
+
+    std::int64_t now_ns;
+    std::int64_t monotonic_offset_ns{0};
+    mutable std::int64_t slept_until_ns{0};
+};
+
+/// Linux's clock whose timers may fail: while `is_stuck`, no sleep ends and no deadline of a system call
+/// comes.
+class StuckClock final : public TimeSource {
+  public:
+    std::int64_t read_ns() const noexcept override { return get_monotonic_clock().read_ns(); }
+    void sleep_until(std::int64_t ns) const noexcept override {
+        while (is_stuck.load()) {
+            std::this_thread::yield();
+        }
+        get_monotonic_clock().sleep_until(ns);
+    }
+    std::int64_t to_monotonic(std::int64_t ns) const noexcept override {
+        constexpr std::int64_t kHour = 3'600'000'000'000;
+        return is_stuck.load() ? ns + kHour : ns;
+    }
+
+    std::atomic<bool> is_stuck{false};
+};
+
+}  // namespace mamori::ports::posix_rt
+
+#endif  // MAMORI_PORTS_POSIX_RT_TESTS_FAKE_CLOCK_HPP

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the clocks behind the time line are those of Linux, and another one that is put in their place
+// decides what the time line shows and waits for. Method: Linux's clocks are read beside them; a clock made
+// by hand.
+#include "mamori/ports/posix_rt/time_source.hpp"
+
+#include <gtest/gtest.h>
+#include <time.h>
+
+#include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/verification/verifies.hpp"
+#include "support/fake_clock.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+using verification::Technique;
+using verification::verifies;
+using literals::operator""_ms;
+using literals::operator""_ns;
+
+std::int64_t read(clockid_t clock) {
+    timespec now{};
+    EXPECT_EQ(clock_gettime(clock, &now), 0);
+    return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+TEST(TimeSourceTest, TheyAreTheMonotonicClockAndTheOneThatNoDaemonAdjusts) {
+    verifies("SWR-PRT-030");
+    const std::int64_t before = read(CLOCK_MONOTONIC);
+    const std::int64_t shown = get_monotonic_clock().read_ns();
+    EXPECT_LE(before, shown);
+    EXPECT_LE(shown, read(CLOCK_MONOTONIC));
+    EXPECT_EQ(get_monotonic_clock().to_monotonic(12), 12);
+
+    const std::int64_t raw_before = read(CLOCK_MONOTONIC_RAW);
+    const std::int64_t raw = get_raw_clock().read_ns();
+    EXPECT_LE(raw_before, raw);
+    EXPECT_LE(raw, read(CLOCK_MONOTONIC_RAW));
+}
+
+TEST(TimeSourceTest, AnotherClockDecidesWhatTheTimeLineShowsAndWaitsFor) {
+    verifies("SWR-PRT-030", Technique::kInterface);
+    FakeClock source{5'000'000'000};
+    const FrameClock clock = FrameClock::starting_in(3_ms, source);
+    EXPECT_EQ(clock.get_now(), Instant{-3'000'000});
+
+    source.now_ns += 4'000'000;
+    EXPECT_EQ(clock.get_now(), Instant{1'000'000});
+    clock.wait_until(Instant{0} + 2_ms);
+    EXPECT_EQ(source.slept_until_ns, 5'005'000'000);
+    source.slept_until_ns = 0;
+    clock.wait_until(Instant{0} + 1_ms);
+    EXPECT_EQ(source.slept_until_ns, 0) << "that instant is here already";
+    source.monotonic_offset_ns = -7;
+    const timespec at = clock.to_timespec(Instant{10});
+    EXPECT_EQ(at.tv_sec, 5);
+    EXPECT_EQ(at.tv_nsec, 3'000'003);
+}
+
+}  // namespace
+}  // namespace mamori::ports::posix_rt
