@@ -108,6 +108,7 @@ std::vector<GridRow> Grid::run(std::uint64_t frame_count) {
 }
 
 void Grid::close() {
+    static_cast<void>(ports::posix_rt::set_priority(pthread_self(), 0));
     while (get_host().close() != Status::kOk) {
         get_clock().wait_until(get_clock().get_now() + kGridPeriod);
     }

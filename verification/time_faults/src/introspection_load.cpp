@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/ports/posix_rt/real_time_rights.hpp"
 
 namespace mamori::time_faults {
 namespace {
@@ -21,11 +22,18 @@ IntrospectionLoad::~IntrospectionLoad() {
     thread_.join();
 }
 
+void IntrospectionLoad::bind(int processor) noexcept {
+    static_cast<void>(ports::posix_rt::set_processor(thread_.native_handle(), processor));
+}
+
 void IntrospectionLoad::serve() noexcept {
     const auto clock = ports::posix_rt::FrameClock::starting_in(Duration{0});
     Instant next{};
     for (std::uint64_t millisecond = 0U; !is_ending_.load(std::memory_order_relaxed); ++millisecond) {
         const Pace pace = pace_.load(std::memory_order_relaxed);
+        while (pace_.load(std::memory_order_relaxed) == Pace::kWithoutPause) {
+            request(1U);
+        }
         if (pace == Pace::kSteady) {
             request(1U);
         } else if (pace == Pace::kBurst && millisecond % kBurst == 0U) {
@@ -39,6 +47,7 @@ void IntrospectionLoad::serve() noexcept {
 void IntrospectionLoad::request(std::uint64_t count) noexcept {
     std::uint64_t row_count = 0U;
     const auto look = [&row_count](std::size_t, const auto&) noexcept { ++row_count; };
+    is_requesting_.store(true, std::memory_order_relaxed);
     for (std::uint64_t i = 0U; i < count; ++i) {
         CoreSnapshot core{};
         row_count += shown_.read_core(0U, core) == Status::kOk ? 1U : 0U;
@@ -46,6 +55,7 @@ void IntrospectionLoad::request(std::uint64_t count) noexcept {
         shown_.for_each_component(look);
         shown_.for_each_port(look);
     }
+    is_requesting_.store(false, std::memory_order_relaxed);
     // A request that saw nothing is none.
     request_count_.fetch_add(row_count > 0U ? count : 0U, std::memory_order_relaxed);
 }

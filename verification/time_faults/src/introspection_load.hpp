@@ -19,7 +19,8 @@ namespace mamori::time_faults {
 enum class Pace : std::uint8_t {
     kNone,
     kSteady,  ///< one request each millisecond
-    kBurst    ///< a hundred requests at once each 100 ms
+    kBurst,   ///< a hundred requests at once each 100 ms
+    kWithoutPause
 };
 
 /// A request reads every row. The thread has no fixed priority and any processor.
@@ -33,6 +34,12 @@ class IntrospectionLoad final {
     IntrospectionLoad& operator=(const IntrospectionLoad&) = delete;
     ~IntrospectionLoad();
 
+    /// From now on its thread runs on this processor.
+    void bind(int processor) noexcept;
+
+    /// True in the middle of a request. For whoever keeps its thread from running.
+    const std::atomic<bool>& is_requesting() const noexcept { return is_requesting_; }
+
     void set_pace(Pace pace) noexcept { pace_.store(pace, std::memory_order_relaxed); }
     std::uint64_t get_request_count() const noexcept {
         return request_count_.load(std::memory_order_relaxed);
@@ -45,6 +52,7 @@ class IntrospectionLoad final {
     const Introspection& shown_;
     std::atomic<Pace> pace_{Pace::kNone};
     std::atomic<std::uint64_t> request_count_{0U};
+    std::atomic<bool> is_requesting_{false};
     std::atomic<bool> is_ending_{false};
     std::thread thread_;
 };

@@ -15,14 +15,16 @@ class Judge final {
     }
 
     /// Everything that is reported from the deed's begin to a tick after its end, about its window, is its
-    /// doing.
+    /// doing. A guard that is stuck with it reports later, and the windows after it open late.
     void judge(const Deed& deed, Verdict& verdict) {
         const Instant last = deed.end + kTick;
         const Report* first = nullptr;
         bool is_misnamed = false;
         for (std::size_t i = find(deed.begin); i < reports_.size() && reports_[i].at <= last; ++i) {
             const Report& report = reports_[i];
-            if (!report.is_overrun) {
+            const bool is_stuck = deed.cause == Cause::kStuckGuard;
+            if (!report.is_overrun || (is_stuck && is_cut_short(report))) {
+                explained_[i] = explained_[i] || is_stuck;
                 continue;
             }
             if (report.window == plan_.window_of[deed.component] && report.component == deed.component) {
@@ -33,16 +35,21 @@ class Judge final {
             }
         }
         ++verdict.injected;
+        verdict.locked_out += deed.cause == Cause::kLock ? 1U : 0U;
         if (first == nullptr) {
             ++(is_misnamed ? verdict.misnamed : verdict.unseen);
             return;
         }
         ++verdict.seen;
+        verdict.locked_out_seen += deed.cause == Cause::kLock ? 1U : 0U;
+        if (deed.cause == Cause::kStuckGuard) {
+            return;  // its time is that of the watch
+        }
         const Instant deadline = first->woke + plan_.budget;
         const Duration detection = first->at - deadline;
         verdict.detection_ns.push_back(detection.ns);
         if (detection > kTick) {
-            ++(overlaps(deadline, first->at) ? verdict.tardy_by_host : verdict.tardy);
+            ++(overlaps(stalls_, deadline, first->at) ? verdict.tardy_by_host : verdict.tardy);
         }
     }
 
@@ -70,7 +77,7 @@ class Judge final {
             const Report& report = reports_[i];
             if (explained_[i] || is_aftermath(i)) {
                 explained_[i] = true;
-            } else if (overlaps(report.release, report.at)) {
+            } else if (overlaps(stalls_, report.release, report.at)) {
                 explained_[i] = true;
                 ++verdict.by_host;
             } else {
@@ -103,13 +110,6 @@ class Judge final {
         return static_cast<std::size_t>(place - reports_.begin());
     }
 
-    /// Whether a stall lies, in part, within the two instants.
-    bool overlaps(Instant begin, Instant end) const {
-        const auto first = std::lower_bound(stalls_.begin(), stalls_.end(), begin,
-                                            [](const Stall& stall, Instant at) { return stall.end < at; });
-        return first != stalls_.end() && first->begin <= end;
-    }
-
     const Plan& plan_;
     const std::vector<Report>& reports_;
     const std::vector<Stall>& stalls_;
@@ -132,6 +132,9 @@ Verdict judge(const Plan& plan, const Course& course) {
         judge.judge(delay, verdict);
     }
     judge.judge_rest(verdict);
+    verdict.watch = judge_watch(plan.watch, course.watch, course.stalls);
+    verdict.injected += verdict.watch.clock_faults_seen;
+    verdict.seen += verdict.watch.clock_faults_seen;
     return verdict;
 }
 

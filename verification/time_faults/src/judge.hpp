@@ -10,11 +10,17 @@
 
 #include "mamori/kernel/system_table.hpp"
 #include "mamori/kernel/time.hpp"
+#include "stall.hpp"
+#include "watch_judge.hpp"
 
 namespace mamori::time_faults {
 
 /// Frame of the system: what "within one tick" means.
 inline constexpr Duration kTick{1'000'000};
+
+/// Page faults that need no disk, of all threads of the windows together, in a run with locked memory: the
+/// kernel moves a page now and then.
+inline constexpr std::int64_t kMinorFaultsMax = 16;
 
 /// A report of the executive.
 struct Report {
@@ -44,13 +50,34 @@ struct Verdict {
     Duration longest_stall{};
     std::vector<std::int64_t> detection_ns{};  ///< from the deadline of each overrun to its report
     std::vector<Report> unexplained{};         ///< those that were invented
+    std::uint64_t locked_out{0U};              ///< of those injected: components that waited for a held mutex
+    std::uint64_t locked_out_seen{0U};         ///< reported, under the right name
+    WatchVerdict watch{};                      ///< its wrong clocks are among those injected and seen
+    std::uint64_t reads_under_way{0U};  ///< openings at which a reader stood still in the middle of a request
+    std::uint64_t requests{0U};         ///< of introspection
+    std::int64_t major_faults{0};       ///< page faults in the threads of the windows
+    std::int64_t minor_faults{0};
+    bool has_storm{false};  ///< a process faulted pages beside it, from begin to end
+    bool has_locked_memory{false};
     bool has_priority{false};
 
     /// A fault may miss its place while the machine stands still; more than a few that do are no test.
-    bool is_well() const noexcept {
+    bool are_reports_well() const noexcept {
         return 20U * injected >= 19U * requested && seen == injected &&
                misnamed + unseen + tardy + invented == 0U;
     }
+    /// Without locked memory nothing is asked.
+    bool are_pages_well() const noexcept {
+        return !has_locked_memory || (major_faults == 0 && minor_faults <= kMinorFaultsMax);
+    }
+    bool is_well() const noexcept { return are_reports_well() && watch.is_well() && are_pages_well(); }
+};
+
+/// Why a component took too long.
+enum class Cause : std::uint8_t {
+    kWork,        ///< it computed or waited
+    kLock,        ///< it waited for a mutex that a thread without priority held
+    kStuckGuard,  ///< it computed, and the guard did not come back in time either
 };
 
 /// A component that took too long.
@@ -58,6 +85,7 @@ struct Deed {
     std::size_t component{0U};
     Instant begin{};
     Instant end{};
+    Cause cause{Cause::kWork};
 };
 
 /// A window that was held back.
@@ -67,17 +95,12 @@ struct Delay {
     Instant end{};
 };
 
-/// From one look at the clock to the next, much later one.
-struct Stall {
-    Instant begin{};
-    Instant end{};
-};
-
 /// What of the system's table decides.
 struct Plan {
     Duration budget{};                       ///< of every window
     std::vector<std::size_t> window_of{};    ///< of each component
     std::vector<Duration> window_lengths{};  ///< from opening to close
+    WatchBounds watch{};
 };
 
 /// Everything that was written down of a run, each list in the order of its instants.
@@ -86,10 +109,11 @@ struct Course {
     std::vector<Deed> deeds{};
     std::vector<Delay> delays{};
     std::vector<Stall> stalls{};
+    WatchCourse watch{};
 };
 
-/// @return the counts from `injected` to `longest_stall`, `detection_ns` and `unexplained`; the rest is the
-/// caller's.
+/// @return the counts from `injected` to `longest_stall`, and all from `detection_ns` to `watch`; the rest is
+/// the caller's.
 Verdict judge(const Plan& plan, const Course& course);
 
 }  // namespace mamori::time_faults

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// time_faults FRAMES FAULTS SEED: prints the verdict as JSON; status 1 when a fault was not seen as it should
-// be, or something was that is none.
+// time_faults FRAMES FAULTS SEED [storm]: prints the verdict as JSON; status 1 when a fault was not seen as
+// it should be, or something was that is none.
 #include <charconv>
 #include <cstring>
 #include <iostream>
@@ -20,10 +20,12 @@ bool read(const char* text, std::uint64_t& number) {
 int main(int argc, char** argv) {
     mamori::time_faults::Request request;
     std::uint64_t faults = 0U;
-    if (argc != 4 || !read(argv[1], request.frame_count) || !read(argv[2], faults) ||
+    request.with_storm = argc == 5 && std::strcmp(argv[4], "storm") == 0;
+    if ((argc != 4 && !request.with_storm) || !read(argv[1], request.frame_count) || !read(argv[2], faults) ||
         !read(argv[3], request.seed) || request.frame_count == 0U ||
         faults > request.frame_count / mamori::time_faults::kDistance) {
-        std::cerr << "time_faults: expected FRAMES FAULTS SEED: whole numbers, at least 1 frame and "
+        std::cerr << "time_faults: expected FRAMES FAULTS SEED and perhaps 'storm': whole numbers, at least "
+                     "1 frame and "
                   << mamori::time_faults::kDistance << " frames for each fault\n";
         return 2;
     }

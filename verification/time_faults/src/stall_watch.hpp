@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "judge.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
+#include "stall.hpp"
 
 namespace mamori::time_faults {
 

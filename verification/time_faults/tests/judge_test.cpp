@@ -26,7 +26,8 @@ Report late(std::size_t window, std::int64_t release_us, std::int64_t at_us) {
 }
 /// Windows of 300 us with a budget of 200 us at 0 and 300; the first runs component 0, the second 1 and 2.
 Verdict judge(const Course& course) {
-    return judge({Duration{200'000}, {0U, 1U, 1U}, {Duration{300'000}, Duration{300'000}}}, course);
+    const WatchBounds bounds{Duration{1'000'000}, Duration{21'000'000}};
+    return judge({Duration{200'000}, {0U, 1U, 1U}, {Duration{300'000}, Duration{300'000}}, bounds}, course);
 }
 /// Component 1 takes 1.5 ms, from 5310 us on.
 const Deed kDeed{1U, at(5310), at(6810)};
@@ -99,6 +100,55 @@ TEST(JudgeTest, ALateReleaseIsSeenAtItsWindowAndExplainsThoseUntilTheGridIsMet) 
     EXPECT_EQ(other.unseen, 1U) << "told of another window only";
     const Verdict own = judge({{reports[0], overrun(0U, 0U, 6000, 6050, 6255)}, {}, {delay}, {}});
     EXPECT_EQ(own.invented, 1U) << "that window had its whole budget";
+}
+
+TEST(JudgeTest, AStuckGuardMayReportLateButMustNameItsComponentAndExplainsWhatIsLateAfterIt) {
+    verifies("SWR-PRT-007", Technique::kFaultInjection, Polarity::kViolation);
+    Deed deed = kDeed;
+    deed.cause = Cause::kStuckGuard;
+    const std::vector<Report> reports{overrun(1U, 1U, 5300, 5310, 6815), late(0U, 6000, 6816)};
+
+    const Verdict verdict = judge({reports, {deed}, {}, {}});
+    EXPECT_TRUE(verdict.is_well());
+    EXPECT_TRUE(verdict.detection_ns.empty()) << "its time is that of the watch";
+    EXPECT_EQ(judge({{reports[1]}, {deed}, {}, {}}).unseen, 1U);
+    EXPECT_FALSE(judge({reports, {kDeed}, {}, {}}).is_well()) << "of a guard that works, it is tardy";
+}
+
+TEST(JudgeTest, AComponentThatWasLockedOutIsCountedAndMustBeNamed) {
+    verifies("SWR-PRT-035", Technique::kFaultInjection, Polarity::kViolation);
+    Deed deed = kDeed;
+    deed.cause = Cause::kLock;
+    const Verdict named = judge({{overrun(1U, 1U, 5300, 5310, 5515)}, {deed, kDeed}, {}, {}});
+    EXPECT_EQ(named.locked_out, 1U);
+    EXPECT_EQ(named.locked_out_seen, 1U);
+    EXPECT_EQ(judge({{overrun(1U, 2U, 5300, 5310, 5515)}, {deed}, {}, {}}).locked_out_seen, 0U);
+}
+
+TEST(JudgeTest, WhatTheWatchDidNotSeeIsNotWellAndAClockThatItSawIsAFaultOfTheRun) {
+    verifies("SWR-PRT-034", Technique::kFaultInjection, Polarity::kViolation);
+    using ports::posix_rt::GridFault;
+    const ClockFault fault{at(5000), at(30'000), -10'000};
+    const Found found{{GridFault::kSlowClock, kNoIndex, Instant{}, at(9000)}, at(40'000)};
+    const Verdict seen = judge({{}, {}, {}, {}, {{}, {fault}, {found}}});
+    EXPECT_EQ(seen.injected, 1U);
+    EXPECT_TRUE(seen.is_well());
+    EXPECT_FALSE(judge({{}, {}, {}, {}, {{}, {fault}, {}}}).is_well());
+}
+
+TEST(JudgeTest, APageFaultThatNeedsTheDiskOrTooManyOthersAreNotWellWhereMemoryIsLocked) {
+    verifies("SWR-PRT-037", Technique::kBoundaryValues, Polarity::kViolation);
+    Verdict verdict;
+    verdict.has_locked_memory = true;
+    verdict.minor_faults = kMinorFaultsMax;
+    EXPECT_TRUE(verdict.is_well());
+    ++verdict.minor_faults;
+    EXPECT_FALSE(verdict.is_well());
+    verdict.minor_faults = 0;
+    verdict.major_faults = 1;
+    EXPECT_FALSE(verdict.is_well());
+    verdict.has_locked_memory = false;
+    EXPECT_TRUE(verdict.is_well());
 }
 
 TEST(JudgeTest, ARunInWhichHardlyAFaultTookEffectIsNoTest) {

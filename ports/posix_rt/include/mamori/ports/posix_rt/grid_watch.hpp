@@ -4,7 +4,7 @@
 /// sees that a window did not open or was not over when it should, or that the clock runs at a wrong rate,
 /// and closes the outputs.
 ///
-/// @satisfies SWR-PRT-031, SWR-PRT-033      Design: docs/design/posix_rt.md#watch
+/// @satisfies SWR-PRT-031, SWR-PRT-033, SWR-PRT-034      Design: docs/design/posix_rt.md#watch
 #ifndef MAMORI_PORTS_POSIX_RT_GRID_WATCH_HPP
 #define MAMORI_PORTS_POSIX_RT_GRID_WATCH_HPP
 

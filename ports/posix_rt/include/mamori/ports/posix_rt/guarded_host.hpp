@@ -4,7 +4,7 @@
 /// the thread that runs the executive only waits for it, at a higher priority and never beyond the deadline.
 /// So a budget is enforced without the help of the code that exceeds it, and a hang costs its window alone.
 ///
-/// @satisfies SWR-PRT-003, SWR-PRT-004      Design: docs/design/posix_rt.md#guard
+/// @satisfies SWR-PRT-003, SWR-PRT-004, SWR-PRT-035      Design: docs/design/posix_rt.md#guard
 #ifndef MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
 #define MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
 

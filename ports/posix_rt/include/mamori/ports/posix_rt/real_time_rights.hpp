@@ -3,7 +3,7 @@
 /// What a process asks of Linux to keep its times: a fixed priority, a processor, memory that stays in place.
 /// Each may be refused; the process goes on, and what was refused goes into the evidence.
 ///
-/// @satisfies SWR-PRT-002      Design: docs/design/posix_rt.md#rights
+/// @satisfies SWR-PRT-002, SWR-PRT-037      Design: docs/design/posix_rt.md#rights
 #ifndef MAMORI_PORTS_POSIX_RT_REAL_TIME_RIGHTS_HPP
 #define MAMORI_PORTS_POSIX_RT_REAL_TIME_RIGHTS_HPP
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Puts the faults of a plan into a running system, each at its frame, and writes down what it did and what
+/// was reported.
+#ifndef MAMORI_TIME_FAULTS_DIRECTOR_HPP
+#define MAMORI_TIME_FAULTS_DIRECTOR_HPP
+
+#include <atomic>
+#include <vector>
+
+#include "faulty_time.hpp"
+#include "inversion.hpp"
+#include "judge.hpp"
+#include "mamori/kernel/execution_observer.hpp"
+#include "mamori/ports/posix_rt/core_runner.hpp"
+#include "mamori/ports/posix_rt/grid_watch.hpp"
+#include "time_faults.hpp"
+
+namespace mamori::time_faults {
+
+/// What faults are put into. All must outlive the director.
+struct Stage {
+    const ports::posix_rt::FrameClock& clock;
+    FaultyTime& time;
+    Inversion& inversion;
+    WindowHost& host;
+    const std::atomic<bool>& is_reading;  ///< a reader of lower priority on the same processor
+};
+
+/// Calling context: the thread that runs the windows. A fault waits until those before it are over: no work
+/// is out, and the watch was reset.
+class Director final : public ports::posix_rt::OpeningObserver, public ExecutionObserver {
+  public:
+    Director(const Stage& stage, std::vector<Injection> injections);
+
+    /// Not watched: no finding is expected, and none is reset. @param[in] watch must outlive it.
+    void set_watch(ports::posix_rt::GridWatch* watch) noexcept { watch_ = watch; }
+
+    void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override;
+    void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override;
+    void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override;
+    void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override;
+
+    /// What was written down, but for deeds and stalls. To be asked after the run.
+    const Course& get_course() const noexcept { return course_; }
+    std::uint64_t get_reads_under_way() const noexcept { return reads_under_way_; }
+
+  private:
+    void look_after_watch() noexcept;
+    void end_clock_fault() noexcept;
+    const Injection* find_due(const FrameSchedule::Opening& opening) noexcept;
+    void begin(const Injection& injection, const FrameSchedule::Opening& opening) noexcept;
+    void begin_after(const Injection& injection, const FrameSchedule::Opening& opening) noexcept;
+    void note_held_sleep(const FrameSchedule::Opening& opening) noexcept;
+    void finish(Duration aftermath) noexcept;
+    void hold_back(Instant end) const noexcept;
+    void add(const Report& report) noexcept;
+
+    Stage stage_;
+    std::vector<Injection> injections_;
+    ports::posix_rt::GridWatch* watch_{nullptr};
+    Course course_;
+    std::size_t next_{0U};
+    Instant quiet_until_{};
+    Instant release_{};
+    Instant woke_{};
+    bool is_sleep_held_{false};
+    bool is_guard_held_{false};
+    bool is_clock_wrong_{false};
+    std::uint64_t reads_under_way_{0U};
+};
+
+}  // namespace mamori::time_faults
+
+#endif  // MAMORI_TIME_FAULTS_DIRECTOR_HPP

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "time_faults.hpp"
+
+namespace mamori::time_faults {
+namespace {
+
+std::string to_text(const Report& report) {
+    return std::string{"{\"is_overrun\": "} + (report.is_overrun ? "true" : "false") +
+           ", \"window\": " + std::to_string(report.window) +
+           ", \"component\": " + (report.is_overrun ? std::to_string(report.component) : "null") +
+           ", \"release_ns\": " + std::to_string(report.release.ns) +
+           ", \"woke_ns\": " + std::to_string(report.woke.ns) +
+           ", \"at_ns\": " + std::to_string(report.at.ns) +
+           ", \"lateness_ns\": " + std::to_string(report.lateness.ns) + "}";
+}
+
+/// Fields of one object, line by line.
+class Fields final {
+  public:
+    void add(const char* key, const std::string& value) {
+        text_ += (text_.empty() ? "\"" : ",\n \"") + std::string{key} + "\": " + value;
+    }
+    void add(const char* key, std::uint64_t value) { add(key, std::to_string(value)); }
+    void add(const char* key, std::int64_t value) { add(key, std::to_string(value)); }
+    void add_flag(const char* key, bool value) { add(key, std::string{value ? "true" : "false"}); }
+    /// Median, 99 of 100, and the greatest.
+    void add_times(const std::string& key, std::vector<std::int64_t> values) {
+        std::sort(values.begin(), values.end());
+        const auto quantile = [&values](std::size_t percent) {
+            return values.empty() ? std::int64_t{0} : values[(values.size() - 1U) * percent / 100U];
+        };
+        add((key + "_p50_ns").c_str(), quantile(50U));
+        add((key + "_p99_ns").c_str(), quantile(99U));
+        add((key + "_max_ns").c_str(), quantile(100U));
+    }
+    std::string get_object() const { return "{" + text_ + "}"; }
+
+  private:
+    std::string text_;
+};
+
+std::string to_text(const WatchVerdict& watch) {
+    Fields fields;
+    fields.add("holds", watch.holds);
+    fields.add("holds_seen", watch.holds_seen);
+    fields.add("clock_faults", watch.clock_faults);
+    fields.add("clock_faults_seen", watch.clock_faults_seen);
+    fields.add("masked", watch.masked);
+    fields.add("misnamed", watch.misnamed);
+    fields.add("unseen", watch.unseen);
+    fields.add("tardy", watch.tardy);
+    fields.add("tardy_by_host", watch.tardy_by_host);
+    fields.add("invented", watch.invented);
+    fields.add("by_host", watch.by_host);
+    fields.add_times("overdue", watch.overdue_ns);
+    fields.add_times("rate", watch.rate_ns);
+    fields.add_flag("is_well", watch.is_well());
+    return fields.get_object();
+}
+
+}  // namespace
+
+std::string to_json(const Request& request, const Verdict& verdict) {
+    std::string list;
+    for (const Report& report : verdict.unexplained) {
+        list += (list.empty() ? "\n  " : ",\n  ") + to_text(report);
+    }
+    Fields fields;
+    fields.add("schema", std::string{"\"mamori.time_faults/2\""});
+    fields.add("seed", request.seed);
+    fields.add("frames", verdict.frames);
+    fields.add("requested", verdict.requested);
+    fields.add("injected", verdict.injected);
+    fields.add("seen", verdict.seen);
+    fields.add("misnamed", verdict.misnamed);
+    fields.add("unseen", verdict.unseen);
+    fields.add("tardy", verdict.tardy);
+    fields.add("tardy_by_host", verdict.tardy_by_host);
+    fields.add("invented", verdict.invented);
+    fields.add("by_host", verdict.by_host);
+    fields.add("stalls", verdict.stalls);
+    fields.add("longest_stall_ns", verdict.longest_stall.ns);
+    fields.add_times("detection", verdict.detection_ns);
+    fields.add("unexplained", "[" + list + "]");
+    fields.add("locked_out", verdict.locked_out);
+    fields.add("locked_out_seen", verdict.locked_out_seen);
+    fields.add("watch", to_text(verdict.watch));
+    fields.add("requests", verdict.requests);
+    fields.add("reads_under_way", verdict.reads_under_way);
+    fields.add("major_faults", verdict.major_faults);
+    fields.add("minor_faults", verdict.minor_faults);
+    fields.add_flag("has_storm", verdict.has_storm);
+    fields.add_flag("has_locked_memory", verdict.has_locked_memory);
+    fields.add_flag("has_priority", verdict.has_priority);
+    fields.add_flag("is_well", verdict.is_well());
+    return fields.get_object() + "\n";
+}
+
+}  // namespace mamori::time_faults

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "victims.hpp"
+
+namespace mamori::time_faults {
+namespace {
+
+using namespace literals;  // NOLINT: units of the table below
+
+Victim alpha{"alpha", 0U};
+Victim beta{"beta", 1U};
+Victim gamma{"gamma", 2U};
+Victim delta{"delta", 3U};
+constexpr auto kSystem =
+    system(frame(kTick), window("first", 0_us, 300_us, budget(kBudget), mamori::run(alpha)),
+           window("second", 300_us, 300_us, budget(kBudget), mamori::run(beta, gamma)),
+           window("third", 600_us, 300_us, budget(kBudget), mamori::run(delta)));
+MAMORI_CHECK(kSystem);
+ExecutiveFor executive{kSystem};
+IntrospectionFor introspection{kSystem};
+std::array<Victim*, kComponentCount> victims{&alpha, &beta, &gamma, &delta};
+
+}  // namespace
+
+Surroundings& get_surroundings() noexcept {
+    static Surroundings surroundings;
+    return surroundings;
+}
+
+Victim& get_victim(std::size_t component) noexcept {
+    return *victims[component];
+}
+
+Executive& get_executive() noexcept {
+    return executive;
+}
+
+Introspection& get_introspection() noexcept {
+    return introspection;
+}
+
+Status Victim::on_execute(ContextHandle) noexcept {
+    meter_.look();
+    const std::int64_t size = size_ns_.exchange(0, std::memory_order_acquire);
+    if (size == 0) {
+        return Status::kOk;
+    }
+    Surroundings& around = get_surroundings();
+    const Instant begin = around.clock->get_now();
+    Doing& deed = (*around.deeds)[around.deed_count.fetch_add(1U, std::memory_order_relaxed)];
+    deed.component = place_;
+    deed.begin = begin;
+    deed.cause = cause_;
+    if (way_ == Way::kLock) {
+        const std::lock_guard<std::mutex> lock{*around.mutex};
+    } else {
+        const Instant end = begin + Duration{size};
+        if (way_ == Way::kSleep) {
+            around.clock->wait_until(end);
+        }
+        while (around.clock->get_now() < end) {
+        }
+    }
+    deed.end_ns.store(around.clock->get_now().ns, std::memory_order_release);
+    return Status::kOk;
+}
+
+}  // namespace mamori::time_faults

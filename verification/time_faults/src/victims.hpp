@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The system that faults of time are put into: three windows in a frame of 1 kHz, four components that take
+/// too long when they are told to.
+#ifndef MAMORI_TIME_FAULTS_VICTIMS_HPP
+#define MAMORI_TIME_FAULTS_VICTIMS_HPP
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "judge.hpp"
+#include "mamori/kernel/component.hpp"
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/introspection.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "page_storm.hpp"
+
+namespace mamori::time_faults {
+
+/// What a component does too long.
+enum class Way : std::uint8_t { kCompute, kSleep, kLock };
+
+/// A deed that is under way. The thread that does it may be given up meanwhile, and comes back all the same.
+struct Doing {
+    std::size_t component{0U};
+    Instant begin{};
+    Cause cause{Cause::kWork};
+    std::atomic<std::int64_t> end_ns{0};
+};
+
+/// What the components use; set before the run, for work that never has to look for it.
+struct Surroundings {
+    const ports::posix_rt::FrameClock* clock{nullptr};
+    std::vector<Doing>* deeds{nullptr};  ///< room for all of the run
+    std::mutex* mutex{nullptr};
+    std::atomic<std::size_t> deed_count{0U};
+};
+Surroundings& get_surroundings() noexcept;
+
+class Victim final : public Component {
+  public:
+    constexpr explicit Victim(const char* name, std::size_t place) noexcept
+        : Component(name), place_(place) {}
+
+    /// The next cycle takes `size`, or with kLock as long as the mutex is held.
+    void arm(Way way, Cause cause, Duration size) noexcept {
+        way_ = way;
+        cause_ = cause;
+        size_ns_.store(size.ns, std::memory_order_release);
+    }
+    Status on_execute(ContextHandle handle) noexcept override;
+    const PageMeter& get_meter() const noexcept { return meter_; }
+
+  private:
+    std::size_t place_;
+    Way way_{Way::kCompute};
+    Cause cause_{Cause::kWork};
+    std::atomic<std::int64_t> size_ns_{0};
+    PageMeter meter_;
+};
+
+inline constexpr std::size_t kComponentCount = 4U;
+inline constexpr std::size_t kWindowCount = 3U;
+inline constexpr Duration kBudget{200'000};
+
+/// The window of each component.
+inline constexpr std::array<std::size_t, kComponentCount> kWindowOf{0U, 1U, 1U, 2U};
+
+Victim& get_victim(std::size_t component) noexcept;
+Executive& get_executive() noexcept;
+Introspection& get_introspection() noexcept;
+
+}  // namespace mamori::time_faults
+
+#endif  // MAMORI_TIME_FAULTS_VICTIMS_HPP
