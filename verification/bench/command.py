@@ -19,6 +19,8 @@ from mamori.verification.bench.bars import Bars, load_bars
 from mamori.verification.bench.baseline import (FILE, Baseline, CountResult, calc_count, judge_count, load_baseline,
                                                 write_baseline)  # fmt: skip
 from mamori.verification.bench.callgrind import ask_about, makes_system_calls, run_profiles
+from mamori.verification.bench.grid import METRIC as GRID
+from mamori.verification.bench.grid import add_grid, measure_grid
 from mamori.verification.bench.judge import judge
 from mamori.verification.bench.programs import NORMAL, QUICK, Effort, Programs
 from mamori.verification.bench.record import Run, collect_host, make_record, write_record
@@ -35,6 +37,7 @@ BENCHES = {
     "port": "write and read of a port, one thread: 8 B, 64 B, 1 KB, 64 KB",
     "scheduler": "a component per cycle, with and without supervision: 10, 100, 1000 components",
     "wake-up": "wake-up of another thread: the guarded host of the real-time port, and the floor",
+    GRID: "lateness of wake-ups at 1 kHz: the grid of the real-time port, and cyclictest; needs a fixed priority",
     EXACT: "exact instruction counts (callgrind), and no heap or system call after start",
 }
 SEALED = ("port_8", "port_64", "cycle_20", "supervised_cycle_20")
@@ -101,8 +104,14 @@ class Work:
         tools.build_programs(self.programs, targets, context.jobs, tick, log)
 
     def measure(self, context: Context, tick: Tick, log: TextIO) -> None:
-        tools.run_bench(self.programs, self.request.metrics, self.request.effort, self.samples_file, tick, log)
-        samples = name_reason(_read(self.samples_file), self.iceoryx2_reason)
+        effort = self.request.effort
+        samples = Samples({}, {}, "", "", effort.rounds)
+        batched = [metric for metric in self.request.metrics if metric != GRID]
+        if batched:
+            tools.run_bench(self.programs, batched, effort, self.samples_file, tick, log)
+            samples = name_reason(_read(self.samples_file), self.iceoryx2_reason)
+        if GRID in self.request.metrics:
+            samples = add_grid(samples, *measure_grid(self.programs, effort, self.samples_file.parent, tick, log))
         self.run = replace(self.run, samples=samples, ratios=judge(samples, self.bars))
 
     def count(self, context: Context, tick: Tick, log: TextIO) -> None:

@@ -30,11 +30,12 @@ class Effort:
     rounds: int
     batches: int
     batch_ns: int
+    grid_cycles: int  # wake-ups of each program in a round, a millisecond each
 
 
 # A batch is far below the time slice of a scheduler, so that most are not interrupted.
-NORMAL = Effort(rounds=15, batches=21, batch_ns=400_000)
-QUICK = Effort(rounds=5, batches=11, batch_ns=100_000)
+NORMAL = Effort(rounds=15, batches=21, batch_ns=400_000, grid_cycles=1000)
+QUICK = Effort(rounds=5, batches=11, batch_ns=100_000, grid_cycles=250)
 
 
 @dataclass(frozen=True)

@@ -5,22 +5,26 @@ from __future__ import annotations
 
 import copy
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from mamori.profiles.input_error import InputError
+from mamori.verification.bench import grid
 from mamori.verification.bench.bars import Bars, GrowthBar, RatioBar, load_bars
 from mamori.verification.bench.command import BENCHES, list_benches, name_reason
 from mamori.verification.bench.judge import ABSENT, FAILED, PASSED, RatioResult, judge
 from mamori.verification.bench.picture import draw_run
-from mamori.verification.bench.programs import NORMAL, QUICK
+from mamori.verification.bench.programs import NORMAL, QUICK, Programs
 from mamori.verification.bench.record import Run, collect_host, make_record, write_record
 from mamori.verification.bench.samples import parse_samples, read_samples
 from mamori.verification.bench.table import format_ratio, format_time, show_run
 from mamori.verification.command.console import Screen
+from mamori.verification.command.errors import StepError
 from mamori.verification.command.main import main
+from mamori.verification.command.project import Project
 
 
 def make_case(size: int, subjects: dict[str, list[float]], metric: str = "port") -> dict[str, Any]:
@@ -237,3 +241,92 @@ def test_bars_of_another_form_are_refused(tmp_path: Path, text: str, sentence: s
 @pytest.mark.verifies("SWR-BEN-001", technique="boundary_values")
 def test_every_effort_has_rounds_enough() -> None:
     assert min(NORMAL.rounds, QUICK.rounds) >= 5
+
+
+class GridBox:
+    """Programs of a grid made of words: each call of one gives the next of its answers."""
+
+    def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch, answers: dict[str, list[str | int]]) -> None:
+        self.calls: list[str] = []
+        self.folder = folder
+        self.answers = answers
+        monkeypatch.setattr(grid, "run_logged", self.run)
+        monkeypatch.setattr(grid.shutil, "which", lambda name: name if name in answers else None)
+
+    def run(self, argv: list[str], log: Path, cwd: Path, tick: Any) -> int:
+        name = Path(argv[0]).name
+        self.calls.append(name)
+        answer = self.answers[name].pop(0)
+        if isinstance(answer, int):
+            log.write_text("the machine grants no fixed priority\n", encoding="utf-8")
+            return answer
+        (self.folder / "grid.json").write_text(answer, encoding="utf-8")
+        return 0
+
+    def measure(self, rounds: int) -> tuple[dict[str, list[grid.Turn]], dict[str, str]]:
+        effort = replace(QUICK, rounds=rounds, grid_cycles=4)
+        with (self.folder / "log").open("a", encoding="utf-8") as log:
+            return grid.measure_grid(Programs(Project(self.folder)), effort, self.folder, lambda _: None, log)
+
+
+def ours_says(*lateness: int) -> str:
+    return json.dumps({"schema": "mamori.bench.grid/1", "lateness_ns": lateness})
+
+
+def peer_says(histogram: dict[str, int], cycles: int, resolution: int = 1) -> str:
+    return json.dumps({"resolution_in_ns": resolution, "thread": {"0": {"histogram": histogram, "cycles": cycles}}})
+
+
+@pytest.mark.verifies("SWR-BEN-009")
+def test_grid_takes_turns_and_compares_percentiles(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    box = GridBox(tmp_path, monkeypatch, {"mamori_bench": [ours_says(30, 10, 20, 90), ours_says(20, 20, 20, 20)],
+                                          "cyclictest": [peer_says({"10": 2, "20": 2}, 4), peer_says({"10": 4}, 4)]})  # fmt: skip
+
+    turns, absent = box.measure(2)
+
+    assert box.calls == ["cyclictest", "mamori_bench", "mamori_bench", "cyclictest"]
+    assert absent == {}
+    samples = grid.add_grid(parse_samples(RECORDED), turns, absent)
+    assert samples.cases["grid", 50].series["mamori grid"].rounds_ns == (20.0, 20.0)
+    assert samples.cases["grid", 50].series["cyclictest"].rounds_ns == (10.0, 10.0)
+    assert samples.cases["port", 8].size == 8, "what was measured before stays"
+    results = [one for one in judge(samples, load_bars()) if one.id == "P7"]
+    assert [(one.size, one.ratio, one.limit, one.kind) for one in results] == [(50, 2.0, 1.3, "advisory"),
+                                                                               (99, 1.75, 1.5, "advisory")]  # fmt: skip
+
+
+@pytest.mark.verifies("SWR-BEN-009", technique="boundary_values")
+def test_percentile_counts_what_was_too_long_for_the_histogram() -> None:
+    turn = grid.Turn({5: 50, 7: 48}, 100)
+
+    assert [turn.calc_percentile(percent) for percent in (0, 49, 50, 51, 98, 99)] == [5.0, 5.0, 5.0, 7.0, 7.0, 1e6]
+    assert grid.Turn({0: 1}, 1).calc_percentile(50) == 1.0, "a time of nothing has no ratio"
+
+
+@pytest.mark.verifies("SWR-BEN-009", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize(
+    ("answers", "missing", "reason"),
+    [({"mamori_bench": [ours_says(10)] * 5}, "cyclictest", "install rt-tests"),
+     ({"mamori_bench": [ours_says(10)] * 5, "cyclictest": [1]}, "cyclictest", "grants no fixed priority"),
+     ({"mamori_bench": [1], "cyclictest": [peer_says({"10": 1}, 1)] * 5}, "mamori grid", "grants no fixed priority")],
+)  # fmt: skip
+def test_grid_without_a_program_or_its_rights_is_not_available(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answers: dict[str, list[str | int]], missing: str, reason: str
+) -> None:
+    turns, absent = GridBox(tmp_path, monkeypatch, answers).measure(5)
+
+    assert list(absent) == [missing] and missing not in turns
+    results = [one for one in judge(grid.add_grid(parse_samples(RECORDED), turns, absent), load_bars()) if one.id == "P7"]
+    assert {one.verdict for one in results} == {ABSENT}
+    assert all(reason in one.note for one in results)
+    assert Run(ratios=results).failed == []
+
+
+@pytest.mark.verifies("SWR-BEN-009", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize("answer", ["", "{}", peer_says({"10": 1}, 1, resolution=0), peer_says({"x": 1}, 1)])
+def test_words_of_cyclictest_that_are_no_figures_end_the_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answer: str
+                                                              ) -> None:  # fmt: skip
+    box = GridBox(tmp_path, monkeypatch, {"mamori_bench": [ours_says(10)] * 5, "cyclictest": [answer]})
+
+    with pytest.raises(StepError, match="cyclictest wrote no figures"):
+        box.measure(5)

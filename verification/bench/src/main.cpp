@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catalogue.hpp"
+#include "grid_wake_ups.hpp"
 #include "rounds.hpp"
 
 namespace mamori::verification::bench {
@@ -22,8 +23,21 @@ using nlohmann::json;
 struct Options {
     Effort effort{};
     std::vector<std::string> only{};
+    GridRequest grid{};
     std::string out{};
 };
+
+/// @return exit status.
+int write(const nlohmann::json& document, const std::string& path) {
+    std::ofstream file(path);
+    file << document.dump(1) << '\n';
+    file.close();
+    if (!file) {
+        std::cerr << path << ": the samples could not be written; check the folder\n";
+        return 1;
+    }
+    return 0;
+}
 
 json to_json(const std::vector<AbsentPeer>& absent) {
     json list = json::array();
@@ -70,14 +84,12 @@ int run(const Options& options) {
     for (const Measured& each : results) {
         document["cases"].push_back(to_json(each));
     }
-    std::ofstream file(options.out);
-    file << document.dump(1) << '\n';
-    file.close();
-    if (!file) {
-        std::cerr << options.out << ": the samples could not be written; check the folder\n";
-        return 1;
-    }
-    return 0;
+    return write(document, options.out);
+}
+
+int run_grid(const Options& options) {
+    return write({{"schema", "mamori.bench.grid/1"}, {"lateness_ns", measure_grid(options.grid)}},
+                 options.out);
 }
 
 }  // namespace
@@ -94,8 +106,19 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1'000'000'000));
     app.add_option("--only", options.only, "metrics to measure")
         ->check(CLI::IsMember({"port", "scheduler", "wake-up"}));
+    CLI::App* const grid =
+        app.add_subcommand("grid", "wake-ups on a grid of 1 kHz instead; needs the rights");
+    grid->add_option("--cycles", options.grid.cycles, "wake-ups")
+        ->required()
+        ->check(CLI::Range(1, 1'000'000));
+    grid->add_option("--priority", options.grid.priority, "of SCHED_FIFO")->check(CLI::Range(2, 99));
+    grid->add_option("--processor", options.grid.processor, "where all threads run")
+        ->check(CLI::Range(0, 1023));
     CLI11_PARSE(app, argc, argv);
     try {
+        if (grid->parsed()) {
+            return mamori::verification::bench::run_grid(options);
+        }
         return mamori::verification::bench::run(options);
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
