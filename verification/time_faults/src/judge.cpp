@@ -38,6 +38,7 @@ class Judge final {
         verdict.locked_out += deed.cause == Cause::kLock ? 1U : 0U;
         if (first == nullptr) {
             ++(is_misnamed ? verdict.misnamed : verdict.unseen);
+            verdict.overlooked.push_back(deed);
             return;
         }
         ++verdict.seen;

@@ -33,6 +33,21 @@ struct Report {
     Duration lateness{};  ///< of a late release
 };
 
+/// Why a component took too long.
+enum class Cause : std::uint8_t {
+    kWork,        ///< it computed or waited
+    kLock,        ///< it waited for a mutex that a thread without priority held
+    kStuckGuard,  ///< it computed, and the guard did not come back in time either
+};
+
+/// A component that took too long.
+struct Deed {
+    std::size_t component{0U};
+    Instant begin{};
+    Instant end{};
+    Cause cause{Cause::kWork};
+};
+
 /// What became of a run. All is well when nearly all faults took effect, each was seen, and nothing was
 /// misnamed, unseen, tardy or invented.
 struct Verdict {
@@ -50,6 +65,7 @@ struct Verdict {
     Duration longest_stall{};
     std::vector<std::int64_t> detection_ns{};  ///< from the deadline of each overrun to its report
     std::vector<Report> unexplained{};         ///< those that were invented
+    std::vector<Deed> overlooked{};            ///< those that were misnamed or unseen
     std::uint64_t locked_out{0U};              ///< of those injected: components that waited for a held mutex
     std::uint64_t locked_out_seen{0U};         ///< reported, under the right name
     WatchVerdict watch{};                      ///< its wrong clocks are among those injected and seen
@@ -71,21 +87,6 @@ struct Verdict {
         return !has_locked_memory || (major_faults == 0 && minor_faults <= kMinorFaultsMax);
     }
     bool is_well() const noexcept { return are_reports_well() && watch.is_well() && are_pages_well(); }
-};
-
-/// Why a component took too long.
-enum class Cause : std::uint8_t {
-    kWork,        ///< it computed or waited
-    kLock,        ///< it waited for a mutex that a thread without priority held
-    kStuckGuard,  ///< it computed, and the guard did not come back in time either
-};
-
-/// A component that took too long.
-struct Deed {
-    std::size_t component{0U};
-    Instant begin{};
-    Instant end{};
-    Cause cause{Cause::kWork};
 };
 
 /// A window that was held back.

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <fstream>
+#include <string>
 
 namespace mamori::time_faults {
 namespace {
@@ -53,6 +55,18 @@ bool PageStorm::stop() noexcept {
     }
     process_ = -1;
     return has_blown;
+}
+
+bool has_locked_pages() {
+    std::ifstream status{"/proc/self/status"};
+    std::string word;
+    while (status >> word) {
+        if (word == "VmLck:") {
+            std::size_t size_kb = 0U;
+            return status >> size_kb && size_kb > 0U;
+        }
+    }
+    return false;
 }
 
 void PageMeter::look() noexcept {

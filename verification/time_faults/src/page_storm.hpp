@@ -30,6 +30,9 @@ class PageStorm final {
     pid_t process_{-1};
 };
 
+/// @return whether memory of this process is locked in truth: the sanitizers let mlockall() do nothing.
+bool has_locked_pages();
+
 /// Page faults of the thread that calls look(), since its first call.
 ///
 /// Thread safety: look() by one thread, the rest from any.

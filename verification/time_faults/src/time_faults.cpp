@@ -161,7 +161,7 @@ Verdict run(const Request& request) {
     verdict.reads_under_way = director.get_reads_under_way();
     verdict.requests = load.get_request_count();
     verdict.has_storm = has_blown;
-    verdict.has_locked_memory = memory.is_granted;
+    verdict.has_locked_memory = memory.is_granted && has_locked_pages();
     add_page_faults(verdict);
     return verdict;
 }

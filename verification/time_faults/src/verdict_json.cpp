@@ -41,6 +41,32 @@ class Fields final {
     std::string text_;
 };
 
+std::string to_text(const Deed& deed) {
+    Fields fields;
+    fields.add("component", std::uint64_t{deed.component});
+    fields.add("begin_ns", deed.begin.ns);
+    fields.add("end_ns", deed.end.ns);
+    return fields.get_object();
+}
+
+std::string to_text(const ports::posix_rt::GridFinding& finding) {
+    const bool is_overdue = finding.fault == ports::posix_rt::GridFault::kOverdue;
+    Fields fields;
+    fields.add_flag("is_overdue", is_overdue);
+    fields.add("due_ns", is_overdue ? std::to_string(finding.due.ns) : "null");
+    fields.add("seen_ns", finding.seen.ns);
+    return fields.get_object();
+}
+
+template <typename Element>
+std::string to_list(const std::vector<Element>& elements) {
+    std::string list;
+    for (const Element& element : elements) {
+        list += (list.empty() ? "\n  " : ",\n  ") + to_text(element);
+    }
+    return "[" + list + "]";
+}
+
 std::string to_text(const WatchVerdict& watch) {
     Fields fields;
     fields.add("holds", watch.holds);
@@ -56,6 +82,7 @@ std::string to_text(const WatchVerdict& watch) {
     fields.add("by_host", watch.by_host);
     fields.add_times("overdue", watch.overdue_ns);
     fields.add_times("rate", watch.rate_ns);
+    fields.add("unexplained", to_list(watch.unexplained));
     fields.add_flag("is_well", watch.is_well());
     return fields.get_object();
 }
@@ -63,10 +90,6 @@ std::string to_text(const WatchVerdict& watch) {
 }  // namespace
 
 std::string to_json(const Request& request, const Verdict& verdict) {
-    std::string list;
-    for (const Report& report : verdict.unexplained) {
-        list += (list.empty() ? "\n  " : ",\n  ") + to_text(report);
-    }
     Fields fields;
     fields.add("schema", std::string{"\"mamori.time_faults/2\""});
     fields.add("seed", request.seed);
@@ -83,7 +106,8 @@ std::string to_json(const Request& request, const Verdict& verdict) {
     fields.add("stalls", verdict.stalls);
     fields.add("longest_stall_ns", verdict.longest_stall.ns);
     fields.add_times("detection", verdict.detection_ns);
-    fields.add("unexplained", "[" + list + "]");
+    fields.add("unexplained", to_list(verdict.unexplained));
+    fields.add("overlooked", to_list(verdict.overlooked));
     fields.add("locked_out", verdict.locked_out);
     fields.add("locked_out_seen", verdict.locked_out_seen);
     fields.add("watch", to_text(verdict.watch));

@@ -47,8 +47,14 @@ class WatchJudge final {
     /// What is left is the machine's doing or nobody's. A machine that stands still makes no clock wrong.
     void judge_rest(WatchVerdict& verdict) const {
         for (std::size_t i = 0U; i < found_.size(); ++i) {
-            if (!explained_[i]) {
-                ++(is_by_host(found_[i]) ? verdict.by_host : verdict.invented);
+            if (explained_[i]) {
+                continue;
+            }
+            if (is_by_host(found_[i])) {
+                ++verdict.by_host;
+            } else {
+                ++verdict.invented;
+                verdict.unexplained.push_back(found_[i].finding);
             }
         }
     }

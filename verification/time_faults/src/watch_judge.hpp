@@ -61,6 +61,7 @@ struct WatchVerdict {
     std::uint64_t by_host{0U};        ///< found without a fault, while the machine stood still
     std::vector<std::int64_t> overdue_ns{};  ///< from the instant that was due to the finding
     std::vector<std::int64_t> rate_ns{};     ///< from the first wrong rate to the finding
+    std::vector<ports::posix_rt::GridFinding> unexplained{};  ///< those that were invented
 
     bool is_well() const noexcept { return misnamed + unseen + tardy + invented == 0U; }
 };

@@ -115,6 +115,12 @@ TEST(PageStormTest, TheMeterCountsThePageFaultsOfItsThread) {
     ASSERT_EQ(munmap(memory, kPages * 4096U), 0);
 }
 
+TEST(PageStormTest, LockedPagesAreFoundWhereTheKernelCountsThem) {
+    verifies("SWR-PRT-037", Technique::kBackToBack);
+    ASSERT_EQ(munlockall(), 0);
+    EXPECT_FALSE(has_locked_pages());
+}
+
 TEST(PageStormTest, ItBlowsUntilItIsStopped) {
     verifies("SWR-PRT-037", Technique::kFaultInjection);
     PageStorm none{0U};
