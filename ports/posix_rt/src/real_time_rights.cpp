@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kPage = 4096U;
 constexpr std::size_t kStackMax = 1U << 20U;
+constexpr std::size_t kRoom = 64U << 20U;
 
 Right to_right(int system_error) noexcept {
     return {system_error == 0, system_error};
@@ -24,6 +25,21 @@ void touch_stack(std::size_t size) noexcept {
     for (std::size_t i = 0U; i < size; i += kPage) {
         stack[kStackMax - 1U - i] = 0U;
     }
+}
+
+/// Locks all, and gives it back where a limit (RLIMIT_MEMLOCK) leaves too little for what comes later: with
+/// it in force the stack of the next thread could not be had.
+int lock_all() noexcept {
+    if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+        return errno;
+    }
+    void* const room = mmap(nullptr, kRoom, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (room == MAP_FAILED) {
+        static_cast<void>(munlockall());
+        return ENOMEM;
+    }
+    static_cast<void>(munmap(room, kRoom));
+    return 0;
 }
 
 }  // namespace
@@ -48,7 +64,7 @@ Right set_processor(pthread_t thread, int processor) noexcept {
 }
 
 Right lock_memory(std::size_t stack_size) noexcept {
-    const int result = mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? 0 : errno;
+    const int result = lock_all();
     touch_stack(stack_size < kStackMax ? stack_size : kStackMax);
     return to_right(result);
 }

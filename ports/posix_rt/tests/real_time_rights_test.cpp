@@ -7,7 +7,11 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "mamori/verification/verifies.hpp"
@@ -88,6 +92,38 @@ TEST(RealTimeRightsTest, MemoryIsLockedOrRefusedForWantOfTheRight) {
     EXPECT_TRUE(right.is_granted || right.system_error == EPERM || right.system_error == ENOMEM);
     EXPECT_EQ(right.is_granted, right.system_error == 0);
     ASSERT_EQ(munlockall(), 0);
+}
+
+/// 0: a thread could be started after the memory was asked for; run in a process without rights.
+int start_thread_under_limit() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_MEMLOCK, &limit) != 0) {
+        return 2;
+    }
+    limit.rlim_max = std::min<rlim_t>(limit.rlim_max, 16U << 20U);
+    limit.rlim_cur = limit.rlim_max;
+    if (setrlimit(RLIMIT_MEMLOCK, &limit) != 0 || (geteuid() == 0U && setresuid(65534, 65534, 65534) != 0)) {
+        return 3;
+    }
+    const Right right = lock_memory(64U * 1024U);
+    pthread_t thread{};
+    const bool has_started = pthread_create(
+                                 &thread, nullptr, [](void*) -> void* { return nullptr; }, nullptr) == 0 &&
+                             pthread_join(thread, nullptr) == 0;
+    // The sanitizers let mlockall() do nothing, and then it is granted.
+    return has_started && (right.is_granted || right.system_error == ENOMEM) ? 0 : 1;
+}
+
+TEST(RealTimeRightsTest, MemoryIsNotLockedUnderALimitThatWouldKeepThreadsFromStarting) {
+    verifies("SWR-PRT-002", Technique::kFaultInjection, Polarity::kViolation);
+    const pid_t child = fork();
+    if (child == 0) {
+        _exit(start_thread_under_limit());
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ Right set_processor(pthread_t thread, int processor) noexcept;
 /// Locks all memory of the process, now and later, and touches `stack_size` bytes of the stack of the caller,
 /// so that no page has to be fetched in a window.
 /// @param[in] stack_size [byte] at most 1 MiB is touched.
-/// @return refused without the right for that much memory (EPERM, ENOMEM).
+/// @return refused without the right for that much memory and 64 MiB more, which the stacks of threads that
+/// are started later take (EPERM, ENOMEM); then nothing is locked.
 Right lock_memory(std::size_t stack_size) noexcept;
 
 }  // namespace mamori::ports::posix_rt
