@@ -87,7 +87,7 @@ class Notes final : public OpeningObserver {
 }  // namespace
 
 Status Grid::open() {
-    static_cast<void>(ports::posix_rt::lock_memory(256U * 1024U));
+    static_cast<void>(ports::posix_rt::lock_memory(std::size_t{256U} * 1024U));
     const ports::posix_rt::Right right =
         combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
                 ports::posix_rt::set_processor(pthread_self(), find_processor()));

@@ -125,7 +125,7 @@ Verdict run(const Request& request) {
     static FaultyTime time{2U * request.injection_count};
     static const FrameClock clock = FrameClock::starting_in(kLead, time);
     static std::vector<Doing> deeds(request.injection_count + 1U);
-    const Right memory = ports::posix_rt::lock_memory(256U * 1024U);
+    const Right memory = ports::posix_rt::lock_memory(std::size_t{256U} * 1024U);
     // All on one processor, or whoever tells of stalls would watch another one.
     const int processor = find_processor();
     static Inversion inversion{clock, kMiddlePriority, processor};
