@@ -2,8 +2,9 @@
 """Judges mutants: each alone by the tests that most likely find it, and those that are left together by all the others.
 
 Most mutants are found by one of a few tests. Those that are not would have to be compiled into every test that includes their
-file, most of them for nothing; so they go into one copy, which is tried once for all of them. A test that fails for all is run for
-each of them alone, and only that counts as found. So a mutant that survives has passed every test, alone or in company.
+file, most of them for nothing; so they go into one copy, which is tried once for all of them. The cases of
+a test that fail for all are run for each of them alone, and only that counts as found. So a mutant that survives has passed every
+case of every test, alone or in company.
 
 @satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#mutants-that-count
 """
@@ -32,6 +33,9 @@ COMPILE_TIME_CHECK = re.compile(
     r"static assertion failed|static assertion expression is not an integral constant"
     r"|must be initialized by a constant expression|is not a constant expression"
 )
+FAILED_CASE = re.compile(r"^\[  FAILED  \] (\w[\w/]*\.[\w/]+)", re.MULTILINE)
+CASES_FAILED = 1  # status of a test program that came to its end
+AT_ONCE = ("--gtest_fail_fast",)
 FIRST_ERROR = re.compile(r"error: (?P<text>[^\n]*)")
 
 
@@ -55,10 +59,11 @@ class Suspect:
 
 @dataclass(frozen=True)
 class Fate:
-    """Why the mutants of a trial are no original."""
+    """Why the mutants of a trial are no original. `cases` of the test failed, when only some of them did."""
 
     verdict: str
     killer: str = ""
+    cases: tuple[str, ...] = ()
 
 
 class Trial:
@@ -81,7 +86,7 @@ class Trial:
         parts = {test.path, *self._bench.baseline.links[test.path]}
         return test.path in self._bound or not parts.isdisjoint(self._left) or not parts.isdisjoint(self._changed)
 
-    def run(self, test: Unit) -> Fate | None:
+    def run(self, test: Unit, options: Sequence[str]) -> Fate | None:
         """Compiles what the program of `test` consists of, and runs it if a byte of it changed. @return None when it passes."""
         parts = {test.path, *self._bench.baseline.links[test.path]}
         for unit in [self._left[path] for path in sorted(parts & self._left.keys())]:
@@ -90,10 +95,11 @@ class Trial:
         if test.path not in self._bound and parts.isdisjoint(self._changed):
             return None
         self._bench.put(self._texts)
-        status, words = self._bench.run_test(test, self._changed, self._bench.baseline.calc_timeout(test))
+        status, words = self._bench.run_test(test, self._changed, self._bench.baseline.calc_timeout(test), *options)
         if status == 0:
             return None
-        return Fate(KILLED, f"{test.path} {words}" if words == TIMED_OUT else test.path)
+        cases = tuple(FAILED_CASE.findall(words)) if status == CASES_FAILED else ()
+        return Fate(KILLED, f"{test.path} {words}" if words == TIMED_OUT else test.path, cases)
 
     def compile(self, unit: Unit) -> Fate | None:
         """Compiles `unit` if that is still to be done. @return why it is refused, or None."""
@@ -134,7 +140,7 @@ def screen(bench: Bench, mutant: Mutant, sources: Mapping[str, bytes]) -> Result
     for test in bench.baseline.order_tests((mutant.file,)):
         if not trial.concerns(test):
             continue
-        if fate := trial.run(test):
+        if fate := trial.run(test, AT_ONCE):
             return _note(bench, mutant, fate, test)
         passed.add(test.path)
         if len(passed) == LIKELY:
@@ -167,15 +173,17 @@ class Court:
         self._together = self._gather()
 
     def try_all(self, test: Unit) -> None:
-        """Runs `test` for all, and for each alone when it fails."""
+        """Runs `test` for all, and the cases of it that fail for each alone."""
         due = [suspect for suspect in self._alive if test.path not in suspect.passed]
         if due and self._together.concerns(test):
-            self._decide(due, test, lambda trial: trial.run(test))
+            fate = self._together.run(test, AT_ONCE if len(self._alive) == 1 else ())
+            options = (f"--gtest_filter={':'.join(fate.cases)}", *AT_ONCE) if fate is not None and fate.cases else AT_ONCE
+            self._decide(due, test, fate, lambda trial: trial.run(test, options))
 
     def compile_all(self, unit: Unit) -> None:
         """The same for a unit that is to compile and to do no more."""
         if self._alive:
-            self._decide(self._alive, unit, lambda trial: trial.compile(unit))
+            self._decide(self._alive, unit, self._together.compile(unit), lambda trial: trial.compile(unit))
 
     def close(self) -> list[Result]:
         """@return the results of all suspects."""
@@ -186,8 +194,8 @@ class Court:
             self._results[suspect.mutant] = Result(suspect.mutant, EQUIVALENT if is_same else SURVIVED)
         return [self._results[suspect.mutant] for suspect in self._suspects]
 
-    def _decide(self, due: Sequence[Suspect], unit: Unit, attempt: Callable[[Trial], Fate | None]) -> None:
-        fate = attempt(self._together)
+    def _decide(self, due: Sequence[Suspect], unit: Unit, fate: Fate | None, attempt: Callable[[Trial], Fate | None]) -> None:
+        """@param fate of all together. @param attempt tells that of one alone."""
         if fate is None:
             return
         fates = {due[0]: fate} if len(self._alive) == 1 else {suspect: attempt(self._alone(suspect)) for suspect in due}

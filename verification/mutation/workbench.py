@@ -212,13 +212,13 @@ class Bench:
         _, words = self._link(test, {}, "-Wl,-t,-t")
         return set(re.findall(rf"^\({re.escape(str(self.baseline.archive))}\)(\S+)$", words, re.MULTILINE))
 
-    def run_test(self, test: Unit, changed: Mapping[str, Path], timeout_s: float) -> tuple[int, str]:
-        """Links and runs one test. @param changed objects that take the place of the original ones.
+    def run_test(self, test: Unit, changed: Mapping[str, Path], timeout_s: float, *options: str) -> tuple[int, str]:
+        """Links and runs one test. @param changed objects that take the place of the original ones. @param options for the test.
         @return status, and why when it is not 0."""
         status, words = self._link(test, changed)
         if status != 0:
             return status, words
-        return _run((str(self._program(test)), "--gtest_fail_fast", "--gtest_brief=1"), timeout_s, cwd=self.folder)
+        return _run((str(self._program(test)), "--gtest_brief=1", *options), timeout_s, cwd=self.folder)
 
     def _link(self, test: Unit, changed: Mapping[str, Path], *options: str) -> tuple[int, str]:
         own = changed.get(test.path, self.baseline.get_object(test))
