@@ -25,7 +25,7 @@ from mamori.verification.mutation.trial import KILLED, SURVIVED, Result, Suspect
 from mamori.verification.mutation.workbench import TEST_TIMEOUT_S, Baseline, Bench
 
 SCHEMA = "mamori.mutation/2"
-SWEEP = 100  # mutants between two times that those are judged which are left
+SWEEP = 400  # mutants between two times that those are judged which are left
 Progress = Callable[[Result, int, int], None]
 
 

@@ -12,7 +12,7 @@ case of every test, alone or in company.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,7 +26,7 @@ INVALID = "does not compile"
 EQUIVALENT = "same object code"
 
 LIKELY = 4  # tests that a mutant is tried by alone
-COMPANY = 10  # mutants that are tried together
+COMPANY = 20  # mutants that are tried together
 
 # The compiler evaluates tables and checks of tables: a mutant that it refuses for their sake was found by a check.
 COMPILE_TIME_CHECK = re.compile(
@@ -118,7 +118,7 @@ class Trial:
             self.differing.append(unit)
         return None
 
-    def has_same_code(self, units: Sequence[Unit]) -> bool:
+    def has_same_code(self, units: Iterable[Unit]) -> bool:
         """Whether the optimised code of all `units` is that of the original."""
         self._bench.put(self._texts)
         return all(self._bench.hash_assembler(unit) == self._bench.baseline.get_assembler(unit)
@@ -187,12 +187,22 @@ class Court:
 
     def close(self) -> list[Result]:
         """@return the results of all suspects."""
-        self._keep_differing()
+        for seen in (self._together, *self._alive):
+            self._keep(seen.differing)
+        units = self._sort_by_code()
         for suspect in self._alive:
-            units = {unit.path: unit for unit in suspect.differing} | self._differing
-            is_same = self._alone(suspect).has_same_code(list(units.values()))
+            own = {unit.path for unit in suspect.differing}
+            is_same = self._alone(suspect).has_same_code(sorted(units, key=lambda unit: (units[unit], unit.path not in own)))
             self._results[suspect.mutant] = Result(suspect.mutant, EQUIVALENT if is_same else SURVIVED)
         return [self._results[suspect.mutant] for suspect in self._suspects]
+
+    def _sort_by_code(self) -> dict[Unit, bool]:
+        """The units that may differ, and whether their optimised code is the same when all that are left are in it: where it is
+        not, one of them alone is soonest seen to differ."""
+        units = list(self._differing.values())
+        if len(self._alive) < 2:
+            return dict.fromkeys(units, False)
+        return {unit: self._together.has_same_code((unit,)) for unit in units}
 
     def _decide(self, due: Sequence[Suspect], unit: Unit, fate: Fate | None, attempt: Callable[[Trial], Fate | None]) -> None:
         """@param fate of all together. @param attempt tells that of one alone."""
@@ -203,15 +213,15 @@ class Court:
         for suspect, fate in found.items():
             self._results[suspect.mutant] = _note(self._bench, suspect.mutant, fate, unit)
         if found:
-            self._keep_differing()
+            self._keep(self._together.differing)
             self._alive = [suspect for suspect in self._alive if suspect not in found]
             self._together = self._gather()
 
     def _gather(self) -> Trial:
         return Trial(self._bench, [suspect.mutant for suspect in self._alive], self._sources)
 
-    def _keep_differing(self) -> None:
-        self._differing.update((unit.path, unit) for unit in self._together.differing)
+    def _keep(self, units: Iterable[Unit]) -> None:
+        self._differing.update((unit.path, unit) for unit in units)
 
     def _alone(self, suspect: Suspect) -> Trial:
         return Trial(self._bench, (suspect.mutant,), self._sources)

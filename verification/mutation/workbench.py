@@ -52,7 +52,8 @@ class Baseline:
         self._assembler: dict[str, str] = {}
         self._texts = {test.path: (sources.folder / test.path).read_text(encoding="utf-8") for test in self.tests}
         (folder / "objects").mkdir(parents=True)
-        self._make_prefix()
+        self.prefix = self._make_prefix("prefix", (*TEST_FLAGS, "-fpch-instantiate-templates"))
+        self.compared_prefix = self._make_prefix("compared", COMPARED_FLAGS)
         bench = Bench(self, "original")
         with ThreadPoolExecutor(jobs) as pool:
             problems = [words for words in pool.map(lambda unit: self._compile(unit, bench), sources.units) if words]
@@ -116,17 +117,16 @@ class Baseline:
             self._assembler[unit.path] = self._bench.hash_assembler(unit)
         return self._assembler[unit.path]
 
-    def _make_prefix(self) -> None:
+    def _make_prefix(self, name: str, flags: Iterable[str]) -> Path:
         """The headers that every test begins with, compiled once."""
-        self.prefix = self.folder / "prefix.pch"
-        header = self.folder / "prefix.hpp"
+        header = self.folder / f"{name}.hpp"
         header.write_text(f'#include "{self.sources.prefix_header}"\n', encoding="utf-8")
-        flags = self.tests[0].flags
-        argv = (COMPILER, *flags, *TEST_FLAGS, "-fpch-instantiate-templates", "-x", "c++-header", str(header),
-                "-o", str(self.prefix))  # fmt: skip
+        prefix = header.with_suffix(".pch")
+        argv = (COMPILER, *self.tests[0].flags, *flags, "-x", "c++-header", str(header), "-o", str(prefix))
         _, words = _run(argv, COMPILE_TIMEOUT_S)
-        if not self.prefix.exists():
+        if not prefix.exists():
             raise MutationError(f"{self.sources.prefix_header} does not compile:\n{words}")
+        return prefix
 
     def _compile(self, unit: Unit, bench: Bench) -> str:
         depends = self.get_object(unit).with_suffix(".d")
@@ -176,7 +176,7 @@ class Bench:
 
     def compile(self, unit: Unit, output: Path, *options: str) -> tuple[int, str]:
         """@return status and the compiler's words."""
-        prefix = ("-include-pch", str(self.baseline.prefix)) if unit.is_test else ()
+        prefix = _include(unit, self.baseline.prefix)
         return _run((COMPILER, *self._map(unit), *TEST_FLAGS, *prefix, *options, "-c", str(self._layer / unit.path),
                      "-o", str(output)), COMPILE_TIMEOUT_S)  # fmt: skip
 
@@ -189,7 +189,8 @@ class Bench:
         """Fingerprint of the optimised code of a unit; empty when it does not compile."""
         output = self.folder / "compared.s"
         output.unlink(missing_ok=True)
-        _run((COMPILER, *self._map(unit), *COMPARED_FLAGS, "-S", str(self._layer / unit.path), "-o", str(output)),
+        prefix = _include(unit, self.baseline.compared_prefix)
+        _run((COMPILER, *self._map(unit), *COMPARED_FLAGS, *prefix, "-S", str(self._layer / unit.path), "-o", str(output)),
              COMPILE_TIMEOUT_S)  # fmt: skip
         if not output.exists():
             return ""
@@ -229,6 +230,10 @@ class Bench:
     def _program(self, test: Unit) -> Path:
         """One for each test: tests of the unchanged kernel run at the same time."""
         return self.folder / f"{test.stem}.program"
+
+
+def _include(unit: Unit, prefix: Path) -> tuple[str, ...]:
+    return ("-include-pch", str(prefix)) if unit.is_test else ()
 
 
 TIMED_OUT = "timed out"
