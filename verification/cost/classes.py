@@ -58,7 +58,7 @@ def read_plan(system: System, project: Project) -> CostPlan:
     if system.file is None:
         raise UsageError(f"cost: '{system.program.name}' has no input classes; name a folder with a {FILE} that has a [cost]")
     if not system.cost:
-        raise InputError("has no [cost] with a margin_percent and at least one [[cost.class]]; docs/manual/timing.md shows one", system.file)
+        raise InputError("has no [cost] with a margin_percent and at least one [[cost.class]]; docs/manual/cost.md shows one", system.file)
     data, file = system.cost, system.file
     _refuse_unknown(data, KEYS, "[cost]", file)
     rows = data.get("class", [])
