@@ -12,7 +12,7 @@ from typing import Any
 
 from mamori.trace.model.evidence import CostRun
 from mamori.trace.model.project import Project
-from mamori.trace.reports.timing_view import Cell, Column, Table, make_margin, make_table, make_time
+from mamori.trace.reports.timing_view import ABSENT, Cell, Column, Table, make_margin, make_table, make_time
 from mamori.trace.reports.view import describe_environment
 
 WHERE = "cost.txt"
@@ -91,15 +91,17 @@ def _make_steps(record: dict[str, Any]) -> Table:
     columns = (
         Column("component", is_number=False), Column("class", is_number=False), Column("pass", is_number=False), Column("counted"),
         Column("min", "instructions"), Column("median", "instructions"), Column("max", "instructions"), Column("max in cycle"),
-        Column("time of max"),
+        Column("time of max"), Column("window", is_number=False), Column("share of its budget"),
     )  # fmt: skip
+    budgets = {row["name"]: row["limit_ns"] for row in record["limits"] if row["what"] == "window"}
 
     def make(row: dict[str, Any]) -> list[Cell]:
-        counts = row["instructions"]
+        counts, budget_ns = row["instructions"], budgets.get(row["window"], 0)
         return [
             Cell(row["component"], is_name=True), Cell(row["input_class"], is_name=True), Cell(row["pass_name"]), Cell(str(counts["count"])),
             Cell(str(counts["min"])), Cell(str(counts["median"])), Cell(str(counts["max"])), Cell(str(counts["cycle"])),
-            make_time(row["time_ns"]),
+            make_time(row["time_ns"]), Cell(row["window"], is_name=True),
+            Cell(f"{100 * row['time_ns'] / budget_ns:.2f} %" if budget_ns > 0 else ABSENT),
         ]  # fmt: skip
 
     # A component's classes one below the other, which the record has class by class; the sort keeps the order of both.
