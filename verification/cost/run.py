@@ -26,7 +26,7 @@ from mamori.verification.timing.system import System
 
 SCHEMA = "mamori.cost_run/1"
 FUNCTION = "mamori_counted_step"
-COUNTING_S_PER_CYCLE = 0.2
+COUNTING_S_PER_CYCLE = 0.5
 """So long a cycle may take under callgrind: it makes a program some fifty times slower, and each step is written down."""
 START_S = 60.0
 PROGRAM_USAGE = 2
