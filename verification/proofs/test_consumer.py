@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -113,6 +114,23 @@ def test_first_system_runs_in_real_time_as_the_manual_says(project: Project, pre
     counts = re.fullmatch(form, ran.stdout)
     assert counts is not None, (ran.stdout, ran.stderr)
     assert ran.returncode == 0 or int(counts[1]) > 0
+
+
+@pytest.mark.verifies("SWR-PRT-021", technique="interface", polarity="violation")
+def test_first_system_hangs_and_is_told_as_the_manual_says(project: Project, prefix: Path, tmp_path: Path) -> None:
+    folder = build_page(project, prefix, tmp_path / "minimal", "last_resort.md", "mamori::posix_rt")
+    program = folder / "build" / "minimal"
+    orderly = run("env", "-C", tmp_path, program)
+    # A machine that stands still for a tenth of a second makes the watchdog act in this run too.
+    by_machine = orderly.returncode == -signal.SIGABRT and orderly.stderr == "outputs closed\n"
+    served = re.fullmatch(r"watchdog served (\d+) times\n", orderly.stdout)
+    assert by_machine or (orderly.returncode == 0 and served is not None and int(served[1]) > 0), (orderly.stdout, orderly.stderr)
+
+    hanging = run("env", "-C", tmp_path, program, "hang")
+    assert (-hanging.returncode, hanging.stderr) == (signal.SIGABRT, "outputs closed\n")
+    shown = run(sys.executable, "-P", "-m", "mamori.verification.command", "log", tmp_path / "run.rec")
+    assert re.search(r"crash in session 2 at \d\.\d{9} s: SIGABRT, sent by a program; thread of the watchdog", shown.stdout)
+    assert shown.returncode == 0, shown.stderr
 
 
 @pytest.mark.verifies("SWR-TIM-003", technique="interface")
