@@ -185,19 +185,19 @@ class CrashHandlersTest : public ::testing::Test {
 
 // Ways to crash. What the language leaves undefined here is what the test is about.
 
-[[gnu::no_sanitize("undefined", "address")]] void reach_nowhere(Shared&) {
+__attribute__((no_sanitize("undefined", "address"))) void reach_nowhere(Shared&) {
     volatile std::uintptr_t place = kUnreachable;
     *reinterpret_cast<volatile int*>(place) = 1;
 }
 
-[[gnu::no_sanitize("undefined", "address")]] void reach_behind_a_file(Shared& shared) {
+__attribute__((no_sanitize("undefined", "address"))) void reach_behind_a_file(Shared& shared) {
     const int memory_file = ::memfd_create("crash", 0U);
     void* const memory = ::mmap(nullptr, 4096U, PROT_READ | PROT_WRITE, MAP_SHARED, memory_file, 0);
     shared.address = reinterpret_cast<std::uintptr_t>(memory);
     *static_cast<volatile int*>(memory) = 1;
 }
 
-[[gnu::no_sanitize("undefined")]] void divide_by_zero(Shared&) {
+__attribute__((no_sanitize("undefined"))) void divide_by_zero(Shared&) {
     volatile int one = 1;
     volatile int zero = 0;
     volatile int result = one / zero;
@@ -217,7 +217,7 @@ void trap(Shared&) {
     static_cast<void>(::raise(SIGTRAP));
 }
 
-[[gnu::noinline, gnu::no_sanitize("address")]] int use_up_stack(volatile int depth) {
+__attribute__((noinline, no_sanitize("address"))) int use_up_stack(volatile int depth) {
     volatile char room[4096];
     room[0] = static_cast<char>(depth);
     return depth < 0 ? 0 : use_up_stack(depth + 1) + room[0];
