@@ -21,6 +21,12 @@ class FrameClock final {
     /// @param[in] lead from now to the epoch, >= 0; gives the threads time to be ready for their first
     /// window.
     static FrameClock starting_in(Duration lead) noexcept;
+    /// The time line of another clock of this machine, in another process too. @param[in] epoch_ns as that
+    /// one's get_epoch_ns().
+    static constexpr FrameClock at_epoch(std::int64_t epoch_ns) noexcept { return FrameClock{epoch_ns}; }
+
+    /// Reading of CLOCK_MONOTONIC at instant 0 [ns].
+    constexpr std::int64_t get_epoch_ns() const noexcept { return epoch_ns_; }
 
     Instant get_now() const noexcept;
     /// The same instant for a system call with an absolute time. One before the clock's own zero is that
