@@ -133,6 +133,33 @@ def test_first_system_hangs_and_is_told_as_the_manual_says(project: Project, pre
     assert shown.returncode == 0, shown.stderr
 
 
+@pytest.mark.verifies("SWR-PRT-013", technique="interface")
+def test_system_of_two_processes_runs_as_the_manual_says(project: Project, prefix: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "split"
+    folder.mkdir()
+    page = (project.root / "docs" / "manual" / "partitions.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```cpp\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    for name, block in zip(("plan.hpp", "planner.cpp", "main.cpp"), blocks, strict=True):
+        (folder / name).write_text(block, encoding="utf-8")
+    lists = "cmake_minimum_required(VERSION 3.25)\nproject(split LANGUAGES CXX)\nfind_package(mamori CONFIG REQUIRED)\n"
+    for name in ("planner", "main"):
+        lists += f"add_executable({name} {name}.cpp)\ntarget_link_libraries({name} PRIVATE mamori::posix_rt)\n"
+    (folder / "CMakeLists.txt").write_text(lists, encoding="utf-8")
+    configured = run("cmake", "-S", folder, "-B", folder / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
+                     "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF")  # fmt: skip
+    assert configured.returncode == 0, configured.stderr
+    built = run("cmake", "--build", folder / "build")
+    assert built.returncode == 0, built.stdout
+
+    shown = "".join(f"{line.strip()}\n" for line in page.splitlines() if line.startswith("    planner "))
+    assert shown.count("\n") == 2
+    ran = run(folder / "build" / "main", folder / "build" / "planner")
+    assert (ran.returncode, ran.stdout) == (0, shown)
+    missing = run(folder / "build" / "main", folder / "build" / "no_planner")
+    assert missing.returncode == 1
+    assert "cannot be executed" in missing.stdout
+
+
 @pytest.mark.verifies("SWR-TIM-003", technique="interface")
 def test_first_system_is_measured_as_the_manual_says(project: Project, prefix: Path, tmp_path: Path) -> None:
     folder = build_page(project, prefix, tmp_path / "minimal", "timing.md", "mamori::timing")

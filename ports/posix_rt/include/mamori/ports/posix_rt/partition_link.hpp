@@ -4,7 +4,7 @@
 /// arrives at the sender's input leaves, as a frame, and comes out of the receiver. It is a grey channel: the
 /// receiver's side must judge age and content by itself.
 ///
-/// @satisfies SWR-PRT-013, SWR-PRT-014      Design: docs/design/posix_rt.md#partitions
+/// @satisfies SWR-PRT-013, SWR-PRT-014, SWR-PRT-018      Design: docs/design/posix_rt.md#partitions
 #ifndef MAMORI_PORTS_POSIX_RT_PARTITION_LINK_HPP
 #define MAMORI_PORTS_POSIX_RT_PARTITION_LINK_HPP
 

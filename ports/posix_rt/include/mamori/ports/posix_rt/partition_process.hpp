@@ -3,7 +3,8 @@
 /// A process of less trust beside the safety process: started with what it needs and no more, told apart from
 /// a dead one without waiting, and gone when the safety process is.
 ///
-/// @satisfies SWR-PRT-015, SWR-PRT-016, SWR-PRT-017      Design: docs/design/posix_rt.md#partition-process
+/// @satisfies SWR-PRT-015, SWR-PRT-016, SWR-PRT-017, SWR-PRT-018
+/// Design:   docs/design/posix_rt.md#partition-process
 #ifndef MAMORI_PORTS_POSIX_RT_PARTITION_PROCESS_HPP
 #define MAMORI_PORTS_POSIX_RT_PARTITION_PROCESS_HPP
 
