@@ -42,7 +42,7 @@ class Judge final {
         const Duration detection = first->at - deadline;
         verdict.detection_ns.push_back(detection.ns);
         if (detection > kTick) {
-            ++(overlaps(deadline, first->at) ? verdict.tardy_by_host : verdict.tardy);
+            ++(verification::overlaps(stalls_, deadline, first->at) ? verdict.tardy_by_host : verdict.tardy);
         }
     }
 
@@ -70,7 +70,7 @@ class Judge final {
             const Report& report = reports_[i];
             if (explained_[i] || is_aftermath(i)) {
                 explained_[i] = true;
-            } else if (overlaps(report.release, report.at)) {
+            } else if (verification::overlaps(stalls_, report.release, report.at)) {
                 explained_[i] = true;
                 ++verdict.by_host;
             } else {
@@ -101,13 +101,6 @@ class Judge final {
         const auto place = std::lower_bound(reports_.begin(), reports_.end(), from,
                                             [](const Report& report, Instant at) { return report.at < at; });
         return static_cast<std::size_t>(place - reports_.begin());
-    }
-
-    /// Whether a stall lies, in part, within the two instants.
-    bool overlaps(Instant begin, Instant end) const {
-        const auto first = std::lower_bound(stalls_.begin(), stalls_.end(), begin,
-                                            [](const Stall& stall, Instant at) { return stall.end < at; });
-        return first != stalls_.end() && first->begin <= end;
     }
 
     const Plan& plan_;

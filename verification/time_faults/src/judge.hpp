@@ -10,8 +10,11 @@
 
 #include "mamori/kernel/system_table.hpp"
 #include "mamori/kernel/time.hpp"
+#include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::time_faults {
+
+using verification::Stall;
 
 /// Frame of the system: what "within one tick" means.
 inline constexpr Duration kTick{1'000'000};
@@ -64,12 +67,6 @@ struct Deed {
 struct Delay {
     std::size_t window{0U};
     Instant release{};
-    Instant end{};
-};
-
-/// From one look at the clock to the next, much later one.
-struct Stall {
-    Instant begin{};
     Instant end{};
 };
 

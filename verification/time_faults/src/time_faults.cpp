@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "time_faults.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -12,7 +10,7 @@
 #include "mamori/kernel/system.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
-#include "stall_watch.hpp"
+#include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::time_faults {
 namespace {
@@ -158,20 +156,6 @@ Plan make_plan() {
     return plan;
 }
 
-/// The first one that this process may use.
-int find_processor() noexcept {
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    if (sched_getaffinity(0, sizeof(set), &set) == 0) {
-        for (int processor = 0; processor < CPU_SETSIZE; ++processor) {
-            if (CPU_ISSET(static_cast<std::size_t>(processor), &set)) {
-                return processor;
-            }
-        }
-    }
-    return 0;
-}
-
 std::string to_text(const Report& report) {
     return std::string{"{\"is_overrun\": "} + (report.is_overrun ? "true" : "false") +
            ", \"window\": " + std::to_string(report.window) +
@@ -208,7 +192,7 @@ Verdict run(const Request& request) {
     deeds = &storage;
     static_cast<void>(ports::posix_rt::lock_memory(256U * 1024U));
     // All on one processor, or whoever tells of stalls would watch another one.
-    static const int processor = find_processor();
+    static const int processor = verification::find_processor();
     const ports::posix_rt::Right right =
         combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
                 ports::posix_rt::set_processor(pthread_self(), processor));
@@ -222,7 +206,7 @@ Verdict run(const Request& request) {
         return verdict;
     }
     executive.set_observer(&director);
-    StallWatch stalls{clock, Duration{kTick.ns / 20}, {kWatchPriority, processor}};
+    verification::StallWatch stalls{clock, Duration{kTick.ns / 20}, {kWatchPriority, processor}};
     runner.run(request.frame_count);
     stalls.stop();
     while (host.close() != Status::kOk) {

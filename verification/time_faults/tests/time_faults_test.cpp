@@ -10,7 +10,6 @@
 #include <algorithm>
 
 #include "mamori/verification/verifies.hpp"
-#include "stall_watch.hpp"
 
 namespace mamori::time_faults {
 namespace {
