@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loss_judge.hpp"
 
-#include <algorithm>
-
 namespace mamori::lost_service {
-namespace {
-
-/// Whether a stall lies, in part, within the two instants.
-bool overlaps(const std::vector<Stall>& stalls, Instant begin, Instant end) {
-    return std::any_of(stalls.begin(), stalls.end(),
-                       [begin, end](const Stall& stall) { return stall.begin <= end && stall.end >= begin; });
-}
-
-}  // namespace
 
 LossVerdict judge_losses(const std::vector<LossTrial>& trials, const std::vector<Stall>& stalls,
                          Duration timeout) {

@@ -10,11 +10,11 @@
 
 #include "mamori/kernel/time.hpp"
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
-#include "stall_watch.hpp"
+#include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::lost_service {
 
-using time_faults::Stall;
+using verification::Stall;
 
 /// Frame of the system, and what the reaction may take.
 inline constexpr Duration kTick{1'000'000};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lost_service.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -13,7 +11,7 @@
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
-#include "stall_watch.hpp"
+#include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::lost_service {
 namespace {
@@ -27,7 +25,7 @@ using ports::posix_rt::WindowThread;
 using safety::GlobalStatus;
 using safety::WatchdogGate;
 using safety::WatchdogOutcome;
-using time_faults::StallWatch;
+using verification::StallWatch;
 using namespace literals;  // NOLINT: units of the table below
 
 constexpr int kStallPriority = 95;
@@ -144,20 +142,6 @@ class Director final : public OpeningObserver {
     std::uint64_t frame_{0U};
 };
 
-/// The first that this process may use: all is on one, or the stalls that are seen would be those of another.
-int find_own_processor() noexcept {
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    if (sched_getaffinity(0, sizeof(set), &set) == 0) {
-        for (int processor = 0; processor < CPU_SETSIZE; ++processor) {
-            if (CPU_ISSET(static_cast<std::size_t>(processor), &set)) {
-                return processor;
-            }
-        }
-    }
-    return 0;
-}
-
 /// What all trials share.
 struct Rig {
     const FrameClock& clock;
@@ -211,7 +195,7 @@ std::uint64_t run_trial(Rig& rig, Loss loss, std::uint64_t loss_frame) {
 LossRun run_losses(const LossRequest& request) {
     static const FrameClock clock = FrameClock::starting_in(100_ms);
     static_cast<void>(ports::posix_rt::lock_memory(256U * 1024U));
-    static const int processor = find_own_processor();
+    static const int processor = verification::find_processor();
     const ports::posix_rt::Right right =
         combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
                 ports::posix_rt::set_processor(pthread_self(), processor));
