@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "arm_start.hpp"
+#include "cost_command.hpp"
 #include "machine.hpp"
 #include "mamori/simbody_sim/computed_torque_controller.hpp"
 #include "run_recorder.hpp"
@@ -62,9 +63,7 @@ int run_scenario(const safe_arm::RunOptions& options) {
         return fail(kExitFailed, obstacle);
     }
 
-    std::array<Duration, safe_arm::kComponentCount> times{};
-    times.fill(safe_arm::kSafetyComponentTime);
-    times[safe_arm::kControllerIndex] = safe_arm::kControllerTime;
+    std::array<Duration, safe_arm::kComponentCount> times = safe_arm::make_modelled_times();
     mamori::ports::virtual_time::VirtualHost host{times};
     safe_arm::Machine machine{plant, host, fault, record};
     mamori::ports::virtual_time::SimulatedCore core{safe_arm::executive, host};
@@ -101,6 +100,9 @@ int main(int argc, char** argv) {
     }
     if (!command.table.empty()) {
         return write_table(command.table);
+    }
+    if (command.is_cost) {
+        return safe_arm::run_cost_command(command.options);
     }
     return command.is_timing ? safe_arm::run_timing_command(command.options) : run_scenario(command.options);
 }

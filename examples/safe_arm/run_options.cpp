@@ -19,9 +19,9 @@ std::string check_not_negative(const std::string& text) {
     return text.find('-') == std::string::npos ? std::string{} : "'" + text + "' must be 0 or more";
 }
 
-const std::vector<std::string_view> kWords{"run",      "table",      "timing",   "--model",
-                                           "--motion", "--out",      "--fault",  "--seed",
-                                           "--frames", "--recorder", "--cycles", "--help"};
+const std::vector<std::string_view> kWords{
+    "run",     "table",  "timing", "cost",     "--model", "--motion",   "--out",    "--fault",
+    "--first", "--seed", "--by",   "--frames", "--every", "--recorder", "--cycles", "--help"};
 
 /// @return the first word that is neither known nor the value of an option.
 std::string find_unknown_word(int argc, const char* const* argv) {
@@ -37,6 +37,27 @@ std::string find_unknown_word(int argc, const char* const* argv) {
         }
     }
     return {};
+}
+
+/// @param[out] pace by what the run goes, once the command line is read.
+CLI::App* add_cost(CLI::App& app, RunOptions& options, std::string& pace) {
+    CLI::App* cost =
+        app.add_subcommand("cost", "Run so that the cost of each step can be told; `mamori cost` shows it.");
+    cost->add_option("--model", options.model, "Arm model file (YAML)")->required();
+    cost->add_option("--motion", options.motion, "Motion table; without one the arm holds its position");
+    cost->add_option("--fault", options.fault_text, "Fault plan, as of `run`");
+    cost->add_option("--out", options.out, "Folder for the rows")->required();
+    cost->add_option("--cycles", options.frames, "Frames of 1 ms to run")
+        ->required()
+        ->check(CLI::PositiveNumber);
+    cost->add_option("--first", options.first_counted, "First frame that is counted")
+        ->check(check_not_negative);
+    cost->add_option("--every", options.count_every, "Of the frames from there on")
+        ->check(CLI::PositiveNumber);
+    cost->add_option("--by", pace, "clock: each window at its instant; count: as fast as it goes")
+        ->required()
+        ->check(CLI::IsMember({"clock", "count"}));
+    return cost;
 }
 
 }  // namespace
@@ -71,6 +92,8 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
     timing->add_option("--cycles", options.frames, "Frames of 1 ms to run")
         ->required()
         ->check(CLI::PositiveNumber);
+    std::string pace;
+    CLI::App* cost = add_cost(app, options, pace);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {
@@ -90,6 +113,8 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
         return result;
     }
     result.is_timing = timing->parsed();
+    result.is_cost = cost->parsed();
+    options.is_by_clock = pace == "clock";
     if (!options.fault_text.empty()) {
         const mamori::sim::ParsedFaultPlan parsed = mamori::sim::parse_fault_plan(options.fault_text);
         if (!parsed.plan.has_value()) {

@@ -19,7 +19,10 @@ struct RunOptions {
     mamori::sim::FaultPlan fault{};  ///< `at` counts from the start of the motion
     std::string fault_text;          ///< as the user wrote it; empty: fault-free
     std::uint64_t seed{1U};
-    std::uint64_t frames{0U};  ///< 0: motion plus settling time
+    std::uint64_t frames{0U};         ///< 0: motion plus settling time
+    std::uint64_t first_counted{0U};  ///< frame from which on a cost run counts
+    std::uint64_t count_every{1U};    ///< of which frames then
+    bool is_by_clock{false};          ///< a cost run goes by the clock
 };
 
 /// What the command line asks for. exit_code < 0: go on with the options; else end with it (help was printed,
@@ -28,6 +31,7 @@ struct ParsedCommand {
     RunOptions options;
     std::string table;      ///< file for the system table; not empty: write it instead of running
     bool is_timing{false};  ///< run by the clock and measure, `frames` frames
+    bool is_cost{false};    ///< run so that steps can be counted, `frames` frames
     int exit_code{-1};
 };
 

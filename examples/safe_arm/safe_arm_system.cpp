@@ -48,6 +48,13 @@ static_assert(kSafeArm.windows[kFirstWindow].offset == 0_us &&
 static mamori::ExecutiveFor executive_of_table{kSafeArm};
 mamori::Executive& executive = executive_of_table;
 
+std::array<mamori::Duration, kComponentCount> make_modelled_times() noexcept {
+    std::array<mamori::Duration, kComponentCount> times{};
+    times.fill(kSafetyComponentTime);
+    times[kControllerIndex] = kControllerTime;
+    return times;
+}
+
 mamori::Status watch_components() noexcept {
     using mamori::safety::SupervisionScope;
     struct Row {

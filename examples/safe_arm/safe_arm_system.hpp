@@ -6,6 +6,8 @@
 #ifndef EXAMPLES_SAFE_ARM_SAFE_ARM_SYSTEM_HPP
 #define EXAMPLES_SAFE_ARM_SAFE_ARM_SYSTEM_HPP
 
+#include <array>
+
 #include "arm_limits.hpp"
 #include "arm_reader.hpp"
 #include "drive_gate.hpp"
@@ -55,6 +57,9 @@ extern mamori::Executive& executive;
 /// Modelled execution times.
 inline constexpr mamori::Duration kSafetyComponentTime = 30_us;
 inline constexpr mamori::Duration kControllerTime = 120_us;
+
+/// Of each component, in the order of the table.
+std::array<mamori::Duration, kComponentCount> make_modelled_times() noexcept;
 
 /// Puts the components under supervision. The channel carries and does not decide; what it does wrong shows
 /// in its messages. The controller is not safety-related: its failure is a fault with a reaction and leaves

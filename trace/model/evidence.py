@@ -113,6 +113,15 @@ class TimingRun:
 
 
 @dataclass(slots=True)
+class CostRun:
+    """One system whose steps were counted, as `mamori cost` wrote it; its reader has checked `record`."""
+
+    folder: str
+    record: dict[str, Any]
+    place: Place
+
+
+@dataclass(slots=True)
 class Evidence:
     """Everything below one evidence folder. `folder` is its path as given, `shown` as findings name it."""
 
@@ -122,6 +131,7 @@ class Evidence:
     cases: list[CampaignCase] = field(default_factory=list)
     has_campaign: bool = False
     timing_runs: list[TimingRun] = field(default_factory=list)
+    cost_runs: list[CostRun] = field(default_factory=list)
     environment: dict[str, Any] = field(default_factory=dict)
     environment_place: Place = Place("environment.json", 1)
     campaign_environment: dict[str, Any] = field(default_factory=dict)

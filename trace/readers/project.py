@@ -8,6 +8,7 @@ from pathlib import Path
 from mamori.trace.model.evidence import INTEGRATION, UNIT, Evidence
 from mamori.trace.model.project import Project, attach_sources
 from mamori.trace.readers.campaign import read_campaign, read_environment
+from mamori.trace.readers.cost import read_cost
 from mamori.trace.readers.cpp_tags import read_cpp_tags
 from mamori.trace.readers.cpp_tests import read_cpp_tests
 from mamori.trace.readers.files import InputError, get_shown_path
@@ -82,4 +83,5 @@ def _read_evidence(folder: Path, project: Project) -> Evidence:
     read_environment(folder, project.root, evidence, project.problems)
     read_campaign(folder, project.root, evidence, project.problems)
     read_timing(folder, project.root, evidence, project.problems)
+    read_cost(folder, project.root, evidence, project.problems)
     return evidence

@@ -18,6 +18,7 @@ from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import VERIFIED, WORST_FIRST, Verdict, calc_verdicts
 from mamori.trace.reports import v_overview
 from mamori.trace.reports.campaign_view import find_slowest, make_scenario_views
+from mamori.trace.reports.cost_view import make_cost_views
 from mamori.trace.reports.timing_view import make_timing_views
 from mamori.trace.reports.view import describe_environment, group_tags, make_item_views, make_suite_views
 from mamori.trace.write import write_whole
@@ -63,6 +64,7 @@ def write_report(project: Project, out: Path) -> list[Finding]:
         anchors={view.case.id: view.anchor for scenario in scenarios for view in scenario.cases},
         slowest=find_slowest(scenarios),
         timing=timing,
+        costs=make_cost_views(project),
         drawings=[(layout, v_overview.make_boxes(project, verdicts, layout)) for layout in v_overview.LAYOUTS],
         v=v_overview,
         glossary=GLOSSARY,

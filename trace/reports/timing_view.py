@@ -191,13 +191,13 @@ def _make_windows(record: dict[str, Any]) -> Table:
     def make(row: dict[str, Any]) -> list[Cell]:
         response, outcomes = row["response"], row["outcomes"]
         return [
-            Cell(row["window"], is_name=True), Cell(str(row["core"])), *map(_make_time, (row["offset_ns"], row["length_ns"], row["budget_ns"])),
-            *_list_times(row["lateness"], ("p50", "p99", "p999", "max")), _make_time(response["max"] if response else None),
-            _make_margin(row["length_margin_ns"]), _make_time(row["used_max_ns"]), _make_margin(row["budget_margin_ns"]),
+            Cell(row["window"], is_name=True), Cell(str(row["core"])), *map(make_time, (row["offset_ns"], row["length_ns"], row["budget_ns"])),
+            *_list_times(row["lateness"], ("p50", "p99", "p999", "max")), make_time(response["max"] if response else None),
+            make_margin(row["length_margin_ns"]), make_time(row["used_max_ns"]), make_margin(row["budget_margin_ns"]),
             _make_count(outcomes["missed"]), _make_count(outcomes["overrun"]),
         ]  # fmt: skip
 
-    return _make_table("Windows: plan and measurement", columns, record["windows"], make)
+    return make_table("Windows: plan and measurement", columns, record["windows"], make)
 
 
 def _make_components(record: dict[str, Any]) -> Table:
@@ -212,13 +212,13 @@ def _make_components(record: dict[str, Any]) -> Table:
         times, ratio = row["execution"], ratios.get(row["component"])
         return [
             Cell(row["component"], is_name=True), Cell(row["window"], is_name=True), Cell(str(times["count"]) if times else ABSENT),
-            *_list_times(times, ("p50", "p99", "p999", "max")), _make_time(row["declared_ns"]), _make_margin(row["margin_ns"]),
+            *_list_times(times, ("p50", "p99", "p999", "max")), make_time(row["declared_ns"]), make_margin(row["margin_ns"]),
             Cell(ABSENT if ratio is None else f"{ratio:.3g}"), _make_count(row["unfinished"]),
         ]  # fmt: skip
 
     undeclared = not any(row["declared_ns"] is not None for row in record["components"])
     notes = ("No component of this table declares a worst case, so there is no margin of one.",) if undeclared and record["components"] else ()
-    return _make_table("Components", columns, record["components"], make, notes)
+    return make_table("Components", columns, record["components"], make, notes)
 
 
 def _make_chains(record: dict[str, Any]) -> Table:
@@ -232,11 +232,11 @@ def _make_chains(record: dict[str, Any]) -> Table:
         virtual = row["virtual"]
         low, high = format_us(virtual["min_ns"]), format_us(virtual["max_ns"])
         return [
-            Cell(row["name"], is_long=True), Cell(low if low == high else f"{low} to {high}"), _make_time(virtual["reaction_max_ns"]),
+            Cell(row["name"], is_long=True), Cell(low if low == high else f"{low} to {high}"), make_time(virtual["reaction_max_ns"]),
             *_list_times(row["measured"], ("p50", "p99", "p999", "max")), Cell(str(row["broken"])), _make_count(row["violation_count"]),
         ]  # fmt: skip
 
-    return _make_table("Chains, from sample to effect", columns, record["chains"], make, (record["chain_note"],) if record["chain_note"] else ())
+    return make_table("Chains, from sample to effect", columns, record["chains"], make, (record["chain_note"],) if record["chain_note"] else ())
 
 
 def _make_misses(record: dict[str, Any]) -> Table:
@@ -247,12 +247,12 @@ def _make_misses(record: dict[str, Any]) -> Table:
         return [
             Cell(str(row["cycle"])), Cell(row["window"], is_name=True), Cell(row["outcome"]),
             Cell("host" if row["is_host"] else "code", is_bad=not row["is_host"]), Cell(row["component"] or ABSENT, is_name=True),
-            _make_time(row["late_ns"]), Cell(row["reason"], is_long=True),
+            make_time(row["late_ns"]), Cell(row["reason"], is_long=True),
         ]  # fmt: skip
 
     count = record["miss_count"]
     title = f"Missed and overrun openings: {count if count else 'none'}"
-    return _make_table(title, columns, record["misses"], make, shown=MISSES_SHOWN, count=count, is_folded=True, where="timing.json")
+    return make_table(title, columns, record["misses"], make, shown=MISSES_SHOWN, count=count, is_folded=True, where="timing.json")
 
 
 def _make_estimates(record: dict[str, Any]) -> Table:
@@ -270,10 +270,10 @@ def _make_estimates(record: dict[str, Any]) -> Table:
 
     refused = sum(row["extreme_values"]["refusal"] is not None for row in record["components"])
     title = f"Extreme-value estimates: {len(record['components']) - refused} given, {refused} refused"
-    return _make_table(title, columns, record["components"], make, is_folded=True)
+    return make_table(title, columns, record["components"], make, is_folded=True)
 
 
-def _make_table(
+def make_table(
     title: str,
     columns: tuple[Column, ...],
     rows: Sequence[dict[str, Any]],
@@ -285,18 +285,21 @@ def _make_table(
     is_folded: bool = False,
     where: str = "timing.txt",
 ) -> Table:
+    """@param make the cells of one row. @param count of all rows; default: of those that are given."""
     return Table(title, columns, [make(row) for row in rows[:shown]], len(rows) if count is None else count, notes, is_folded, where)
 
 
 def _list_times(times: dict[str, int] | None, names: tuple[str, ...]) -> list[Cell]:
-    return [_make_time(times[name] if times else None) for name in names]
+    return [make_time(times[name] if times else None) for name in names]
 
 
-def _make_time(ns: int | None) -> Cell:
+def make_time(ns: float | None) -> Cell:
+    """A time in us; a dash where there is none."""
     return Cell(format_us(ns))
 
 
-def _make_margin(ns: int | None) -> Cell:
+def make_margin(ns: float | None) -> Cell:
+    """What is left of a limit, in us; bad when it is negative."""
     return Cell(format_us(ns).replace("-", "−"), is_bad=ns is not None and ns < 0)
 
 

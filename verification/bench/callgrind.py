@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Counts instructions with callgrind: one operation of the program `mamori_exact`, many times, nothing else.
 
-@satisfies SWR-BEN-006, SWR-BEN-007      Design: docs/design/bench.md#exact-counts
+@satisfies SWR-BEN-006, SWR-BEN-007, SWR-TIM-032      Design: docs/design/bench.md#exact-counts
 """
 
 from __future__ import annotations
@@ -78,6 +78,30 @@ def parse_profile(text: str) -> Profile:
     if total is None:
         raise StepError("callgrind wrote no summary; is this its output?")
     return Profile(total, frozenset(names.get(number, f"({number})") for number in ran))
+
+
+def make_step_options(function: str, out: Path) -> list[str]:
+    """Words that make valgrind count each single call of `function`, and nothing else; list_totals() reads `out` then."""
+    return ["valgrind", "--tool=callgrind", "--collect-atstart=no", f"--toggle-collect={function}", f"--dump-after={function}",
+            "--combine-dumps=yes", "--dump-line=no", f"--callgrind-out-file={out}"]  # fmt: skip
+
+
+def list_totals(path: Path) -> list[int]:
+    """Instructions of each call, in order, of a file that make_step_options() asked for. A dump comes after each call, and one
+    with nothing at the end. @raise StepError where the file is cut off or holds something else."""
+    totals, is_trigger = [], []
+    try:
+        with path.open(encoding="utf-8", errors="replace") as lines:
+            for line in lines:
+                if line.startswith("totals: "):
+                    totals.append(int(line.split()[1]))
+                elif line.startswith("desc: Trigger: "):
+                    is_trigger.append("--dump-after=" in line)
+    except (OSError, ValueError, IndexError) as error:
+        raise StepError(f"the output of callgrind cannot be read: {error}") from error
+    if not totals or len(totals) != len(is_trigger) or is_trigger[-1] or not all(is_trigger[:-1]) or totals[-1] != 0:
+        raise StepError(f"the output of callgrind is not one dump for each call and an empty one at the end ({len(totals)} dumps)")
+    return totals[:-1]
 
 
 def run_callgrind(program: Path, operation: str, repetitions: int = REPETITIONS) -> Profile:

@@ -97,6 +97,12 @@ def make_parser(with_trace: bool = False) -> Parser:
     timing.add_argument("--load", action="store_true")
     timing.add_argument("--check", type=Path, metavar="BASELINE")
     timing.add_argument("--accept", type=Path, metavar="BASELINE")
+    cost = add("cost")
+    cost.add_argument("system", metavar="SYSTEM")
+    cost.add_argument("--class", nargs="+", default=[], metavar="NAME", action="extend", dest="classes")
+    cost.add_argument("--out", type=Path, metavar="DIR")
+    cost.add_argument("--check", type=Path, metavar="BASELINE")
+    cost.add_argument("--accept", type=Path, metavar="BASELINE")
     fuzz = add("fuzz")
     fuzz.add_argument("names", nargs="*", metavar="NAME")
     fuzz.add_argument("--seconds", type=at_least_one, default=30, metavar="N")
@@ -129,6 +135,11 @@ def run(argv: list[str]) -> int:
             return _run_bench(arguments)
         case "timing":
             return _run_timing(arguments, passed_on)
+        case "cost":
+            from mamori.verification.cost import command as costing
+
+            wanted = costing.Request(arguments.system, tuple(arguments.classes), arguments.out, arguments.check, arguments.accept)
+            return costing.cost(wanted, arguments.jobs)
         case "mutate":
             from mamori.verification.mutation import command as mutation
 

@@ -46,7 +46,7 @@ def race_steps() -> tuple[Step, ...]:
     """What two cores share, under the thread sanitizer: these programs alone, since nothing else has threads."""
     preset = "host-tsan"
     targets = ("kernel_abandon_stress_test", "kernel_crossing_test", "kernel_introspection_stress_test", "kernel_mode_stress_test",
-               "posix_rt_conformance_test", "posix_rt_guard_test", "timing_test")  # fmt: skip
+               "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test", "timing_test")  # fmt: skip
     build = Step(
         name=f"build {preset}",
         commands=(
@@ -82,7 +82,7 @@ def benchmark_step() -> Step:
         name="exact instruction counts",
         commands=(
             ("cmake", "--build", "{build}", "--target", "mamori_bench", "mamori_exact", "--parallel", "{jobs}"),
-            (*PYTEST, "verification/proofs/test_exact_counts.py", "verification/proofs/test_benchmarks.py"),
+            (*PYTEST, "verification/proofs/test_exact_counts.py", "verification/proofs/test_benchmarks.py", "verification/proofs/test_cost.py"),
         ),
         needs=(BUILD,),
         result="proof-exact_counts.xml",
@@ -179,6 +179,17 @@ def timing_step() -> Step:
     )
 
 
+def cost_step() -> Step:
+    """Instructions of the components of the safe arm against its budgets and its baseline. Counts are exact, so a finding fails."""
+    return Step(
+        name="cost of components",
+        commands=((*COMMAND, "cost", "examples/safe_arm", "--check", "examples/safe_arm/cost_baseline.toml", "--jobs", "{jobs}"),),
+        needs=(BUILD,),
+        produces=f"build/{RELEASE}/evidence/cost/safe_arm/cost.json",
+        slow=True,
+    )
+
+
 def demo_plan(campaign: Action) -> tuple[Step, ...]:
     return (
         build_step(RELEASE),
@@ -214,6 +225,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         *strength_steps(),
         campaign_step(campaign),
         timing_step(),
+        cost_step(),
         *trace_steps(*(("--allow-missing",) if quick else ())),
     )
     return tuple(step for step in steps if not (quick and step.slow))

@@ -25,7 +25,7 @@ from mamori.verification.mutation.operators import make_mutants
 from mamori.verification.mutation.run import Plan, Report, Selection, make_plan, make_table, run_plan, write_json
 from mamori.verification.mutation.score import BAR, Counts, calc_interval, count
 from mamori.verification.mutation.sources import MutationError, Sources, read_sources
-from mamori.verification.mutation.workbench import SURVIVED, Result
+from mamori.verification.mutation.trial import SURVIVED, Result
 
 PROGRESS_S = 10.0
 

@@ -10,8 +10,9 @@ import json
 import os
 import queue
 import random
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -20,9 +21,11 @@ from mamori.verification.mutation.equivalent import Row, match
 from mamori.verification.mutation.operators import Mutant, make_mutants
 from mamori.verification.mutation.score import LISTED, Counts, add_up, calc_interval, count, is_met
 from mamori.verification.mutation.sources import Sources
-from mamori.verification.mutation.workbench import KILLED, SURVIVED, TEST_TIMEOUT_S, Baseline, Bench, Result
+from mamori.verification.mutation.trial import KILLED, SURVIVED, Result, Suspect, judge_together, make_companies, screen
+from mamori.verification.mutation.workbench import TEST_TIMEOUT_S, Baseline, Bench
 
 SCHEMA = "mamori.mutation/2"
+SWEEP = 400  # mutants between two times that those are judged which are left
 Progress = Callable[[Result, int, int], None]
 
 
@@ -91,29 +94,64 @@ def run_plan(
     benches: queue.SimpleQueue[Bench] = queue.SimpleQueue()
     for number in range(jobs):
         benches.put(Bench(baseline, f"bench-{number}"))
+    tally = Tally(plan, progress)
 
-    def try_one(mutant: Mutant) -> Result:
-        bench = benches.get()
-        try:
-            return bench.try_mutant(mutant, plan.sources[mutant.file])
-        finally:
-            benches.put(bench)
+    def screen_one(mutant: Mutant) -> Result | Suspect:
+        with _borrow(benches) as bench:
+            return screen(bench, mutant, plan.sources)
 
-    results: list[Result] = []
-    wrong: list[tuple[Row, Result]] = []
+    def judge_some(suspects: Sequence[Suspect]) -> list[Result]:
+        with _borrow(benches) as bench:
+            return judge_together(bench, suspects, plan.sources)
+
     with ThreadPoolExecutor(jobs) as pool:
         try:
-            for done, tried in enumerate(pool.map(try_one, plan.mutants), start=1):
-                row = plan.listed.get(tried.mutant)
-                if row is not None and tried.verdict == KILLED:
-                    wrong.append((row, tried))
-                result = replace(tried, verdict=LISTED) if row is not None and tried.verdict == SURVIVED else tried
-                results.append(result)
-                progress(result, done, len(plan.mutants))
+            for start in range(0, len(plan.mutants), SWEEP):
+                suspects: list[Suspect] = []
+                for tried in pool.map(screen_one, plan.mutants[start : start + SWEEP]):
+                    if isinstance(tried, Suspect):
+                        suspects.append(tried)
+                    else:
+                        tally.note(tried)
+                for results in pool.map(judge_some, make_companies(suspects, jobs)):
+                    for result in results:
+                        tally.note(result)
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
-    return Report(plan, tuple(results), tuple(wrong))
+    return tally.make_report()
+
+
+class Tally:
+    """Results as they come in."""
+
+    def __init__(self, plan: Plan, progress: Progress) -> None:
+        self._plan = plan
+        self._progress = progress
+        self._results: list[Result] = []
+        self._wrong: list[tuple[Row, Result]] = []
+
+    def note(self, tried: Result) -> None:
+        row = self._plan.listed.get(tried.mutant)
+        if row is not None and tried.verdict == KILLED:
+            self._wrong.append((row, tried))
+        result = replace(tried, verdict=LISTED) if row is not None and tried.verdict == SURVIVED else tried
+        self._results.append(result)
+        self._progress(result, len(self._results), len(self._plan.mutants))
+
+    def make_report(self) -> Report:
+        """In the order of the places, whichever came first."""
+        return Report(self._plan, tuple(sorted(self._results, key=lambda result: result.mutant)),
+                      tuple(sorted(self._wrong, key=lambda wrong: wrong[1].mutant)))  # fmt: skip
+
+
+@contextmanager
+def _borrow(benches: queue.SimpleQueue[Bench]) -> Iterator[Bench]:
+    bench = benches.get()
+    try:
+        yield bench
+    finally:
+        benches.put(bench)
 
 
 def make_table(files: dict[str, Counts]) -> str:

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from mamori.verification.mutation.workbench import EQUIVALENT, INVALID, KILLED, SURVIVED, Result
+from mamori.verification.mutation.trial import EQUIVALENT, INVALID, KILLED, SURVIVED, Result
 
 BAR = 0.90
 DOUBT = 0.05  # a sample is believed to contradict the bar when so good a kernel would give it this rarely

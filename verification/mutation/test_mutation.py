@@ -16,11 +16,24 @@ from mamori.verification.command.project import ROOT, Project
 from mamori.verification.mutation import baseline
 from mamori.verification.mutation.command import Keeper, choose_files, describe, read_standing, run_kernel
 from mamori.verification.mutation.equivalent import Row, read_list
-from mamori.verification.mutation.operators import make_mutants
+from mamori.verification.mutation.operators import Mutant, make_mutants
 from mamori.verification.mutation.run import Plan, Report, Selection, make_plan, make_table, run_plan, write_json
 from mamori.verification.mutation.score import LISTED, Counts, calc_interval, is_met
 from mamori.verification.mutation.sources import MutationError, Sources, Unit, keep_flags
-from mamori.verification.mutation.workbench import EQUIVALENT, INVALID, KILLED, SURVIVED, TIMED_OUT, Baseline, Bench, Result
+from mamori.verification.mutation.trial import (
+    COMPANY,
+    EQUIVALENT,
+    INVALID,
+    KILLED,
+    LIKELY,
+    SURVIVED,
+    Result,
+    Suspect,
+    judge_together,
+    make_companies,
+    screen,
+)
+from mamori.verification.mutation.workbench import TIMED_OUT, Baseline, Bench
 
 SAMPLE = 60
 SEED = 1
@@ -53,9 +66,9 @@ static_assert(calc_limit(2) == 20);
 TEST(Limit, Holds) {
     EXPECT_TRUE(is_allowed(0));
     EXPECT_FALSE(is_allowed(100));
-    EXPECT_EQ(keep(5), 5);
     EXPECT_EQ(count_to(3U), 3U);
 }
+TEST(Keep, Keeps) { EXPECT_EQ(keep(5), 5); }
 """,
 }
 FLAGS = ("-std=c++17", "-fno-exceptions")
@@ -95,6 +108,12 @@ def run_all(sources: Sources, *rows: Row, file: str = SOURCE, line: int | None =
     if line is not None:
         plan = replace(plan, mutants=tuple(each for each in plan.mutants if each.get_line(plan.sources[file]) == line))
     return run_plan(sources, plan, Path(tempfile.mkdtemp(dir=sources.root)), 2, lambda *_: None, TIMEOUT_S)
+
+
+def try_alone(bench: Bench, mutant: Mutant, source: bytes) -> Result:
+    sources = {mutant.file: source}
+    tried = screen(bench, mutant, sources)
+    return tried if isinstance(tried, Result) else judge_together(bench, (tried,), sources)[0]
 
 
 def find(report: Report, before: str, after: str) -> Result:
@@ -231,7 +250,7 @@ def test_test_whose_program_is_the_same_is_not_run(sources: Sources) -> None:
     bench.run_test = lambda test, *rest: (ran.append(test.path), run(test, *rest))[1]  # type: ignore[method-assign]
     source = (sources.root / SOURCE).read_bytes()
     survivor = next(mutant for mutant in make_mutants(SOURCE, source) if "value <= calc" in mutant.get_change(source)[1])
-    assert bench.try_mutant(survivor, source).verdict == SURVIVED
+    assert try_alone(bench, survivor, source).verdict == SURVIVED
     assert ran == ["tests/limit_test.cpp"]
 
 
@@ -244,10 +263,73 @@ def test_likely_killers_come_first(sources: Sources) -> None:
 
     original = Baseline(replace(sources, units=units), sources.root / "work", 2)
 
-    assert [test.stem for test in original.order_tests(SOURCE)] == ["limit_test", "limit_life_test", "limited_test", "another_test"]
+    assert [test.stem for test in original.order_tests({SOURCE})] == ["limit_test", "limit_life_test", "limited_test", "another_test"]
     original.note_kill(SOURCE, next(test for test in original.tests if test.stem == "another_test"))
-    assert original.order_tests(SOURCE)[0].stem == "another_test"
-    assert original.order_tests(HEADER)[0].stem == "limit_test"
+    assert original.order_tests({SOURCE})[0].stem == "another_test"
+    assert original.order_tests({HEADER})[0].stem == "limit_test"
+
+
+def make_suspect(start: int, end: int, file: str = SOURCE) -> Suspect:
+    return Suspect(Mutant(file, start, end, "constant", "0"), frozenset(), ())
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="interface")
+def test_mutants_judged_together_meet_the_fate_that_each_meets_alone(sources: Sources) -> None:
+    """All mutants that do not change one place, none of them screened: found ones, survivors, refused ones and equals."""
+    text = (sources.root / SOURCE).read_bytes()
+    suspects = [Suspect(mutant, frozenset(), ()) for mutant in make_mutants(SOURCE, text)]
+    original = Baseline(sources, sources.root / "work", 2, TIMEOUT_S)
+    together = Bench(original, "together")
+    alone = Bench(original, "alone")
+
+    for company in make_companies(suspects, 1):
+        assert len(company) <= COMPANY
+        wanted = [try_alone(alone, suspect.mutant, text) for suspect in company]
+        assert judge_together(together, company, {SOURCE: text}) == wanted
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="error_guessing", polarity="violation")
+def test_mutants_that_make_up_for_each_other_are_no_kills(sources: Sources) -> None:
+    """Both limits moved apart: the test that knows one number only passes each alone, and fails for the two together."""
+    text = b"#include \"limit.hpp\"\nbool is_allowed(int v) { return v < 5; }\nint keep(int v) { return v; }\n"
+    text += b"unsigned count_to(unsigned e) { return e; }\nint add() { return 1 + 1; }\n"
+    (sources.root / SOURCE).write_bytes(text)
+    test = "int add();\nTEST(Limit, Holds) { EXPECT_LT(add(), 4); }\n"
+    (sources.folder / "tests" / "limit_test.cpp").write_text(test, encoding="utf-8")
+    more = [mutant for mutant in make_mutants(SOURCE, text) if "return 2 + 1" in mutant.get_change(text)[1]]
+    more += [mutant for mutant in make_mutants(SOURCE, text) if "return 1 + 2" in mutant.get_change(text)[1]]
+    suspects = [Suspect(mutant, frozenset(), ()) for mutant in more]
+
+    results = judge_together(Bench(Baseline(sources, sources.root / "work", 1), "bench"), suspects, {SOURCE: text})
+
+    assert [result.verdict for result in results] == [SURVIVED, SURVIVED]
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="interface")
+def test_suspect_has_passed_the_likely_tests_only(sources: Sources) -> None:
+    names = [f"tests/limit_{number}_test.cpp" for number in range(LIKELY)]
+    for name in names:
+        (sources.folder / name).write_text('#include "limit.hpp"\nTEST(Other, Holds) { EXPECT_EQ(keep(5), 5); }\n', encoding="utf-8")
+    units = (*sources.units, *(Unit(name, sources.units[0].flags) for name in names))
+    original = Baseline(replace(sources, units=units), sources.root / "work", 2)
+    text = (sources.root / SOURCE).read_bytes()
+    survivor = next(mutant for mutant in make_mutants(SOURCE, text) if "value <= calc" in mutant.get_change(text)[1])
+
+    suspect = screen(Bench(original, "bench"), survivor, {SOURCE: text})
+
+    assert isinstance(suspect, Suspect)
+    assert (len(suspect.passed), [unit.path for unit in suspect.differing]) == (LIKELY, ["src/limit.cpp"])
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="boundary_values")
+def test_companies_are_small_and_no_two_of_one_change_one_place() -> None:
+    neighbours = [make_suspect(start, start + 1) for start in range(2 * COMPANY + 1)]
+    assert [len(company) for company in make_companies(neighbours, 1)] == [14, 14, 13]
+    assert [len(company) for company in make_companies(neighbours[:2], 4)] == [1, 1]
+    assert make_companies([], 2) == []
+
+    nested = [make_suspect(0, 9), make_suspect(3, 4), make_suspect(9, 10), make_suspect(3, 4, HEADER)]
+    assert make_companies(nested, 1) == [[nested[0], nested[2]], [nested[1], nested[3]]]
 
 
 @pytest.mark.verifies("SWR-VER-005", technique="interface")
@@ -271,7 +353,7 @@ def test_mutant_that_never_ends_is_killed_in_time(sources: Sources) -> None:
     source = (sources.root / SOURCE).read_bytes()
     endless = next(mutant for mutant in make_mutants(SOURCE, source) if mutant.get_change(source)[1] == "while (i != end) { ; }")
 
-    result = Bench(original, "bench").try_mutant(endless, source)
+    result = try_alone(Bench(original, "bench"), endless, source)
 
     assert (result.verdict, result.killer) == (KILLED, f"tests/limit_test.cpp {TIMED_OUT}")
 

@@ -17,18 +17,11 @@ import signal
 import subprocess
 import time
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.verification.mutation.operators import Mutant
 from mamori.verification.mutation.sources import COMPILER, MutationError, Sources, Unit
-
-KILLED = "killed"
-SURVIVED = "survived"
-INVALID = "does not compile"
-EQUIVALENT = "same object code"
 
 COMPILE_TIMEOUT_S = 120.0
 TEST_TIMEOUT_S = 10.0  # added to what a test may need
@@ -39,22 +32,6 @@ FILE_BLOCKS = 64 * 1024  # of 512 bytes, that a test may write
 LIBRARIES = ("-lgtest_main", "-lgtest", "-lpthread")
 TEST_FLAGS = ("-O0", "-w", "-UNDEBUG", "-ffp-contract=off")
 COMPARED_FLAGS = ("-O2", "-g0", "-w", "-fno-ident", "-UNDEBUG", "-ffp-contract=off")
-
-# The compiler evaluates tables and checks of tables: a mutant that it refuses for their sake was found by a check.
-COMPILE_TIME_CHECK = re.compile(
-    r"static assertion failed|static assertion expression is not an integral constant"
-    r"|must be initialized by a constant expression|is not a constant expression"
-)
-FIRST_ERROR = re.compile(r"error: (?P<text>[^\n]*)")
-
-
-@dataclass(frozen=True)
-class Result:
-    """What became of one mutant, and who killed it."""
-
-    mutant: Mutant
-    verdict: str
-    killer: str = ""
 
 
 class Baseline:
@@ -73,8 +50,10 @@ class Baseline:
         self._took_s: dict[str, float] = {}
         self._kills: Counter[tuple[str, str]] = Counter()  # by file that was mutated and path of the test
         self._assembler: dict[str, str] = {}
+        self._texts = {test.path: (sources.folder / test.path).read_text(encoding="utf-8") for test in self.tests}
         (folder / "objects").mkdir(parents=True)
-        self._make_prefix()
+        self.prefix = self._make_prefix("prefix", (*TEST_FLAGS, "-fpch-instantiate-templates"))
+        self.compared_prefix = self._make_prefix("compared", COMPARED_FLAGS)
         bench = Bench(self, "original")
         with ThreadPoolExecutor(jobs) as pool:
             problems = [words for words in pool.map(lambda unit: self._compile(unit, bench), sources.units) if words]
@@ -92,34 +71,36 @@ class Baseline:
     def get_object(self, unit: Unit) -> Path:
         return self.folder / "objects" / (unit.path.replace("/", "_") + ".o")
 
-    def order_tests(self, file: str) -> list[Unit]:
-        """Tests by how likely they find a fault in `file`: those that found most of them so far, named after it, after its
-        beginning, naming it, after its first word, including it. Of equals the quick ones come first."""
-        stem = Path(file).stem
-        header = f"/{stem}.hpp"
-        include = re.compile(rf'#include "[^"]*{re.escape(header)}"')
+    def order_tests(self, files: Collection[str]) -> list[Unit]:
+        """Tests by how likely they find a fault in one of `files`: those that found most of them so far, named after it, after
+        its beginning, naming it, after its first word, including it. Of equals the quick ones come first."""
 
         def rank(test: Unit) -> tuple[int, int, int, str]:
-            marks = (
-                test.stem == f"{stem}_test",
-                test.stem.startswith(stem),
-                include.search((self.sources.folder / test.path).read_text(encoding="utf-8")) is not None,
-                test.stem.partition("_")[0] == stem.partition("_")[0],
-                any(name.endswith(header) for name in self.includes[test.path]),
-            )
-            place = next((place for place, mark in enumerate(marks) if mark), len(marks))
-            return -self._kills[file, test.path], place, int(self._took_s.get(test.path, 0.0)), test.path
+            kills = sum(self._kills[file, test.path] for file in files)
+            place = min(self._rank_name(test, Path(file).stem) for file in files)
+            return -kills, place, int(self._took_s.get(test.path, 0.0)), test.path
 
         return sorted(self.tests, key=rank)
+
+    def _rank_name(self, test: Unit, stem: str) -> int:
+        header = f"/{stem}.hpp"
+        marks = (
+            test.stem == f"{stem}_test",
+            test.stem.startswith(stem),
+            re.search(rf'#include "[^"]*{re.escape(header)}"', self._texts[test.path]) is not None,
+            test.stem.partition("_")[0] == stem.partition("_")[0],
+            any(name.endswith(header) for name in self.includes[test.path]),
+        )
+        return next((place for place, mark in enumerate(marks) if mark), len(marks))
 
     def note_kill(self, file: str, test: Unit) -> None:
         """Only the order depends on it, in which benches come to their verdicts; the verdicts do not."""
         self._kills[file, test.path] += 1
 
-    def find_units(self, name: str) -> list[Unit]:
-        """Units that are or include the file `name` (relative to the layer): sources first, then tests in their order."""
-        order = [unit for unit in self.sources.units if not unit.is_test] + self.order_tests(name)
-        return [unit for unit in order if unit.path == name or name in self.includes[unit.path]]
+    def find_units(self, files: Collection[str]) -> list[Unit]:
+        """Units that are or include one of `files`."""
+        names = {Path(file).relative_to(self.sources.layer).as_posix() for file in files}
+        return [unit for unit in self.sources.units if unit.path in names or not names.isdisjoint(self.includes[unit.path])]
 
     def calc_timeout(self, test: Unit) -> float:
         """Seconds after which a test of a mutant is taken for one that never ends."""
@@ -136,17 +117,16 @@ class Baseline:
             self._assembler[unit.path] = self._bench.hash_assembler(unit)
         return self._assembler[unit.path]
 
-    def _make_prefix(self) -> None:
+    def _make_prefix(self, name: str, flags: Iterable[str]) -> Path:
         """The headers that every test begins with, compiled once."""
-        self.prefix = self.folder / "prefix.pch"
-        header = self.folder / "prefix.hpp"
+        header = self.folder / f"{name}.hpp"
         header.write_text(f'#include "{self.sources.prefix_header}"\n', encoding="utf-8")
-        flags = self.tests[0].flags
-        argv = (COMPILER, *flags, *TEST_FLAGS, "-fpch-instantiate-templates", "-x", "c++-header", str(header),
-                "-o", str(self.prefix))  # fmt: skip
+        prefix = header.with_suffix(".pch")
+        argv = (COMPILER, *self.tests[0].flags, *flags, "-x", "c++-header", str(header), "-o", str(prefix))
         _, words = _run(argv, COMPILE_TIMEOUT_S)
-        if not self.prefix.exists():
+        if not prefix.exists():
             raise MutationError(f"{self.sources.prefix_header} does not compile:\n{words}")
+        return prefix
 
     def _compile(self, unit: Unit, bench: Bench) -> str:
         depends = self.get_object(unit).with_suffix(".d")
@@ -174,27 +154,29 @@ class Baseline:
 
 
 class Bench:
-    """A private copy of the layer in which one mutant at a time is tried."""
+    """A private copy of the layer in which mutants are tried."""
 
     def __init__(self, baseline: Baseline, name: str) -> None:
-        self._baseline = baseline
+        self.baseline = baseline
         self._sources = baseline.sources
-        self._folder = baseline.folder / name
-        self._layer = self._folder / self._sources.layer
+        self.folder = baseline.folder / name
+        self._layer = self.folder / self._sources.layer
+        self._originals: dict[str, bytes] = {}
+        self._changed: set[str] = set()
         shutil.copytree(self._sources.folder, self._layer)
 
-    def try_mutant(self, mutant: Mutant, source: bytes) -> Result:
-        """Runs the tests until one fails; compares object code when none did."""
-        path = self._folder / mutant.file
-        path.write_bytes(mutant.apply(source))
-        try:
-            return self._judge(mutant)
-        finally:
-            path.write_bytes(source)
+    def put(self, texts: Mapping[str, bytes]) -> None:
+        """Makes the copy the original but for `texts`, by path relative to the root."""
+        for file in self._changed - texts.keys():
+            (self.folder / file).write_bytes(self._originals[file])
+        for file, text in texts.items():
+            self._originals.setdefault(file, (self.folder / file).read_bytes())
+            (self.folder / file).write_bytes(text)
+        self._changed = set(texts)
 
     def compile(self, unit: Unit, output: Path, *options: str) -> tuple[int, str]:
         """@return status and the compiler's words."""
-        prefix = ("-include-pch", str(self._baseline.prefix)) if unit.is_test else ()
+        prefix = _include(unit, self.baseline.prefix)
         return _run((COMPILER, *self._map(unit), *TEST_FLAGS, *prefix, *options, "-c", str(self._layer / unit.path),
                      "-o", str(output)), COMPILE_TIMEOUT_S)  # fmt: skip
 
@@ -205,9 +187,10 @@ class Bench:
 
     def hash_assembler(self, unit: Unit) -> str:
         """Fingerprint of the optimised code of a unit; empty when it does not compile."""
-        output = self._folder / "compared.s"
+        output = self.folder / "compared.s"
         output.unlink(missing_ok=True)
-        _run((COMPILER, *self._map(unit), *COMPARED_FLAGS, "-S", str(self._layer / unit.path), "-o", str(output)),
+        prefix = _include(unit, self.baseline.compared_prefix)
+        _run((COMPILER, *self._map(unit), *COMPARED_FLAGS, *prefix, "-S", str(self._layer / unit.path), "-o", str(output)),
              COMPILE_TIMEOUT_S)  # fmt: skip
         if not output.exists():
             return ""
@@ -223,71 +206,34 @@ class Bench:
     def _map(self, unit: Unit) -> Iterable[str]:
         """Flags that point into this copy. File names in checks must not tell one copy from another."""
         original = str(self._sources.folder)
-        return (*(flag.replace(original, str(self._layer)) for flag in unit.flags), f"-ffile-prefix-map={self._folder}/=")
-
-    def _judge(self, mutant: Mutant) -> Result:
-        name = Path(mutant.file).relative_to(self._sources.layer).as_posix()
-        left = {unit.path: unit for unit in self._baseline.find_units(name)}
-        bound = {unit.path for unit in self._baseline.find_bound()} if name.endswith(".hpp") else set()
-        changed: dict[str, Path] = {}
-        differing: list[Unit] = []
-        for test in self._baseline.order_tests(mutant.file):
-            parts = {test.path, *self._baseline.links[test.path]}
-            if test.path in bound:
-                left[test.path] = test
-            for unit in [left.pop(path) for path in sorted(parts & left.keys())]:
-                if refusal := self._recompile(unit, changed, mutant):
-                    return refusal
-                differing += [unit] if unit.path in changed else []
-            if test.path not in bound and parts.isdisjoint(changed):
-                continue  # not a byte of this program changed
-            status, words = self.run_test(test, changed, self._baseline.calc_timeout(test))
-            if status != 0:
-                self._baseline.note_kill(mutant.file, test)
-                return Result(mutant, KILLED, f"{test.path} {words}".strip() if words == TIMED_OUT else test.path)
-        for unit in left.values():
-            if refusal := self._recompile(unit, changed, mutant):
-                return refusal
-            differing += [unit] if unit.path in changed else []
-        if all(self.hash_assembler(unit) == self._baseline.get_assembler(unit) for unit in differing if unit.path not in bound):
-            return Result(mutant, EQUIVALENT)
-        return Result(mutant, SURVIVED)
-
-    def _recompile(self, unit: Unit, changed: dict[str, Path], mutant: Mutant) -> Result | None:
-        """Compiles `unit` and notes the object in `changed` when it is another one. @return the verdict when it is refused."""
-        output = self._folder / (unit.path.replace("/", "_") + ".o")
-        status, words = self.compile(unit, output)
-        if status == 0:
-            if output.read_bytes() != self._baseline.get_object(unit).read_bytes():
-                changed[unit.path] = output
-            return None
-        error = FIRST_ERROR.search(words)
-        if error is not None and COMPILE_TIME_CHECK.search(error["text"]):
-            return Result(mutant, KILLED, f"compiler, {unit.path}")
-        return Result(mutant, INVALID)
+        return (*(flag.replace(original, str(self._layer)) for flag in unit.flags), f"-ffile-prefix-map={self.folder}/=")
 
     def trace_link(self, test: Unit) -> set[str]:
         """@return names of the objects that the test takes from the library of the unchanged kernel."""
         _, words = self._link(test, {}, "-Wl,-t,-t")
-        return set(re.findall(rf"^\({re.escape(str(self._baseline.archive))}\)(\S+)$", words, re.MULTILINE))
+        return set(re.findall(rf"^\({re.escape(str(self.baseline.archive))}\)(\S+)$", words, re.MULTILINE))
 
-    def run_test(self, test: Unit, changed: Mapping[str, Path], timeout_s: float) -> tuple[int, str]:
-        """Links and runs one test. @param changed objects that take the place of the original ones.
+    def run_test(self, test: Unit, changed: Mapping[str, Path], timeout_s: float, *options: str) -> tuple[int, str]:
+        """Links and runs one test. @param changed objects that take the place of the original ones. @param options for the test.
         @return status, and why when it is not 0."""
         status, words = self._link(test, changed)
         if status != 0:
             return status, words
-        return _run((str(self._program(test)), "--gtest_fail_fast", "--gtest_brief=1"), timeout_s, cwd=self._folder)
+        return _run((str(self._program(test)), "--gtest_brief=1", *options), timeout_s, cwd=self.folder)
 
     def _link(self, test: Unit, changed: Mapping[str, Path], *options: str) -> tuple[int, str]:
-        own = changed.get(test.path, self._baseline.get_object(test))
+        own = changed.get(test.path, self.baseline.get_object(test))
         others = [str(path) for name, path in changed.items() if not name.startswith("tests/")]
-        return _run((COMPILER, str(own), *others, str(self._baseline.archive), *LIBRARIES, *options,
+        return _run((COMPILER, str(own), *others, str(self.baseline.archive), *LIBRARIES, *options,
                      "-o", str(self._program(test))), COMPILE_TIMEOUT_S)  # fmt: skip
 
     def _program(self, test: Unit) -> Path:
         """One for each test: tests of the unchanged kernel run at the same time."""
-        return self._folder / f"{test.stem}.program"
+        return self.folder / f"{test.stem}.program"
+
+
+def _include(unit: Unit, prefix: Path) -> tuple[str, ...]:
+    return ("-include-pch", str(prefix)) if unit.is_test else ()
 
 
 TIMED_OUT = "timed out"

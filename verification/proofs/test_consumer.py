@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -113,6 +114,50 @@ def test_first_system_runs_in_real_time_as_the_manual_says(project: Project, pre
     counts = re.fullmatch(form, ran.stdout)
     assert counts is not None, (ran.stdout, ran.stderr)
     assert ran.returncode == 0 or int(counts[1]) > 0
+
+
+@pytest.mark.verifies("SWR-PRT-021", technique="interface", polarity="violation")
+def test_first_system_hangs_and_is_told_as_the_manual_says(project: Project, prefix: Path, tmp_path: Path) -> None:
+    folder = build_page(project, prefix, tmp_path / "minimal", "last_resort.md", "mamori::posix_rt")
+    program = folder / "build" / "minimal"
+    orderly = run("env", "-C", tmp_path, program)
+    # A machine that stands still for a tenth of a second makes the watchdog act in this run too.
+    by_machine = orderly.returncode == -signal.SIGABRT and orderly.stderr == "outputs closed\n"
+    served = re.fullmatch(r"watchdog served (\d+) times\n", orderly.stdout)
+    assert by_machine or (orderly.returncode == 0 and served is not None and int(served[1]) > 0), (orderly.stdout, orderly.stderr)
+
+    hanging = run("env", "-C", tmp_path, program, "hang")
+    assert (-hanging.returncode, hanging.stderr) == (signal.SIGABRT, "outputs closed\n")
+    shown = run(sys.executable, "-P", "-m", "mamori.verification.command", "log", tmp_path / "run.rec")
+    assert re.search(r"crash in session 2 at \d\.\d{9} s: SIGABRT, sent by a program; thread of the watchdog", shown.stdout)
+    assert shown.returncode == 0, shown.stderr
+
+
+@pytest.mark.verifies("SWR-PRT-013", technique="interface")
+def test_system_of_two_processes_runs_as_the_manual_says(project: Project, prefix: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "split"
+    folder.mkdir()
+    page = (project.root / "docs" / "manual" / "partitions.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```cpp\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    for name, block in zip(("plan.hpp", "planner.cpp", "main.cpp"), blocks, strict=True):
+        (folder / name).write_text(block, encoding="utf-8")
+    lists = "cmake_minimum_required(VERSION 3.25)\nproject(split LANGUAGES CXX)\nfind_package(mamori CONFIG REQUIRED)\n"
+    for name in ("planner", "main"):
+        lists += f"add_executable({name} {name}.cpp)\ntarget_link_libraries({name} PRIVATE mamori::posix_rt)\n"
+    (folder / "CMakeLists.txt").write_text(lists, encoding="utf-8")
+    configured = run("cmake", "-S", folder, "-B", folder / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
+                     "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF")  # fmt: skip
+    assert configured.returncode == 0, configured.stderr
+    built = run("cmake", "--build", folder / "build")
+    assert built.returncode == 0, built.stdout
+
+    shown = "".join(f"{line.strip()}\n" for line in page.splitlines() if line.startswith("    planner "))
+    assert shown.count("\n") == 2
+    ran = run(folder / "build" / "main", folder / "build" / "planner")
+    assert (ran.returncode, ran.stdout) == (0, shown)
+    missing = run(folder / "build" / "main", folder / "build" / "no_planner")
+    assert missing.returncode == 1
+    assert "cannot be executed" in missing.stdout
 
 
 @pytest.mark.verifies("SWR-TIM-003", technique="interface")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A recording as MCAP, CSV or JSON; each file is whole or not there.
 
-@satisfies SWR-REC-012      Design: docs/design/recorder.md#export
+@satisfies SWR-REC-012, SWR-PRT-028      Design: docs/design/recorder.md#export
 Source: https://mcap.dev/spec and the schema foxglove.Log, which log panels know by its name
 """
 
@@ -13,6 +13,7 @@ import json
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 from typing import BinaryIO
@@ -23,7 +24,7 @@ from mamori.profiles.input_error import InputError
 from mamori.profiles.text_file import write_text
 from mamori.verification.recorder.names import Names
 from mamori.verification.recorder.region import Finding, Record, Recording
-from mamori.verification.recorder.show import format_time
+from mamori.verification.recorder.show import format_crash, format_time
 
 SCHEMA_NAME = "foxglove.Log"
 LEVELS = {"info": 2, "warning": 3, "fault": 4}
@@ -73,7 +74,8 @@ def write_mcap(path: Path, recording: Recording, names: Names) -> None:
             writer.add_message(channels[record.session], time_ns, json.dumps(_make_message(recording, record, names)).encode(),
                                time_ns, record.sequence & 0xFFFF_FFFF)
         facts = {"file": recording.path.name, "capacity": recording.capacity, "session": recording.session,
-                 "overwritten": recording.overwritten, "findings": [_make_finding(finding) for finding in recording.findings]}
+                 "overwritten": recording.overwritten, "findings": [_make_finding(finding) for finding in recording.findings],
+                 "crash": _make_crash(recording)}
         writer.add_metadata(METADATA, {key: value if isinstance(value, str) else json.dumps(value) for key, value in facts.items()})
         writer.finish()
 
@@ -97,6 +99,7 @@ def make_json(recording: Recording, names: Names) -> str:
         "records": [{**_make_numbers(record), "offset": record.offset, "source_name": names.source(record),
                      "code_name": names.code(record), "argument_name": names.argument(record)} for record in recording.records],
         "findings": [_make_finding(finding) for finding in recording.findings],
+        "crash": _make_crash(recording),
     }, indent=1)  # fmt: skip
 
 
@@ -114,6 +117,10 @@ def _make_message(recording: Recording, record: Record, names: Names) -> dict[st
 
 def _make_finding(finding: Finding) -> dict[str, object]:
     return {"kind": finding.kind, "offset": finding.offset, "text": finding.text}
+
+
+def _make_crash(recording: Recording) -> dict[str, object] | None:
+    return None if recording.crash is None else {**asdict(recording.crash), "text": format_crash(recording.crash)}
 
 
 @contextmanager

@@ -3,11 +3,14 @@
 
 The bytes are described in docs/design/recorder.md#region; kernel/include/mamori/kernel/flight_format.hpp writes them.
 
-@satisfies SWR-REC-011, SWR-REC-013      Design: docs/design/recorder.md#the-command-log
+A file of the real-time port ends with the note of a crash, which ports/posix_rt/src/crash_note.cpp writes.
+
+@satisfies SWR-REC-011, SWR-REC-013, SWR-PRT-028      Design: docs/design/recorder.md#the-command-log
 """
 
 from __future__ import annotations
 
+import signal
 import struct
 import zlib
 from collections.abc import Iterator
@@ -26,6 +29,10 @@ RECORD = struct.Struct("<QqqIHHBHBI")
 RECORD_CRC_BYTES = 35
 COMMIT_OFFSET = 35
 COMMITTED = 0xC3
+CRASH_NOTE = struct.Struct("<qQIHHBBI")
+CRASH_NOTE_CRC_BYTES = 26
+NO_PLACE = 0xFFFF
+WATCHDOG = 0xFFFE
 SEQUENCE_MAX = 1 << 62
 SEVERITIES = ("info", "warning", "fault")
 MAX_BYTES = 1 << 30
@@ -57,6 +64,22 @@ class Finding:
 
 
 @dataclass(frozen=True)
+class Crash:
+    """The last crash that the file knows; `window` and `component` are places in the system table."""
+
+    session: int
+    time_ns: int
+    signal: str
+    is_sent: bool
+    """By kill, raise or abort; else an instruction could not go on."""
+    address: int
+    window: int | None
+    component: int | None
+    is_watchdog: bool
+    offset: int
+
+
+@dataclass(frozen=True)
 class Recording:
     """What a file holds. `records` and `findings` are in the order of their numbers."""
 
@@ -65,6 +88,7 @@ class Recording:
     session: int
     records: tuple[Record, ...]
     findings: tuple[Finding, ...]
+    crash: Crash | None = None
 
     @property
     def overwritten(self) -> int | None:
@@ -97,7 +121,7 @@ def read_recording(path: Path) -> Recording:
         findings.append(Finding("header", 0, 0, f"{problem}; read as format version {VERSION}"))
     else:
         capacity = HEADER.unpack_from(data)[5]
-        findings.extend(_check_length(len(data), capacity))
+        findings.extend(_check_length(data, capacity))
     # With a header that is not believed the place of a record is not judged: the capacity may be another one.
     ring = _read_slots(data, capacity, is_place_known=not problem)
     if problem and not ring.records:
@@ -109,7 +133,7 @@ def read_recording(path: Path) -> Recording:
         findings.extend(_describe_damage(kind, slot, 0, "") for slot, kind in ring.damaged)
     findings.sort(key=lambda finding: (finding.place, finding.offset))
     session = max([_read_session(data), *(record.session for record in ring.records)])
-    return Recording(path, capacity, session, tuple(ring.records), tuple(findings))
+    return Recording(path, capacity, session, tuple(ring.records), tuple(findings), _read_crash(data, capacity))
 
 
 def _read_bytes(path: Path) -> bytes:
@@ -149,15 +173,35 @@ def _check_header(path: Path, data: bytes) -> str:
     return ""
 
 
-def _check_length(length: int, capacity: int) -> Iterator[Finding]:
+def _check_length(data: bytes, capacity: int) -> Iterator[Finding]:
+    length = len(data)
     wanted = HEADER_BYTES + capacity * RECORD.size
     if length < wanted:
         whole = (length - HEADER_BYTES) // RECORD.size
         yield Finding("cut", SEQUENCE_MAX + 1, length,
                       f"the file ends here, at {length} of {wanted} bytes: {capacity - whole} of {capacity} slots are cut off; "
                       "the records there may be older or newer than those shown")
+    elif length == wanted + CRASH_NOTE.size:
+        if any(data[wanted:]) and _read_crash(data, capacity) is None:
+            yield Finding("corrupt", SEQUENCE_MAX + 1, wanted, "note of a crash: its bytes are not what was written, or not all of it")
     elif length > wanted:
         yield Finding("trailing", SEQUENCE_MAX + 1, wanted, f"{length - wanted} bytes behind the end of the recorder")
+
+
+def _read_crash(data: bytes, capacity: int) -> Crash | None:
+    """The note behind the last slot; None where there is none, or none that is whole."""
+    offset = _offset_of(capacity)
+    if len(data) != offset + CRASH_NOTE.size:
+        return None
+    time_ns, address, session, window, component, number, is_sent, crc = CRASH_NOTE.unpack_from(data, offset)
+    if crc != zlib.crc32(data[offset : offset + CRASH_NOTE_CRC_BYTES]) or not number or is_sent > 1:
+        return None
+    try:
+        name = signal.Signals(number).name
+    except ValueError:
+        name = f"signal {number}"
+    return Crash(session, time_ns, name, bool(is_sent), address, None if window == NO_PLACE else window,
+                 None if component in (NO_PLACE, WATCHDOG) else component, component == WATCHDOG, offset)
 
 
 def _read_slots(data: bytes, capacity: int, is_place_known: bool) -> _Ring:

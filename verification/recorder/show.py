@@ -3,7 +3,7 @@
 
 rich keeps to NO_COLOR and leaves colours out where the output is no terminal.
 
-@satisfies SWR-REC-011      Design: docs/design/recorder.md#the-command-log
+@satisfies SWR-REC-011, SWR-PRT-028      Design: docs/design/recorder.md#the-command-log
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.text import Text
 
 from mamori.verification.recorder.names import Names
-from mamori.verification.recorder.region import Finding, Record, Recording
+from mamori.verification.recorder.region import Crash, Finding, Record, Recording
 
 COLUMNS = ("sequence", "session", "time [s]", "severity", "source", "event", "argument")
 RIGHT = (True, True, True, False, False, False, False)
@@ -52,6 +52,22 @@ def format_summary(recording: Recording) -> str:
     return "; ".join([*parts, format_damage(recording) or "no damage"])
 
 
+def format_crash(crash: Crash) -> str:
+    """One sentence: what, where, when."""
+    what = f"{crash.signal}, sent by a program" if crash.is_sent else f"{crash.signal} at address {crash.address:#x}"
+    if crash.is_watchdog:
+        where = "thread of the watchdog"
+    elif crash.window is None and crash.component is None:
+        where = "outside of all components"
+    else:
+        where = f"window {_format_place(crash.window)}, component {_format_place(crash.component)} of the system table"
+    return f"crash in session {crash.session} at {format_time(crash.time_ns)} s: {what}; {where}"
+
+
+def _format_place(place: int | None) -> str:
+    return "unknown" if place is None else str(place)
+
+
 def print_recording(recording: Recording, names: Names) -> None:
     """Prints the table and its last line to standard output."""
     console = _Console(highlight=False, soft_wrap=True, markup=False)
@@ -63,6 +79,8 @@ def print_recording(recording: Recording, names: Names) -> None:
             console.print(Text(f"  -- {entry.kind} at offset {entry.offset}: {entry.text}", style=DAMAGE_STYLE))
         else:
             console.print(Text(_join(cells[entry], widths), style=STYLES[recording.records[entry].severity]))
+    if recording.crash is not None:
+        console.print(Text(format_crash(recording.crash), style=STYLES["fault"]))
     console.print(Text(format_summary(recording), style="bold"))
 
 

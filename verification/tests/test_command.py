@@ -110,6 +110,18 @@ def test_the_words_of_the_timing_run_are_those_of_the_command_and_its_result_is_
     assert ROOT / step.produces == Project(ROOT).evidence / "timing" / "safe_arm" / "timing.json"
 
 
+@pytest.mark.verifies("SWR-CLI-006", technique="interface")
+def test_the_words_of_the_cost_step_are_those_of_the_command_and_its_result_is_where_the_report_looks() -> None:
+    step = plans.cost_step()
+    words = step.commands[0][step.commands[0].index("cost") :]
+
+    arguments = make_parser().parse_args([word.format(jobs=1) for word in words])
+
+    assert (ROOT / arguments.system / "timing.toml").is_file()
+    assert (ROOT / arguments.check).is_file()
+    assert ROOT / step.produces == Project(ROOT).evidence / "cost" / "safe_arm" / "cost.json"
+
+
 @pytest.mark.verifies("SWR-CLI-005", technique="error_guessing", polarity="violation")
 def test_report_that_could_not_be_written_is_known_before_the_work(tmp_path: Path) -> None:
     (tmp_path / "report").write_text("a file where the folder should be\n", encoding="utf-8")

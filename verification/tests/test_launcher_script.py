@@ -109,7 +109,7 @@ def test_second_run_installs_nothing(box: Box) -> None:
      (("demo",), "graphviz", "cppcheck"), (("verify",), "graphviz", "cppcheck"),
      (("timing", "x", "--load"), "stress-ng", "valgrind"), (("timing", "x"), "cmake", "stress-ng"),
      (("timing", "x", "--", "--load"), "cmake", "stress-ng"),
-     (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev"),
+     (("cost", "x"), "valgrind", "stress-ng"), (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev"),
      (("table", "t.json", "--text"), "python3-venv", "graphviz"), (("table", "t.json", "--out", "d"), "graphviz", "cmake")],
 )  # fmt: skip
 def test_each_command_needs_its_groups_only(box: Box, words: tuple[str, ...], wanted: str, unwanted: str) -> None:
@@ -234,7 +234,7 @@ def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004")
-@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench", "timing", "table"])
+@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench", "timing", "cost", "table"])
 def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
     bare = box.folder / "bare"
     bare.mkdir()
@@ -249,7 +249,7 @@ def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
-@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench", "timing", "table"])
+@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench", "timing", "cost", "table"])
 def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
     subparsers = next(action for action in make_parser()._actions if action.dest == "command")
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}
@@ -269,6 +269,7 @@ def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, co
         (("test", "--quik"), "test has no option '--quik'; nearest: --quick or "),
         (("timing", "x", "--lod"), "timing has no option '--lod'; nearest: --load or "),
         (("timing", "x", "--cycles", "-5"), "timing: argument --cycles: '-5' is no whole number from 1 on"),
+        (("cost", "x", "--clas", "a"), "cost has no option '--clas'; nearest: --class or "),
         (("mutate", "--jobs", "-1"), "mutate: argument --jobs: '-1' is no whole number from 1 on"),
         (("demo", "--motion", "gone.yaml"), "motion file 'gone.yaml' cannot be read"),
         (("demo", "--motion=gone.yaml"), "motion file 'gone.yaml' cannot be read"),

@@ -18,7 +18,7 @@ from mamori.profiles.input_error import InputError
 from mamori.verification.command.main import main
 from mamori.verification.recorder.names import Names, read_names
 
-from recorder_files import make_file, make_record, write
+from recorder_files import make_crash, make_file, make_record, write
 
 NAMES = {"sources": {"0": "supervisor"}, "codes": {"0": {"name": "state_entered", "argument": "state"}, "1": "fault_latched"},
          "arguments": {"state": {"0": "SelfTest", "2": "Operational"}}}  # fmt: skip
@@ -284,3 +284,40 @@ def test_reader_who_has_seen_enough_ends_it_without_a_complaint(tmp_path: Path) 
 @pytest.mark.verifies("SWR-REC-013", technique="error_guessing", polarity="violation")
 def test_input_error_is_one_line() -> None:
     assert str(InputError("a\nb", Path("c"))) == "c: a b"
+
+
+@pytest.mark.verifies("SWR-PRT-028")
+@pytest.mark.parametrize(
+    ("note", "line"),
+    [
+        (make_crash(session=2, address=0x10, window=1, component=5, time_ns=1_250_000_000),
+         "crash in session 2 at 1.250000000 s: SIGSEGV at address 0x10; window 1, component 5 of the system table"),
+        (make_crash(number=6, is_sent=1, component=0xFFFE),
+         "crash in session 1 at 0.000000000 s: SIGABRT, sent by a program; thread of the watchdog"),
+        (make_crash(number=4, address=255), "crash in session 1 at 0.000000000 s: SIGILL at address 0xff; outside of all components"),
+        (make_crash(window=3), "SIGSEGV at address 0x0; window 3, component unknown of the system table"),
+    ],
+)  # fmt: skip
+def test_crash_is_told_in_a_line_and_in_each_export(tmp_path: Path, capsys: pytest.CaptureFixture[str], note: bytes, line: str) -> None:
+    path = write(tmp_path / "run.rec", make_file(4, RECORDS, session=2) + note)
+
+    assert log(path) == 0, "a crash is no damage of the file"
+    said = capsys.readouterr()
+    assert line in said.out
+    assert said.err == ""
+    assert log(path, "--json") == 0
+    assert line in json.loads(capsys.readouterr().out)["crash"]["text"]
+    assert log(path, "--mcap", tmp_path / "run.mcap") == 0
+    with (tmp_path / "run.mcap").open("rb") as stream:
+        metadata = {record.name: record.metadata for record in make_reader(stream).iter_metadata()}
+    assert line in json.loads(metadata["mamori.log"]["crash"])["text"]
+
+
+@pytest.mark.verifies("SWR-PRT-028", technique="fault_injection", polarity="violation")
+def test_damaged_note_is_told_after_the_records(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write(tmp_path / "run.rec", make_file(4, RECORDS, session=2) + make_crash()[:-1] + b"?")
+
+    assert log(path) == 1
+    said = capsys.readouterr()
+    assert "-- corrupt at offset 224: note of a crash" in said.out
+    assert "1 corrupt, first at offset 224" in said.err

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from mamori.profiles.input_error import InputError
-from mamori.verification.recorder.region import MAX_BYTES, Recording, read_recording
+from mamori.verification.recorder.region import MAX_BYTES, Crash, Recording, read_recording
 
-from recorder_files import HEADER_BYTES, RECORD_BYTES, make_file, make_header, make_record, write
+from recorder_files import HEADER_BYTES, RECORD_BYTES, make_crash, make_file, make_header, make_record, write
 
 # The record of kernel/tests/flight_format_test.cpp, byte for byte.
 GOLDEN = bytes.fromhex("0807060504030201feffffffffffffff8877665544332211a4a3a2a1b2b1c2c1020000c3fb5bb52d")
@@ -230,3 +230,54 @@ def test_flipped_bytes_never_invent_a_record(tmp_path: Path, seed: int) -> None:
         named = {(finding.offset - HEADER_BYTES) // RECORD_BYTES for finding in recording.findings
                  if finding.kind in ("torn", "corrupt")}  # fmt: skip
         assert named == spoiled, f"seed {seed}"
+
+
+# The note of ports/posix_rt/tests/crash_note_test.cpp, byte for byte.
+GOLDEN_NOTE = bytes.fromhex("feffffffffffffff8877665544332211a4a3a2a1b2b1c2c10b01ab7863ca")
+
+
+@pytest.mark.verifies("SWR-PRT-028", technique="back_to_back")
+def test_note_that_the_port_writes_is_read(tmp_path: Path) -> None:
+    data = make_file(2, [make_record(1)])
+    recording = read(tmp_path, data + GOLDEN_NOTE)
+
+    assert recording.crash == Crash(session=0xA1A2A3A4, time_ns=-2, signal="SIGSEGV", is_sent=True, address=0x1122334455667788,
+                                    window=0xB1B2, component=0xC1C2, is_watchdog=False, offset=len(data))
+    assert (sequences(recording), recording.findings, recording.capacity) == ([1], (), 2)
+
+
+@pytest.mark.verifies("SWR-PRT-028", technique="boundary_values")
+def test_places_that_are_none_the_watchdog_and_signals_without_a_name_are_told_apart(tmp_path: Path) -> None:
+    nowhere = read(tmp_path, make_file(1, []) + make_crash()).crash
+    watchdog = read(tmp_path, make_file(1, []) + make_crash(component=0xFFFE, number=200)).crash
+
+    assert nowhere is not None and (nowhere.window, nowhere.component, nowhere.is_watchdog) == (None, None, False)
+    assert watchdog is not None and (watchdog.component, watchdog.is_watchdog, watchdog.signal) == (None, True, "signal 200")
+
+
+@pytest.mark.verifies("SWR-PRT-028")
+def test_room_for_a_note_without_a_crash_is_in_order(tmp_path: Path) -> None:
+    recording = read(tmp_path, make_file(3, [make_record(1)]) + bytes(30))
+
+    assert (recording.crash, recording.findings) == (None, ())
+
+
+@pytest.mark.verifies("SWR-PRT-028", technique="fault_injection", polarity="violation")
+def test_each_damaged_byte_of_a_note_is_found(tmp_path: Path) -> None:
+    data = make_file(2, [make_record(1)])
+    for place in range(len(GOLDEN_NOTE)):
+        note = bytearray(GOLDEN_NOTE)
+        note[place] ^= 0x10
+        recording = read(tmp_path, data + bytes(note))
+        assert recording.crash is None
+        assert findings(recording) == [("corrupt", len(data))]
+        assert sequences(recording) == [1]
+
+
+@pytest.mark.verifies("SWR-PRT-028", technique="boundary_values", polarity="violation")
+def test_a_byte_more_or_less_than_a_note_is_no_note(tmp_path: Path) -> None:
+    data = make_file(2, [make_record(1)])
+    for tail in (GOLDEN_NOTE[:-1], GOLDEN_NOTE + bytes(1)):
+        recording = read(tmp_path, data + tail)
+        assert recording.crash is None
+        assert findings(recording) == [("trailing", len(data))]

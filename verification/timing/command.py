@@ -79,7 +79,7 @@ def timing(request: Request, jobs: int) -> int:
     """@return exit status: 0, 1 (a finding), 4 (without real-time rights) or 130 (stopped). @raise UsageError, InputError."""
     job = check(request, jobs)
     _prepare_folder(job)
-    if job.system.target and not _build(job):
+    if not build_system(job.system, job.context):
         return EXIT_FAILED
     if not os.access(job.system.program, os.X_OK):
         raise UsageError(f"timing: '{job.system.program}' was not built; correct 'program' in {request.system}/timing.toml")
@@ -111,14 +111,14 @@ def check(request: Request, jobs: int) -> Job:
     return Job(request, system, baseline, folder, Context(project, jobs))
 
 
-def check_folder(folder: Path) -> None:
-    """@raise UsageError when no file can be written there."""
+def check_folder(folder: Path, command: str = "timing") -> None:
+    """@param command who asks, for its message. @raise UsageError when no file can be written there."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        raise UsageError(f"timing: {folder}: nothing can be written there ({error.strerror}); name a folder that you may write to") from error
+        raise UsageError(f"{command}: {folder}: nothing can be written there ({error.strerror}); name a folder that you may write to") from error
 
 
 def _prepare_folder(job: Job) -> None:
@@ -132,16 +132,19 @@ def _prepare_folder(job: Job) -> None:
         raise UsageError(f"timing: '{error.filename}' is in the way of a result: {error.strerror}; name another folder") from error
 
 
-def _build(job: Job) -> bool:
-    project = job.context.project
+def build_system(system: System, context: Context) -> bool:
+    """Builds what `system` needs to be run, if anything. @return whether it is there; what went wrong was shown."""
+    if not system.target:
+        return True
+    project = context.project
     step = Step(
-        name=f"build {job.system.target}",
+        name=f"build {system.target}",
         commands=(
             ("cmake", "-S", str(project.root), "--preset", project.preset),
-            ("cmake", "--build", str(project.build), "--target", job.system.target, "--parallel", str(job.context.jobs)),
+            ("cmake", "--build", str(project.build), "--target", system.target, "--parallel", str(context.jobs)),
         ),
     )
-    return all_passed(run_steps((step,), job.context))
+    return all_passed(run_steps((step,), context))
 
 
 def _probe(job: Job) -> float | None:

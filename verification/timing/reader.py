@@ -78,21 +78,21 @@ def read_measurement(folder: Path) -> Measurement:
     table = read_table(folder / "table.json")
     if table.findings:
         raise InputError(f"breaks a rule: {table.findings[0]}; ./mamori table --text shows all", folder / "table.json")
-    run = JsonNode(folder / "run.json", "the run", _load_json(folder / "run.json"), HOW_TO_MEND)
+    run = JsonNode(folder / "run.json", "the run", load_json(folder / "run.json"), HOW_TO_MEND)
     asked, done, is_partial, reference = _read_run(run, table)
-    rights = tuple(_read_right(name, run.at("rights").at(name)) for name in RIGHTS)
+    rights = tuple(read_right(name, run.at("rights").at(name)) for name in RIGHTS)
     openings = read_rows(folder / "openings.npy", OPENING, "openings")
     openings = openings[np.lexsort((openings["release_ns"], openings["window"]))]
     _check_openings(openings, table, folder / "openings.npy")
     _check_counts(openings, table, done, folder / "openings.npy")
     steps = read_rows(folder / "steps.npy", STEP, "steps")
-    _check_steps(steps, table, folder / "steps.npy")
+    check_steps(steps, table, folder / "steps.npy")
     steps, opening_of_step, notes = _match_steps(steps, openings, table, is_partial, folder / "steps.npy")
     own = tuple(f"the program: {note.text()}" for note in run.at("notes").items())
     return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, (*own, *notes))
 
 
-def _load_json(path: Path) -> object:
+def load_json(path: Path) -> object:
     try:
         return json.loads(read_text(path, "record of the run", 1_000_000).text)
     except (ValueError, RecursionError) as error:
@@ -120,7 +120,7 @@ def _read_run(run: JsonNode, table: Table) -> tuple[int, int, bool, int]:
     return asked, done, is_partial, reference
 
 
-def _read_right(name: str, node: JsonNode) -> Right:
+def read_right(name: str, node: JsonNode) -> Right:
     right = Right(name, node.at("is_granted").truth(), node.at("errno").count())
     if right.is_granted and right.errno:
         raise node.complain(f"is granted, with the errno {right.errno} of a refusal")
@@ -188,12 +188,14 @@ def _check_counts(rows: Array, table: Table, cycles: int, path: Path) -> None:
                              path)  # fmt: skip
 
 
-def _check_steps(rows: Array, table: Table, path: Path) -> None:
+def check_steps(rows: Array, table: Table, path: Path, by_clock: bool = True) -> None:
+    """@param by_clock release and start are on one time line. @raise InputError for the first row that cannot be."""
     count = len(table.components)
     _refuse_first(rows["component"] >= count, rows, path, f"name a component beyond the {count} of the table")
     _refuse_first(rows["pass"] >= len(PASSES), rows, path, f"have a pass beyond the {len(PASSES)} that there are")
     _check_instants(rows, ("release_ns", "start_ns", "end_ns"), path)
-    _refuse_first(rows["start_ns"] < rows["release_ns"], rows, path, "began before their release")
+    if by_clock:
+        _refuse_first(rows["start_ns"] < rows["release_ns"], rows, path, "began before their release")
     _refuse_first((rows["end_ns"] < rows["start_ns"]) & (rows["end_ns"] != NOT_BACK), rows, path, "ended before they began")
     homeless = np.array([component.window is None for component in table.components], dtype=bool)
     if count:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import os
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from mamori.profiles.input_error import InputError, nearest_names
 from mamori.profiles.text_file import read_text
@@ -17,30 +18,33 @@ from mamori.verification.command.errors import UsageError
 from mamori.verification.command.project import Project
 
 FILE = "timing.toml"
-KEYS = ("program", "target", "arguments")
+KEYS = ("program", "target", "arguments", "cost")
 
 
 @dataclass(frozen=True)
 class System:
-    """A program that keeps the contract of docs/design/timing.md#files. `target`: what CMake builds it as; empty: nothing to build."""
+    """A program that keeps the contract of docs/design/timing.md#files. `target`: what CMake builds it as; empty: nothing to build.
+    `cost`: what the file says for `mamori cost`, as it stands there; `file` is empty where there is none."""
 
     name: str
     program: Path
     target: str = ""
     arguments: tuple[str, ...] = ()
+    cost: dict[str, Any] = field(default_factory=dict)
+    file: Path | None = None
 
 
-def find_system(text: str, project: Project) -> System:
-    """@raise UsageError or InputError when `text` names no system."""
+def find_system(text: str, project: Project, command: str = "timing") -> System:
+    """@param command who asks, for its messages. @raise UsageError or InputError when `text` names no system."""
     path = Path(text)
     if not path.exists() and (project.root / text).exists():
         path = project.root / text  # the command may be called from any folder
     if path.is_dir():
-        return _read_folder(path.resolve(), project)
+        return _read_folder(path.resolve(), project, command)
     if not path.is_file():
-        raise UsageError(f"timing: there is no system '{text}'; {nearest_names(text, list_systems(project))}")
+        raise UsageError(f"{command}: there is no system '{text}'; {nearest_names(text, list_systems(project))}")
     if not os.access(path, os.X_OK):
-        raise UsageError(f"timing: '{text}' is no program that may be run; name a folder with a {FILE}, or an executable file")
+        raise UsageError(f"{command}: '{text}' is no program that may be run; name a folder with a {FILE}, or an executable file")
     return System(path.resolve().name, path.resolve())
 
 
@@ -49,10 +53,10 @@ def list_systems(project: Project) -> list[str]:
     return sorted(str(path.parent.relative_to(project.root)) for path in project.root.glob(f"examples/*/{FILE}"))
 
 
-def _read_folder(folder: Path, project: Project) -> System:
+def _read_folder(folder: Path, project: Project, command: str) -> System:
     file = folder / FILE
     if not file.is_file():
-        raise UsageError(f"timing: '{folder}' has no {FILE}; {nearest_names(folder.name, list_systems(project))}")
+        raise UsageError(f"{command}: '{folder}' has no {FILE}; {nearest_names(folder.name, list_systems(project))}")
     try:
         data = tomllib.loads(read_text(file, "description of a system", 100_000).text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
@@ -61,14 +65,21 @@ def _read_folder(folder: Path, project: Project) -> System:
         if key not in KEYS:
             raise InputError(f"has an unknown key '{key}'; {nearest_names(key, KEYS)}", file)
     program, target = (_read_text(data, key, file) for key in ("program", "target"))
-    arguments = data.get("arguments", [])
-    if not isinstance(arguments, list) or not all(isinstance(word, str) and "\0" not in word for word in arguments):
-        raise InputError("'arguments' must be a list of texts without NUL", file)
-    words = tuple(word.replace("{root}", str(project.root)) for word in arguments)
+    words = read_words(data.get("arguments", []), "'arguments'", project, file)
+    cost = data.get("cost", {})
+    if not isinstance(cost, dict):
+        raise InputError("'cost' must be a table", file)
     path = (project.build / program).resolve()
     if not path.is_relative_to(project.build.resolve()):
         raise InputError(f"'program' is '{program}', which leads out of the build folder; name a path below it", file)
-    return System(folder.name, path, target, words)
+    return System(folder.name, path, target, words, cost, file)
+
+
+def read_words(value: object, what: str, project: Project, file: Path) -> tuple[str, ...]:
+    """Words of a command line, with `{root}` replaced. @raise InputError for anything else."""
+    if not isinstance(value, list) or not all(isinstance(word, str) and "\0" not in word for word in value):
+        raise InputError(f"{what} must be a list of texts without NUL", file)
+    return tuple(word.replace("{root}", str(project.root)) for word in value)
 
 
 def _read_text(data: dict[str, object], key: str, file: Path) -> str:

@@ -4,6 +4,7 @@
 #include <cerrno>
 
 #include "mamori/kernel/assert.hpp"
+#include "mamori/ports/posix_rt/crash_place.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -29,11 +30,14 @@ bool wait_for(sem_t& semaphore, const timespec& until) noexcept {
 
 void* WindowThread::serve(void* argument) noexcept {
     WindowThread& self = *static_cast<WindowThread*>(argument);
+    // Without it a component that uses up its stack ends the process without a note; the rest is the same.
+    static_cast<void>(self.crash_stack_.take());
     wait_for(self.wanted_);
     while (!self.is_ending_.load(std::memory_order_acquire)) {
         self.work_off();
         wait_for(self.wanted_);
     }
+    self.crash_stack_.give_back();
     return nullptr;
 }
 
@@ -41,12 +45,14 @@ void* WindowThread::serve(void* argument) noexcept {
 void WindowThread::work_off() noexcept {
     const std::uint32_t number = asked_;
     for (std::size_t i = 0U; i < work_.count; ++i) {
+        set_crash_place(work_.window, work_.component + i);
         work_.run(work_.argument, work_.first + i, work_.first + i + 1U);
         if (clock_->get_now() > deadline_) {
             break;
         }
         finished_count_.store(i + 1U, std::memory_order_release);
     }
+    clear_crash_place();
     done_.store(number, std::memory_order_release);
     static_cast<void>(sem_post(&returned_));
 }

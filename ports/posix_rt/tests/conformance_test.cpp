@@ -20,10 +20,12 @@
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/ports/conformance/storage_contract.hpp"
 #include "mamori/ports/conformance/timer_contract.hpp"
+#include "mamori/ports/conformance/watchdog_contract.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/mapped_file.hpp"
+#include "mamori/ports/posix_rt/software_watchdog.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::ports::posix_rt {
@@ -151,6 +153,32 @@ class MappedFileRig final : public conformance::StorageRig {
     MappedFile file_;
 };
 
+/// The relay is what has_expired() says; the outputs follow it, on the thread of the watchdog.
+class SoftwareWatchdogRig final : public conformance::WatchdogRig {
+  public:
+    SoftwareWatchdogRig() { EXPECT_EQ(watchdog_.open({}), Status::kOk); }
+    ~SoftwareWatchdogRig() override {
+        EXPECT_EQ(watchdog_.close(), Status::kOk);
+        EXPECT_EQ(is_closed_.load(), watchdog_.has_expired());
+    }
+
+    safety::Watchdog& get_watchdog() override { return watchdog_; }
+    Duration get_timeout() const override { return kTimeout; }
+    Instant get_now() const override { return clock_.get_now(); }
+    void let_pass(Duration time) override { clock_.wait_until(clock_.get_now() + time); }
+    bool has_expired() override { return watchdog_.has_expired(); }
+
+  private:
+    static constexpr Duration kTimeout = 1_ms;
+    static void close(void* self) noexcept {
+        static_cast<SoftwareWatchdogRig*>(self)->is_closed_.store(true);
+    }
+
+    const FrameClock clock_ = FrameClock::starting_in(0_ms);
+    std::atomic<bool> is_closed_{false};
+    SoftwareWatchdog watchdog_{clock_, {0_ms, kTimeout}, {&SoftwareWatchdogRig::close, this, false}};
+};
+
 TrialFactory make_clock() {
     return conformance::make_clock_trials([] { return std::make_unique<FrameClockRig>(); });
 }
@@ -163,6 +191,10 @@ TrialFactory make_timer() {
 }
 TrialFactory make_storage() {
     return conformance::make_storage_trials([] { return std::make_unique<MappedFileRig>(); });
+}
+
+TrialFactory make_watchdog() {
+    return conformance::make_watchdog_trials([] { return std::make_unique<SoftwareWatchdogRig>(); });
 }
 
 void expect_kept(const Report& report) {
@@ -200,6 +232,12 @@ TEST(PosixRtConformanceTest, TimerKeepsItsContract) {
     verifies("SWR-CNF-011", Technique::kStateTransition);
     expect_kept(run_in_order(make_timer()));
     expect_kept(run_randomly(make_timer(), kSeed, 40U));
+}
+
+TEST(PosixRtConformanceTest, WatchdogKeepsItsContract) {
+    verifies("SWR-CNF-006", Technique::kStateTransition);
+    expect_kept(run_in_order(make_watchdog()));
+    expect_kept(run_randomly(make_watchdog(), kSeed, 1000U));
 }
 
 TEST(PosixRtConformanceTest, StorageKeepsItsContract) {

@@ -18,20 +18,20 @@ void FrameRunner::run_frame() noexcept {
     const Instant start{static_cast<std::int64_t>(frame_count_) * length.ns};
     const Instant end = start + length;
     for (SimulatedCore& core : cores_) {
-        core.host_.advance_to(start);
+        core.clock_.advance_to(start);
     }
     devices_.begin_frame(frame_count_, start);
     for (SimulatedCore* core = &find_next(); core->schedule_.get_next().release < end; core = &find_next()) {
         const FrameSchedule::Opening opening = core->schedule_.get_next();
         core->schedule_.advance();
-        core->host_.advance_to(opening.release);
+        core->clock_.advance_to(opening.release);
         if (core->executive_.run_window(opening.window, opening.release, core->host_) ==
             WindowOutcome::kOverrun) {
             ++overrun_count_;
         }
     }
     for (SimulatedCore& core : cores_) {
-        core.host_.advance_to(end);
+        core.clock_.advance_to(end);
     }
     devices_.end_frame(frame_count_, start, length);
     ++frame_count_;

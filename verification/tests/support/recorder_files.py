@@ -36,6 +36,13 @@ def make_file(capacity: int, records: Sequence[bytes], **header: int) -> bytes:
     return make_header(capacity, **header) + b"".join(slots)
 
 
+def make_crash(session: int = 1, number: int = 11, is_sent: int = 0, address: int = 0, window: int = 0xFFFF,
+               component: int = 0xFFFF, time_ns: int = 0) -> bytes:  # fmt: skip
+    """What stands behind the last slot of a file of the real-time port."""
+    covered = struct.pack("<qQIHHBB", time_ns, address, session, window, component, number, is_sent)
+    return covered + struct.pack("<I", zlib.crc32(covered))
+
+
 def write(path: Path, data: bytes) -> Path:
     path.write_bytes(data)
     return path

@@ -7,7 +7,7 @@
 #include "mamori/kernel/system.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
-#include "processor.hpp"
+#include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::time_faults {
 namespace {
@@ -17,6 +17,7 @@ using ports::posix_rt::FrameClock;
 using ports::posix_rt::GuardedHost;
 using ports::posix_rt::OpeningObserver;
 using ports::posix_rt::WindowThread;
+using verification::find_processor;
 using namespace literals;  // NOLINT: units of the table below
 
 constexpr int kRunnerPriority = 80;

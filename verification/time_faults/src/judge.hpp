@@ -10,7 +10,6 @@
 
 #include "mamori/kernel/system_table.hpp"
 #include "mamori/kernel/time.hpp"
-#include "stall.hpp"
 #include "watch_judge.hpp"
 
 namespace mamori::time_faults {

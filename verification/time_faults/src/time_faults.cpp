@@ -7,9 +7,8 @@
 #include "director.hpp"
 #include "introspection_load.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
+#include "mamori/verification/stall_watch.hpp"
 #include "page_storm.hpp"
-#include "processor.hpp"
-#include "stall_watch.hpp"
 #include "victims.hpp"
 
 namespace mamori::time_faults {
@@ -22,6 +21,8 @@ using ports::posix_rt::GridWatch;
 using ports::posix_rt::GuardedHost;
 using ports::posix_rt::Right;
 using ports::posix_rt::WindowThread;
+using verification::find_processor;
+using verification::StallWatch;
 
 constexpr Duration kLead{500'000'000};
 constexpr int kStallPriority = 90;

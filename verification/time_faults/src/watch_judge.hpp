@@ -11,9 +11,12 @@
 
 #include "mamori/kernel/time.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
-#include "stall.hpp"
+#include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::time_faults {
+
+using verification::overlaps;
+using verification::Stall;
 
 /// The runner did not do what was due.
 struct Hold {

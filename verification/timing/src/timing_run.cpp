@@ -11,16 +11,15 @@
 #include <limits>
 #include <memory>
 #include <new>
-#include <numeric>
 #include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
 
-#include "mamori/kernel/crc32.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 #include "mamori/timing/measuring_host.hpp"
+#include "reference_work.hpp"
 #include "write_run.hpp"
 
 namespace mamori::timing {
@@ -130,26 +129,6 @@ std::vector<int> list_processors() {
         }
     }
     return processors;
-}
-
-/// Median time of a fixed piece of work: what this machine is worth just now.
-Duration measure_reference(const FrameClock& clock) {
-    std::array<std::uint8_t, 4096U> data{};
-    std::iota(data.begin(), data.end(), std::uint8_t{0U});
-    std::array<std::int64_t, 201U> times{};
-    volatile std::uint32_t sink = 0U;
-    for (std::int64_t& time : times) {
-        const Instant begin = clock.get_now();
-        Crc32 crc;
-        for (const std::uint8_t byte : data) {
-            crc.add(byte);
-        }
-        sink = crc.get_value();
-        time = (clock.get_now() - begin).ns;
-    }
-    static_cast<void>(sink);
-    std::nth_element(times.begin(), times.begin() + times.size() / 2U, times.end());
-    return Duration{times[times.size() / 2U]};
 }
 
 struct Room {

@@ -68,6 +68,11 @@ std::string make_right(const Right& right) {
            ", \"errno\": " + std::to_string(right.system_error) + "}";
 }
 
+std::string make_rights(const Right& priority, const Right& processor, const Right& memory) {
+    return "{\"priority\": " + make_right(priority) + ", \"processor\": " + make_right(processor) +
+           ", \"memory\": " + make_right(memory) + "}";
+}
+
 /// A note is plain text: what JSON would have to escape becomes a blank.
 std::string make_plain(std::string text) {
     std::replace_if(
@@ -98,9 +103,23 @@ std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& f
            ",\n \"frame_ns\": " + std::to_string(facts.frame.ns) +
            ",\n \"reference_ns\": " + std::to_string(facts.reference.ns) +
            ",\n \"lost_rows\": " + std::to_string(lost) + ",\n \"notes\": " + make_list(facts.notes) +
-           ",\n \"rights\": {\"priority\": " + make_right(facts.priority) +
-           ", \"processor\": " + make_right(facts.processor) + ", \"memory\": " + make_right(facts.memory) +
-           "}\n}\n";
+           ",\n \"rights\": " + make_rights(facts.priority, facts.processor, facts.memory) + "\n}\n";
+}
+
+std::string make_cost_facts(const RunLog& log, const CostFacts& facts) {
+    return "{\"schema\": \"mamori.cost_run/1\",\n \"cycles\": " + std::to_string(facts.cycles) +
+           ",\n \"first\": " + std::to_string(facts.counted.first) +
+           ",\n \"every\": " + std::to_string(facts.counted.every) +
+           ",\n \"is_paced\": " + (facts.is_paced ? "true" : "false") +
+           ",\n \"frame_ns\": " + std::to_string(facts.frame.ns) +
+           ",\n \"calibration_count\": " + std::to_string(facts.calibration_count) +
+           ",\n \"empty_ns\": " + std::to_string(facts.empty.ns) +
+           ",\n \"reference_ns\": " + std::to_string(facts.reference.ns) +
+           ",\n \"lost_rows\": " + std::to_string(log.get_lost_count()) + ",\n \"compiler\": \"" +
+           make_plain(facts.compiler) + "\",\n \"flags\": \"" + make_plain(facts.flags) +
+           "\",\n \"c_library\": \"" + make_plain(facts.c_library) +
+           "\",\n \"notes\": " + make_list(facts.notes) +
+           ",\n \"rights\": " + make_rights(facts.priority, facts.processor, facts.memory) + "\n}\n";
 }
 
 bool write_whole(const std::string& path, const std::string& content) {
@@ -125,6 +144,19 @@ constexpr const char* kOpenings = "openings.npy";
 constexpr const char* kSteps = "steps.npy";
 constexpr const char* kFacts = "run.json";
 
+/// Name and content of a file.
+using File = std::pair<std::string, std::string>;
+
+std::string write_files(const std::string& folder, const std::vector<File>& files) {
+    for (const auto& [name, content] : files) {
+        if (!write_whole(folder + "/" + name, content)) {
+            return folder + "/" + name +
+                   ": cannot be written; check the folder, its permissions and its room";
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string remove_files(const std::string& folder) {
@@ -141,15 +173,13 @@ std::string remove_files(const std::string& folder) {
 
 std::string write_run(const std::string& folder, const std::vector<const RunLog*>& logs,
                       const RunFacts& facts) {
-    const std::vector<std::pair<std::string, std::string>> files{
-        {kOpenings, make_openings(logs)}, {kSteps, make_steps(logs)}, {kFacts, make_facts(logs, facts)}};
-    for (const auto& [name, content] : files) {
-        if (!write_whole(folder + "/" + name, content)) {
-            return folder + "/" + name +
-                   ": cannot be written; check the folder, its permissions and its room";
-        }
-    }
-    return {};
+    return write_files(
+        folder,
+        {{kOpenings, make_openings(logs)}, {kSteps, make_steps(logs)}, {kFacts, make_facts(logs, facts)}});
+}
+
+std::string write_cost(const std::string& folder, const RunLog& log, const CostFacts& facts) {
+    return write_files(folder, {{kSteps, make_steps({&log})}, {kFacts, make_cost_facts(log, facts)}});
 }
 
 }  // namespace mamori::timing

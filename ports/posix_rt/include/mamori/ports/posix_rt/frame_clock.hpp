@@ -23,6 +23,12 @@ class FrameClock final {
     /// window. @param[in] source clock behind it, which must outlive it; another one than Linux's is for
     /// tests.
     static FrameClock starting_in(Duration lead, const TimeSource& source = get_monotonic_clock()) noexcept;
+    /// The time line of another clock of this machine, in another process too. @param[in] epoch_ns as that
+    /// one's get_epoch_ns(); both with Linux's own clock behind them.
+    static FrameClock at_epoch(std::int64_t epoch_ns) noexcept { return {get_monotonic_clock(), epoch_ns}; }
+
+    /// Reading of the clock behind it, CLOCK_MONOTONIC unless it was replaced, at instant 0 [ns].
+    constexpr std::int64_t get_epoch_ns() const noexcept { return epoch_ns_; }
 
     Instant get_now() const noexcept;
     /// The same instant for a system call with an absolute time. One before the clock's own zero is that

@@ -18,6 +18,7 @@
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/window_host.hpp"
+#include "mamori/ports/posix_rt/crash_stack.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 
@@ -42,6 +43,7 @@ class WindowThread final {
     pthread_t thread_{};
     sem_t wanted_{};
     sem_t returned_{};  ///< may be posted once too often: only done_ tells
+    CrashStack crash_stack_{};
     WindowHost::Work work_{};
     Instant deadline_{};
     std::uint32_t asked_{0U};              ///< pieces of work so far

@@ -30,16 +30,22 @@ class FrameDevices {
 /// One core of the simulated machine: its executive and its clock, both of which must outlive it.
 class SimulatedCore final {
   public:
-    SimulatedCore(Executive& executive, VirtualHost& host) noexcept
+    SimulatedCore(Executive& executive, VirtualHost& host) noexcept : SimulatedCore(executive, host, host) {}
+
+    /// @param[in] host what the windows are run with: an observer that hands everything on to `clock`; must
+    ///            outlive this object.
+    SimulatedCore(Executive& executive, VirtualHost& clock, WindowHost& host) noexcept
         : executive_(executive),
+          clock_(clock),
           host_(host),
-          schedule_(executive.get_view(), executive.get_core(), host.get_now()) {}
+          schedule_(executive.get_view(), executive.get_core(), clock.get_now()) {}
 
   private:
     friend class FrameRunner;
 
     Executive& executive_;
-    VirtualHost& host_;
+    VirtualHost& clock_;
+    WindowHost& host_;
     FrameSchedule schedule_;
 };
 

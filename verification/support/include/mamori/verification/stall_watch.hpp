@@ -2,8 +2,8 @@
 /// @file
 /// Tells when nobody ran on a processor: a thread above all others there that looks at the clock again and
 /// again. What the machine does to a run is told apart from what the run does to itself.
-#ifndef MAMORI_TIME_FAULTS_STALL_WATCH_HPP
-#define MAMORI_TIME_FAULTS_STALL_WATCH_HPP
+#ifndef MAMORI_VERIFICATION_STALL_WATCH_HPP
+#define MAMORI_VERIFICATION_STALL_WATCH_HPP
 
 #include <atomic>
 #include <thread>
@@ -11,9 +11,21 @@
 
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
-#include "stall.hpp"
 
-namespace mamori::time_faults {
+namespace mamori::verification {
+
+/// From one look at the clock to the next, much later one.
+struct Stall {
+    Instant begin{};
+    Instant end{};
+};
+
+/// Whether a stall lies, in part, within the two instants. @param[in] stalls in the order of their instants.
+bool overlaps(const std::vector<Stall>& stalls, Instant begin, Instant end);
+
+/// The first processor that this process may use: threads whose stalls are watched must be on that of the
+/// watch.
+int find_processor() noexcept;
 
 /// Thread safety: get_stalls() after stop(). Memory: heap, taken in the constructor.
 class StallWatch final {
@@ -36,6 +48,6 @@ class StallWatch final {
     std::thread thread_;
 };
 
-}  // namespace mamori::time_faults
+}  // namespace mamori::verification
 
-#endif  // MAMORI_TIME_FAULTS_STALL_WATCH_HPP
+#endif  // MAMORI_VERIFICATION_STALL_WATCH_HPP

@@ -1,13 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stall_watch.hpp"
+#include "mamori/verification/stall_watch.hpp"
 
-namespace mamori::time_faults {
+#include <sched.h>
+
+#include <algorithm>
+
+namespace mamori::verification {
 namespace {
 
 /// More stalls than this in one run: the machine is of no use, and the last ones are not kept.
 constexpr std::size_t kRoom = 1'000'000U;
 
 }  // namespace
+
+bool overlaps(const std::vector<Stall>& stalls, Instant begin, Instant end) {
+    const auto first = std::lower_bound(stalls.begin(), stalls.end(), begin,
+                                        [](const Stall& stall, Instant at) { return stall.end < at; });
+    return first != stalls.end() && first->begin <= end;
+}
+
+int find_processor() noexcept {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    if (sched_getaffinity(0, sizeof(set), &set) == 0) {
+        for (int processor = 0; processor < CPU_SETSIZE; ++processor) {
+            if (CPU_ISSET(static_cast<std::size_t>(processor), &set)) {
+                return processor;
+            }
+        }
+    }
+    return 0;
+}
 
 StallWatch::StallWatch(const ports::posix_rt::FrameClock& clock, Duration step,
                        ports::posix_rt::ThreadPlace place)
@@ -37,4 +60,4 @@ void StallWatch::watch(Duration step, ports::posix_rt::ThreadPlace place) {
     }
 }
 
-}  // namespace mamori::time_faults
+}  // namespace mamori::verification

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cost_command.hpp"
+
+#include <iostream>
+
+#include "arm_start.hpp"
+#include "machine.hpp"
+#include "mamori/timing/cost_run.hpp"
+#include "safe_arm_system.hpp"
+#include "table_output.hpp"
+
+namespace safe_arm {
+namespace {
+
+constexpr int kExitFailed = 1;
+constexpr int kExitUsage = 2;
+
+int fail(int exit_code, const std::string& message) {
+    std::cerr << "safe_arm: " << message << '\n';
+    return exit_code;
+}
+
+/// Which branches the supervisor took: a class of inputs that stops the arm is another one than it seems.
+std::vector<std::string> make_notes() {
+    std::string state = std::string{"the arm ended in state "} + get_name(supervisor.get_state());
+    if (supervisor.get_first_fault() < kArmFaultCount) {
+        state += std::string{", first fault "} + kArmFaultNames[supervisor.get_first_fault()];
+    }
+    return {state};
+}
+
+}  // namespace
+
+int run_cost_command(const RunOptions& options) {
+    mamori::sim::LoadedModel loaded;
+    MotionTrack track;
+    const std::string refusal = load_inputs(options.model, options.motion, loaded, track);
+    if (!refusal.empty()) {
+        return fail(kExitUsage, refusal);
+    }
+    mamori::sim::FaultPlan fault = options.fault;
+    fault.at = fault.at + kMotionStart;
+    mamori::sim::ArmPlant plant{*loaded.model};
+    plant.reset(track.calc_point(0.0).position_rad);
+    mamori::sim::ComputedTorqueController law{*loaded.model};
+    const mamori::Instant start = mamori::Instant{} + kMotionStart;
+    RunRecord record{options, *loaded.model, fault, start, start};
+    const std::string obstacle = start_system(*loaded.model, track, law);
+    if (!obstacle.empty()) {
+        return fail(kExitFailed, obstacle);
+    }
+    std::array<mamori::Duration, kComponentCount> times = make_modelled_times();
+    mamori::ports::virtual_time::VirtualHost clock{times};
+    Machine machine{plant, clock, fault, record};
+    mamori::timing::CostOptions cost;
+    cost.cycles = options.frames;
+    cost.counted = {options.first_counted, options.count_every};
+    cost.is_paced = options.is_by_clock;
+    cost.out = options.out;
+    cost.save_table = save_table;
+    cost.tell_notes = make_notes;
+    const mamori::timing::TimingResult result = mamori::timing::run_cost({{executive, clock}}, machine, cost);
+    if (!result.message.empty()) {
+        return fail(get_exit_status(result.outcome), result.message);
+    }
+    if (!machine.is_plant_sound()) {
+        return fail(kExitFailed, "the simulated plant diverged");
+    }
+    return get_exit_status(result.outcome);
+}
+
+}  // namespace safe_arm

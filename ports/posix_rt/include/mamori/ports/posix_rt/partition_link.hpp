@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The two ends of a connection between processes, as components of the system tables on either side: what
+/// arrives at the sender's input leaves, as a frame, and comes out of the receiver. It is a grey channel: the
+/// receiver's side must judge age and content by itself.
+///
+/// @satisfies SWR-PRT-013, SWR-PRT-014, SWR-PRT-018      Design: docs/design/posix_rt.md#partitions
+#ifndef MAMORI_PORTS_POSIX_RT_PARTITION_LINK_HPP
+#define MAMORI_PORTS_POSIX_RT_PARTITION_LINK_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/cdr.hpp"
+#include "mamori/kernel/component.hpp"
+#include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/ports/posix_rt/partition_news.hpp"
+#include "mamori/ports/posix_rt/shared_frame.hpp"
+
+namespace mamori::ports::posix_rt {
+
+/// Byte order of every frame.
+inline constexpr ByteOrder kFrameOrder = ByteOrder::kLittle;
+
+/// Sends what is new at its input, under the instant at which it was published. Values that a window
+/// publishes and then takes back, since it overran, must not leave: give the sender a window of its own.
+///
+/// Thread safety: none; runs in its window. Time: O(sizeof(T)). Memory: one encoded T.
+template <typename T>
+class PartitionSender final : public Component {
+  public:
+    static constexpr std::size_t kCapacity = max_encoded_size<T>();
+    static_assert(kCapacity <= kFrameCapacityMax, "this payload does not fit into a frame");
+
+    /// @param[in] writer opened with kCapacity before the executive is initialised; must have static storage.
+    constexpr PartitionSender(const char* name, FrameWriter& writer) noexcept
+        : Component(name), writer_(writer) {}
+
+    InPort<T> in{"in"};
+    using Ports = mamori::Ports<&PartitionSender::in>;
+
+    /// @return kOk; kPreconditionNotMet (the writer is not open, or for another capacity).
+    Status on_initialize() noexcept override {
+        return writer_.get_capacity() == kCapacity ? Status::kOk : Status::kPreconditionNotMet;
+    }
+    /// @return kOk; kBadParameter (an enumeration of the value holds none of its enumerators: it does not
+    ///         leave).
+    Status on_execute(ContextHandle) noexcept override {
+        if (!in.is_new()) {
+            return Status::kOk;
+        }
+        const Result<std::size_t> length = encode(in.read(), {buffer_.data(), buffer_.size()}, kFrameOrder);
+        if (!length.has_value()) {
+            return length.get_status();
+        }
+        return writer_.write({buffer_.data(), length.get_value()}, in.get_published_at());
+    }
+
+  private:
+    FrameWriter& writer_;
+    std::array<std::byte, kCapacity> buffer_{};
+};
+
+/// Receives the newest frame. `out` gets nothing when nothing good came, so the age of what it gave before
+/// goes on growing at whoever reads it; `news` tells about every cycle.
+///
+/// Thread safety: none; runs in its window. Time: O(sizeof(T)), bounded whatever the other process does, no
+/// system call. Memory: one T and one encoded T.
+template <typename T>
+class PartitionReceiver final : public Component {
+  public:
+    static constexpr std::size_t kCapacity = PartitionSender<T>::kCapacity;
+
+    /// @param[in] reader opened with kCapacity before the executive is initialised; must have static storage.
+    constexpr PartitionReceiver(const char* name, FrameReader& reader) noexcept
+        : Component(name), reader_(reader) {}
+
+    OutPort<T> out{"out"};
+    OutPort<PartitionNews> news{"news"};
+    using Ports = mamori::Ports<&PartitionReceiver::out, &PartitionReceiver::news>;
+
+    /// @return kOk; kPreconditionNotMet (the reader is not open, or for another capacity).
+    Status on_initialize() noexcept override {
+        return reader_.get_capacity() == kCapacity ? Status::kOk : Status::kPreconditionNotMet;
+    }
+    /// @return kOk, whatever came.
+    Status on_execute(ContextHandle context) noexcept override {
+        FrameFacts facts{};
+        FrameOutcome outcome = reader_.take({buffer_.data(), buffer_.size()}, facts);
+        state_.skipped = 0U;
+        state_.age_ns = 0;
+        if (outcome == FrameOutcome::kNew && !accept(facts, context.now)) {
+            outcome = FrameOutcome::kMalformed;
+        }
+        const bool is_refused = outcome == FrameOutcome::kTorn || outcome == FrameOutcome::kMalformed;
+        state_.refused += is_refused && state_.refused != kRefusedMax ? 1U : 0U;
+        state_.outcome = outcome;
+        news.write(state_);
+        return Status::kOk;
+    }
+
+  private:
+    static constexpr std::uint32_t kRefusedMax = 0xFFFFFFFFU;
+    /// Instants beyond this, 73 years, are none; nearer ones can be subtracted.
+    static constexpr std::int64_t kFarthest = std::int64_t{1} << 61U;
+
+    bool accept(const FrameFacts& facts, Instant now) noexcept {
+        const std::int64_t at = facts.published_at.ns;
+        const bool is_instant = at > -kFarthest && at < kFarthest;
+        if (!is_instant || decode({buffer_.data(), facts.length}, kFrameOrder, value_) != Status::kOk) {
+            return false;
+        }
+        state_.skipped = state_.number == 0U ? 0U : facts.number - state_.number - 1U;
+        state_.number = facts.number;
+        state_.age_ns = (now - facts.published_at).ns;
+        out.write(value_);
+        return true;
+    }
+
+    FrameReader& reader_;
+    std::array<std::byte, kCapacity> buffer_{};
+    T value_{};
+    PartitionNews state_{};
+};
+
+}  // namespace mamori::ports::posix_rt
+
+#endif  // MAMORI_PORTS_POSIX_RT_PARTITION_LINK_HPP

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/ports/posix_rt/crash_handlers.hpp"
+
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <optional>
+
+#include "mamori/kernel/assert.hpp"
+#include "mamori/ports/posix_rt/crash_note.hpp"
+#include "mamori/ports/posix_rt/crash_place.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+/// Written before the first handler is there and left alone as long as one is.
+std::optional<CrashPlan> plan;
+std::atomic<bool> is_plan_taken{false};
+/// Number of the thread that is dying; 0: none. A lock-free word: handlers of two threads may meet here.
+std::atomic<pid_t> dying_thread{0};
+static_assert(std::atomic<pid_t>::is_always_lock_free);
+constexpr Duration kPatience{1'000'000'000};
+
+/// Not the function of the C library, which is a place to end a cancelled thread at.
+void write_back(Span<std::byte> file) noexcept {
+    static_cast<void>(::syscall(SYS_msync, file.data(), file.size(), MS_SYNC));
+}
+
+CrashNote make_note(int signal, const siginfo_t& info) noexcept {
+    CrashNote note;
+    note.time = plan->clock.get_now();
+    note.session = plan->session;
+    note.place = get_crash_place();
+    note.signal = static_cast<std::uint8_t>(signal);
+    // Linux gives its own causes a number above 0; otherwise the address is no address.
+    note.is_sent = info.si_code <= 0;
+    note.address = note.is_sent ? 0U : reinterpret_cast<std::uintptr_t>(info.si_addr);
+    return note;
+}
+
+/// The signal is blocked until the handler returns, and then ends the process: with the registers of the
+/// crash, which the core holds.
+void end_by(int signal) noexcept {
+    struct sigaction ordinary{};
+    ordinary.sa_handler = SIG_DFL;
+    static_cast<void>(::sigaction(signal, &ordinary, nullptr));
+    static_cast<void>(::raise(signal));
+}
+
+void on_crash(int signal, siginfo_t* info, void*) {
+    const auto self = static_cast<pid_t>(::syscall(SYS_gettid));
+    pid_t first = 0;
+    if (!dying_thread.compare_exchange_strong(first, self)) {
+        if (first != self) {
+            // Who is still here then waits for a thread that hangs in what it was told to call.
+            plan->clock.wait_until(plan->clock.get_now() + kPatience);
+        }
+        end_by(signal);
+        return;
+    }
+    plan->close_outputs(plan->context);
+    if (!plan->file.empty()) {
+        write_crash_note(plan->file, make_note(signal, *info));
+        write_back(plan->file);
+    }
+    end_by(signal);
+}
+
+bool is_usable(const CrashPlan& wanted) noexcept {
+    if (wanted.close_outputs == nullptr) {
+        return false;
+    }
+    const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+    const bool is_page = reinterpret_cast<std::uintptr_t>(wanted.file.data()) % page == 0U;
+    return wanted.file.empty() || (is_page && wanted.file.size() >= kCrashNoteSize);
+}
+
+}  // namespace
+
+Status CrashHandlers::install(const CrashPlan& wanted) noexcept {
+    if (!is_usable(wanted)) {
+        return Status::kBadParameter;
+    }
+    if (is_plan_taken.exchange(true)) {
+        return Status::kPreconditionNotMet;
+    }
+    plan = wanted;
+    struct sigaction action{};
+    action.sa_sigaction = &on_crash;
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+    // A crash inside the handler finds its signal blocked, and Linux ends the process then.
+    MAMORI_ENSURE(1, ::sigemptyset(&action.sa_mask) == 0);
+    for (const int signal : kCrashSignals) {
+        MAMORI_ENSURE(2, ::sigaddset(&action.sa_mask, signal) == 0);
+    }
+    for (std::size_t i = 0U; i < kCrashSignals.size(); ++i) {
+        MAMORI_ENSURE(3, ::sigaction(kCrashSignals[i], &action, &previous_[i]) == 0);
+    }
+    is_installed_ = true;
+    return Status::kOk;
+}
+
+void CrashHandlers::remove() noexcept {
+    if (!is_installed_) {
+        return;
+    }
+    for (std::size_t i = 0U; i < kCrashSignals.size(); ++i) {
+        MAMORI_ENSURE(4, ::sigaction(kCrashSignals[i], &previous_[i], nullptr) == 0);
+    }
+    is_installed_ = false;
+    is_plan_taken.store(false);
+}
+
+}  // namespace mamori::ports::posix_rt

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partition_child.hpp"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+
+#include <cerrno>
+#include <csignal>
+
+namespace mamori::ports::posix_rt::detail {
+namespace {
+
+/// More capabilities than any kernel knows; a number without one is refused, which is as well.
+constexpr unsigned long kCapabilityEnd{64UL};
+
+/// Killed with the thread that has started it; the second half is for a thread that has ended already.
+bool tie_to_parent(const ChildPlan& plan) noexcept {
+    return ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::getppid() == plan.parent;
+}
+
+bool take_place(const PartitionLimits& limits) noexcept {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (int processor = 0; processor < CPU_SETSIZE; ++processor) {
+        if (limits.processor == ThreadPlace::kAnyProcessor || limits.processor == processor) {
+            CPU_SET(static_cast<std::size_t>(processor), &set);
+        }
+    }
+    return ::sched_setaffinity(0, sizeof(set), &set) == 0;
+}
+
+bool lower_priority(const PartitionLimits& limits) noexcept {
+    const sched_param none{};
+    errno = 0;
+    const int before = ::getpriority(PRIO_PROCESS, 0);
+    const int niceness = errno == 0 && before > limits.niceness ? before : limits.niceness;
+    return ::sched_setscheduler(0, SCHED_OTHER, &none) == 0 && ::setpriority(PRIO_PROCESS, 0, niceness) == 0;
+}
+
+/// Never higher than it is.
+bool limit(__rlimit_resource_t resource, rlim_t value) noexcept {
+    rlimit before{};
+    if (::getrlimit(resource, &before) != 0) {
+        return false;
+    }
+    const rlim_t lower = value < before.rlim_max ? value : before.rlim_max;
+    const rlimit after{lower, lower};
+    return ::setrlimit(resource, &after) == 0;
+}
+
+bool set_limits(const PartitionLimits& limits) noexcept {
+    return limit(RLIMIT_RTPRIO, 0U) && limit(RLIMIT_NICE, 0U) && limit(RLIMIT_MEMLOCK, 0U) &&
+           limit(RLIMIT_CORE, 0U) && limit(RLIMIT_NOFILE, limits.file_max) &&
+           (limits.memory_max == 0U || limit(RLIMIT_AS, limits.memory_max)) &&
+           (limits.process_max == 0U || limit(RLIMIT_NPROC, limits.process_max));
+}
+
+/// From the next program on it has no capability and cannot get one. A process that may not give them up has
+/// none to give.
+bool drop_capabilities() noexcept {
+    for (unsigned long capability = 0UL; capability < kCapabilityEnd; ++capability) {
+        static_cast<void>(::prctl(PR_CAPBSET_DROP, capability, 0UL, 0UL, 0UL));
+    }
+    static_cast<void>(::prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0UL, 0UL, 0UL));
+    return ::prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) == 0;
+}
+
+/// When memory runs out, this one goes. A system without the file decides for itself.
+void be_first_in_line() noexcept {
+    constexpr char kScore[] = "1000";
+    const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+    if (file >= 0) {
+        static_cast<void>(::write(file, kScore, sizeof(kScore) - 1U) > 0);
+        static_cast<void>(::close(file));
+    }
+}
+
+/// By the system call itself: the functions of the library would change the threads of the safety process.
+bool become(uid_t user) noexcept {
+    return user == PartitionLimits::kSameUser ||
+           (::syscall(SYS_setgroups, 0, nullptr) == 0 && ::syscall(SYS_setresgid, user, user, user) == 0 &&
+            ::syscall(SYS_setresuid, user, user, user) == 0);
+}
+
+/// Nothing of what the safety process does with signals.
+void forget_signals() noexcept {
+    for (int signal = 1; signal < NSIG; ++signal) {
+        struct sigaction action{};
+        action.sa_handler = SIG_DFL;
+        static_cast<void>(::sigaction(signal, &action, nullptr));
+    }
+    sigset_t none;
+    static_cast<void>(sigemptyset(&none));
+    static_cast<void>(sigprocmask(SIG_SETMASK, &none, nullptr));
+}
+
+/// The descriptors of the order, /dev/null and the pipe; each has a place above all of them before it gets
+/// its own, since two may change places. @return the pipe; -1: one is none.
+int hand_over(const ChildPlan& plan) noexcept {
+    const Span<const int> sources = plan.order.descriptors;
+    const int count = static_cast<int>(sources.size());
+    const int report_place = kFirstPartitionDescriptor + count;
+    const int above = report_place + 1;
+    std::array<int, PartitionOrder::kDescriptorMax> parked{};
+    for (std::size_t i = 0U; i < sources.size(); ++i) {
+        parked[i] = ::fcntl(sources[i], F_DUPFD_CLOEXEC, above);
+        if (parked[i] < 0) {
+            return -1;
+        }
+    }
+    const int parked_report = ::fcntl(plan.report, F_DUPFD_CLOEXEC, above);
+    const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    if (parked_report < 0 || nothing < 0 || ::dup2(nothing, 0) != 0 ||
+        ::dup3(parked_report, report_place, O_CLOEXEC) < 0) {
+        return -1;
+    }
+    for (int i = 0; i < count; ++i) {
+        if (::dup2(parked[static_cast<std::size_t>(i)], kFirstPartitionDescriptor + i) < 0) {
+            return -1;
+        }
+    }
+    return ::syscall(SYS_close_range, above, ~0U, 0U) == 0 ? report_place : -1;
+}
+
+/// All before the program. @return why it cannot come to that; `report` is the pipe from then on.
+PartitionError prepare(const ChildPlan& plan, int& report) noexcept {
+    const PartitionLimits& limits = plan.order.limits;
+    if (::setsid() < 0 || !lower_priority(limits)) {
+        return PartitionError::kCannotRestrict;
+    }
+    if (!take_place(limits)) {
+        return PartitionError::kCannotPlace;
+    }
+    be_first_in_line();
+    const int handed = hand_over(plan);
+    if (handed < 0) {
+        return PartitionError::kCannotHandOver;
+    }
+    report = handed;
+    if (!drop_capabilities() || !set_limits(limits)) {
+        return PartitionError::kCannotRestrict;
+    }
+    if (!become(limits.user)) {
+        return PartitionError::kCannotBecome;
+    }
+    // Last: whoever becomes another user loses the tie.
+    return tie_to_parent(plan) ? PartitionError::kNone : PartitionError::kCannotRestrict;
+}
+
+}  // namespace
+
+void become_partition(const ChildPlan& plan) noexcept {
+    int report = plan.report;
+    PartitionError error = prepare(plan, report);
+    if (error == PartitionError::kNone) {
+        forget_signals();
+        // The system takes the strings as they are and changes none.
+        static_cast<void>(::execve(plan.order.program, const_cast<char* const*>(plan.arguments.data()),
+                                   const_cast<char* const*>(plan.environment.data())));
+        error = PartitionError::kCannotExecute;
+    }
+    const ChildReport message{error, errno};
+    static_cast<void>(::write(report, &message, sizeof(message)) > 0);
+    ::_exit(127);
+}
+
+}  // namespace mamori::ports::posix_rt::detail

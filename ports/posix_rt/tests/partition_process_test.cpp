@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a partition gets what it needs and no more, is gone when it must be, and nobody waits for it. Method:
+// the shell as its program, which tells through a pipe what it finds; the pipe ends when nobody has it any
+// more, so a process that is left over is seen.
+#include "mamori/ports/posix_rt/partition_process.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+/// Longer than any of this takes on a machine that is busy.
+constexpr int kPatience_ms = 20'000;
+
+#if defined(__SANITIZE_THREAD__)
+constexpr bool kIsEachStartACopy = true;
+#else
+constexpr bool kIsEachStartACopy = false;
+#endif
+
+/// A pipe whose writing end a partition gets.
+class Line final {
+  public:
+    Line() { EXPECT_EQ(::pipe2(ends_.data(), O_CLOEXEC), 0); }
+    Line(const Line&) = delete;
+    Line& operator=(const Line&) = delete;
+    ~Line() {
+        close_writing_end();
+        static_cast<void>(::close(ends_[0U]));
+    }
+    int get_writing_end() const { return ends_[1U]; }
+    void close_writing_end() {
+        if (ends_[1U] >= 0) {
+            static_cast<void>(::close(ends_[1U]));
+        }
+        ends_[1U] = -1;
+    }
+    /// All until nobody has the other end any more. Fails when somebody keeps it.
+    std::string read_all() {
+        close_writing_end();
+        std::string text;
+        std::array<char, 4096U> part{};
+        for (;;) {
+            pollfd watch{ends_[0U], POLLIN, 0};
+            if (::poll(&watch, 1U, kPatience_ms) != 1) {
+                ADD_FAILURE() << "somebody has kept the pipe";
+                return text;
+            }
+            const ssize_t length = ::read(ends_[0U], part.data(), part.size());
+            if (length <= 0) {
+                return text;
+            }
+            text.append(part.data(), static_cast<std::size_t>(length));
+        }
+    }
+    /// The next character.
+    char read_one() {
+        char character = '\0';
+        EXPECT_EQ(::read(ends_[0U], &character, 1U), 1);
+        return character;
+    }
+
+  private:
+    std::array<int, 2U> ends_{-1, -1};
+};
+
+class PartitionProcessTest : public ::testing::Test {
+  protected:
+    /// A script whose descriptor 3 is the line.
+    Status start(const char* script) {
+        const std::array<const char*, 2U> arguments{"-c", script};
+        const std::array<int, 1U> descriptors{line_.get_writing_end()};
+        order_.program = "/bin/sh";
+        order_.arguments = arguments;
+        order_.descriptors = descriptors;
+        return sut_.start(order_);
+    }
+    PartitionState wait_for_end() {
+        for (int i = 0; i < kPatience_ms && sut_.check() == PartitionState::kRunning; ++i) {
+            static_cast<void>(::poll(nullptr, 0U, 1));
+        }
+        return sut_.check();
+    }
+    /// What the script writes to descriptor 3.
+    std::string run(const char* script) {
+        EXPECT_EQ(start(script), Status::kOk) << describe(sut_.get_error());
+        std::string text = line_.read_all();
+        EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+        EXPECT_EQ(sut_.get_exit_status(), 0);
+        return text;
+    }
+
+    Line line_{};
+    PartitionOrder order_{};
+    PartitionProcess sut_{};
+};
+
+/// The rest of the line that begins with `key`, without blanks around it.
+std::string find(const std::string& text, const std::string& key) {
+    std::istringstream lines{text};
+    for (std::string line; std::getline(lines, line);) {
+        if (line.compare(0U, key.size(), key) == 0) {
+            const std::size_t first = line.find_first_not_of(" \t", key.size());
+            return first == std::string::npos ? ""
+                                              : line.substr(first, line.find_last_not_of(' ') - first + 1U);
+        }
+    }
+    return "no " + key;
+}
+
+TEST_F(PartitionProcessTest, ItRunsWithItsArgumentsAndIsSeenToEnd) {
+    verifies("SWR-PRT-015");
+    EXPECT_EQ(sut_.check(), PartitionState::kNone);
+    const std::array<const char*, 5U> arguments{"-c", "read x; echo \"$0,$1,$2,$x\" >&3; exit 7", "a", "b c",
+                                                ""};
+    const std::array<int, 1U> descriptors{line_.get_writing_end()};
+    order_.program = "/bin/sh";
+    order_.arguments = arguments;
+    order_.descriptors = descriptors;
+
+    ASSERT_EQ(sut_.start(order_), Status::kOk);
+    EXPECT_EQ(line_.read_all(), "a,b c,,\n") << "nothing can be read from its standard input";
+    EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+    EXPECT_EQ(sut_.get_exit_status(), 7);
+    EXPECT_EQ(sut_.get_signal(), 0);
+    EXPECT_EQ(sut_.get_pid(), -1);
+}
+
+TEST_F(PartitionProcessTest, DescriptorsTakeTheirPlacesInAnyOrderAndNoOtherOneIsThere) {
+    verifies("SWR-PRT-015", Technique::kErrorGuessing, Polarity::kViolation);
+    Line second;
+    const int leak = ::dup(line_.get_writing_end());  // without close-on-exec
+    const int a = ::fcntl(line_.get_writing_end(), F_DUPFD_CLOEXEC, 3);
+    const std::array<const char*, 2U> arguments{"-c",
+                                                "for i in 0 1 2 3 4 5 6 7 8 9 10 11 12; do test -e "
+                                                "/proc/$$/fd/$i && echo -n $i; done >&4; echo x >&3"};
+    const std::array<int, 3U> descriptors{second.get_writing_end(), a, second.get_writing_end()};
+    order_ = {"/bin/sh", arguments, descriptors, nullptr, {}};
+
+    ASSERT_EQ(sut_.start(order_), Status::kOk) << describe(sut_.get_error());
+    static_cast<void>(::close(a));
+    static_cast<void>(::close(leak));
+    EXPECT_EQ(second.read_all(), "x\n");
+    const std::string open = line_.read_all();
+    EXPECT_EQ(open.substr(0U, 6U), "012345");
+    EXPECT_EQ(open.find('6'), std::string::npos) << open;
+    EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+}
+
+TEST_F(PartitionProcessTest, ItCountsFromTheEpochOfTheSafetyProcess) {
+    verifies("SWR-PRT-015");
+    const FrameClock clock = FrameClock::starting_in(Duration{0});
+    order_.clock = &clock;
+
+    const std::string epoch = run("echo -n $MAMORI_EPOCH_NS >&3");
+    EXPECT_EQ(epoch, std::to_string(clock.get_epoch_ns()));
+    ASSERT_EQ(::setenv("MAMORI_EPOCH_NS", epoch.c_str(), 1), 0);
+    FrameClock same = FrameClock::at_epoch(0);
+    EXPECT_EQ(find_partition_clock(same), Status::kOk);
+    EXPECT_EQ(same.get_epoch_ns(), clock.get_epoch_ns());
+}
+
+TEST_F(PartitionProcessTest, AnEpochOfItsOwnIsNotHandedOnAndAWrongOneIsNone) {
+    verifies("SWR-PRT-015", Technique::kBoundaryValues, Polarity::kViolation);
+    FrameClock clock = FrameClock::at_epoch(5);
+    for (const char* text : {"", "1x", "x", "99999999999999999999"}) {
+        ASSERT_EQ(::setenv("MAMORI_EPOCH_NS", text, 1), 0);
+        EXPECT_EQ(find_partition_clock(clock), Status::kPreconditionNotMet) << text;
+    }
+    ASSERT_EQ(::setenv("MAMORI_EPOCH_NS", "77", 1), 0);
+
+    EXPECT_EQ(run("echo -n $MAMORI_EPOCH_NS >&3"), "");
+    ASSERT_EQ(::unsetenv("MAMORI_EPOCH_NS"), 0);
+    EXPECT_EQ(find_partition_clock(clock), Status::kPreconditionNotMet);
+    EXPECT_EQ(clock.get_epoch_ns(), 5);
+}
+
+TEST_F(PartitionProcessTest, ItsStartCopiesNoMemory) {
+    verifies("SWR-PRT-015", Technique::kErrorGuessing, Polarity::kViolation);
+    if (kIsEachStartACopy) {
+        GTEST_SKIP() << "this sanitizer makes a copying start of every one";
+    }
+    constexpr std::size_t kPage = 4096U;
+    constexpr std::size_t kPages = 1024U;
+    std::vector<char> memory(kPage * kPages, 'a');
+    const auto count_faults = [] {
+        rusage usage{};
+        EXPECT_EQ(::getrusage(RUSAGE_THREAD, &usage), 0);
+        return usage.ru_minflt;
+    };
+
+    ASSERT_EQ(start("read x <&3"), Status::kOk);
+    const long before = count_faults();
+    for (std::size_t page = 0U; page < kPages; ++page) {
+        *static_cast<volatile char*>(memory.data() + page * kPage) = 'b';
+    }
+    EXPECT_LT(count_faults() - before, static_cast<long>(kPages / 4U));
+    ASSERT_EQ(sut_.end(), Status::kOk);
+    EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+}
+
+TEST_F(PartitionProcessTest, AnOrderOutOfRangeStartsNothing) {
+    verifies("SWR-PRT-015", Technique::kBoundaryValues, Polarity::kViolation);
+    const std::array<const char*, PartitionOrder::kArgumentMax + 1U> arguments{};
+    const std::array<int, PartitionOrder::kDescriptorMax + 1U> descriptors{};
+    const auto refuse = [this](const PartitionOrder& order) {
+        EXPECT_EQ(sut_.start(order), Status::kBadParameter);
+        EXPECT_EQ(sut_.check(), PartitionState::kNone);
+    };
+    PartitionOrder order{"/bin/true", {}, {}, nullptr, {}};
+
+    refuse({});
+    refuse({"/bin/true", arguments, {}, nullptr, {}});
+    refuse({"/bin/true", {}, descriptors, nullptr, {}});
+    order.limits.niceness = -1;
+    refuse(order);
+    order.limits.niceness = 20;
+    refuse(order);
+    order.limits.niceness = 19;
+    order.limits.file_max = 7U;
+    refuse(order);
+    order.limits.file_max = 8U;
+    order.limits.processor = -2;
+    refuse(order);
+    order.limits.processor = ThreadPlace::kAnyProcessor;
+    EXPECT_EQ(sut_.start(order), Status::kOk);
+    EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+}
+
+TEST_F(PartitionProcessTest, WhatCannotBeStartedIsToldWithItsCause) {
+    verifies("SWR-PRT-015", Technique::kFaultInjection, Polarity::kViolation);
+    const std::array<int, 1U> no_descriptor{-1};
+    const auto refuse = [this](const PartitionOrder& order, PartitionError error, int system_error) {
+        EXPECT_EQ(sut_.start(order), Status::kError);
+        EXPECT_EQ(sut_.get_error(), error) << describe(sut_.get_error());
+        EXPECT_EQ(sut_.get_system_error(), system_error);
+        EXPECT_EQ(sut_.check(), PartitionState::kNone);
+        EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a process is left";
+    };
+
+    refuse({"/no/such/program", {}, {}, nullptr, {}}, PartitionError::kCannotExecute, ENOENT);
+    refuse({"/", {}, {}, nullptr, {}}, PartitionError::kCannotExecute, EACCES);
+    refuse({"/bin/true", {}, no_descriptor, nullptr, {}}, PartitionError::kCannotHandOver, EBADF);
+    PartitionOrder order{"/bin/true", {}, {}, nullptr, {}};
+    order.limits.processor = 1023;
+    refuse(order, PartitionError::kCannotPlace, EINVAL);
+    order.limits.processor = 1 << 20;
+    refuse(order, PartitionError::kCannotPlace, EINVAL);
+    order.limits = {};
+    EXPECT_EQ(sut_.start(order), Status::kOk);
+    EXPECT_EQ(sut_.get_error(), PartitionError::kNone);
+    EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+}
+
+TEST_F(PartitionProcessTest, AMachineWithoutRoomIsTold) {
+    verifies("SWR-PRT-015", Technique::kFaultInjection, Polarity::kViolation);
+    const PartitionOrder order{"/bin/true", {}, {}, nullptr, {}};
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit none{0U, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+    EXPECT_EQ(sut_.start(order), Status::kOutOfResources);
+    EXPECT_EQ(sut_.get_error(), PartitionError::kNoProcess);
+    EXPECT_EQ(sut_.get_system_error(), EMFILE);
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+
+    const auto name = [](int i) { return "MAMORI_TEST_" + std::to_string(i); };
+    for (int i = 0; i < 520; ++i) {
+        ASSERT_EQ(::setenv(name(i).c_str(), "x", 1), 0);
+    }
+    EXPECT_EQ(sut_.start(order), Status::kOutOfResources);
+    EXPECT_EQ(sut_.get_error(), PartitionError::kTooManyStrings);
+    for (int i = 0; i < 520; ++i) {
+        ASSERT_EQ(::unsetenv(name(i).c_str()), 0);
+    }
+    EXPECT_EQ(sut_.start(order), Status::kOk);
+    EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+}
+
+TEST_F(PartitionProcessTest, EachCauseHasItsOwnSentence) {
+    verifies("SWR-PRT-015", Technique::kEquivalenceClasses);
+    const auto last = static_cast<int>(PartitionError::kCannotWatch);
+
+    for (int i = 0; i <= last; ++i) {
+        const std::string text = describe(static_cast<PartitionError>(i));
+        EXPECT_NE(text, "failed for an unknown reason");
+        for (int j = 0; j < i; ++j) {
+            EXPECT_NE(text, describe(static_cast<PartitionError>(j)));
+        }
+    }
+    EXPECT_STREQ(describe(static_cast<PartitionError>(last + 1)), "failed for an unknown reason");
+}
+
+TEST_F(PartitionProcessTest, ItHasNoRightThatCouldMoveAWindow) {
+    verifies("SWR-PRT-016", Technique::kRequirementsBased, Polarity::kViolation);
+    // The most that this thread can have, of which nothing may be left.
+    static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
+    sigset_t blocked;
+    sigset_t before;
+    ASSERT_EQ(sigemptyset(&blocked) + sigaddset(&blocked, SIGUSR1), 0);
+    ASSERT_EQ(::pthread_sigmask(SIG_BLOCK, &blocked, &before), 0);
+    const Right priority = set_priority(pthread_self(), 5);
+
+    const std::string facts =
+        run("cat /proc/self/status /proc/$$/limits >&3; cut -d')' -f2 /proc/$$/stat >&3");
+    static_cast<void>(set_priority(pthread_self(), 0));
+    ASSERT_EQ(::pthread_sigmask(SIG_SETMASK, &before, nullptr), 0);
+    static_cast<void>(std::signal(SIGPIPE, SIG_DFL));
+    RecordProperty("was_started_with_a_fixed_priority", priority.is_granted ? 1 : 0);
+    EXPECT_EQ(find(facts, "CapEff:"), "0000000000000000");
+    EXPECT_EQ(find(facts, "CapPrm:"), "0000000000000000");
+    EXPECT_EQ(find(facts, "CapAmb:"), "0000000000000000");
+    EXPECT_EQ(find(facts, "NoNewPrivs:"), "1");
+    EXPECT_EQ(find(facts, "SigIgn:"), "0000000000000000");
+    EXPECT_EQ(find(facts, "SigBlk:"), "0000000000000000");
+    EXPECT_EQ(find(facts, "Max realtime priority").substr(0U, 1U), "0");
+    EXPECT_EQ(find(facts, "Max nice priority").substr(0U, 1U), "0");
+    EXPECT_EQ(find(facts, "Max locked memory").substr(0U, 1U), "0");
+    EXPECT_EQ(find(facts, "Max core file size").substr(0U, 1U), "0");
+    std::istringstream stat{facts.substr(facts.rfind("\n ") + 2U)};
+    std::vector<std::string> fields{std::istream_iterator<std::string>{stat}, {}};
+    ASSERT_GT(fields.size(), 39U);
+    EXPECT_EQ(fields[2U], fields[3U]) << "its group is its session";
+    EXPECT_NE(fields[3U], std::to_string(::getsid(0)));
+    EXPECT_EQ(fields[38U], "0") << "policy";
+}
+
+TEST_F(PartitionProcessTest, ItHasTheLimitsOfItsOrder) {
+    verifies("SWR-PRT-016");
+    order_.limits.niceness = 19;
+    order_.limits.memory_max = 1U << 30U;
+    order_.limits.process_max = 55U;
+    order_.limits.file_max = 17U;
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    ASSERT_EQ(::sched_getaffinity(0, sizeof(set), &set), 0);
+    int last = 0;
+    for (int processor = 0; processor < CPU_SETSIZE; ++processor) {
+        last = CPU_ISSET(static_cast<std::size_t>(processor), &set) ? processor : last;
+    }
+    order_.limits.processor = last;
+
+    const std::string facts =
+        run("cat /proc/$$/status /proc/$$/limits >&3; echo score $(cat /proc/$$/oom_score_adj) >&3;"
+            "echo nice $(nice) >&3");
+    EXPECT_EQ(find(facts, "Max address space").substr(0U, 10U), "1073741824");
+    EXPECT_EQ(find(facts, "Max processes").substr(0U, 2U), "55");
+    EXPECT_EQ(find(facts, "Max open files").substr(0U, 2U), "17");
+    EXPECT_EQ(find(facts, "Cpus_allowed_list:"), std::to_string(last));
+    EXPECT_EQ(find(facts, "score"), "1000");
+    EXPECT_EQ(find(facts, "nice"), "19");
+}
+
+TEST_F(PartitionProcessTest, ItRunsAsAnotherUserWhereThatIsAllowed) {
+    verifies("SWR-PRT-016", Technique::kInterface, Polarity::kViolation);
+    constexpr uid_t kNobody = 65534U;
+    order_.limits.user = kNobody;
+    if (::geteuid() != 0U) {
+        EXPECT_EQ(start("true"), Status::kError);
+        EXPECT_EQ(sut_.get_error(), PartitionError::kCannotBecome);
+        EXPECT_EQ(sut_.get_system_error(), EPERM);
+        return;
+    }
+
+    const std::string facts = run("cat /proc/self/status >&3");
+    EXPECT_EQ(find(facts, "Uid:"), "65534\t65534\t65534\t65534");
+    EXPECT_EQ(find(facts, "Gid:"), "65534\t65534\t65534\t65534");
+    EXPECT_EQ(find(facts, "Groups:"), "");
+    EXPECT_EQ(::geteuid(), 0U) << "the safety process is who it was";
+}
+
+TEST_F(PartitionProcessTest, OneThatStandsStillIsRunningAndCanBeEnded) {
+    verifies("SWR-PRT-017", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(start("echo -n s >&3; while :; do :; done"), Status::kOk);
+    EXPECT_EQ(line_.read_one(), 's');
+    EXPECT_EQ(sut_.start(order_), Status::kPreconditionNotMet);
+    ASSERT_EQ(::kill(sut_.get_pid(), SIGSTOP), 0);
+    EXPECT_EQ(sut_.check(), PartitionState::kRunning);
+
+    EXPECT_EQ(sut_.end(), Status::kOk);
+    EXPECT_EQ(line_.read_all(), "");
+    EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+    EXPECT_EQ(sut_.get_signal(), SIGKILL);
+    EXPECT_EQ(sut_.get_exit_status(), -1);
+    EXPECT_EQ(sut_.end(), Status::kPreconditionNotMet);
+}
+
+TEST_F(PartitionProcessTest, OneThatHasEndedCanBeStartedAgain) {
+    verifies("SWR-PRT-017");
+    for (int round = 0; round < 3; ++round) {
+        ASSERT_EQ(start("exit 3"), Status::kOk);
+        EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+        EXPECT_EQ(sut_.get_exit_status(), 3);
+    }
+}
+
+TEST_F(PartitionProcessTest, WhatItHasStartedEndsWithIt) {
+    verifies("SWR-PRT-017", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(start("sleep 1000 & sleep 1000 & exit 0"), Status::kOk);
+    EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+
+    EXPECT_EQ(line_.read_all(), "");
+}
+
+TEST_F(PartitionProcessTest, ItEndsWithItsOwner) {
+    verifies("SWR-PRT-017");
+    {
+        PartitionProcess owned;
+        const std::array<const char*, 2U> arguments{"-c", "sleep 1000 & sleep 1000"};
+        const std::array<int, 1U> descriptors{line_.get_writing_end()};
+        ASSERT_EQ(owned.start({"/bin/sh", arguments, descriptors, nullptr, {}}), Status::kOk);
+    }
+
+    EXPECT_EQ(line_.read_all(), "");
+    EXPECT_GT(::waitpid(-1, nullptr, 0), 0) << "the owner has waited";
+}
+
+TEST_F(PartitionProcessTest, ItDiesWithTheSafetyProcess) {
+    verifies("SWR-PRT-017", Technique::kFaultInjection, Polarity::kViolation);
+    const pid_t middle = ::fork();
+    if (middle == 0) {
+        const Status result = start("echo -n s >&3; while :; do :; done");
+        for (;;) {
+            static_cast<void>(result == Status::kOk ? ::pause() : ::kill(::getpid(), SIGABRT));
+        }
+    }
+    EXPECT_EQ(line_.read_one(), 's');
+
+    ASSERT_EQ(::kill(middle, SIGKILL), 0);
+    int status = 0;
+    ASSERT_EQ(::waitpid(middle, &status, 0), middle);
+    EXPECT_EQ(line_.read_all(), "");
+}
+
+}  // namespace
+}  // namespace mamori::ports::posix_rt

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: the page shows what was counted with every mark and finding, and a broken record costs nothing but itself.
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from trace_sample import COMMIT, ENVIRONMENT, Sample
+
+RECORD: dict[str, Any] = {
+    "schema": "mamori.cost/1", "system": "safe_arm", "exit_status": 0, "marks": [], "assumption": "no model of caches",
+    "margin_percent": 50.0, "growth_percent": 2.0, "build": {"compiler": "GNU 12.2.0", "flags": "-O2", "c_library": "glibc 2.36"},
+    "environment": ENVIRONMENT,
+    "classes": [{"name": "still", "cycles": 400, "first": 0, "every": 2, "step_count": 1200, "notes": ["the arm ended in state Operational"]}],
+    "pace": {"ns_per_instruction": 1.7204, "component": "channel", "least_ns": 0.22, "reference_ns": 0.257, "reference_instructions": 32_776},
+    "ratios": [{"component": "channel", "openings": 625, "median_ns": 1.7204, "p99_ns": 3.715}],
+    "steps": [
+        {"input_class": name, "component": component, "window": "protect", "pass_name": "execute",
+         "instructions": {"count": 200, "min": 539, "median": 545, "max": most, "cycle": 152}, "time_ns": 937.4}
+        for name, most in (("still", 551), ("motion", 552)) for component in ("arm_reader", "channel")],
+    "limits": [{"what": "window", "name": "protect", "limit_ns": 250_000, "input_class": "still", "cycle": 7, "instructions": 4961,
+                "heaviest": "safety_supervisor", "time_ns": 8534.9, "needed_ns": 12_802.4, "left_ns": 237_197.6, "is_kept": True}],
+    "findings": [],
+}  # fmt: skip
+
+
+@pytest.fixture
+def folder(sample: Sample) -> Path:
+    """The place of one count."""
+    path = sample.evidence / "cost" / "safe_arm"
+    path.mkdir(parents=True)
+    return path
+
+
+@pytest.fixture
+def report(sample: Sample, trace: Callable, folder: Path) -> Callable[..., tuple[str, Any]]:
+    """Stores a record or a text, writes the report. Gives the section "Timing" and the outcome."""
+
+    def run(record: object = RECORD) -> tuple[str, Any]:
+        (folder / "cost.json").write_text(record if isinstance(record, str) else json.dumps(record), encoding="utf-8")
+        outcome = trace("report", "--root", sample.root, "--format", "json")
+        page = (sample.root / "report" / "index.html").read_text(encoding="utf-8")
+        return page[page.index('<section id="timing"') : page.index('<section id="matrix"')], outcome
+
+    return run
+
+
+@pytest.mark.verifies("SWR-TIM-034")
+def test_the_page_shows_counts_limits_ratio_and_assumption(report: Callable) -> None:
+    section, outcome = report()
+
+    assert (outcome.status, outcome.content["findings"]) == (0, [])
+    for part in (
+        "Cost of components, counted", "limits kept", "GNU 12.2.0 -O2, glibc 2.36", "1.72 ns, the worst (channel); least 0.22 ns",
+        "0.257 ns each of 32776 instructions", "50 % of the measured maximum", "Assumption: no model of caches.",
+        ">4961<", ">8.53<", ">12.8<", ">237.2<", ">kept<", "safety_supervisor",  # limits
+        ">539<", ">545<", ">551<", ">552<", ">152<", ">0.94<", ">0.37 %<",  # steps
+        "1.720", "3.715", "the arm ended in state Operational",  # folded
+    ):  # fmt: skip
+        assert part in section, part
+    assert "finding" not in section
+
+
+@pytest.mark.verifies("SWR-TIM-034")
+def test_classes_of_one_component_stand_together(report: Callable) -> None:
+    section, _ = report()
+
+    steps = section[section.index("Instructions of a single step") :]
+    assert steps.index(">551<") < steps.index(">552<") < steps.index(">channel<")
+
+
+@pytest.mark.verifies("SWR-TIM-034", technique="fault_injection", polarity="violation")
+def test_findings_marks_and_other_commits_stand_at_the_top(report: Callable) -> None:
+    record = copy.deepcopy(RECORD)
+    record.update(exit_status=1, marks=["TIMES WITHOUT REAL-TIME RIGHTS"], findings=["window 'protect': budget <8 us", "another"])
+    record["limits"][0].update(left_ns=-4800.0, is_kept=False)
+    record["environment"] = ENVIRONMENT | {"commit": COMMIT[::-1]}
+
+    section, outcome = report(record)
+
+    assert outcome.status == 0
+    for part in ('<span class="badge failed">2 findings</span>', '<p class="mark">TIMES WITHOUT REAL-TIME RIGHTS</p>', "budget &lt;8 us",
+                 "of another commit", '<td class="num bad">−4.80</td>', "bad\">too low</td>"):  # fmt: skip
+        assert part in section, part
+    assert section.index("another") < section.index("Budgets and declared")
+
+
+@pytest.mark.parametrize(("change", "complaint"), [
+    (lambda record: record.pop("pace"), "pace is missing; count again"),
+    (lambda record: record["steps"][0]["instructions"].update(max="many"), "steps[0].instructions.max is no whole number"),
+    (lambda record: record["limits"][0].update(is_kept=1), "limits[0].is_kept is no truth value"),
+    (lambda record: record.update(schema="mamori.cost/2"), "this tool reads 'mamori.cost/1'"),
+])  # fmt: skip
+@pytest.mark.verifies("SWR-TIM-034", technique="equivalence_classes", polarity="violation")
+def test_record_that_is_not_in_order_is_one_problem_and_hides_nothing_else(report: Callable, change: Callable, complaint: str) -> None:
+    record = copy.deepcopy(RECORD)
+    change(record)
+
+    section, outcome = report(record)
+
+    (finding,) = outcome.content["findings"]
+    assert complaint in finding["message"]
+    assert "Cost of components" not in section
+    assert "No system was measured by the clock" in section
+
+
+@pytest.mark.verifies("SWR-TIM-034", technique="error_guessing", polarity="violation")
+def test_record_that_is_cut_off_is_a_problem(report: Callable) -> None:
+    _, outcome = report(json.dumps(RECORD)[:-20])
+
+    (finding,) = outcome.content["findings"]
+    assert "is not whole JSON" in finding["message"]

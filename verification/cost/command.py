@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`./mamori cost SYSTEM`: check, build, count, time, judge, show.
+
+@satisfies SWR-TIM-036, SWR-TIM-039      Design: docs/design/cost.md#cost
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import shutil
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mamori.verification.command.environment import collect_environment
+from mamori.verification.command.errors import EXIT_FAILED, StepError, UsageError
+from mamori.verification.command.process import read_tail
+from mamori.verification.command.project import ROOT, Project
+from mamori.verification.command.steps import Context
+from mamori.verification.cost.baseline import Baseline, check_origin, judge_growth, load_baseline, write_baseline
+from mamori.verification.cost.classes import CostPlan, InputClass, choose, read_plan
+from mamori.verification.cost.report import Report, make_report, make_text, write_results
+from mamori.verification.cost.run import ClassRun, run_class
+from mamori.verification.timing.command import build_system, check_folder
+from mamori.verification.timing.environment import collect_setting, collect_state
+from mamori.verification.timing.run import undisturbed
+from mamori.verification.timing.system import FILE, System, find_system
+
+RESULTS = ("cost.json", "cost.txt")
+TOOL = "valgrind"
+TAIL_LINES = 10
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the user asked for. No classes: all of them."""
+
+    system: str
+    classes: tuple[str, ...] = ()
+    out: Path | None = None
+    check: Path | None = None
+    accept: Path | None = None
+
+
+@dataclass(frozen=True)
+class Job:
+    """A request that was found to be in order."""
+
+    request: Request
+    system: System
+    plan: CostPlan
+    classes: tuple[InputClass, ...]
+    baseline: Baseline | None
+    folder: Path
+    context: Context
+
+    @property
+    def log(self) -> Path:
+        return self.folder / "program.log"
+
+
+def cost(request: Request, jobs: int) -> int:
+    """@return exit status: 0 or 1 (a finding, or the program failed). @raise UsageError, InputError, KeyboardInterrupt."""
+    job = check(request, jobs)
+    _prepare_folder(job)
+    if not build_system(job.system, job.context):
+        return EXIT_FAILED
+    if not os.access(job.system.program, os.X_OK):
+        raise UsageError(f"cost: '{job.system.program}' was not built; correct 'program' in {request.system}/{FILE}")
+    host: dict[str, Any] = {"setting": collect_setting(), "before": collect_state()}
+    try:
+        runs = _count(job)
+    except StepError as error:
+        _show_failure(job, str(error))
+        return EXIT_FAILED
+    host["after"] = collect_state()
+    with undisturbed():
+        return _conclude(job, runs, host)
+
+
+def check(request: Request, jobs: int) -> Job:
+    """Everything that can be known before work begins. @raise UsageError, InputError."""
+    project = Project(ROOT)
+    if request.check is not None and request.accept is not None:
+        raise UsageError("cost: --check and --accept exclude each other; check first, accept what you want to keep")
+    if request.classes and request.accept is not None:
+        raise UsageError("cost: --accept takes all classes of inputs; leave --class out")
+    system = find_system(request.system, project, "cost")
+    plan = read_plan(system, project)
+    classes = choose(plan, request.classes)
+    baseline = None if request.check is None else load_baseline(request.check, system.name, plan.classes)
+    if baseline is not None:
+        names = {one.name for one in classes}
+        baseline = dataclasses.replace(baseline, maxima={key: count for key, count in baseline.maxima.items() if key[0] in names})
+    if shutil.which(TOOL) is None:
+        raise UsageError(f"cost: {TOOL} is missing, which counts the instructions; install the package {TOOL}")
+    folder = (request.out or project.evidence / "cost" / system.name).absolute()
+    check_folder(folder, "cost")
+    if request.accept is not None:
+        if request.accept.is_dir():
+            raise UsageError(f"cost: '{request.accept}' is a folder; name the file that the baseline is to be written to")
+        check_folder(request.accept.absolute().parent, "cost")
+    return Job(request, system, plan, classes, baseline, folder, Context(project, jobs))
+
+
+def _prepare_folder(job: Job) -> None:
+    """Takes earlier results away, so that none can be taken for those of this run. @raise UsageError."""
+    try:
+        for name in RESULTS:
+            (job.folder / name).unlink(missing_ok=True)
+        job.log.write_text("", encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"cost: '{error.filename}' is in the way of a result: {error.strerror}; name another folder") from error
+
+
+def _count(job: Job) -> list[ClassRun]:
+    """@raise StepError, InputError, UsageError, KeyboardInterrupt."""
+    runs: list[ClassRun] = []
+    screen = job.context.screen
+    for one in job.classes:
+        with screen.show_work(f"count {job.system.name}, class {one.name}") as tick:
+            runs.append(run_class(job.system, one, job.log, tick))
+        if job.baseline is not None:
+            check_origin(job.baseline, runs[0].table, runs[0].facts.build)
+        if runs[-1].table != runs[0].table:
+            raise StepError(f"class '{one.name}' has another table than '{job.classes[0].name}'; one system has one table")
+    if not any(len(run.steps) for run in runs):
+        raise StepError("no step was counted in any class; count other cycles")
+    return runs
+
+
+def _conclude(job: Job, runs: list[ClassRun], host: dict[str, Any]) -> int:
+    """@return exit status."""
+    screen, request = job.context.screen, job.request
+    report = make_report(job.system.name, job.plan, runs, host)
+    if job.baseline is not None:
+        growth = judge_growth(job.baseline, report.steps, job.plan.growth_percent)
+        report = dataclasses.replace(report, findings=[*report.findings, *growth])
+    environment = collect_environment(job.context.project, ["./mamori", *sys.argv[1:]])
+    paths = write_results(report, environment, job.folder)
+    screen.say()
+    for line in make_text(report).splitlines():
+        screen.say(line, style="bold red" if line.startswith(("***", "finding:")) else "")
+    screen.say(f"results: {job.folder}: {', '.join(path.name for path in paths)}")
+    if request.accept is not None:
+        _accept(job, report, request.accept)
+    return report.status
+
+
+def _accept(job: Job, report: Report, path: Path) -> None:
+    if report.findings:
+        job.context.screen.say(f"not accepted: {path} is as it was, since there are findings")
+        return
+    write_baseline(path, report.system, report.runs[0].table, job.plan.classes, report.build, report.steps)
+    job.context.screen.say(f"accepted: {path} holds the maxima of this run; say in the commit why they changed")
+
+
+def _show_failure(job: Job, reason: str) -> None:
+    screen = job.context.screen
+    screen.say(f"failed: {reason}", style="bold red")
+    for line in read_tail(job.log, TAIL_LINES):
+        screen.say(f"  | {line}")
+    screen.say(f"log: {job.log}")

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "loss_judge.hpp"
+
+namespace mamori::lost_service {
+
+LossVerdict judge_losses(const std::vector<LossTrial>& trials, const std::vector<Stall>& stalls,
+                         Duration timeout) {
+    LossVerdict verdict;
+    for (const LossTrial& trial : trials) {
+        verdict.requested += trial.loss != Loss::kNone ? 1U : 0U;
+        if (trial.is_closed && (!trial.is_injected || trial.closed_at < trial.injected_at)) {
+            if (overlaps(stalls, trial.asked_at, trial.closed_at)) {
+                ++verdict.by_host;
+            } else {
+                ++verdict.invented;
+                verdict.unexplained.push_back(trial);
+            }
+            continue;
+        }
+        if (!trial.is_injected) {
+            continue;
+        }
+        ++verdict.injected;
+        if (!trial.is_closed) {
+            ++verdict.unanswered;
+            continue;
+        }
+        ++verdict.answered;
+        // A service that comes too early is wrong at once; else the watchdog's time began with the last one.
+        const bool is_at_once = trial.loss == Loss::kRunaway;
+        const Instant over = is_at_once ? trial.injected_at : trial.asked_at + timeout;
+        verdict.reaction_ns.push_back((trial.closed_at - over).ns);
+        if (!is_at_once && trial.closed_at - trial.asked_at <= timeout) {
+            ++verdict.early;
+        } else if (trial.closed_at - over > kTick) {
+            ++(overlaps(stalls, over, trial.closed_at) ? verdict.late_by_host : verdict.late);
+        }
+    }
+    return verdict;
+}
+
+}  // namespace mamori::lost_service

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lost_service.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <random>
+
+#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/system.hpp"
+#include "mamori/ports/posix_rt/core_runner.hpp"
+#include "mamori/ports/posix_rt/guarded_host.hpp"
+#include "mamori/ports/posix_rt/software_watchdog.hpp"
+#include "mamori/verification/stall_watch.hpp"
+
+namespace mamori::lost_service {
+namespace {
+
+using ports::posix_rt::CoreRunner;
+using ports::posix_rt::FrameClock;
+using ports::posix_rt::GuardedHost;
+using ports::posix_rt::OpeningObserver;
+using ports::posix_rt::SoftwareWatchdog;
+using ports::posix_rt::WindowThread;
+using safety::GlobalStatus;
+using safety::WatchdogGate;
+using safety::WatchdogOutcome;
+using verification::StallWatch;
+using namespace literals;  // NOLINT: units of the table below
+
+constexpr int kStallPriority = 95;
+constexpr int kWatchdogPriority = 90;
+constexpr int kRunnerPriority = 80;
+constexpr int kWindowPriority = 70;
+constexpr safety::WatchdogWindow kWatchdogWindow{200_us, kServiceTimeout};
+/// Narrower, by the jitter of the window.
+constexpr safety::WatchdogWindow kGateWindow{300_us, 4_ms};
+/// Frames before a loss, and those that are given to the reaction.
+constexpr std::uint64_t kFramesBefore = 5U;
+constexpr std::uint64_t kFramesSpread = 40U;
+constexpr std::uint64_t kFramesAfter = 12U;
+/// A watchdog that has not acted by then never does; who hangs for its sake goes on.
+constexpr Duration kPatience = 100_ms;
+
+/// One trial, as everybody in it sees it. The watchdog's thread tells of the closing, whoever runs the rest.
+struct Stage {
+    const FrameClock* clock{nullptr};
+    SoftwareWatchdog* watchdog{nullptr};
+    WatchdogGate* gate{nullptr};
+    std::uint64_t loss_frame{0U};
+    LossTrial trial{};
+    std::atomic<bool> is_closed{false};
+    std::atomic<std::int64_t> closed_at_ns{0};
+
+    static void close_outputs(void* self) noexcept {
+        auto& stage = *static_cast<Stage*>(self);
+        stage.closed_at_ns.store(stage.clock->get_now().ns, std::memory_order_relaxed);
+        stage.is_closed.store(true, std::memory_order_release);
+    }
+
+    void inject() noexcept {
+        trial.is_injected = true;
+        trial.injected_at = clock->get_now();
+    }
+    bool is_hanging() const noexcept {
+        return !is_closed.load(std::memory_order_acquire) && clock->get_now() < trial.injected_at + kPatience;
+    }
+};
+
+Stage stage;
+
+class Supervisor final : public Component {
+  public:
+    constexpr Supervisor() noexcept : Component("supervisor") {}
+
+    /// Before the frames of a trial.
+    void begin() noexcept { frame_ = 0U; }
+
+    Status on_execute(ContextHandle) noexcept override {
+        const Loss loss = stage.trial.loss;
+        const bool is_lost = loss != Loss::kNone && loss != Loss::kNoWindow && frame_ >= stage.loss_frame;
+        const bool is_first = is_lost && !stage.trial.is_injected;
+        ++frame_;
+        if (is_first && loss != Loss::kRunaway) {
+            stage.inject();
+        }
+        if (is_first && (loss == Loss::kHang || loss == Loss::kWait)) {
+            while (stage.is_hanging()) {
+                if (loss == Loss::kWait) {
+                    stage.clock->wait_until(stage.clock->get_now() + kTick);
+                }
+            }
+            return Status::kOk;
+        }
+        serve(is_lost && loss == Loss::kUnhealthy, is_lost && loss == Loss::kInconsistent);
+        if (is_first && loss == Loss::kRunaway) {
+            run_wild();
+        }
+        return Status::kOk;
+    }
+
+  private:
+    void serve(bool is_unhealthy, bool is_inconsistent) noexcept {
+        const Instant now = stage.clock->get_now();
+        const GlobalStatus health = is_unhealthy ? GlobalStatus::kExpired : GlobalStatus::kOk;
+        if (stage.gate->step(now, health, !is_inconsistent) == WatchdogOutcome::kServiced) {
+            stage.trial.asked_at = now;
+        }
+    }
+    /// Where the gate held the regular service back, the first of these may still be in the window.
+    void run_wild() noexcept {
+        stage.inject();
+        static_cast<void>(stage.watchdog->service(stage.clock->get_now()));
+        static_cast<void>(stage.watchdog->service(stage.clock->get_now()));
+    }
+
+    std::uint64_t frame_{0U};
+};
+
+Supervisor supervisor;
+constexpr auto kSystem =
+    system(frame(kTick), window("supervise", 0_us, 600_us, budget(400_us), mamori::run(supervisor)));
+MAMORI_CHECK(kSystem);
+ExecutiveFor executive{kSystem};
+std::array<WindowThread, 1U> threads;
+
+/// Hangs on the thread that opens the windows.
+class Director final : public OpeningObserver {
+  public:
+    void begin() noexcept { frame_ = 0U; }
+    void before_opening(const FrameSchedule::Opening&, Instant) noexcept override {
+        if (stage.trial.loss == Loss::kNoWindow && frame_ == stage.loss_frame) {
+            stage.inject();
+            while (stage.is_hanging()) {
+            }
+        }
+        ++frame_;
+    }
+    void after_opening(const FrameSchedule::Opening&, WindowOutcome) noexcept override {}
+
+  private:
+    std::uint64_t frame_{0U};
+};
+
+/// What all trials share.
+struct Rig {
+    const FrameClock& clock;
+    GuardedHost& host;
+    CoreRunner& runner;
+    Director& director;
+    int processor;
+    ports::posix_rt::Right right;
+};
+
+std::string to_text(const LossTrial& trial) {
+    return "{\"loss\": " + std::to_string(static_cast<int>(trial.loss)) +
+           ", \"cause\": " + std::to_string(static_cast<int>(trial.cause)) +
+           ", \"asked_at_ns\": " + std::to_string(trial.asked_at.ns) +
+           ", \"injected_at_ns\": " + std::to_string(trial.injected_at.ns) +
+           ", \"closed_at_ns\": " + std::to_string(trial.closed_at.ns) + "}";
+}
+
+/// @return frames. Afterwards `stage.trial` is what became of it.
+std::uint64_t run_trial(Rig& rig, Loss loss, std::uint64_t loss_frame) {
+    SoftwareWatchdog watchdog{rig.clock, kWatchdogWindow, {&Stage::close_outputs, &stage, false}};
+    WatchdogGate gate{watchdog, kGateWindow};
+    stage.clock = &rig.clock;
+    stage.watchdog = &watchdog;
+    stage.gate = &gate;
+    stage.loss_frame = loss_frame;
+    stage.trial = LossTrial{};
+    stage.trial.loss = loss;
+    stage.is_closed.store(false, std::memory_order_relaxed);
+    supervisor.begin();
+    rig.director.begin();
+    if (watchdog.open({kWatchdogPriority, rig.processor}) != Status::kOk) {
+        return 0U;
+    }
+    rig.right = combine(rig.right, watchdog.get_priority_right());
+    const std::uint64_t frames = loss_frame + kFramesAfter;
+    rig.runner.run(frames);
+    // A clean trial ends while it is still served in time; work that hung has come back by now or soon does.
+    MAMORI_ENSURE(1, watchdog.close() == Status::kOk);
+    while (!rig.host.has_returned(0U)) {
+        rig.clock.wait_until(rig.clock.get_now() + kTick);
+    }
+    stage.trial.cause = watchdog.get_cause();
+    stage.trial.is_closed = stage.is_closed.load(std::memory_order_acquire);
+    stage.trial.closed_at = Instant{stage.closed_at_ns.load(std::memory_order_relaxed)};
+    return frames;
+}
+
+}  // namespace
+
+LossRun run_losses(const LossRequest& request) {
+    static const FrameClock clock = FrameClock::starting_in(100_ms);
+    static_cast<void>(ports::posix_rt::lock_memory(256U * 1024U));
+    static const int processor = verification::find_processor();
+    const ports::posix_rt::Right right =
+        combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
+                ports::posix_rt::set_processor(pthread_self(), processor));
+    static GuardedHost host{threads, clock, {kWindowPriority, processor}};
+    Director director;
+    CoreRunner runner{executive, host, clock};
+    runner.set_observer(&director);
+    LossRun result;
+    if (host.open() != Status::kOk || executive.initialize() != Status::kOk ||
+        executive.start() != Status::kOk) {
+        return result;
+    }
+    Rig rig{clock, host, runner, director, processor, combine(right, host.get_priority_right())};
+    std::mt19937_64 random{request.seed};
+    std::vector<LossTrial> trials;
+    StallWatch stalls{clock, Duration{kTick.ns / 20}, {kStallPriority, processor}};
+    for (std::uint64_t i = 0U; i < request.trial_count; ++i) {
+        const std::uint64_t loss_frame = kFramesBefore + random() % kFramesSpread;
+        result.frames += run_trial(rig, static_cast<Loss>(i % kLossCount), loss_frame);
+        trials.push_back(stage.trial);
+    }
+    stalls.stop();
+    while (host.close() != Status::kOk) {
+        clock.wait_until(clock.get_now() + kTick);
+    }
+    result.verdict = judge_losses(trials, stalls.get_stalls(), kServiceTimeout);
+    result.stalls = stalls.get_stalls().size();
+    for (const Stall& stall : stalls.get_stalls()) {
+        result.longest_stall = std::max(result.longest_stall, stall.end - stall.begin);
+    }
+    result.has_priority = rig.right.is_granted;
+    return result;
+}
+
+std::string to_json(const LossRequest& request, const LossRun& run) {
+    std::vector<std::int64_t> sorted = run.verdict.reaction_ns;
+    std::sort(sorted.begin(), sorted.end());
+    const auto quantile = [&sorted](std::size_t percent) {
+        return sorted.empty() ? std::int64_t{0} : sorted[(sorted.size() - 1U) * percent / 100U];
+    };
+    const auto number = [](const char* key, std::int64_t value) {
+        return ",\n \"" + std::string{key} + "\": " + std::to_string(value);
+    };
+    const auto count = [&number](const char* key, std::uint64_t value) {
+        return number(key, static_cast<std::int64_t>(value));
+    };
+    const LossVerdict& verdict = run.verdict;
+    std::string list;
+    for (const LossTrial& trial : verdict.unexplained) {
+        list += (list.empty() ? "\n  " : ",\n  ") + to_text(trial);
+    }
+    return "{\"schema\": \"mamori.lost_service/1\"" + count("seed", request.seed) +
+           count("trials", request.trial_count) + count("frames", run.frames) +
+           count("requested", verdict.requested) + count("injected", verdict.injected) +
+           count("answered", verdict.answered) + count("unanswered", verdict.unanswered) +
+           count("late", verdict.late) + count("late_by_host", verdict.late_by_host) +
+           count("early", verdict.early) + count("invented", verdict.invented) +
+           count("by_host", verdict.by_host) + count("stalls", run.stalls) +
+           number("longest_stall_ns", run.longest_stall.ns) + number("timeout_ns", kServiceTimeout.ns) +
+           number("reaction_p50_ns", quantile(50U)) + number("reaction_p99_ns", quantile(99U)) +
+           number("reaction_max_ns", quantile(100U)) + ",\n \"unexplained\": [" + list + "]" +
+           ",\n \"has_priority\": " + (run.has_priority ? "true" : "false") +
+           ",\n \"is_well\": " + (verdict.is_well() ? "true" : "false") + "\n}\n";
+}
+
+}  // namespace mamori::lost_service

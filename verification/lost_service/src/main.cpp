@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// lost_service TRIALS SEED: prints the verdict as JSON; status 1 when a loss was not answered as it should
+// be, or something was that is none.
+#include <charconv>
+#include <cstring>
+#include <iostream>
+
+#include "lost_service.hpp"
+
+namespace {
+
+bool read_number(const char* text, std::uint64_t& number) {
+    const char* const end = text + std::strlen(text);
+    const std::from_chars_result result = std::from_chars(text, end, number);
+    return result.ec == std::errc{} && result.ptr == end;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace mamori::lost_service;  // NOLINT: this program is made of it
+    LossRequest request;
+    if (argc != 3 || !read_number(argv[1], request.trial_count) || !read_number(argv[2], request.seed) ||
+        request.trial_count == 0U) {
+        std::cerr << "lost_service: expected TRIALS SEED: whole numbers, at least 1 trial\n";
+        return 2;
+    }
+    const LossRun run = run_losses(request);
+    std::cout << to_json(request, run);
+    return run.verdict.is_well() ? 0 : 1;
+}

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Judges mutants: each alone by the tests that most likely find it, and those that are left together by all the others.
+
+Most mutants are found by one of a few tests. Those that are not would have to be compiled into every test that includes their
+file, most of them for nothing; so they go into one copy, which is tried once for all of them. The cases of
+a test that fail for all are run for each of them alone, and only that counts as found. So a mutant that survives has passed every
+case of every test, alone or in company.
+
+@satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#mutants-that-count
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.verification.mutation.operators import Mutant
+from mamori.verification.mutation.sources import Unit
+from mamori.verification.mutation.workbench import TIMED_OUT, Bench
+
+KILLED = "killed"
+SURVIVED = "survived"
+INVALID = "does not compile"
+EQUIVALENT = "same object code"
+
+LIKELY = 4  # tests that a mutant is tried by alone
+COMPANY = 20  # mutants that are tried together
+
+# The compiler evaluates tables and checks of tables: a mutant that it refuses for their sake was found by a check.
+COMPILE_TIME_CHECK = re.compile(
+    r"static assertion failed|static assertion expression is not an integral constant"
+    r"|must be initialized by a constant expression|is not a constant expression"
+)
+FAILED_CASE = re.compile(r"^\[  FAILED  \] (\w[\w/]*\.[\w/]+)", re.MULTILINE)
+CASES_FAILED = 1  # status of a test program that came to its end
+AT_ONCE = ("--gtest_fail_fast",)
+FIRST_ERROR = re.compile(r"error: (?P<text>[^\n]*)")
+
+
+@dataclass(frozen=True)
+class Result:
+    """What became of one mutant, and who killed it."""
+
+    mutant: Mutant
+    verdict: str
+    killer: str = ""
+
+
+@dataclass(frozen=True)
+class Suspect:
+    """A mutant that has passed the likely tests alone, and the units whose objects it was seen to change."""
+
+    mutant: Mutant
+    passed: frozenset[str]
+    differing: tuple[Unit, ...]
+
+
+@dataclass(frozen=True)
+class Fate:
+    """Why the mutants of a trial are no original. `cases` of the test failed, when only some of them did."""
+
+    verdict: str
+    killer: str = ""
+    cases: tuple[str, ...] = ()
+
+
+class Trial:
+    """Mutants that are in the copy of a bench at the same time, and what was compiled of it so far."""
+
+    def __init__(self, bench: Bench, mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> None:
+        """@param mutants no two of which change one place."""
+        self._bench = bench
+        self._texts = apply(mutants, sources)
+        self._objects = bench.folder / ("alone" if len(mutants) == 1 else "together")
+        self._objects.mkdir(exist_ok=True)
+        self._left = {unit.path: unit for unit in bench.baseline.find_units(self._texts)}
+        is_header = any(file.endswith(".hpp") for file in self._texts)
+        self._bound = {unit.path for unit in bench.baseline.find_bound()} if is_header else set()
+        self._changed: dict[str, Path] = {}
+        self.differing: list[Unit] = []
+
+    def concerns(self, test: Unit) -> bool:
+        """Whether the program of `test` may be another one."""
+        parts = {test.path, *self._bench.baseline.links[test.path]}
+        return test.path in self._bound or not parts.isdisjoint(self._left) or not parts.isdisjoint(self._changed)
+
+    def run(self, test: Unit, options: Sequence[str]) -> Fate | None:
+        """Compiles what the program of `test` consists of, and runs it if a byte of it changed. @return None when it passes."""
+        parts = {test.path, *self._bench.baseline.links[test.path]}
+        for unit in [self._left[path] for path in sorted(parts & self._left.keys())]:
+            if fate := self.compile(unit):
+                return fate
+        if test.path not in self._bound and parts.isdisjoint(self._changed):
+            return None
+        self._bench.put(self._texts)
+        status, words = self._bench.run_test(test, self._changed, self._bench.baseline.calc_timeout(test), *options)
+        if status == 0:
+            return None
+        cases = tuple(FAILED_CASE.findall(words)) if status == CASES_FAILED else ()
+        return Fate(KILLED, f"{test.path} {words}" if words == TIMED_OUT else test.path, cases)
+
+    def compile(self, unit: Unit) -> Fate | None:
+        """Compiles `unit` if that is still to be done. @return why it is refused, or None."""
+        if unit.path not in self._left:
+            return None
+        self._bench.put(self._texts)
+        output = self._objects / (unit.path.replace("/", "_") + ".o")
+        status, words = self._bench.compile(unit, output)
+        if status != 0:
+            error = FIRST_ERROR.search(words)
+            is_check = error is not None and COMPILE_TIME_CHECK.search(error["text"])
+            return Fate(KILLED, f"compiler, {unit.path}") if is_check else Fate(INVALID)
+        del self._left[unit.path]
+        if output.read_bytes() != self._bench.baseline.get_object(unit).read_bytes():
+            self._changed[unit.path] = output
+            self.differing.append(unit)
+        return None
+
+    def has_same_code(self, units: Iterable[Unit]) -> bool:
+        """Whether the optimised code of all `units` is that of the original."""
+        self._bench.put(self._texts)
+        return all(self._bench.hash_assembler(unit) == self._bench.baseline.get_assembler(unit)
+                   for unit in units if unit.path not in self._bound)  # fmt: skip
+
+
+def apply(mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The files that `mutants` change, with all changes."""
+    texts: dict[str, bytes] = {}
+    for mutant in sorted(mutants, reverse=True):  # the last place first, so that the places before it stay
+        texts[mutant.file] = mutant.apply(texts.get(mutant.file, sources[mutant.file]))
+    return texts
+
+
+def screen(bench: Bench, mutant: Mutant, sources: Mapping[str, bytes]) -> Result | Suspect:
+    """Tries `mutant` alone by the likely tests."""
+    trial = Trial(bench, (mutant,), sources)
+    passed: set[str] = set()
+    for test in bench.baseline.order_tests((mutant.file,)):
+        if not trial.concerns(test):
+            continue
+        if fate := trial.run(test, AT_ONCE):
+            return _note(bench, mutant, fate, test)
+        passed.add(test.path)
+        if len(passed) == LIKELY:
+            break
+    return Suspect(mutant, frozenset(passed), tuple(trial.differing))
+
+
+def judge_together(bench: Bench, suspects: Sequence[Suspect], sources: Mapping[str, bytes]) -> list[Result]:
+    """Tries `suspects` together by all tests that they have not passed yet; their order is that of the results."""
+    court = Court(bench, suspects, sources)
+    files = {suspect.mutant.file for suspect in suspects}
+    for test in bench.baseline.order_tests(files):
+        court.try_all(test)
+    for unit in bench.baseline.find_units(files):
+        if not unit.is_test:
+            court.compile_all(unit)
+    return court.close()
+
+
+class Court:
+    """Suspects that are tried together, of which those that are found leave."""
+
+    def __init__(self, bench: Bench, suspects: Sequence[Suspect], sources: Mapping[str, bytes]) -> None:
+        self._bench = bench
+        self._sources = sources
+        self._suspects = tuple(suspects)
+        self._alive = list(suspects)
+        self._results: dict[Mutant, Result] = {}
+        self._differing: dict[str, Unit] = {}
+        self._together = self._gather()
+
+    def try_all(self, test: Unit) -> None:
+        """Runs `test` for all, and the cases of it that fail for each alone."""
+        due = [suspect for suspect in self._alive if test.path not in suspect.passed]
+        if due and self._together.concerns(test):
+            fate = self._together.run(test, AT_ONCE if len(self._alive) == 1 else ())
+            options = (f"--gtest_filter={':'.join(fate.cases)}", *AT_ONCE) if fate is not None and fate.cases else AT_ONCE
+            self._decide(due, test, fate, lambda trial: trial.run(test, options))
+
+    def compile_all(self, unit: Unit) -> None:
+        """The same for a unit that is to compile and to do no more."""
+        if self._alive:
+            self._decide(self._alive, unit, self._together.compile(unit), lambda trial: trial.compile(unit))
+
+    def close(self) -> list[Result]:
+        """@return the results of all suspects."""
+        for seen in (self._together, *self._alive):
+            self._keep(seen.differing)
+        units = self._sort_by_code()
+        for suspect in self._alive:
+            own = {unit.path for unit in suspect.differing}
+            is_same = self._alone(suspect).has_same_code(sorted(units, key=lambda unit: (units[unit], unit.path not in own)))
+            self._results[suspect.mutant] = Result(suspect.mutant, EQUIVALENT if is_same else SURVIVED)
+        return [self._results[suspect.mutant] for suspect in self._suspects]
+
+    def _sort_by_code(self) -> dict[Unit, bool]:
+        """The units that may differ, and whether their optimised code is the same when all that are left are in it: where it is
+        not, one of them alone is soonest seen to differ."""
+        units = list(self._differing.values())
+        if len(self._alive) < 2:
+            return dict.fromkeys(units, False)
+        return {unit: self._together.has_same_code((unit,)) for unit in units}
+
+    def _decide(self, due: Sequence[Suspect], unit: Unit, fate: Fate | None, attempt: Callable[[Trial], Fate | None]) -> None:
+        """@param fate of all together. @param attempt tells that of one alone."""
+        if fate is None:
+            return
+        fates = {due[0]: fate} if len(self._alive) == 1 else {suspect: attempt(self._alone(suspect)) for suspect in due}
+        found = {suspect: fate for suspect, fate in fates.items() if fate is not None}
+        for suspect, fate in found.items():
+            self._results[suspect.mutant] = _note(self._bench, suspect.mutant, fate, unit)
+        if found:
+            self._keep(self._together.differing)
+            self._alive = [suspect for suspect in self._alive if suspect not in found]
+            self._together = self._gather()
+
+    def _gather(self) -> Trial:
+        return Trial(self._bench, [suspect.mutant for suspect in self._alive], self._sources)
+
+    def _keep(self, units: Iterable[Unit]) -> None:
+        self._differing.update((unit.path, unit) for unit in units)
+
+    def _alone(self, suspect: Suspect) -> Trial:
+        return Trial(self._bench, (suspect.mutant,), self._sources)
+
+
+def make_companies(suspects: Sequence[Suspect], count: int) -> list[list[Suspect]]:
+    """Deals `suspects` to at least `count` companies of at most COMPANY, so that neighbours come apart and no two of one company
+    change one place."""
+    companies: list[list[Suspect]] = [[] for _ in range(max(count, -(-len(suspects) // COMPANY)))]
+    for suspect in suspects:
+        company = next((each for each in sorted(companies, key=len) if len(each) < COMPANY and _fits(suspect, each)), None)
+        if company is None:
+            companies.append([suspect])
+        else:
+            company.append(suspect)
+    return [company for company in companies if company]
+
+
+def _fits(suspect: Suspect, company: Sequence[Suspect]) -> bool:
+    mutant = suspect.mutant
+    others = [other.mutant for other in company if other.mutant.file == mutant.file]
+    return all(mutant.end <= other.start or other.end <= mutant.start for other in others)
+
+
+def _note(bench: Bench, mutant: Mutant, fate: Fate, unit: Unit) -> Result:
+    if unit.is_test and fate.verdict == KILLED:
+        bench.baseline.note_kill(mutant.file, unit)
+    return Result(mutant, fate.verdict, fate.killer)

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "campaign.hpp"
+
+#include <array>
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "mamori/ports/posix_rt/core_runner.hpp"
+#include "mamori/ports/posix_rt/partition_process.hpp"
+#include "mamori/ports/posix_rt/shared_memory.hpp"
+#include "mamori/ports/virtual_time/frame_runner.hpp"
+#include "safety_system.hpp"
+
+namespace mamori::partition_faults {
+namespace {
+
+using namespace ports::posix_rt;  // NOLINT: this program is made of them
+using verification::find_processor;
+using verification::StallWatch;
+
+/// Above what other programs use: what delays these threads is the machine, or what is under test.
+constexpr int kWatchPriority = 98;
+constexpr int kRunnerPriority = 97;
+constexpr int kWindowPriority = 96;
+constexpr std::uint32_t kWellFrames{20U};
+constexpr Duration kStep = 1_ms;
+constexpr Duration kPatience = 20_s;
+/// A partition that has not done what it was told by then does not come to it.
+constexpr Duration kDeedPatience = 2_s;
+constexpr int kStartTries{20};
+constexpr std::uint64_t kForEver{1'000'000'000'000U};
+/// Frames for which there is room in the logs: some five times what a fault takes, and a slow start.
+constexpr std::size_t kFramesPerFault{1000U};
+constexpr std::size_t kFramesBeside{60'000U};
+
+/// The memory between the processes, all of it created by this one.
+struct Link {
+    SharedMemory requests{};
+    SharedMemory answers{};
+    SharedMemory notes{};
+    FrameReader diary{};
+
+    bool open() {
+        return requests.create("requests", calc_frame_region_size(kRequestCapacity), SharedAccess::kWrite) ==
+                   Status::kOk &&
+               answers.create("answers", calc_frame_region_size(kAnswerCapacity), SharedAccess::kRead) ==
+                   Status::kOk &&
+               notes.create("notes", calc_frame_region_size(kNoteCapacity), SharedAccess::kRead) ==
+                   Status::kOk &&
+               request_writer.open(requests.get_writable_region(), kRequestCapacity) == Status::kOk &&
+               answer_reader.open(answers.get_region(), kAnswerCapacity) == Status::kOk &&
+               diary.open(notes.get_region(), kNoteCapacity) == Status::kOk;
+    }
+    /// What the partition has noted last, since the last time. @return false: nothing.
+    bool take_note(Note& note, Instant& at) {
+        std::array<std::byte, kNoteCapacity> content{};
+        FrameFacts facts{};
+        if (diary.take(content, facts) != FrameOutcome::kNew || facts.length != kNoteCapacity) {
+            return false;
+        }
+        note = static_cast<Note>(content[0U]);
+        at = facts.published_at;
+        return true;
+    }
+};
+
+/// Takes down each opening, on the thread that runs the windows.
+class OpeningLog final : public OpeningObserver {
+  public:
+    OpeningLog(const FrameClock& clock, std::size_t room) : clock_(clock) { openings.reserve(room); }
+
+    void before_opening(const FrameSchedule::Opening&, Instant woke) noexcept override { woke_ = woke; }
+    void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override {
+        if (openings.size() < openings.capacity()) {
+            openings.push_back({{opening.window, opening.release},
+                                woke_,
+                                clock_.get_now(),
+                                outcome == WindowOutcome::kMissed,
+                                outcome == WindowOutcome::kOverrun});
+        }
+    }
+
+    std::vector<TimedOpening> openings{};
+
+  private:
+    const FrameClock& clock_;
+    Instant woke_{};
+};
+
+/// Carries the plan out, on an ordinary thread beside the windows, which never wait for it.
+class Director final {
+  public:
+    /// @param[in] last instant up to which there is room for what is written down.
+    Director(const CampaignRequest& request, const FrameClock& clock, Link& link, Instant last)
+        : request_(request), clock_(clock), link_(link), last_(last) {}
+
+    /// @return what went wrong; empty: nothing.
+    const char* carry_out(const std::vector<Fault>& plan) {
+        const char* trouble = "";
+        for (std::size_t i = 0U; i < plan.size() && *trouble == '\0'; ++i) {
+            trouble = carry_out(plan[i], i);
+        }
+        static_cast<void>(partition_.end());
+        static_cast<void>(wait([this] { return partition_.check() != PartitionState::kRunning; }, kPatience));
+        return trouble;
+    }
+    const std::vector<Deed>& get_deeds() const noexcept { return deeds_; }
+
+  private:
+    template <typename Condition>
+    bool wait(Condition is_met, Duration patience) {
+        const Instant end = clock_.get_now() + patience;
+        while (!is_met()) {
+            if (clock_.get_now() > end) {
+                return false;
+            }
+            clock_.wait_until(clock_.get_now() + kStep);
+        }
+        return true;
+    }
+
+    const char* carry_out(const Fault& fault, std::size_t number) {
+        if (clock_.get_now() > last_) {
+            return "the machine is too slow: what is written down has no room";
+        }
+        if (!start(number)) {
+            return describe(partition_.get_error());
+        }
+        bool is_well = false;
+        for (int i = 0; i < kStartTries && !is_well; ++i) {
+            if (!become_well()) {
+                return "the partition did not become well";
+            }
+            clock_.wait_until(clock_.get_now() + fault.wait);
+            // One that the machine gave no time meanwhile has had its reaction, and is no place for a fault.
+            is_well = !is_stopped.load(std::memory_order_acquire) &&
+                      good_count.load(std::memory_order_relaxed) > 0U;
+        }
+        if (!is_well) {
+            return "the machine gives the partition no time";
+        }
+        Deed deed = commit(fault.kind);
+        static_cast<void>(wait([] { return is_stopped.load(std::memory_order_acquire); }, kDeedPatience));
+        clock_.wait_until(clock_.get_now() + fault.hold);
+        static_cast<void>(partition_.end());
+        if (!wait([this] { return partition_.check() == PartitionState::kEnded; }, kPatience)) {
+            return "the partition did not end";
+        }
+        deed.over = clock_.get_now();
+        deeds_.push_back(deed);
+        return "";
+    }
+
+    /// The program, and its word that it listens.
+    bool start(std::size_t number) {
+        const std::string seed = std::to_string(request_.seed + number);
+        const std::array<const char*, 1U> arguments{seed.c_str()};
+        const std::array<int, 3U> descriptors{link_.requests.get_descriptor(), link_.answers.get_descriptor(),
+                                              link_.notes.get_descriptor()};
+        PartitionOrder order{request_.worker, arguments, descriptors, &clock_, {}};
+        order.limits.niceness = 0;  // as strong as one without rights can be
+        if (partition_.start(order) != Status::kOk) {
+            return false;
+        }
+        Note note{};
+        Instant at{};
+        return wait([&] { return link_.take_note(note, at) && note == Note::kRuns; }, kPatience);
+    }
+
+    bool become_well() {
+        return wait(
+            [] {
+                const bool is_good = good_count.load(std::memory_order_relaxed) >= kWellFrames;
+                if (is_good && is_stopped.load(std::memory_order_acquire)) {
+                    is_reset_wanted.store(true, std::memory_order_relaxed);
+                    return false;
+                }
+                return is_good;
+            },
+            kPatience);
+    }
+
+    Deed commit(Kind kind) {
+        Deed deed{kind, clock_.get_now(), {}, {}, true};
+        int signal = SIGKILL;
+        switch (kind) {
+            case Kind::kKill:
+                break;
+            case Kind::kStop:
+                signal = SIGSTOP;
+                break;
+            case Kind::kFlood:
+                signal = kFloodSignal;
+                break;
+            case Kind::kCorrupt:
+                signal = kCorruptionSignal;
+                break;
+        }
+        static_cast<void>(::kill(partition_.get_pid(), signal));
+        deed.done = clock_.get_now();
+        if (kind == Kind::kFlood || kind == Kind::kCorrupt) {
+            Note note{};
+            deed.is_done =
+                wait([&] { return link_.take_note(note, deed.done) && note == Note::kDone; }, kDeedPatience);
+        }
+        return deed;
+    }
+
+    const CampaignRequest& request_;
+    const FrameClock& clock_;
+    Link& link_;
+    Instant last_;
+    PartitionProcess partition_{};
+    std::vector<Deed> deeds_{};
+};
+
+/// Nothing around the windows.
+class NoDevices final : public ports::virtual_time::FrameDevices {
+  public:
+    void begin_frame(std::uint64_t, Instant) noexcept override {}
+    void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
+};
+
+/// The same table in virtual time, up to the last opening by the clock.
+std::vector<Opening> run_in_virtual_time(const std::vector<TimedOpening>& openings) {
+    if (openings.empty() || executive.stop() != Status::kOk || executive.finalize() != Status::kOk ||
+        executive.initialize() != Status::kOk || executive.start() != Status::kOk) {
+        return {};
+    }
+    const Opening& first = openings.front().opening;
+    const Opening& last = openings.back().opening;
+    const auto frames = static_cast<std::uint64_t>(last.release.ns / kFrame.ns) + 1U;
+    SystemLog log;
+    log.ran.resize(frames * kWindowCount);
+    log.looks.reserve(frames);
+    SystemLog* const before = system_log;
+    system_log = &log;
+    std::array<Duration, 1U> durations{1_us};
+    ports::virtual_time::VirtualHost host{durations};
+    ports::virtual_time::SimulatedCore core{executive, host};
+    NoDevices devices;
+    ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};
+    for (std::uint64_t frame = 0U; frame < frames; ++frame) {
+        runner.run_frame();
+    }
+    system_log = before;
+    std::vector<Opening> expected;
+    expected.reserve(log.ran.size());
+    for (const Opening& opening : log.take_ran()) {
+        if (opening.release >= first.release && opening.release <= last.release) {
+            expected.push_back(opening);
+        }
+    }
+    return expected;
+}
+
+Verdict refuse(const char* trouble) {
+    Verdict verdict;
+    verdict.trouble = trouble;
+    return verdict;
+}
+
+}  // namespace
+
+std::vector<Fault> make_plan(const CampaignRequest& request) {
+    std::mt19937_64 random{request.seed};
+    std::vector<Fault> plan;
+    std::array<Kind, kKindCount> kinds{Kind::kKill, Kind::kStop, Kind::kFlood, Kind::kCorrupt};
+    for (std::uint64_t i = 0U; i < request.fault_count; ++i) {
+        if (i % kKindCount == 0U) {
+            // By hand: the order in which the library shuffles is not the same everywhere.
+            for (std::size_t k = kKindCount - 1U; k > 0U; --k) {
+                std::swap(kinds[k], kinds[random() % (k + 1U)]);
+            }
+        }
+        Fault fault{kinds[i % kKindCount], {}, {}};
+        fault.wait = 20_ms + Duration{static_cast<std::int64_t>(random() % 100'000'000U)};
+        fault.hold = Duration{static_cast<std::int64_t>(random() % 30'000'000U)};
+        plan.push_back(fault);
+    }
+    return plan;
+}
+
+Verdict run(const CampaignRequest& request) {
+    // Work that hangs longer than the run may still look at these.
+    static const FrameClock clock = FrameClock::starting_in(200_ms);
+    static const int processor = find_processor();
+    static GuardedHost host{window_threads, clock, {kWindowPriority, processor}};
+    static SystemLog log;
+    static Link link;
+    const std::size_t frames = request.fault_count * kFramesPerFault + kFramesBeside;
+    log.ran.resize(frames * kWindowCount);
+    log.looks.reserve(frames);
+    log.reactions.reserve(frames);
+    log.clock = &clock;
+    system_log = &log;
+    OpeningLog openings{clock, frames * kWindowCount};
+    static_cast<void>(lock_memory(256U * 1024U));
+    if (!link.open() || host.open() != Status::kOk || executive.initialize() != Status::kOk ||
+        executive.start() != Status::kOk) {
+        return refuse("the safety system does not start");
+    }
+    CoreRunner runner{executive, host, clock};
+    runner.set_observer(&openings);
+    StallWatch stalls{clock, Duration{kFrame.ns / 20}, {kWatchPriority, processor}};
+    Right right{};
+    std::thread thread{[&runner, &right] {
+        right =
+            combine(set_priority(pthread_self(), kRunnerPriority), set_processor(pthread_self(), processor));
+        runner.run(kForEver);
+    }};
+    // What one fault takes at most, its starts included, still has to fit in behind.
+    const Instant last{static_cast<std::int64_t>(frames) * kFrame.ns - 2 * kPatience.ns};
+    Director director{request, clock, link, last};
+    const char* const trouble = director.carry_out(make_plan(request));
+    runner.request_stop();
+    thread.join();
+    stalls.stop();
+    const bool is_closed = host.close() == Status::kOk;
+    Course course{{},
+                  log.take_ran(),
+                  std::move(openings.openings),
+                  std::move(log.looks),
+                  std::move(log.reactions),
+                  director.get_deeds(),
+                  stalls.get_stalls()};
+    course.expected = run_in_virtual_time(course.openings);
+    Verdict verdict = judge(course);
+    verdict.frames = course.openings.size() / kWindowCount;
+    verdict.requested = request.fault_count;
+    verdict.trouble = is_closed ? trouble : "work of a safety window hangs";
+    verdict.has_run = *verdict.trouble == '\0';
+    verdict.has_priority =
+        combine(right, combine(host.get_priority_right(), host.get_processor_right())).is_granted;
+    return verdict;
+}
+
+}  // namespace mamori::partition_faults

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What the safety system and the process beside it tell each other, and what that one writes down of its own
+/// faults.
+#ifndef MAMORI_PARTITION_FAULTS_MESSAGES_HPP
+#define MAMORI_PARTITION_FAULTS_MESSAGES_HPP
+
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/crc32.hpp"
+#include "mamori/kernel/fields.hpp"
+
+namespace mamori::partition_faults {
+
+/// To the partition, in each frame.
+struct Request {
+    std::uint64_t sequence{0U};
+};
+
+/// From the partition, in each frame. `check` stands for the end-to-end protection of a real message.
+struct Answer {
+    std::uint64_t sequence{0U};
+    std::uint64_t request{0U};  ///< that it answers
+    std::uint32_t check{0U};
+};
+
+/// Of everything but itself.
+constexpr std::uint32_t calc_check(const Answer& answer) noexcept {
+    Crc32 crc;
+    for (const std::uint64_t value : {answer.sequence, answer.request}) {
+        for (unsigned shift = 0U; shift < 64U; shift += 8U) {
+            crc.add(static_cast<std::uint8_t>(value >> shift));
+        }
+    }
+    return crc.get_value();
+}
+
+/// Places among the descriptors that the partition is handed.
+inline constexpr int kRequestPlace{0};
+inline constexpr int kAnswerPlace{1};
+inline constexpr int kDiaryPlace{2};
+
+/// A note of the partition about itself: one byte, under the instant at which it was true.
+enum class Note : std::uint8_t {
+    kRuns,  ///< listens to the signals below
+    kBegun,
+    kDone,  ///< of a flood: kFloodBurst frames; of a corruption: each word once; it goes on all the same
+};
+inline constexpr std::size_t kNoteCapacity{1U};
+inline constexpr int kFloodSignal{SIGUSR1};
+inline constexpr int kCorruptionSignal{SIGUSR2};
+inline constexpr int kFloodBurst{4096};
+
+}  // namespace mamori::partition_faults
+
+MAMORI_FIELDS(mamori::partition_faults::Request, sequence)
+MAMORI_FIELDS(mamori::partition_faults::Answer, sequence, request, check)
+
+#endif  // MAMORI_PARTITION_FAULTS_MESSAGES_HPP

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The safety system beside the partition: it asks, supervises what comes back, and stops its drive when that
+/// is silent, too much or wrong. What it does is written down for the judge.
+#ifndef MAMORI_PARTITION_FAULTS_SAFETY_SYSTEM_HPP
+#define MAMORI_PARTITION_FAULTS_SAFETY_SYSTEM_HPP
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "judge.hpp"
+#include "mamori/kernel/executive.hpp"
+#include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/ports/posix_rt/guarded_host.hpp"
+#include "mamori/ports/posix_rt/partition_link.hpp"
+#include "mamori/safety/reaction_table.hpp"
+#include "messages.hpp"
+
+namespace mamori::partition_faults {
+
+inline constexpr std::size_t kWindowCount{4U};
+inline constexpr std::size_t kRequestCapacity = ports::posix_rt::PartitionSender<Request>::kCapacity;
+inline constexpr std::size_t kAnswerCapacity = ports::posix_rt::PartitionReceiver<Answer>::kCapacity;
+
+/// Silence and flood let the drive stop along its path; who corrupts is not waited for.
+inline constexpr std::array<safety::ReactionRow, static_cast<std::size_t>(PartitionFault::kCount)> kReactions{
+    safety::react(PartitionFault::kSilent, safety::Reaction::kSs1, kReactionTime),
+    safety::react(PartitionFault::kFlooding, safety::Reaction::kSs1, kReactionTime),
+    safety::react(PartitionFault::kCorrupt, safety::Reaction::kSto, kReactionTime)};
+static_assert(safety::covers_all<kReactions, PartitionFault::kCount>());
+
+/// What the components write down, in memory that was taken before the run; what does not fit is dropped.
+struct SystemLog {
+    /// By place, since work that was cut off may come back beside that of another window.
+    std::vector<Opening> ran{};
+    std::atomic<std::size_t> ran_count{0U};
+    std::vector<Look> looks{};
+    std::vector<ReactionBegin> reactions{};
+    /// The openings that were written down. To be called once, when nothing runs any more.
+    std::vector<Opening> take_ran() {
+        ran.resize(std::min(ran.size(), ran_count.load(std::memory_order_relaxed)));
+        return std::move(ran);
+    }
+
+    const ports::posix_rt::FrameClock* clock{nullptr};  ///< nullptr: virtual time, where nobody reads it
+};
+
+/// Where the components write; set while none of them runs.
+extern SystemLog* system_log;
+
+/// @name What one who stands beside the system sees of it and may ask for, from any thread
+/// @{
+extern std::atomic<bool> is_stopped;           ///< a reaction holds at the drive
+extern std::atomic<std::uint32_t> good_count;  ///< good answers since the last pause
+extern std::atomic<bool> is_reset_wanted;      ///< a deliberate reset; taken back when it was tried
+/// @}
+
+/// To be opened before the executive is initialised.
+extern ports::posix_rt::FrameReader answer_reader;
+extern ports::posix_rt::FrameWriter request_writer;
+
+extern Executive& executive;
+extern std::array<ports::posix_rt::WindowThread, kWindowCount> window_threads;
+
+}  // namespace mamori::partition_faults
+
+#endif  // MAMORI_PARTITION_FAULTS_SAFETY_SYSTEM_HPP
