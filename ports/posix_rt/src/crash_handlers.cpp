@@ -16,7 +16,8 @@ namespace mamori::ports::posix_rt {
 namespace {
 
 /// Written before the first handler is there and left alone as long as one is.
-std::optional<CrashPlan> plan;
+std::optional<CrashPlan> plan_storage;
+const CrashPlan* plan{nullptr};
 std::atomic<bool> is_plan_taken{false};
 /// Number of the thread that is dying; 0: none. A lock-free word: handlers of two threads may meet here.
 std::atomic<pid_t> dying_thread{0};
@@ -86,7 +87,7 @@ Status CrashHandlers::install(const CrashPlan& wanted) noexcept {
     if (is_plan_taken.exchange(true)) {
         return Status::kPreconditionNotMet;
     }
-    plan = wanted;
+    plan = &plan_storage.emplace(wanted);
     struct sigaction action{};
     action.sa_sigaction = &on_crash;
     action.sa_flags = SA_SIGINFO | SA_ONSTACK;

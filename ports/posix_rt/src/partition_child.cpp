@@ -94,7 +94,7 @@ void forget_signals() noexcept {
     }
     sigset_t none;
     static_cast<void>(sigemptyset(&none));
-    static_cast<void>(sigprocmask(SIG_SETMASK, &none, nullptr));
+    static_cast<void>(pthread_sigmask(SIG_SETMASK, &none, nullptr));
 }
 
 /// The descriptors of the order, /dev/null and the pipe; each has a place above all of them before it gets

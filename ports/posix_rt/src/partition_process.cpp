@@ -67,7 +67,10 @@ class SignalsHeldBack final {
 };
 
 /// A copy of the page tables, as fork() makes it, would cost each thread of this process a fault for each
-/// page that it writes next; so the new process borrows this one's memory until it has a program.
+/// page that it writes next; so the new process borrows this one's memory until it has a program. The
+/// system's own posix_spawn() does the same, and cannot set the limits.
+// NOLINTBEGIN(bugprone-unsafe-functions,cert-msc24-c,cert-msc33-c,clang-analyzer-security.insecureAPI.vfork)
+// NOLINTBEGIN(clang-analyzer-unix.Vfork)
 pid_t spawn(const ChildPlan& plan) noexcept {
     const SignalsHeldBack held;
     const pid_t pid = ::vfork();
@@ -76,6 +79,8 @@ pid_t spawn(const ChildPlan& plan) noexcept {
     }
     return pid;
 }
+// NOLINTEND(clang-analyzer-unix.Vfork)
+// NOLINTEND(bugprone-unsafe-functions,cert-msc24-c,cert-msc33-c,clang-analyzer-security.insecureAPI.vfork)
 
 /// @return bytes of the report; 0 when the other end was closed without one.
 ssize_t read_all(int file, ChildReport& report) noexcept {
