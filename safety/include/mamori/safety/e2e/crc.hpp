@@ -31,8 +31,9 @@ namespace detail {
 
 template <typename Word>
 constexpr Word reflect(Word value) noexcept {
+    constexpr int kBits = std::numeric_limits<Word>::digits;
     Word result{0U};
-    for (int bit = 0; bit < std::numeric_limits<Word>::digits; ++bit) {
+    for (int bit = 0; bit < kBits; ++bit) {
         result = static_cast<Word>(static_cast<std::uint64_t>(result) << 1U | ((value >> bit) & 1U));
     }
     return result;
@@ -110,11 +111,11 @@ class Crc final {
     /// @param[in] bytes any number.
     constexpr void add(Span<const std::byte> bytes) noexcept {
         const std::byte* const data = bytes.data();
-        const std::size_t whole = bytes.size() - bytes.size() % kSlices;
-        for (std::size_t i = 0U; i < whole; i += kSlices) {
-            register_ = step(register_, data + i, std::make_index_sequence<kSlices>{});
+        const std::size_t blocks = bytes.size() / kSlices;
+        for (std::size_t block = 0U; block < blocks; ++block) {
+            register_ = step(register_, data + block * kSlices, std::make_index_sequence<kSlices>{});
         }
-        for (std::size_t i = whole; i < bytes.size(); ++i) {
+        for (std::size_t i = blocks * kSlices; i < bytes.size(); ++i) {
             add(data[i]);
         }
     }
