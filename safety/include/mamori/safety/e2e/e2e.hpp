@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// All of end-to-end protection: both ends of a channel, all profiles, both orders, and the state of a
+/// channel.
+///
+/// @satisfies SWR-E2E-003      Design: docs/design/e2e.md#end-to-end-protection
+#ifndef MAMORI_SAFETY_E2E_E2E_HPP
+#define MAMORI_SAFETY_E2E_E2E_HPP
+
+#include "mamori/safety/e2e/checker.hpp"
+#include "mamori/safety/e2e/profile_01.hpp"
+#include "mamori/safety/e2e/profile_02.hpp"
+#include "mamori/safety/e2e/profile_04.hpp"
+#include "mamori/safety/e2e/profile_05.hpp"
+#include "mamori/safety/e2e/protector.hpp"
+#include "mamori/safety/e2e/state_machine.hpp"
+
+#endif  // MAMORI_SAFETY_E2E_E2E_HPP
