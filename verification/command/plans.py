@@ -89,6 +89,16 @@ def benchmark_step() -> Step:
     )
 
 
+def comparison_step() -> Step:
+    """End-to-end protection beside another implementation, on random frames."""
+    return Step(
+        name="comparison of end-to-end protection",
+        commands=((*PYTEST, "verification/e2e/test_differential.py"),),
+        needs=(BUILD,),
+        result="e2e-comparison.xml",
+    )
+
+
 HOST_TOOLS = Step(name="tests of the host tools", commands=(PYTEST,), result="python-tools.xml")
 LAYERS = Step(name="layer check", commands=((*PYTHON, "mamori.verification.tools.check_layers"),))
 
@@ -218,6 +228,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         proof_step("consumer proof", "consumer"),
         proof_step("scale proof", "scale"),
         benchmark_step(),
+        comparison_step(),
         build_step(SANITIZED, slow=True),
         ctest_step(SANITIZED, slow=True),
         *race_steps(),
