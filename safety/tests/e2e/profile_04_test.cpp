@@ -4,6 +4,8 @@
 // of each limit.
 #include "mamori/safety/e2e/profile_04.hpp"
 
+#include "mamori/kernel/constant_init.hpp"
+#include "mamori/safety/e2e/checker.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "rig.hpp"
 
@@ -17,6 +19,25 @@ using verification::Technique;
 using verification::verifies;
 
 constexpr std::uint32_t kId = 0x0A0B0C0DU;
+
+// As docs/manual/e2e.md shows them: both ends are constants of the program image.
+constexpr SentIdChannel kManualChannel{kId, 64U, 64U};
+constexpr HardenedLimits kManualLimits{2U, 3U};
+static_assert(is_sound<E2eProfile04<>, kManualChannel>());
+static_assert(are_sound<E2eProfile04<>, HardenedSequence, kManualLimits>());
+MAMORI_CONSTINIT E2eProtector<E2eProfile04<>> g_sender{kManualChannel};
+MAMORI_CONSTINIT HardenedE2eChecker<E2eProfile04<>> g_receiver{kManualChannel, kManualLimits};
+
+TEST(E2eProfile04Test, BothEndsMayBeConstantsOfTheImage) {
+    verifies("SWR-E2E-003", Technique::kInterface);
+    rig::Frame frame(64U);
+    const rig::Frame& received = frame;
+
+    for (int i = 0; i < 5; ++i) {
+        ASSERT_EQ(g_sender.protect(rig::edit(frame)), Status::kOk);
+        EXPECT_EQ(is_usable(g_receiver.check(rig::view(received))), i >= 3) << i;
+    }
+}
 
 TEST(E2eProfile04Test, BytesAreThoseOfOthers) {
     verifies("SWR-E2E-003", Technique::kBackToBack);
