@@ -106,7 +106,8 @@ class Crc final {
     explicit constexpr Crc(Word value) noexcept : register_(static_cast<Word>(value ^ kCrc.final_xor)) {}
 
     constexpr void add(std::byte byte) noexcept {
-        register_ = static_cast<Word>(shift<1U>(register_) ^ kTables[0][get_index<0U>(register_, byte)]);
+        const auto lead = static_cast<Word>(register_ ^ load(&byte, std::make_index_sequence<1U>{}));
+        register_ = static_cast<Word>(shift<1U>(register_) ^ kTables[0][get_index<0U>(lead, &byte)]);
     }
     /// @param[in] bytes any number.
     constexpr void add(Span<const std::byte> bytes) noexcept {
@@ -130,6 +131,9 @@ class Crc final {
   private:
     static constexpr const auto& kTables = detail::kCrcTables<kCrc, kSlices>;
     static constexpr std::size_t kBytes = sizeof(Word);
+    /// Where the byte `kPlace` of the register lies in it, the one that meets the next byte first.
+    template <std::size_t kPlace>
+    static constexpr std::size_t kShift = 8U * (kCrc.is_reflected ? kPlace : kBytes - 1U - kPlace);
 
     /// The register without its first `kCount` bytes.
     template <std::size_t kCount>
@@ -142,24 +146,29 @@ class Crc final {
             return static_cast<Word>(value << (8U * kCount));
         }
     }
-    /// Index of the byte at `kPlace` of a block into its table.
+    /// First bytes of a block, as they lie in the register. Compilers make one load of it.
+    template <std::size_t... kIndex>
+    static constexpr Word load(const std::byte* block, std::index_sequence<kIndex...> /*bytes*/) noexcept {
+        return static_cast<Word>((... | (std::to_integer<std::uint64_t>(block[kIndex]) << kShift<kIndex>)));
+    }
+    /// Index of the byte at `kPlace` of a block into its table. @param[in] lead register and first bytes
+    /// together.
     template <std::size_t kPlace>
-    static constexpr std::size_t get_index(Word value, std::byte byte) noexcept {
-        const auto index = std::to_integer<std::size_t>(byte);
+    static constexpr std::size_t get_index(Word lead, const std::byte* block) noexcept {
         if constexpr (kPlace >= kBytes) {
-            return index;
-        } else if constexpr (kCrc.is_reflected) {
-            return index ^ (static_cast<std::size_t>(value >> (8U * kPlace)) & 0xFFU);
+            return std::to_integer<std::size_t>(block[kPlace]);
         } else {
-            return index ^ (static_cast<std::size_t>(value >> (8U * (kBytes - 1U - kPlace))) & 0xFFU);
+            return static_cast<std::size_t>(lead >> kShift<kPlace>) & 0xFFU;
         }
     }
     /// Spelled out rather than looped over, so that every shift and table is a constant of the code.
     template <std::size_t... kPlace>
     static constexpr Word step(Word value, const std::byte* block,
                                std::index_sequence<kPlace...> /*block*/) noexcept {
-        return static_cast<Word>((shift<kSlices>(value) ^ ... ^
-                                  kTables[kSlices - 1U - kPlace][get_index<kPlace>(value, block[kPlace])]));
+        constexpr std::size_t kLead = kSlices < kBytes ? kSlices : kBytes;
+        const auto lead = static_cast<Word>(value ^ load(block, std::make_index_sequence<kLead>{}));
+        return static_cast<Word>(
+            (shift<kSlices>(value) ^ ... ^ kTables[kSlices - 1U - kPlace][get_index<kPlace>(lead, block)]));
     }
 
     Word register_;
