@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include "mamori/safety/e2e/e2e.hpp"
 #include "mamori/verification/verifies.hpp"
@@ -43,7 +44,15 @@ class EveryProfileTest : public ::testing::Test {
 using Cases = ::testing::Types<rig::P01Both, rig::P01Alternating, rig::P01Low, rig::P01Nibble, rig::P02,
                                rig::P04, rig::P05, rig::P06, rig::P07, rig::P08, rig::P11Both, rig::P11Nibble,
                                rig::P22, rig::P44>;
-TYPED_TEST_SUITE(EveryProfileTest, Cases);
+
+/// Names a case by its profile; GoogleTest prescribes the spelling of the function.
+struct CaseName {
+    template <typename Case>
+    static std::string GetName(int index) {  // NOLINT(readability-identifier-naming)
+        return "P" + std::to_string(Case::Profile::kNumber) + "_" + std::to_string(index);
+    }
+};
+TYPED_TEST_SUITE(EveryProfileTest, Cases, CaseName);
 
 TYPED_TEST(EveryProfileTest, GoodFramesPassInOrderAcrossTheWrap) {
     verifies("SWR-E2E-004", Technique::kBoundaryValues);

@@ -72,7 +72,7 @@ constexpr CrcTables<Word, kSlices> make_crc_tables(const CrcParameters<Word>& cr
     for (std::size_t k = 1U; k < kSlices; ++k) {
         for (std::size_t value = 0U; value < 256U; ++value) {
             const Word before = tables[k - 1U][value];
-            const std::size_t out = crc.is_reflected ? before & 0xFFU : (before >> kTopByte) & 0xFFU;
+            const auto out = static_cast<std::uint8_t>(crc.is_reflected ? before : before >> kTopByte);
             // One-byte words have nothing left to shift; 64-bit arithmetic keeps that defined.
             const std::uint64_t rest =
                 crc.is_reflected ? std::uint64_t{before} >> 8U : std::uint64_t{before} << 8U;
