@@ -64,8 +64,9 @@ std::size_t count_stuck(std::byte value) {
         const KnownIdChannel channel{static_cast<std::uint16_t>(id), kLength, kLength};
         std::uint32_t counter = 0U;
         const bool is_good = E2eProfile05<>::read(channel, rig::view(stuck), counter) == FrameCause::kGood;
+        const ChannelFault fault = E2eProfile05<>::find_fault(channel);
         count += is_good ? 1U : 0U;
-        EXPECT_TRUE(!is_good || E2eProfile05<>::find_fault(channel) == ChannelFault::kStuckFrame) << id;
+        EXPECT_TRUE(!is_good || fault == ChannelFault::kStuckFrame) << id;
     }
     return count;
 }

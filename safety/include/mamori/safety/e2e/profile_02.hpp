@@ -46,8 +46,13 @@ class IdListProfile final {
         if (channel.length < kHeaderSize || channel.length > kLengthMax) {
             return ChannelFault::kLength;
         }
-        if (channel.offset > channel.length - kHeaderSize || (kProfile == 2U && channel.offset != 0U)) {
+        if (channel.offset > channel.length - kHeaderSize) {
             return ChannelFault::kOffset;
+        }
+        if constexpr (kProfile == 2U) {
+            if (channel.offset != 0U) {
+                return ChannelFault::kOffset;
+            }
         }
         const bool is_stuck_good = calc_stuck(channel, std::byte{0U}, 0U) == 0U ||
                                    calc_stuck(channel, std::byte{0xFFU}, kCounterMax) == 0xFFU;
