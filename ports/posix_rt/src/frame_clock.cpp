@@ -35,7 +35,7 @@ void FrameClock::wait_until(Instant instant) const noexcept {
     // A sleep until an instant that has passed takes some 20 us all the same: a runner that catches up has
     // many.
     if (get_now() < instant) {
-        source_->sleep_until(instant.ns + epoch_ns_);
+        source_->wait_until(instant.ns + epoch_ns_);
     }
 }
 

@@ -98,7 +98,7 @@ void GridWatch::watch() noexcept {
     const TimeSource& own = get_monotonic_clock();
     while (!is_ending_.load(std::memory_order_relaxed)) {
         look();
-        own.sleep_until(own.read_ns() + period_.ns);
+        own.wait_until(own.read_ns() + period_.ns);
     }
 }
 

@@ -22,7 +22,7 @@ std::int64_t read(clockid_t clock) noexcept {
 class MonotonicClock final : public TimeSource {
   public:
     std::int64_t read_ns() const noexcept override { return read(CLOCK_MONOTONIC); }
-    void sleep_until(std::int64_t ns) const noexcept override {
+    void wait_until(std::int64_t ns) const noexcept override {
         const timespec at{static_cast<time_t>(ns / kSecond), static_cast<long>(ns % kSecond)};
         int result = EINTR;
         while (result == EINTR) {

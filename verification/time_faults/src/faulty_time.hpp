@@ -26,7 +26,7 @@ class FaultyTime final : public ports::posix_rt::TimeSource {
     explicit FaultyTime(std::size_t change_max);
 
     std::int64_t read_ns() const noexcept override;
-    void sleep_until(std::int64_t ns) const noexcept override;
+    void wait_until(std::int64_t ns) const noexcept override;
     std::int64_t to_monotonic(std::int64_t ns) const noexcept override;
 
     /// The thread that the faults of timers meet. To be called before it uses the clock.

@@ -27,7 +27,7 @@ void expect_rate(const FaultyTime& sut, std::int64_t ppm) {
     const std::int64_t before = get_monotonic_clock().read_ns();
     const std::int64_t first = sut.read_ns();
     const std::int64_t first_done = get_monotonic_clock().read_ns();
-    get_monotonic_clock().sleep_until(first_done + 5'000'000);
+    get_monotonic_clock().wait_until(first_done + 5'000'000);
     const std::int64_t second_from = get_monotonic_clock().read_ns();
     const std::int64_t second = sut.read_ns();
     const std::int64_t after = get_monotonic_clock().read_ns();
@@ -54,11 +54,11 @@ TEST(FaultyTimeTest, OnlyTheNextSleepOfTheVictimIsHeld) {
     FaultyTime sut{0U};
     sut.set_victim(pthread_self());
     sut.hold_sleep(Duration{20'000'000});
-    std::thread{[&sut] { sut.sleep_until(sut.read_ns() + 1'000'000); }}.join();
+    std::thread{[&sut] { sut.wait_until(sut.read_ns() + 1'000'000); }}.join();
     EXPECT_TRUE(sut.is_sleep_to_be_held());
 
     const std::int64_t until = sut.read_ns() + 1'000'000;
-    sut.sleep_until(until);
+    sut.wait_until(until);
     EXPECT_GE(sut.read_ns(), until + 20'000'000);
     EXPECT_FALSE(sut.is_sleep_to_be_held());
 }

@@ -16,7 +16,7 @@ class FakeClock final : public TimeSource {
   public:
     explicit FakeClock(std::int64_t ns) noexcept : now_ns(ns) {}
     std::int64_t read_ns() const noexcept override { return now_ns; }
-    void sleep_until(std::int64_t ns) const noexcept override { slept_until_ns = ns; }
+    void wait_until(std::int64_t ns) const noexcept override { slept_until_ns = ns; }
     std::int64_t to_monotonic(std::int64_t ns) const noexcept override { return ns + monotonic_offset_ns; }
 
     std::int64_t now_ns;
@@ -29,11 +29,11 @@ class FakeClock final : public TimeSource {
 class StuckClock final : public TimeSource {
   public:
     std::int64_t read_ns() const noexcept override { return get_monotonic_clock().read_ns(); }
-    void sleep_until(std::int64_t ns) const noexcept override {
+    void wait_until(std::int64_t ns) const noexcept override {
         while (is_stuck.load()) {
             std::this_thread::yield();
         }
-        get_monotonic_clock().sleep_until(ns);
+        get_monotonic_clock().wait_until(ns);
     }
     std::int64_t to_monotonic(std::int64_t ns) const noexcept override {
         constexpr std::int64_t kHour = 3'600'000'000'000;

@@ -27,7 +27,7 @@ class ClockReading {
 class TimeSource : public ClockReading {
   public:
     /// Returns when read_ns() has reached `ns` or later, however often a signal comes in between.
-    virtual void sleep_until(std::int64_t ns) const noexcept = 0;
+    virtual void wait_until(std::int64_t ns) const noexcept = 0;
     /// For system calls that take an absolute time. @return what CLOCK_MONOTONIC shows when this clock shows
     /// `ns`.
     virtual std::int64_t to_monotonic(std::int64_t ns) const noexcept = 0;
