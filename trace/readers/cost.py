@@ -9,9 +9,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from mamori.trace.model.evidence import CostRun, Evidence
-from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE, get_shown_path
-from mamori.trace.readers.json_file import Each, Maybe, find_misfit, read_json
+from mamori.trace.model.finding import Problem
+from mamori.trace.readers.json_file import Each, Maybe, read_records
 
 SCHEMA = "mamori.cost/1"
 
@@ -34,13 +33,6 @@ _SHAPE = {
 
 def read_cost(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
     """Fills in the counted systems in order of their folders. A record that does not keep to its contract is a problem, one each."""
-    for path in sorted(folder.glob("cost/*/cost.json")):
-        table = read_json(path, SCHEMA, root, problems)
-        if table is None:
-            continue
-        place = Place(get_shown_path(path, root), 1)
-        misfit = find_misfit(table[0], _SHAPE, "")
-        if misfit:
-            problems.append(Problem(UNREADABLE, place, f"{misfit}; count again"))
-        else:
-            evidence.cost_runs.append(CostRun(path.parent.as_posix(), table[0], place))
+    files = sorted(folder.glob("cost/*/cost.json"))
+    for path, table, place in read_records(files, SCHEMA, _SHAPE, "count again", root, problems):
+        evidence.cost_runs.append(CostRun(path.parent.as_posix(), table, place))

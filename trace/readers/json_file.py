@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -56,6 +56,22 @@ def read_json(path: Path, schema: str, root: Path, problems: list[Problem]) -> t
         problems.append(Problem(UNREADABLE, Place(shown, 1), f"schema is {found!r}; this tool reads {schema!r}"))
         return None
     return content, text
+
+
+def read_records(
+    files: Iterable[Path], schema: str, shape: object, remedy: str, root: Path, problems: list[Problem]
+) -> Iterator[tuple[Path, dict[str, Any], Place]]:
+    """Each file that keeps to its contract, with its content and place; one that does not is a problem. @param remedy what mends it."""
+    for path in files:
+        table = read_json(path, schema, root, problems)
+        if table is None:
+            continue
+        place = Place(get_shown_path(path, root), 1)
+        misfit = find_misfit(table[0], shape, "")
+        if misfit:
+            problems.append(Problem(UNREADABLE, place, f"{misfit}; {remedy}"))
+        else:
+            yield path, table[0], place
 
 
 def find_misfit(value: Any, shape: Any, name: str) -> str:

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mamori.trace.model.evidence import Evidence, TimingRun
-from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE, get_shown_path
-from mamori.trace.readers.json_file import Each, Maybe, find_misfit, read_json
+from mamori.trace.model.finding import Problem
+from mamori.trace.readers.json_file import Each, Maybe, read_records
 
 SCHEMA = "mamori.timing/1"
 PICTURE_BYTES_MAX = 300_000
@@ -77,16 +76,9 @@ _KINDS = (
 
 def read_timing(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
     """Fills in the measured systems in order of their folders. A record that does not keep to its contract is a problem, one each."""
-    for path in sorted(folder.glob("timing/*/timing.json")):
-        table = read_json(path, SCHEMA, root, problems)
-        if table is None:
-            continue
-        place = Place(get_shown_path(path, root), 1)
-        misfit = find_misfit(table[0], _SHAPE, "")
-        if misfit:
-            problems.append(Problem(UNREADABLE, place, f"{misfit}; measure again"))
-        else:
-            evidence.timing_runs.append(TimingRun(path.parent.as_posix(), table[0], place))
+    files = sorted(folder.glob("timing/*/timing.json"))
+    for path, table, place in read_records(files, SCHEMA, _SHAPE, "measure again", root, problems):
+        evidence.timing_runs.append(TimingRun(path.parent.as_posix(), table, place))
 
 
 def read_picture(folder: Path, name: str, room_bytes: int) -> Picture | None:

@@ -16,21 +16,19 @@ from typing import Any
 
 from mamori.verification.command.environment import collect_environment
 from mamori.verification.command.errors import EXIT_FAILED, StepError, UsageError
-from mamori.verification.command.process import read_tail
 from mamori.verification.command.project import ROOT, Project
 from mamori.verification.command.steps import Context
 from mamori.verification.cost.baseline import Baseline, check_origin, judge_growth, load_baseline, write_baseline
 from mamori.verification.cost.classes import CostPlan, InputClass, choose, read_plan
 from mamori.verification.cost.report import Report, make_report, make_text, write_results
 from mamori.verification.cost.run import ClassRun, run_class
-from mamori.verification.timing.command import build_system, check_folder
+from mamori.verification.timing.command import build_system, check_folder, show_failure
 from mamori.verification.timing.environment import collect_setting, collect_state
 from mamori.verification.timing.run import undisturbed
 from mamori.verification.timing.system import FILE, System, find_system
 
 RESULTS = ("cost.json", "cost.txt")
 TOOL = "valgrind"
-TAIL_LINES = 10
 
 
 @dataclass(frozen=True)
@@ -73,7 +71,7 @@ def cost(request: Request, jobs: int) -> int:
     try:
         runs = _count(job)
     except StepError as error:
-        _show_failure(job, str(error))
+        show_failure(job.context.screen, str(error), job.log)
         return EXIT_FAILED
     host["after"] = collect_state()
     with undisturbed():
@@ -155,11 +153,3 @@ def _accept(job: Job, report: Report, path: Path) -> None:
         return
     write_baseline(path, report.system, report.runs[0].table, job.plan.classes, report.build, report.steps)
     job.context.screen.say(f"accepted: {path} holds the maxima of this run; say in the commit why they changed")
-
-
-def _show_failure(job: Job, reason: str) -> None:
-    screen = job.context.screen
-    screen.say(f"failed: {reason}", style="bold red")
-    for line in read_tail(job.log, TAIL_LINES):
-        screen.say(f"  | {line}")
-    screen.say(f"log: {job.log}")

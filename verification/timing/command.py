@@ -159,7 +159,7 @@ def _probe(job: Job) -> float | None:
         if ending.status == PROGRAM_USAGE:
             raise UsageError(f"timing: {job.system.program.name} refuses its arguments: {_get_last_line(job.log)}")
         if ending.reason:
-            _show_failure(job, ending.reason)
+            show_failure(job.context.screen, ending.reason, job.log)
             return None
         run = read_measurement(Path(scratch))
     if job.baseline is not None:
@@ -186,7 +186,7 @@ def _conclude(job: Job, ending: Ending, problems: Sequence[str], host: dict[str,
     except InputError as error:
         if not ending.reason and not ending.was_stopped:
             raise
-        _show_failure(job, ending.reason or "stopped before there was anything to keep")
+        show_failure(job.context.screen, ending.reason or "stopped before there was anything to keep", job.log)
         job.context.screen.say(f"nothing to analyse: {error}")
         return EXIT_INTERRUPTED if ending.was_stopped else EXIT_FAILED
     report = make_report(job.system.name, run, host, job.request.with_load, ending.was_stopped, [*findings, *_judge(job, run)])
@@ -229,12 +229,12 @@ def _accept(job: Job, report: Report, path: Path) -> None:
     job.context.screen.say(f"accepted: {path} holds the ratios of this run; say in the commit why they changed")
 
 
-def _show_failure(job: Job, reason: str) -> None:
-    screen = job.context.screen
+def show_failure(screen: Screen, reason: str, log: Path) -> None:
+    """The reason, the last lines of what the program said, and where the rest is."""
     screen.say(f"failed: {reason}", style="bold red")
-    for line in read_tail(job.log, TAIL_LINES):
+    for line in read_tail(log, TAIL_LINES):
         screen.say(f"  | {line}")
-    screen.say(f"log: {job.log}")
+    screen.say(f"log: {log}")
 
 
 def _get_last_line(log: Path) -> str:
