@@ -165,7 +165,7 @@ def strength_steps() -> tuple[Step, ...]:
     return (
         Step(name="MC/DC of the kernel", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
              result="strength-coverage.xml", slow=True),
-        Step(name="mutation sample", commands=((*PYTEST, f"{folder}/mutation/test_mutation.py"),),
+        Step(name="mutation sample", commands=((*PYTEST, f"{folder}/mutation"),),
              result="strength-mutation.xml", slow=True),
         Step(name="fuzz 30 s", commands=((*PYTEST, f"{folder}/fuzz/test_fuzz.py"),
                                          (*COMMAND, "fuzz", "--seconds", "30", "--jobs", "{jobs}")),
