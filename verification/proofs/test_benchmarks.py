@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from mamori.verification.bench.bars import load_bars
+from mamori.verification.bench.grid import METRIC as GRID
 from mamori.verification.bench.judge import judge
 from mamori.verification.bench.programs import Programs
 from mamori.verification.bench.samples import Samples, read_samples
@@ -34,9 +35,12 @@ def samples(program: Path, tmp_path_factory: pytest.TempPathFactory) -> Samples:
 
 @pytest.mark.verifies("SWR-BEN-001", technique="interface")
 def test_every_bar_has_its_subjects(samples: Samples) -> None:
-    results = judge(samples, load_bars())
+    bars = load_bars()
+    results = judge(samples, bars)
+    measured = {metric for metric, _ in samples.cases}
 
-    assert len(results) == sum(len(bar.limits) for bar in load_bars().ratios) + len(load_bars().growths)
+    assert {bar.metric for bar in (*bars.ratios, *bars.growths)} - measured == {GRID}, "which is measured by programs of its own"
+    assert len(results) == sum(len(bar.limits) for bar in bars.ratios if bar.metric != GRID) + len(bars.growths)
     assert [one for one in results if one.ratio is None and one.against not in PEERS] == []
 
 

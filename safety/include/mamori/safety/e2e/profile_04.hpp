@@ -101,39 +101,46 @@ class SentIdProfile final {
 
 namespace detail {
 
-struct Layout04 {
+/// Header of profiles 4 and 44, which differ in the longest frame.
+struct Header04 {
     using Length = std::uint16_t;
     using Counter = std::uint16_t;
     static constexpr const auto& kCrc = kCrc32P4;
-    static constexpr std::uint8_t kNumber = 4U;
     static constexpr std::size_t kLengthAt = 0U;
     static constexpr std::size_t kCounterAt = 2U;
     static constexpr std::size_t kIdAt = 4U;
     static constexpr std::size_t kCrcAt = 8U;
     static constexpr std::size_t kHeaderSize = 12U;
+};
+
+struct Layout04 : Header04 {
+    static constexpr std::uint8_t kNumber = 4U;
     static constexpr std::size_t kLengthMax = 4096U;
 };
 
-/// As profile 4, for longer frames.
-struct Layout44 : Layout04 {
+struct Layout44 : Header04 {
     static constexpr std::uint8_t kNumber = 44U;
     static constexpr std::size_t kLengthMax = 65535U;
 };
 
-struct Layout07 {
+/// What profiles 7 and 8, with their two checksums, have in common.
+struct Header07 {
     using Length = std::uint32_t;
     using Counter = std::uint32_t;
+    static constexpr std::size_t kCrcAt = 0U;
+    static constexpr std::size_t kLengthMax = 4194304U;
+};
+
+struct Layout07 : Header07 {
     static constexpr const auto& kCrc = kCrc64;
     static constexpr std::uint8_t kNumber = 7U;
     static constexpr std::size_t kLengthAt = 8U;
     static constexpr std::size_t kCounterAt = 12U;
     static constexpr std::size_t kIdAt = 16U;
-    static constexpr std::size_t kCrcAt = 0U;
     static constexpr std::size_t kHeaderSize = 20U;
-    static constexpr std::size_t kLengthMax = 4194304U;
 };
 
-struct Layout08 : Layout07 {
+struct Layout08 : Header07 {
     static constexpr const auto& kCrc = kCrc32P4;
     static constexpr std::uint8_t kNumber = 8U;
     static constexpr std::size_t kLengthAt = 4U;
