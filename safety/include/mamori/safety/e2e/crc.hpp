@@ -32,11 +32,12 @@ namespace detail {
 template <typename Word>
 constexpr Word reflect(Word value) noexcept {
     constexpr int kBits = std::numeric_limits<Word>::digits;
-    Word result{0U};
+    const std::uint64_t bits = value;
+    std::uint64_t result = 0U;
     for (int bit = 0; bit < kBits; ++bit) {
-        result = static_cast<Word>(static_cast<std::uint64_t>(result) << 1U | ((value >> bit) & 1U));
+        result = (result << 1U) | ((bits >> bit) & 1U);
     }
-    return result;
+    return static_cast<Word>(result);
 }
 
 /// Remainder of one byte value in an empty register.
