@@ -28,7 +28,7 @@ PICTURES = (
     ("chain_latency", "From sample to effect along each chain, and how often longer than that"),
 )
 PICTURES_BYTES_MAX = 700_000
-"""Of all pictures in the page, so that the page stays below 5 MB however many systems were measured."""
+"""Of all pictures in the page, so that it stays small however many systems were measured."""
 _EXIT_RESULTS = {0: ("nothing to complain about", "verified"), 1: ("findings", "failed"), 4: ("without all real-time rights", "warning"),
                  130: ("stopped", "incomplete")}  # fmt: skip
 
