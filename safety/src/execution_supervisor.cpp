@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/safety/execution_supervisor.hpp"
 
+#include "mamori/safety/count_up.hpp"
+
 namespace mamori::safety {
 namespace {
 
@@ -163,8 +165,7 @@ void ExecutionSupervisor::on_late_release(std::size_t window, Duration lateness,
     if (late_release_.count == 0U) {
         late_release_ = LateRelease{0U, window, lateness, now};
     }
-    constexpr std::uint32_t kCountMax = 0xFFFFFFFFU;
-    late_release_.count += late_release_.count < kCountMax ? 1U : 0U;
+    count_up(late_release_.count);
 }
 
 }  // namespace mamori::safety

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/safety/fault_register.hpp"
 
-#include <limits>
+#include "mamori/safety/count_up.hpp"
 
 namespace mamori::safety {
 
@@ -18,7 +18,7 @@ Status FaultRegister::set_confirmation(FaultIndex fault, std::uint32_t confirm_c
 }
 
 void FaultRegister::latch(FaultRecord& record, Instant now) noexcept {
-    record.occurrences += record.occurrences < std::numeric_limits<std::uint32_t>::max() ? 1U : 0U;
+    count_up(record.occurrences);
     if (record.is_latched) {
         return;  // the instants of the first occurrence are kept
     }

@@ -9,16 +9,11 @@ bool SafeStateMachine::is_consistent() const noexcept {
     return is_valid(state_) && state_complement_ == complement(state_);
 }
 
-/// A stop is confirmed up to and including its bound; in the cycle of the bound it must be.
+/// A stop is confirmed up to and including its bound; in the cycle of the bound it must be. The table lets
+/// the two stops alone time out, so it is asked in no other state.
 bool SafeStateMachine::is_stop_overdue(const SafeStateInputs& inputs) const noexcept {
-    Duration bound{0};
-    if (state_ == SafeState::kProtectiveStopSs2) {
-        bound = bounds_.ss2_within;
-    } else if (state_ == SafeState::kProtectiveStopSs1) {
-        bound = bounds_.ss1_within;
-    } else {
-        return false;
-    }
+    const bool is_ss2 = state_ == SafeState::kProtectiveStopSs2;
+    const Duration bound = is_ss2 ? bounds_.ss2_within : bounds_.ss1_within;
     const bool is_at_bound = calc_elapsed(entered_at_, inputs.now) == bound;
     return is_over(entered_at_, inputs.now, bound) || (is_at_bound && !inputs.standstill);
 }

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/safety/watchdog_gate.hpp"
 
-#include <limits>
-
+#include "mamori/safety/count_up.hpp"
 #include "mamori/safety/elapsed.hpp"
 
 namespace mamori::safety {
-namespace {
-
-void count_up(std::uint32_t& count) noexcept {
-    count += count < std::numeric_limits<std::uint32_t>::max() ? 1U : 0U;
-}
-
-}  // namespace
 
 WatchdogOutcome WatchdogGate::step(Instant now, GlobalStatus status, bool is_state_consistent) noexcept {
     is_closed_ = is_closed_ || (is_running_ && is_over(serviced_at_, now, window_.longest));

@@ -4,6 +4,7 @@
 #include "mamori/safety/alive_supervisor.hpp"
 
 #include <array>
+#include <vector>
 
 #include "mamori/verification/verifies.hpp"
 
@@ -111,10 +112,13 @@ TEST_F(AliveSupervisorTest, RefusesLimitsAndSlotsOutOfRange) {
     EXPECT_EQ(sut_.step(), AliveVerdict::kExpired) << "a refused watch() must not change the limits in use";
 }
 
-TEST_F(AliveSupervisorTest, MissingStorageGoesToTheAssertionHandler) {
+TEST_F(AliveSupervisorTest, StorageOutsideItsSizesGoesToTheAssertionHandler) {
     verifies("SWR-SUP-001", Technique::kErrorGuessing, Polarity::kViolation);
 
+    std::vector<AliveSlot> slots(65536U);
     EXPECT_DEATH(AliveSupervisor{Span<AliveSlot>{}}, "");
+    EXPECT_DEATH((AliveSupervisor{Span<AliveSlot>{slots.data(), 65536U}}), "");
+    EXPECT_EQ((AliveSupervisor{Span<AliveSlot>{slots.data(), 65535U}}.watch(65534U, {1U, 1U})), Status::kOk);
 }
 
 TEST_F(AliveSupervisorTest, ExpiredEntityStaysExpiredEvenIfItReportsAgain) {

@@ -278,5 +278,14 @@ TEST(StandstillDetectorTest, ClockThatRunsBackwardsBeginsTheTimeAnew) {
     EXPECT_TRUE(sut.step(kZero, Instant{250}));
 }
 
+TEST(JointSetTest, JointThatDoesNotExistGoesToTheAssertionHandler) {
+    verifies("SWR-ARM-002", Technique::kBoundaryValues, Polarity::kViolation);
+    JointSet joints;
+
+    EXPECT_DEATH(joints.insert(kArmJointCount), "");
+    joints.insert(kArmJointCount - 1U);
+    EXPECT_EQ(joints.get_first(), kArmJointCount - 1U);
+}
+
 }  // namespace
 }  // namespace mamori::safety

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "mamori/verification/verifies.hpp"
 
@@ -84,10 +85,14 @@ TEST_F(DeadlineSupervisorTest, RefusesLimitsAndSlotsOutOfRange) {
     EXPECT_FALSE(sut_.step(Instant{0}));
 }
 
-TEST_F(DeadlineSupervisorTest, MissingStorageGoesToTheAssertionHandler) {
+TEST_F(DeadlineSupervisorTest, StorageOutsideItsSizesGoesToTheAssertionHandler) {
     verifies("SWR-SUP-003", Technique::kErrorGuessing, Polarity::kViolation);
 
+    std::vector<DeadlineSlot> slots(65536U);
     EXPECT_DEATH(DeadlineSupervisor{Span<DeadlineSlot>{}}, "");
+    EXPECT_DEATH((DeadlineSupervisor{Span<DeadlineSlot>{slots.data(), 65536U}}), "");
+    EXPECT_EQ((DeadlineSupervisor{Span<DeadlineSlot>{slots.data(), 65535U}}.watch(65534U, {1_ns, 2_ns})),
+              Status::kOk);
 }
 
 TEST_F(DeadlineSupervisorTest, RunThatIsStillUnderWayAtItsLimitIsHealthy) {

@@ -278,6 +278,24 @@ TEST_F(ExecutionSupervisorTest, ComponentIndexBeyondTheStorageGoesToTheAssertion
     EXPECT_DEATH(sut_.on_budget_overrun(0U, 3U, now_), "");
 }
 
+TEST_F(ExecutionSupervisorTest, NegativeLatenessLimitGoesToTheAssertionHandler) {
+    verifies("SWR-SUP-010", Technique::kBoundaryValues, Polarity::kViolation);
+
+    EXPECT_DEATH((ExecutionSupervisor{storage_, Duration{-1}}), "");
+    EXPECT_EQ((ExecutionSupervisor{storage_, Duration{0}}.get_late_release().count), 0U);
+}
+
+TEST_F(ExecutionSupervisorTest, RunsOfAComponentThatIsSwitchedOffProveNothing) {
+    verifies("SWR-SUP-009", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kMonitor, kLimits), Status::kOk);
+    ASSERT_EQ(sut_.deactivate(kMonitor), Status::kOk);
+
+    for (int cycle = 0; cycle < 3; ++cycle) {
+        run(kMonitor);
+        ASSERT_EQ(end_cycle(), GlobalStatus::kFailed) << cycle;
+    }
+}
+
 TEST_F(ExecutionSupervisorTest, LocalScopeKeepsItsFailureOutOfTheGlobalStatus) {
     verifies("SWR-SUP-009", Technique::kEquivalenceClasses);
     ASSERT_EQ(sut_.watch(kControl, kLocalLimits), Status::kOk);

@@ -4,6 +4,8 @@
 #include "mamori/safety/fault_register.hpp"
 
 #include <array>
+#include <limits>
+#include <vector>
 
 #include "mamori/verification/verifies.hpp"
 
@@ -76,7 +78,28 @@ TEST_F(FaultRegisterTest, FaultBeyondTheRegisterGoesToTheAssertionHandler) {
     verifies("SWR-FLT-001", Technique::kErrorGuessing, Polarity::kViolation);
 
     EXPECT_DEATH(sut_.report(4U, true, Instant{}), "");
+}
+
+TEST_F(FaultRegisterTest, StorageOutsideItsSizesGoesToTheAssertionHandler) {
+    verifies("SWR-FLT-001", Technique::kBoundaryValues, Polarity::kViolation);
+
+    std::vector<FaultRecord> records(65536U);
     EXPECT_DEATH(FaultRegister{Span<FaultRecord>{}}, "");
+    EXPECT_DEATH((FaultRegister{Span<FaultRecord>{records.data(), 65536U}}), "");
+    EXPECT_EQ((FaultRegister{Span<FaultRecord>{records.data(), 65535U}}.get_capacity()), 65535U);
+}
+
+TEST_F(FaultRegisterTest, OccurrencesAreHeldAtTheLargestNumber) {
+    verifies("SWR-FLT-001", Technique::kBoundaryValues);
+    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+    records_[2U].occurrences = kMost - 1U;
+
+    for (int i = 0; i < 2; ++i) {
+        report(2U, true);
+        EXPECT_EQ(sut_.get_record(2U).occurrences, kMost);
+        report(2U, false);
+        ASSERT_EQ(sut_.acknowledge(2U), Status::kOk);
+    }
 }
 
 TEST_F(FaultRegisterTest, LatchedFaultKeepsTheInstantsOfItsFirstOccurrence) {

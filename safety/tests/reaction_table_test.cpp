@@ -154,5 +154,27 @@ TEST_F(ReactionTableTest, SeverityRisesFromNoneToSto) {
     EXPECT_EQ(std::string(get_name(static_cast<Reaction>(99))), "Invalid");
 }
 
+TEST_F(ReactionTableTest, RowOfAnUnknownFaultOrWithoutTimeIsInvalid) {
+    verifies("SWR-FLT-004", Technique::kBoundaryValues, Polarity::kViolation);
+    std::array<ReactionRow, 2U> table{react(Fault::kNoise, Reaction::kSto, 1_ms),
+                                      react(Fault::kWarm, Reaction::kSto, Duration{1})};
+
+    EXPECT_TRUE(are_rows_valid(table, 2U));
+    EXPECT_FALSE(are_rows_valid(table, 1U)) << "fault 1 of one fault";
+    table[1U].within = Duration{0};
+    EXPECT_FALSE(are_rows_valid(table, 2U));
+}
+
+TEST_F(ReactionTableTest, RowsOfAFaultAreCounted) {
+    verifies("SWR-FLT-004", Technique::kEquivalenceClasses);
+    const auto twice = react(Fault::kWarm, Reaction::kSto, 1_ms);
+    const std::array<ReactionRow, 3U> table{react(Fault::kNoise, Reaction::kSto, 1_ms), twice, twice};
+
+    EXPECT_EQ(count_rows(table, static_cast<FaultIndex>(Fault::kNoise)), 1U);
+    EXPECT_EQ(count_rows(table, static_cast<FaultIndex>(Fault::kWarm)), 2U);
+    EXPECT_EQ(count_rows(table, static_cast<FaultIndex>(Fault::kSlip)), 0U);
+    EXPECT_TRUE((covers_all<kTable, Fault::kCount>()));
+}
+
 }  // namespace
 }  // namespace mamori::safety

@@ -212,12 +212,12 @@ TEST(SafeStatePropertyTest, NoStopOutlivesItsBound) {
     verifies("SWR-FSM-004", Technique::kStateTransition, Polarity::kViolation);
 
     expect_always([](const Step& step) {
-        const bool is_ss2_over =
-            step.before == SafeState::kProtectiveStopSs2 && step.elapsed >= kBounds.ss2_within;
-        const bool is_ss1_over =
-            step.before == SafeState::kProtectiveStopSs1 && step.elapsed >= kBounds.ss1_within;
-        return !(is_ss2_over && step.after == SafeState::kProtectiveStopSs2) &&
-               !(is_ss1_over && has_torque(step.after));
+        const bool stays_in_ss2 = step.before == SafeState::kProtectiveStopSs2 &&
+                                  step.elapsed >= kBounds.ss2_within &&
+                                  step.after == SafeState::kProtectiveStopSs2;
+        const bool keeps_torque = step.before == SafeState::kProtectiveStopSs1 &&
+                                  step.elapsed >= kBounds.ss1_within && has_torque(step.after);
+        return !stays_in_ss2 && !keeps_torque;
     });
 }
 

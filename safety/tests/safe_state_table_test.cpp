@@ -255,5 +255,28 @@ TEST(SafeStateTableTest, LockedOutIsLeftByNoEvent) {
     }
 }
 
+TEST(SafeStateTableTest, TableWithAForgottenEntryIsRefused) {
+    verifies("SWR-FSM-001", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(detail::make_safe_state_table(), kSafeStateTable);
+    ASSERT_TRUE(detail::is_complete(kSafeStateTable));
+
+    for (std::size_t state = 0U; state < kSafeStateCount; ++state) {
+        for (std::size_t event = 0U; event < kSafeStateEventCount; ++event) {
+            SafeStateTable table = kSafeStateTable;
+            table[state][event] = SafeState{};
+            EXPECT_FALSE(detail::is_complete(table)) << state << ", " << event;
+        }
+    }
+}
+
+TEST(SafeStateTableTest, OnlyTheTwoStopsTimeOut) {
+    verifies("SWR-FSM-004", Technique::kStateTransition);
+
+    for (const State state : kStates) {
+        const bool is_stop = state == State::kProtectiveStopSs2 || state == State::kProtectiveStopSs1;
+        EXPECT_EQ(calc_next_state(state, Event::kStopTimeout) != state, is_stop) << get_name(state);
+    }
+}
+
 }  // namespace
 }  // namespace mamori::safety

@@ -41,6 +41,29 @@ TEST(StopOutputsTest, EveryOtherValueOfTheByteCutsTorqueAndClosesBrakes) {
     EXPECT_EQ(safe_values, 251);
 }
 
+TEST(StopOutputsTest, OneCommandThatDiffersIsAnotherRow) {
+    verifies("SWR-FSM-009", Technique::kEquivalenceClasses, Polarity::kViolation);
+
+    EXPECT_FALSE(kMoving == (StopOutputs{false, true, false, false}));
+    EXPECT_FALSE(kMoving == (StopOutputs{true, false, false, false}));
+    EXPECT_FALSE(kMoving == kStopping);
+    EXPECT_FALSE(kMoving == kHolding);
+}
+
+TEST(StopOutputsTest, RowWithTorqueAgainstAClosedBrakeOrWithoutTorqueUnderAnOpenOneIsRefused) {
+    verifies("SWR-FSM-009", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_TRUE(detail::do_torque_and_brakes_agree(kStopOutputs));
+
+    for (const StopOutputs& wrong :
+         {StopOutputs{true, false, false, false}, StopOutputs{false, true, false, false}}) {
+        for (std::size_t row = 0U; row < kSafeStateCount; ++row) {
+            auto outputs = kStopOutputs;
+            outputs[row] = wrong;
+            EXPECT_FALSE(detail::do_torque_and_brakes_agree(outputs)) << row;
+        }
+    }
+}
+
 TEST(StopOutputsTest, DefaultIsTheSafeState) {
     verifies("SWR-FSM-009", Technique::kErrorGuessing, Polarity::kViolation);
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measures line, branch and MC/DC coverage of the kernel by its tests, and holds the gaps against the list of known ones.
+"""Measures line, branch and MC/DC coverage of kernel and safety by their own tests, and holds the gaps against the list of
+known ones.
 
     python -P -m mamori.verification.coverage [--jobs N]
 
@@ -19,17 +20,20 @@ from pathlib import Path
 from mamori.verification.command.project import ROOT, Project
 from mamori.verification.coverage.gaps import LIST, ListError, Verdict, find_gaps, judge, read_list
 from mamori.verification.coverage.measure import CoverageError, measure
-from mamori.verification.coverage.reached import read_functions
-from mamori.verification.coverage.report import count, make_table, write_evidence
+from mamori.verification.coverage.reached import Function, read_functions
+from mamori.verification.coverage.report import Figures, count, make_table, write_evidence
 
 
-def check_kernel(project: Project, jobs: int) -> tuple[Verdict, str]:
+def check_layers(project: Project, jobs: int) -> tuple[Verdict, str]:
     """Measures, judges and writes the evidence. @return the verdict and the table."""
     rows = read_list()
-    exported = measure(project.root, jobs)
-    functions = read_functions(exported, project.root)
+    functions: list[Function] = []
+    files: list[Figures] = []
+    for exported in measure(project.root, jobs):
+        reached = read_functions(exported, project.root)
+        functions += reached
+        files += count(exported, reached, project.root)
     verdict = judge(find_gaps(functions), rows)
-    files = count(exported, functions, project.root)
     table = make_table(files, verdict)
     write_evidence(project.evidence / "coverage", files, verdict, table)
     return verdict, table
@@ -46,13 +50,13 @@ def describe(verdict: Verdict) -> list[str]:
 def main(argv: list[str] | None = None) -> int:
     """@return the exit status."""
     parser = argparse.ArgumentParser(prog="mamori.verification.coverage", allow_abbrev=False,
-                                     description="Line, branch and MC/DC coverage of the kernel by its tests.")  # fmt: skip
+                                     description="Line, branch and MC/DC coverage of kernel and safety by their own tests.")  # fmt: skip
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="parallel compilations")
     jobs = parser.parse_args(argv).jobs
     if jobs < 1:
         parser.error(f"--jobs {jobs}: give a number from 1 on")
     try:
-        verdict, table = check_kernel(Project(Path(ROOT)), jobs)
+        verdict, table = check_layers(Project(Path(ROOT)), jobs)
     except (CoverageError, ListError) as error:
         print(error, file=sys.stderr)
         return 1

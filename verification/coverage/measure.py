@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the kernel's tests with clang's coverage, runs them, and exports what was reached.
+"""Builds the tests of the measured layers with clang's coverage, runs them, and exports what each layer's own tests reached.
 
 @satisfies SWR-VER-001, SWR-VER-003      Design: docs/design/test_strength.md#coverage
 """
@@ -17,10 +17,11 @@ from typing import Any
 COMPILER = "clang++-19"
 FLAGS = ("-fprofile-instr-generate", "-fprofile-update=atomic", "-fcoverage-mapping", "-fcoverage-mcdc")
 PRESET = "host-coverage"
-LAYER = "kernel"
+LAYERS = ("kernel", "safety")  # each is to be shown by its own tests
 FLUSH = Path(__file__).with_name("flush_on_death.cpp")
 WRAPPED = "-Wl,--wrap=_exit,--wrap=_Exit"
 TEST_TIMEOUT_S = 600
+BUILD_TIMEOUT_S = 3600
 # clang says this as a warning without a name, which -Werror leaves a warning.
 UNMEASURED = "unsupported MC/DC boolean expression"
 
@@ -29,8 +30,8 @@ class CoverageError(Exception):
     """The measurement could not be made: what failed, and its last words."""
 
 
-def measure(root: Path, jobs: int) -> dict[str, Any]:
-    """Builds and runs all test programs of the kernel. @return the export of llvm-cov. @raise CoverageError."""
+def measure(root: Path, jobs: int) -> list[dict[str, Any]]:
+    """Builds and runs all test programs of LAYERS. @return the export of llvm-cov, one of each layer. @raise CoverageError."""
     build = root / "build" / PRESET
     build.mkdir(parents=True, exist_ok=True)
     flush = build / "flush_on_death.o"
@@ -38,12 +39,19 @@ def measure(root: Path, jobs: int) -> dict[str, Any]:
     run(("cmake", "-S", str(root), "--preset", PRESET, "-DMAMORI_WITH_SIMBODY_SIM=OFF", "-DMAMORI_BUILD_EXAMPLES=OFF", "-DMAMORI_BENCH_CYCLONEDDS=OFF",
          f"-DCMAKE_EXE_LINKER_FLAGS={flush} {WRAPPED}"))  # fmt: skip
     # From scratch: what clang cannot measure it tells while compiling, and only then.
-    refuse_unmeasured(run(("cmake", "--build", str(build), "--clean-first", "--target", f"{LAYER}/all", "--parallel", str(jobs))))
-    listing = json.loads(run(("ctest", "--test-dir", str(build / LAYER), "--show-only=json-v1")))
+    targets = [f"{layer}/all" for layer in LAYERS]
+    refuse_unmeasured(run(("cmake", "--build", str(build), "--clean-first", "--target", *targets, "--parallel", str(jobs)),
+                           BUILD_TIMEOUT_S))
+    return [measure_layer(root / layer, build / layer) for layer in LAYERS]
+
+
+def measure_layer(folder: Path, build: Path) -> dict[str, Any]:
+    """Runs the test programs in `build`. @return what they reached of the sources in `folder`. @raise CoverageError."""
+    listing = json.loads(run(("ctest", "--test-dir", str(build), "--show-only=json-v1")))
     programs = [Path(test["command"][0]) for test in listing["tests"]]
     if not programs:
-        raise CoverageError(f"{build / LAYER} has no test program; nothing was measured")
-    return export(programs, build / "profiles", (root / LAYER / "include", root / LAYER / "src"))
+        raise CoverageError(f"{build} has no test program; nothing was measured")
+    return export(programs, build / "profiles", (folder / "include", folder / "src"))
 
 
 def export(programs: Sequence[Path], profiles: Path, sources: Sequence[Path]) -> dict[str, Any]:
@@ -66,15 +74,15 @@ def refuse_unmeasured(words: str) -> None:
         raise CoverageError("write these expressions so that clang can measure them, with names for what is nested:\n" + "\n".join(places))
 
 
-def run(argv: Sequence[str], **settings: str) -> str:
+def run(argv: Sequence[str], timeout_s: int = TEST_TIMEOUT_S, **settings: str) -> str:
     """@return standard output. @raise CoverageError when the program is missing, fails, or does not end."""
     try:
         done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
-                              timeout=TEST_TIMEOUT_S, env={**os.environ, **settings})  # fmt: skip
+                              timeout=timeout_s, env={**os.environ, **settings})  # fmt: skip
     except FileNotFoundError as error:
         raise CoverageError(f"'{argv[0]}' is not installed; ./mamori test installs it") from error
     except subprocess.TimeoutExpired as error:
-        raise CoverageError(f"'{' '.join(argv)}' did not end in {TEST_TIMEOUT_S} s") from error
+        raise CoverageError(f"'{' '.join(argv)}' did not end in {timeout_s} s") from error
     if done.returncode != 0:
         tail = "\n".join((done.stdout + done.stderr).splitlines()[-30:])
         raise CoverageError(f"'{' '.join(argv)}' ended with status {done.returncode}:\n{tail}")

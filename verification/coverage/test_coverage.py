@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the tests of the kernel show every condition, or the list says why not; a gap that nobody listed is found.
-# Method: one measurement of the shipped kernel; small programs with a seeded gap, compiled and run like the kernel's tests.
+# Goal: the tests of kernel and safety show every condition, or the list says why not; a gap that nobody listed is found.
+# Method: one measurement of the shipped layers; small programs with a seeded gap, compiled and run like their tests.
 from __future__ import annotations
 
 import json
@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from mamori.verification.command.project import ROOT, Project
-from mamori.verification.coverage.__main__ import check_kernel, describe
+from mamori.verification.coverage.__main__ import check_layers, describe
 from mamori.verification.coverage.gaps import Gap, ListError, Row, Verdict, find_gaps, judge, read_list
-from mamori.verification.coverage.measure import COMPILER, FLAGS, FLUSH, PRESET, WRAPPED, CoverageError, export, refuse_unmeasured, run
+from mamori.verification.coverage.measure import COMPILER, FLAGS, FLUSH, LAYERS, PRESET, WRAPPED, CoverageError, export, refuse_unmeasured, run
 from mamori.verification.coverage.reached import read_functions
 from mamori.verification.coverage.report import count, make_table
 
@@ -42,9 +42,9 @@ FORGOTTEN = "are_both<int>", "is_small(10)", "demand_in_child(1, 2)", "forgotten
 
 
 @pytest.fixture(scope="module")
-def kernel() -> tuple[Verdict, str]:
-    """The measurement of the shipped kernel."""
-    return check_kernel(Project(ROOT), os.cpu_count() or 1)
+def measured() -> tuple[Verdict, str]:
+    """The measurement of the shipped layers."""
+    return check_layers(Project(ROOT), os.cpu_count() or 1)
 
 
 @pytest.fixture
@@ -63,26 +63,26 @@ def find_seeded(tmp_path: Path) -> Callable[[str], list[Gap]]:
 
 
 @pytest.mark.verifies("SWR-VER-001")
-def test_every_condition_of_the_kernel_is_shown_or_listed(kernel: tuple[Verdict, str]) -> None:
-    verdict, table = kernel
+def test_every_condition_is_shown_or_listed(measured: tuple[Verdict, str]) -> None:
+    verdict, table = measured
     print(table)
 
     assert [str(gap) for gap in verdict.unlisted] == []
 
 
 @pytest.mark.verifies("SWR-VER-001")
-def test_evidence_holds_each_file_of_the_kernel(kernel: tuple[Verdict, str]) -> None:
+def test_evidence_holds_each_file_of_each_layer(measured: tuple[Verdict, str]) -> None:
     evidence = json.loads((Project(ROOT).evidence / "coverage" / "coverage.json").read_text(encoding="utf-8"))
 
-    sources = {path.relative_to(ROOT).as_posix() for path in (ROOT / "kernel" / "src").rglob("*.cpp")}
+    sources = {path.relative_to(ROOT).as_posix() for layer in LAYERS for path in (ROOT / layer / "src").rglob("*.cpp")}
     assert sources <= {file["file"] for file in evidence["files"]}
     assert evidence["total"]["conditions"] > 100
     assert all(gap["reason"] for gap in evidence["gaps"])
 
 
 @pytest.mark.verifies("SWR-VER-002")
-def test_every_row_of_the_list_names_a_gap(kernel: tuple[Verdict, str]) -> None:
-    assert [str(row) for row in kernel[0].unused] == []
+def test_every_row_of_the_list_names_a_gap(measured: tuple[Verdict, str]) -> None:
+    assert [str(row) for row in measured[0].unused] == []
 
 
 @pytest.mark.verifies("SWR-VER-001")

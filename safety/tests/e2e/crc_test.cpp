@@ -169,6 +169,25 @@ TEST(CrcTest, PiecesDoNotMatter) {
     expect_pieces_do_not_matter<kCrc64>();
 }
 
+template <const auto& kCrc>
+void expect_tables_of_the_compiler() {
+    constexpr std::size_t kSlices = 8U;
+    using Word = decltype(kCrc.polynomial);
+    detail::CrcTables<Word, kSlices> tables{};  // not const, which the compiler would evaluate again
+    tables = detail::make_crc_tables<Word, kSlices>(kCrc);
+    EXPECT_EQ(tables, (detail::kCrcTables<kCrc, kSlices>));
+}
+
+TEST(CrcTest, TablesOfTheCompilerAreThoseOfTheProgram) {
+    verifies("SWR-E2E-001", Technique::kBackToBack);
+
+    expect_tables_of_the_compiler<kCrc8H2f>();
+    expect_tables_of_the_compiler<kCrc16>();
+    expect_tables_of_the_compiler<kCrc16Arc>();
+    expect_tables_of_the_compiler<kCrc32P4>();
+    expect_tables_of_the_compiler<kCrc64>();
+}
+
 TEST(CrcTest, RepeatedByteIsThatByteSoManyTimes) {
     verifies("SWR-E2E-002", Technique::kEquivalenceClasses);
 

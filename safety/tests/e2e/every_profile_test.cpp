@@ -199,6 +199,8 @@ TEST(E2eChannelTest, SoundChannelIsProvenByTheCompiler) {
     static_assert(is_sound<E2eProfile04<>, kChannel>());
     static_assert(are_sound<E2eProfile04<>, PlainSequence, kLimits>());
 
+    EXPECT_TRUE((is_sound<E2eProfile04<>, kChannel>()));
+    EXPECT_TRUE((are_sound<E2eProfile04<>, PlainSequence, kLimits>()));
     EXPECT_EQ(E2eProfile04<>::find_fault(kChannel), ChannelFault::kNone);
     EXPECT_EQ(PlainSequence::find_fault(kLimits, E2eProfile04<>::kCounterMax), ChannelFault::kNone);
 }

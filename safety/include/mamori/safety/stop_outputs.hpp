@@ -47,8 +47,8 @@ constexpr StopOutputs calc_stop_outputs(SafeState state) noexcept {
 namespace detail {
 
 /// An open brake without torque lets the arm fall, torque against a closed brake wears it.
-constexpr bool do_torque_and_brakes_agree() noexcept {
-    for (const StopOutputs& row : kStopOutputs) {
+constexpr bool do_torque_and_brakes_agree(const std::array<StopOutputs, kSafeStateCount>& outputs) noexcept {
+    for (const StopOutputs& row : outputs) {
         if (row.torque_enable != row.brake_release) {
             return false;
         }
@@ -56,7 +56,7 @@ constexpr bool do_torque_and_brakes_agree() noexcept {
     return true;
 }
 
-static_assert(do_torque_and_brakes_agree(), "brakes are open exactly while torque is on");
+static_assert(do_torque_and_brakes_agree(kStopOutputs), "brakes are open exactly while torque is on");
 
 }  // namespace detail
 

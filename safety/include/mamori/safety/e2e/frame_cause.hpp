@@ -9,9 +9,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "mamori/kernel/span.hpp"
+#include "mamori/safety/count_up.hpp"
 
 namespace mamori::safety {
 
@@ -33,13 +33,6 @@ enum class FrameCause : std::uint8_t {
     kNotReady,     ///< the channel or its limits were refused
 };
 inline constexpr std::size_t kFrameCauseCount = 14U;
-
-/// Counts up and stops at the greatest value: a count that wraps to small values looks like health.
-constexpr void count_up(std::uint32_t& count) noexcept {
-    if (count < std::numeric_limits<std::uint32_t>::max()) {
-        ++count;
-    }
-}
 
 /// True when every byte of `frame` is `value`; a frame without bytes is of no value.
 constexpr bool consists_of(Span<const std::byte> frame, std::byte value) noexcept {
