@@ -163,9 +163,9 @@ def strength_steps() -> tuple[Step, ...]:
     """How strong the tests are: what they reach, which faults they find, and what random bytes find (test_strength.md)."""
     folder = "verification"
     return (
-        Step(name="MC/DC of the kernel", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
+        Step(name="MC/DC of kernel and safety", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
              result="strength-coverage.xml", slow=True),
-        Step(name="mutation sample", commands=((*PYTEST, f"{folder}/mutation"),),
+        Step(name="mutation samples", commands=((*PYTEST, f"{folder}/mutation"),),
              result="strength-mutation.xml", slow=True),
         Step(name="fuzz 30 s", commands=((*PYTEST, f"{folder}/fuzz/test_fuzz.py"),
                                          (*COMMAND, "fuzz", "--seconds", "30", "--jobs", "{jobs}")),

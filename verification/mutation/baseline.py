@@ -13,13 +13,13 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from mamori.verification.mutation.score import BAR, Counts, add_up
-from mamori.verification.mutation.sources import MutationError
+from mamori.verification.mutation.score import Counts, add_up_layers
+from mamori.verification.mutation.sources import LAYERS, Layer, MutationError, get_layer
 
 STORE = Path(__file__).resolve().with_name("baseline.toml")
 HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
-# Mutation score of the kernel, file by file, as `./mamori mutate --store` found it. Written by that command only.
+# Mutation score of kernel and safety, file by file, as `./mamori mutate --store` found it. Written by that command only.
 # `fingerprint` is that of the mutated file: the row of a file that has changed since counts for nothing until its next run.
 """
 
@@ -36,7 +36,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Mutated:
-    """What a file of the kernel is now."""
+    """What a file is now."""
 
     fingerprint: str
     mutants: int
@@ -44,7 +44,7 @@ class Mutated:
 
 @dataclass(frozen=True)
 class Standing:
-    """What the stored result says of the kernel as it is now: `measured` files, and those that no whole run has tried as they
+    """What the stored result says of the layers as they are now: `measured` files, and those that no whole run has tried as they
     are, because they are new or have changed since."""
 
     measured: Mapping[str, Counts]
@@ -52,37 +52,39 @@ class Standing:
     gone: tuple[str, ...]
 
     @property
-    def total(self) -> Counts:
-        return add_up(dict(self.measured))
+    def layers(self) -> dict[Layer, Counts]:
+        return add_up_layers(dict(self.measured))
 
     @property
     def findings(self) -> list[str]:
-        """What is wrong; nothing when the measured files together meet the bar."""
+        """What is wrong; nothing when the measured files of each layer together meet its bar."""
         found = [f"{file} is stored but gives no mutants any more; remove its table" for file in self.gone]
-        if self.total.score < BAR:
-            found.append(f"the stored mutation score is {self.total.score:.1%} ({self.total.killed} of {self.total.valid});"
-                         f" {BAR:.0%} is the bar")  # fmt: skip
-        return found
+        return found + [
+            f"the stored mutation score of {layer.name} is {counts.score:.1%} ({counts.killed} of {counts.valid}); {layer.bar:.0%} is the bar"
+            for layer, counts in self.layers.items()
+            if counts.score < layer.bar
+        ]
 
     def describe(self) -> list[str]:
-        """Lines for the reader: the sum, then each file that was not measured."""
-        total, tried, left = self.total, sum(map(_tried, self.measured.values())), sum(self.open_mutants.values())
-        lines = [f"stored whole runs: {total.score:.1%} ({total.killed} of {total.valid} killed; {len(self.measured)} files,"
-                 f" {tried} mutants)",
-                 f"not measured as a whole: {len(self.open_mutants)} files, {left} mutants"]  # fmt: skip
+        """Lines for the reader: the sum of each layer, then each file that was not measured."""
+        lines: list[str] = []
+        for layer in LAYERS:
+            counts = self.layers.get(layer, Counts())
+            measured = sum(get_layer(file) == layer for file in self.measured)
+            left = [mutants for file, mutants in self.open_mutants.items() if get_layer(file) == layer]
+            score = f"{counts.score:.1%}" if counts.valid else "-"
+            lines += [f"{layer.name}, stored whole runs: {score} ({counts.killed} of {counts.valid} killed; {measured} files,"
+                      f" {counts.tried} mutants)",
+                      f"{layer.name}, not measured as a whole: {len(left)} files, {sum(left)} mutants"]  # fmt: skip
         return lines + [f"not measured: {file} ({count} mutants)" for file, count in self.open_mutants.items()]
 
     def to_json(self) -> dict[str, object]:
         """The same for programs."""
         return {
             "measured": {file: asdict(counts) for file, counts in self.measured.items()},
-            "total": {**asdict(self.total), "score": self.total.score if self.measured else None},
+            "layers": {layer.name: {**asdict(counts), "score": counts.score} for layer, counts in self.layers.items()},
             "not_measured": {"files": dict(self.open_mutants), "mutants": sum(self.open_mutants.values())},
         }
-
-
-def _tried(counts: Counts) -> int:
-    return sum(asdict(counts).values())
 
 
 def fingerprint(source: bytes) -> str:
@@ -117,11 +119,11 @@ def write_store(entries: Mapping[str, Entry], path: Path = STORE) -> None:
 def judge_store(entries: Mapping[str, Entry], mutated: Mapping[str, Mutated]) -> Standing:
     """A row counts when it is of the file as it is, and of as many mutants as the file gives now.
 
-    @param mutated files of the kernel that have mutants."""
+    @param mutated files that have mutants."""
     measured = {
         file: entries[file].counts
         for file, now in mutated.items()
-        if file in entries and (entries[file].fingerprint, _tried(entries[file].counts)) == (now.fingerprint, now.mutants)
+        if file in entries and (entries[file].fingerprint, entries[file].counts.tried) == (now.fingerprint, now.mutants)
     }
     left = {file: now.mutants for file, now in mutated.items() if file not in measured}
     return Standing(measured, left, tuple(file for file in entries if file not in mutated))

@@ -22,9 +22,9 @@ from mamori.verification.command.project import ROOT, Project
 from mamori.verification.mutation import baseline
 from mamori.verification.mutation.equivalent import read_list
 from mamori.verification.mutation.operators import make_mutants
-from mamori.verification.mutation.run import Plan, Report, Selection, make_plan, make_table, run_plan, write_json
-from mamori.verification.mutation.score import BAR, Counts, calc_interval, count
-from mamori.verification.mutation.sources import MutationError, Sources, read_sources
+from mamori.verification.mutation.run import Plan, Report, Selection, Tally, make_plan, make_table, try_mutants, write_json
+from mamori.verification.mutation.score import Counts, calc_interval, count
+from mamori.verification.mutation.sources import LAYERS, Layer, MutationError, get_layer, list_files, read_sources
 from mamori.verification.mutation.trial import SURVIVED, Result
 
 PROGRESS_S = 10.0
@@ -43,18 +43,18 @@ class Request:
 
 
 def mutate(request: Request) -> int:
-    """@return exit status. @raise UsageError for files that are none of the kernel's."""
+    """@return exit status. @raise UsageError for files that are of none of the layers."""
     project = Project(ROOT)
     if request.store and request.sample is not None:
         raise UsageError("mutate: --store keeps the result of all mutants; leave --sample out")
-    known = Sources(project.root, ()).list_files()
+    known = list_files(project.root)
     selection = Selection(choose_files(request.files, known), request.sample, request.seed)
     try:
         plan = make_plan(project.root, selection, read_list())
         if request.only_list:
             return show_plan(plan)
         tell = Progress(plan)
-        report = run_kernel(project.root, plan, request.jobs, Keeper(project.root, plan, tell) if request.store else tell)
+        report = run_layers(project.root, plan, request.jobs, Keeper(project.root, plan, tell) if request.store else tell)
         standing = read_standing(project.root)
     except MutationError as error:
         print(error, file=sys.stderr)
@@ -67,20 +67,25 @@ def mutate(request: Request) -> int:
     return EXIT_OK if report.passed else EXIT_FAILED
 
 
-def run_kernel(root: Path, plan: Plan, jobs: int, progress: Callable[[Result, int, int], None]) -> Report:
-    """Tries `plan` in a folder of its own, so that two runs do not meet. @raise MutationError."""
+def run_layers(root: Path, plan: Plan, jobs: int, progress: Callable[[Result, int, int], None]) -> Report:
+    """Tries `plan` layer by layer, in a folder of its own, so that two runs do not meet. @raise MutationError."""
     folder = root / "build" / "mutation"
-    sources = read_sources(root, folder / "cmake")
-    with tempfile.TemporaryDirectory(prefix="work-", dir=folder) as work:
-        return run_plan(sources, plan, Path(work), jobs, progress)
+    tally = Tally(plan, progress)
+    for layer in LAYERS:
+        mutants = [mutant for mutant in plan.mutants if get_layer(mutant.file) == layer]
+        if mutants:
+            sources = read_sources(root, folder / "cmake", layer)
+            with tempfile.TemporaryDirectory(prefix="work-", dir=folder) as work:
+                try_mutants(sources, mutants, plan.sources, Path(work), jobs, tally.note)
+    return tally.make_report()
 
 
 def choose_files(wanted: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
-    """@return the files of the kernel that were named, or all. @raise UsageError for one that is none."""
+    """@return the files of the layers that were named, or all. @raise UsageError for one that is none."""
     for name in wanted:
         if _normalise(name) not in known:
             nearest = nearest_names(name, known, "./mamori mutate --list shows them with their mutants")
-            raise UsageError(f"mutate: '{name}' is no source or header of the kernel; {nearest}")
+            raise UsageError(f"mutate: '{name}' is no source or header of {' or '.join(layer.name for layer in LAYERS)}; {nearest}")
     return tuple(_normalise(name) for name in wanted) or tuple(known)
 
 
@@ -137,7 +142,6 @@ def show_plan(plan: Plan) -> int:
 
 def describe(report: Report) -> list[str]:
     """What is to be mended, and the closing line."""
-    total = report.total
     lines = [f"equivalent.toml: row names no mutant any more, remove it: {row}" for row in report.plan.unused]
     lines += [f"equivalent.toml: {result.killer} kills this mutant, so it is not equivalent: {row}"
               for row, result in report.wrong_rows]  # fmt: skip
@@ -145,12 +149,17 @@ def describe(report: Report) -> list[str]:
         line = result.mutant.get_line(report.plan.sources[result.mutant.file])
         before, after = result.mutant.get_change(report.plan.sources[result.mutant.file])
         lines.append(f"{result.mutant.file}:{line}: survived: {before}  ->  {after}")
+    return lines + [describe_score(layer, counts, report.plan.is_sample) for layer, counts in report.layers.items()]
+
+
+def describe_score(layer: Layer, counts: Counts, is_sample: bool) -> str:
+    """The closing line of a layer."""
     kind = "all mutants"
-    if report.plan.is_sample:
-        low, high = calc_interval(total.killed, total.valid)
-        kind = f"sample of {len(report.results)}, 95 % interval {low:.1%} to {high:.1%}"
-    lines.append(f"mutation score: {total.score:.1%} ({total.killed} of {total.valid} killed; {kind}; {BAR:.0%} is the bar)")
-    return lines
+    if is_sample:
+        low, high = calc_interval(counts.killed, counts.valid)
+        kind = f"sample of {counts.tried}, 95 % interval {low:.1%} to {high:.1%}"
+    return (f"mutation score of {layer.name}: {counts.score:.1%} ({counts.killed} of {counts.valid} killed; {kind};"
+            f" {layer.bar:.0%} is the bar)")  # fmt: skip
 
 
 def store(root: Path, file: str, source: bytes, counts: Counts) -> None:
@@ -164,8 +173,8 @@ def store(root: Path, file: str, source: bytes, counts: Counts) -> None:
 
 
 def read_standing(root: Path) -> baseline.Standing:
-    """What the stored result is worth for the kernel as it is. @raise MutationError when there is no such file of results."""
-    sources = {file: (root / file).read_bytes() for file in Sources(root, ()).list_files()}
+    """What the stored result is worth for the layers as they are. @raise MutationError when there is no such file of results."""
+    sources = {file: (root / file).read_bytes() for file in list_files(root)}
     mutated = {
         file: baseline.Mutated(baseline.fingerprint(source), len(mutants))
         for file, source in sources.items()

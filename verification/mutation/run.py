@@ -10,7 +10,7 @@ import json
 import os
 import queue
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
@@ -19,12 +19,12 @@ from pathlib import Path
 from mamori.verification.mutation.baseline import Standing
 from mamori.verification.mutation.equivalent import Row, match
 from mamori.verification.mutation.operators import Mutant, make_mutants
-from mamori.verification.mutation.score import LISTED, Counts, add_up, calc_interval, count, is_met
-from mamori.verification.mutation.sources import Sources
+from mamori.verification.mutation.score import LISTED, Counts, add_up, add_up_layers, calc_interval, count, is_met
+from mamori.verification.mutation.sources import Layer, Sources
 from mamori.verification.mutation.trial import KILLED, SURVIVED, Result, Suspect, judge_together, make_companies, screen
 from mamori.verification.mutation.workbench import TEST_TIMEOUT_S, Baseline, Bench
 
-SCHEMA = "mamori.mutation/2"
+SCHEMA = "mamori.mutation/3"
 SWEEP = 400  # mutants between two times that those are judged which are left
 Progress = Callable[[Result, int, int], None]
 
@@ -62,6 +62,10 @@ class Report:
         return count(self.results)
 
     @property
+    def layers(self) -> dict[Layer, Counts]:
+        return add_up_layers(self.files)
+
+    @property
     def total(self) -> Counts:
         return add_up(self.files)
 
@@ -71,7 +75,8 @@ class Report:
 
     @property
     def passed(self) -> bool:
-        return is_met(self.total, self.plan.is_sample) and not self.plan.unused and not self.wrong_rows
+        is_strong = all(is_met(counts, layer.bar, self.plan.is_sample) for layer, counts in self.layers.items())
+        return is_strong and not self.plan.unused and not self.wrong_rows
 
 
 def make_plan(root: Path, selection: Selection, rows: Sequence[Row]) -> Plan:
@@ -86,40 +91,40 @@ def make_plan(root: Path, selection: Selection, rows: Sequence[Row]) -> Plan:
     return Plan(sources, tuple(chosen), listed, tuple(unused), is_sample)
 
 
-def run_plan(
-    sources: Sources, plan: Plan, folder: Path, jobs: int, progress: Progress, test_timeout_s: float = TEST_TIMEOUT_S
-) -> Report:
-    """Tries every mutant of the plan. @raise MutationError when the tests do not pass as they are."""
+def try_mutants(
+    sources: Sources, mutants: Sequence[Mutant], texts: Mapping[str, bytes], folder: Path, jobs: int,
+    note: Callable[[Result], None], test_timeout_s: float = TEST_TIMEOUT_S,
+) -> None:  # fmt: skip
+    """Tries `mutants` of one layer and tells `note` of each. @param texts of the files as they are. @raise MutationError when
+    the tests do not pass as they are."""
     baseline = Baseline(sources, folder, jobs, test_timeout_s)
     benches: queue.SimpleQueue[Bench] = queue.SimpleQueue()
     for number in range(jobs):
         benches.put(Bench(baseline, f"bench-{number}"))
-    tally = Tally(plan, progress)
 
     def screen_one(mutant: Mutant) -> Result | Suspect:
         with _borrow(benches) as bench:
-            return screen(bench, mutant, plan.sources)
+            return screen(bench, mutant, texts)
 
     def judge_some(suspects: Sequence[Suspect]) -> list[Result]:
         with _borrow(benches) as bench:
-            return judge_together(bench, suspects, plan.sources)
+            return judge_together(bench, suspects, texts)
 
     with ThreadPoolExecutor(jobs) as pool:
         try:
-            for start in range(0, len(plan.mutants), SWEEP):
+            for start in range(0, len(mutants), SWEEP):
                 suspects: list[Suspect] = []
-                for tried in pool.map(screen_one, plan.mutants[start : start + SWEEP]):
+                for tried in pool.map(screen_one, mutants[start : start + SWEEP]):
                     if isinstance(tried, Suspect):
                         suspects.append(tried)
                     else:
-                        tally.note(tried)
+                        note(tried)
                 for results in pool.map(judge_some, make_companies(suspects, jobs)):
                     for result in results:
-                        tally.note(result)
+                        note(result)
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
-    return tally.make_report()
 
 
 class Tally:
@@ -167,12 +172,11 @@ def make_table(files: dict[str, Counts]) -> str:
 
 def write_json(path: Path, report: Report, selection: Selection, stored: Standing) -> None:
     """Writes the whole file or nothing. @param stored what whole runs said, beside which this run stands."""
-    total = report.total
     content = {
         "schema": SCHEMA,
         "passed": report.passed,
         "sample": {"size": len(report.results), "seed": selection.seed} if report.plan.is_sample else None,
-        "total": {**asdict(total), "score": total.score, "interval": calc_interval(total.killed, total.valid)},
+        "layers": {layer.name: _sum_up(counts, layer) for layer, counts in report.layers.items()},
         "stored": stored.to_json(),
         "files": [{"file": file, **asdict(counts), "score": counts.score} for file, counts in report.files.items()],
         "mutants": [_describe(result, report.plan) for result in report.results],
@@ -181,6 +185,10 @@ def write_json(path: Path, report: Report, selection: Selection, stored: Standin
     part = path.with_suffix(".part")
     part.write_text(json.dumps(content, indent=1), encoding="utf-8")
     os.replace(part, path)
+
+
+def _sum_up(counts: Counts, layer: Layer) -> dict[str, object]:
+    return {**asdict(counts), "score": counts.score, "interval": calc_interval(counts.killed, counts.valid), "bar": layer.bar}
 
 
 def _describe(result: Result, plan: Plan) -> dict[str, object]:

@@ -10,10 +10,10 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from mamori.verification.mutation.sources import LAYERS, Layer, get_layer
 from mamori.verification.mutation.trial import EQUIVALENT, INVALID, KILLED, SURVIVED, Result
 
-BAR = 0.90
-DOUBT = 0.05  # a sample is believed to contradict the bar when so good a kernel would give it this rarely
+DOUBT = 0.05  # a sample is believed to contradict the bar when so good a layer would give it this rarely
 NORMAL_975 = 1.959964  # two-sided 95 % of the normal distribution
 LISTED = "listed as equivalent"
 
@@ -32,6 +32,10 @@ class Counts:
     def valid(self) -> int:
         """Mutants that a test could tell from the original."""
         return self.killed + self.survived
+
+    @property
+    def tried(self) -> int:
+        return self.valid + self.listed + self.same_code + self.invalid
 
     @property
     def score(self) -> float:
@@ -59,17 +63,23 @@ def add_up(files: dict[str, Counts]) -> Counts:
     return sum(files.values(), Counts())
 
 
-def is_met(counts: Counts, is_sample: bool) -> bool:
-    """A whole run is held against the bar itself. A sample may fall short of it by chance: it fails when a kernel that just
+def add_up_layers(files: dict[str, Counts]) -> dict[Layer, Counts]:
+    """The sum of each layer that has files, in the order of LAYERS."""
+    sums = {layer: {file: counts for file, counts in files.items() if get_layer(file) == layer} for layer in LAYERS}
+    return {layer: add_up(own) for layer, own in sums.items() if own}
+
+
+def is_met(counts: Counts, bar: float, is_sample: bool) -> bool:
+    """A whole run is held against the bar itself. A sample may fall short of it by chance: it fails when a layer that just
     meets the bar would leave so many survivors in it with a probability below DOUBT."""
     if not is_sample:
-        return counts.score >= BAR
-    return calc_chance(counts.survived, counts.valid) >= DOUBT
+        return counts.score >= bar
+    return calc_chance(counts.survived, counts.valid, bar) >= DOUBT
 
 
-def calc_chance(survived: int, valid: int) -> float:
-    """Probability of at least `survived` survivors among `valid` mutants when each survives with probability 1 - BAR."""
-    return math.fsum(math.comb(valid, k) * (1.0 - BAR) ** k * BAR ** (valid - k) for k in range(survived, valid + 1))
+def calc_chance(survived: int, valid: int, bar: float) -> float:
+    """Probability of at least `survived` survivors among `valid` mutants when each survives with probability 1 - `bar`."""
+    return math.fsum(math.comb(valid, k) * (1.0 - bar) ** k * bar ** (valid - k) for k in range(survived, valid + 1))
 
 
 def calc_interval(killed: int, valid: int) -> tuple[float, float]:

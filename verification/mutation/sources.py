@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the kernel and its tests consist of, and how each file is compiled; CMake is asked, so nothing is said twice.
+"""What the layers and their tests consist of, and how each file is compiled; CMake is asked, so nothing is said twice.
 
 @satisfies SWR-VER-005      Design: docs/design/test_strength.md#mutants-that-count
 """
@@ -9,11 +9,11 @@ from __future__ import annotations
 import json
 import shlex
 import subprocess
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 COMPILER = "clang++-19"
-LAYER = "kernel"
 
 
 class MutationError(Exception):
@@ -21,8 +21,32 @@ class MutationError(Exception):
 
 
 @dataclass(frozen=True)
+class Layer:
+    """A layer whose own tests are to find the faults in it: which share of them, and the layers that it stands on."""
+
+    name: str
+    bar: float
+    below: tuple[str, ...] = ()
+
+
+LAYERS = (Layer("kernel", 0.90), Layer("safety", 0.95, ("kernel",)))
+
+
+def get_layer(file: str) -> Layer:
+    """@param file relative to the root, of one of LAYERS."""
+    return next(layer for layer in LAYERS if file.startswith(f"{layer.name}/"))
+
+
+def list_files(root: Path, layers: Sequence[Layer] = LAYERS) -> list[str]:
+    """Files that are mutated, relative to the root: headers and sources of `layers`, no tests."""
+    folders = [root / layer.name for layer in layers]
+    patterns = ("include/**/*.hpp", "src/**/*.hpp", "src/**/*.cpp")
+    return sorted(path.relative_to(root).as_posix() for folder in folders for pattern in patterns for path in folder.glob(pattern))
+
+
+@dataclass(frozen=True)
 class Unit:
-    """One file that is compiled: `path` relative to the layer's folder, and flags that decide what it means."""
+    """One file that is compiled: `path` relative to its layer's folder, and flags that decide what it means."""
 
     path: str
     flags: tuple[str, ...]
@@ -38,24 +62,21 @@ class Unit:
 
 @dataclass(frozen=True)
 class Sources:
-    """A layer below `root`, its units, and the header that all its tests begin with."""
+    """A layer below `root`, its units, the sources (relative to `root`) that it stands on, and the header that all its tests
+    begin with."""
 
     root: Path
     units: tuple[Unit, ...]
-    layer: str = LAYER
+    layer: str = LAYERS[0].name
+    below: tuple[Unit, ...] = ()
     prefix_header: str = "mamori/verification/verifies.hpp"
 
     @property
     def folder(self) -> Path:
         return self.root / self.layer
 
-    def list_files(self) -> list[str]:
-        """Files that are mutated, relative to the root: headers and sources, no tests."""
-        paths = [*self.folder.glob("include/**/*.hpp"), *self.folder.glob("src/**/*.hpp"), *self.folder.glob("src/**/*.cpp")]
-        return sorted(path.relative_to(self.root).as_posix() for path in paths)
 
-
-def read_sources(root: Path, build: Path) -> Sources:
+def read_sources(root: Path, build: Path, layer: Layer) -> Sources:
     """Configures the project in `build`, which compiles nothing. @raise MutationError."""
     argv = ("cmake", "-S", str(root), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
             f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", "-DMAMORI_WITH_SIMBODY_SIM=OFF",
@@ -64,15 +85,21 @@ def read_sources(root: Path, build: Path) -> Sources:
     if done.returncode != 0:
         raise MutationError(f"cmake could not configure {root}:\n{done.stderr.strip()}")
     entries = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-    folder = root / LAYER
-    units = [
-        Unit(Path(entry["file"]).relative_to(folder).as_posix(), keep_flags(shlex.split(entry["command"])))
-        for entry in entries
-        if Path(entry["file"]).is_relative_to(folder)
-    ]
+    units = _select_units(entries, root / layer.name, root / layer.name)
     if not any(unit.is_test for unit in units):
-        raise MutationError(f"{folder} has no test that CMake knows; nothing could be killed")
-    return Sources(root, tuple(sorted(units, key=lambda unit: unit.path)))
+        raise MutationError(f"{root / layer.name} has no test that CMake knows; nothing could be killed")
+    below = [unit for name in layer.below for unit in _select_units(entries, root / name / "src", root)]
+    return Sources(root, tuple(units), layer.name, tuple(below))
+
+
+def _select_units(entries: Sequence[dict[str, str]], folder: Path, base: Path) -> list[Unit]:
+    """Units below `folder`, each once though several programs may compile it, with paths relative to `base`."""
+    units = {
+        path: Unit(path.relative_to(base).as_posix(), keep_flags(shlex.split(entry["command"])))
+        for entry in entries
+        if (path := Path(entry["file"])).is_relative_to(folder)
+    }
+    return [units[path] for path in sorted(units)]
 
 
 def keep_flags(command: list[str]) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the tests of the kernel find most small faults, and what this tool says about that is true.
-# Method: the stored result and a sample of the shipped kernel; a small project with one mutant of each fate.
+# Goal: the tests of kernel and safety find most small faults, and what this tool says about that is true.
+# Method: the stored result and a sample of each shipped layer; a small project with one mutant of each fate.
 from __future__ import annotations
 
 import os
@@ -14,12 +14,12 @@ import pytest
 from mamori.verification.command.errors import UsageError
 from mamori.verification.command.project import ROOT, Project
 from mamori.verification.mutation import baseline
-from mamori.verification.mutation.command import Keeper, choose_files, describe, read_standing, run_kernel
+from mamori.verification.mutation.command import Keeper, choose_files, describe, read_standing, run_layers
 from mamori.verification.mutation.equivalent import Row, read_list
 from mamori.verification.mutation.operators import Mutant, make_mutants
-from mamori.verification.mutation.run import Plan, Report, Selection, make_plan, make_table, run_plan, write_json
+from mamori.verification.mutation.run import Plan, Report, Selection, Tally, make_plan, make_table, try_mutants, write_json
 from mamori.verification.mutation.score import LISTED, Counts, calc_interval, is_met
-from mamori.verification.mutation.sources import MutationError, Sources, Unit, keep_flags
+from mamori.verification.mutation.sources import LAYERS, Layer, MutationError, Sources, Unit, get_layer, keep_flags, list_files
 from mamori.verification.mutation.trial import (
     COMPANY,
     EQUIVALENT,
@@ -35,7 +35,7 @@ from mamori.verification.mutation.trial import (
 )
 from mamori.verification.mutation.workbench import TIMED_OUT, Baseline, Bench
 
-SAMPLE = 60
+SAMPLES = {"kernel": 60, "safety": 40}
 SEED = 1
 TIMEOUT_S = 2.0  # of a test that needs a few milliseconds
 
@@ -107,7 +107,10 @@ def run_all(sources: Sources, *rows: Row, file: str = SOURCE, line: int | None =
     plan = make_plan(sources.root, Selection((file,)), rows)
     if line is not None:
         plan = replace(plan, mutants=tuple(each for each in plan.mutants if each.get_line(plan.sources[file]) == line))
-    return run_plan(sources, plan, Path(tempfile.mkdtemp(dir=sources.root)), 2, lambda *_: None, TIMEOUT_S)
+    tally = Tally(plan, lambda *_: None)
+    folder = Path(tempfile.mkdtemp(dir=sources.root))
+    try_mutants(sources, plan.mutants, plan.sources, folder, 2, tally.note, TIMEOUT_S)
+    return tally.make_report()
 
 
 def try_alone(bench: Bench, mutant: Mutant, source: bytes) -> Result:
@@ -143,7 +146,7 @@ def test_one_seed_gives_one_sample_and_another_seed_another(sources: Sources) ->
 
 @pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")
 def test_file_that_is_none_of_the_kernels_is_refused_with_the_nearest() -> None:
-    with pytest.raises(UsageError, match=r"'kernel/src/event_lock.cpp' is no source.*kernel/src/event_log.cpp"):
+    with pytest.raises(UsageError, match=r"'kernel/src/event_lock.cpp' is no source or header of kernel or safety.*kernel/src/event_log.cpp"):
         choose_files(("kernel/src/event_lock.cpp",), ("kernel/src/event_log.cpp", "kernel/src/assert.cpp"))
 
 
@@ -151,7 +154,7 @@ def test_file_that_is_none_of_the_kernels_is_refused_with_the_nearest() -> None:
 def test_file_that_is_like_none_of_the_kernels_is_refused_in_one_short_line() -> None:
     with pytest.raises(UsageError) as refusal:
         choose_files(("nothing.cpp",), tuple(f"kernel/include/mamori/kernel/unit_{i}.hpp" for i in range(200)))
-    assert str(refusal.value) == ("mutate: 'nothing.cpp' is no source or header of the kernel; "
+    assert str(refusal.value) == ("mutate: 'nothing.cpp' is no source or header of kernel or safety; "
                                   "./mamori mutate --list shows them with their mutants")  # fmt: skip
 
 
@@ -173,6 +176,31 @@ def test_mutant_of_a_header_is_compiled_into_its_tests(sources: Sources) -> None
     result = find(run_all(sources, file=HEADER), "10 * scale", "10 / scale")
 
     assert (result.verdict, result.killer) == (KILLED, "compiler, tests/limit_test.cpp")
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="interface")
+def test_layer_is_tried_on_what_it_stands_on(sources: Sources) -> None:
+    """The limit moves to a layer below, which is linked and not mutated."""
+    base = sources.root / "base" / "src" / "base.cpp"
+    base.parent.mkdir(parents=True)
+    base.write_text("int calc_base() { return 1; }\n", encoding="utf-8")
+    text = FILES[SOURCE].replace("calc_limit(1); }", "calc_limit(calc_base()); }").replace("bool is", "int calc_base();\nbool is")
+    (sources.root / SOURCE).write_text(text, encoding="utf-8")
+    below = (Unit("base/src/base.cpp", FLAGS),)
+
+    report = run_all(replace(sources, below=below), line=LIMIT_LINE + 1)
+
+    assert find(report, "value < calc_limit", "value >= calc_limit").verdict == KILLED
+    assert list(report.layers) == [get_layer(SOURCE)]
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="interface")
+def test_every_file_is_of_one_layer() -> None:
+    files = list_files(ROOT)
+
+    assert [get_layer(file).name for file in files] == [file.partition("/")[0] for file in files]
+    assert {"kernel/src/assert.cpp", "safety/src/safe_state.cpp"} <= set(files)
+    assert not any("/tests/" in file for file in files)
 
 
 @pytest.mark.verifies("SWR-VER-005", technique="error_guessing", polarity="violation")
@@ -339,66 +367,73 @@ def test_stronger_test_raises_the_score(sources: Sources) -> None:
 
 
 @pytest.mark.parametrize(
-    ("killed", "survived", "is_sample", "wanted"),
-    [(90, 10, False, True), (899, 101, False, False), (0, 0, False, True), (60, 0, True, True), (50, 10, True, True),
-     (49, 11, True, False)],
+    ("killed", "survived", "bar", "is_sample", "wanted"),
+    [(90, 10, 0.9, False, True), (899, 101, 0.9, False, False), (0, 0, 0.9, False, True), (60, 0, 0.9, True, True),
+     (50, 10, 0.9, True, True), (49, 11, 0.9, True, False), (95, 5, 0.95, False, True), (949, 51, 0.95, False, False),
+     (36, 4, 0.95, True, True), (35, 5, 0.95, True, False)],
 )  # fmt: skip
 @pytest.mark.verifies("SWR-VER-006", technique="boundary_values", polarity="violation")
-def test_bar_is_held_on_both_sides(killed: int, survived: int, is_sample: bool, wanted: bool) -> None:
-    assert is_met(Counts(killed, survived), is_sample) == wanted
+def test_bar_is_held_on_both_sides(killed: int, survived: int, bar: float, is_sample: bool, wanted: bool) -> None:
+    assert is_met(Counts(killed, survived), bar, is_sample) == wanted
 
 
 @pytest.mark.verifies("SWR-VER-006")
-def test_stored_result_of_the_kernel_meets_the_bar() -> None:
+def test_stored_result_meets_the_bar_of_each_layer() -> None:
     assert read_standing(ROOT).findings == []
 
 
+@pytest.mark.parametrize("layer", LAYERS, ids=lambda layer: layer.name)
 @pytest.mark.verifies("SWR-VER-006")
-def test_sample_of_the_kernel_does_not_contradict_the_bar() -> None:
+def test_sample_does_not_contradict_the_bar(layer: Layer) -> None:
     project = Project(ROOT)
-    selection = Selection(tuple(Sources(ROOT, ()).list_files()), SAMPLE, SEED)
+    selection = Selection(tuple(list_files(ROOT, (layer,))), SAMPLES[layer.name], SEED)
     plan = make_plan(ROOT, selection, read_list())
-    report = run_kernel(ROOT, plan, os.cpu_count() or 1, lambda *_: None)
+    report = run_layers(ROOT, plan, os.cpu_count() or 1, lambda *_: None)
     standing = read_standing(ROOT)
-    write_json(project.evidence / "mutation" / "mutation.json", report, selection, standing)
+    folder = project.evidence / "mutation" / layer.name
+    write_json(folder / "mutation.json", report, selection, standing)
     told = [make_table(report.files), *standing.describe(), *describe(report)]
-    (project.evidence / "mutation" / "mutation.txt").write_text("\n".join(told) + "\n", encoding="utf-8")
+    (folder / "mutation.txt").write_text("\n".join(told) + "\n", encoding="utf-8")
 
     assert report.passed, "\n".join(told)
 
 
 def judge(now: dict[str, tuple[bytes, int]], *, killed: int = 89) -> baseline.Standing:
-    """A store with one row, of 100 mutants of a.cpp when it was b"a", beside the sources and numbers of mutants of `now`."""
+    """A store with one row, of 100 mutants of kernel/a.cpp when it was b"a", beside the sources and numbers of mutants of `now`."""
     entry = baseline.Entry(baseline.fingerprint(b"a"), "0123", "2026-11-22", Counts(killed, 100 - killed))
     mutated = {file: baseline.Mutated(baseline.fingerprint(source), mutants) for file, (source, mutants) in now.items()}
-    return baseline.judge_store({"a.cpp": entry}, mutated)
+    return baseline.judge_store({"kernel/a.cpp": entry}, mutated)
 
 
 @pytest.mark.verifies("SWR-VER-006", technique="fault_injection", polarity="violation")
 def test_stored_result_below_the_bar_or_of_a_file_that_is_gone_fails() -> None:
-    assert judge({"a.cpp": (b"a", 100)}).findings == ["the stored mutation score is 89.0% (89 of 100); 90% is the bar"]
-    assert judge({"a.cpp": (b"a", 100)}, killed=90).findings == []
-    assert "a.cpp is stored but gives no mutants" in judge({}).findings[0]
+    below = ["the stored mutation score of kernel is 89.0% (89 of 100); 90% is the bar"]
+    assert judge({"kernel/a.cpp": (b"a", 100)}).findings == below
+    assert judge({"kernel/a.cpp": (b"a", 100)}, killed=90).findings == []
+    assert "kernel/a.cpp is stored but gives no mutants" in judge({}).findings[0]
 
 
 @pytest.mark.parametrize("now", [(b"b", 100), (b"a", 101)], ids=["file changed", "operators changed"])
 @pytest.mark.verifies("SWR-VER-009", technique="equivalence_classes", polarity="violation")
 def test_row_of_another_state_of_its_file_counts_for_nothing(now: tuple[bytes, int]) -> None:
-    standing = judge({"a.cpp": now})
+    standing = judge({"kernel/a.cpp": now})
 
-    assert (standing.total.valid, standing.findings) == (0, [])
-    assert standing.describe()[-2:] == [f"not measured as a whole: 1 files, {now[1]} mutants",
-                                        f"not measured: a.cpp ({now[1]} mutants)"]  # fmt: skip
-    assert standing.to_json()["not_measured"] == {"files": {"a.cpp": now[1]}, "mutants": now[1]}
+    assert (standing.layers, standing.findings) == ({}, [])
+    told = standing.describe()
+    assert f"kernel, not measured as a whole: 1 files, {now[1]} mutants" in told
+    assert told[-1] == f"not measured: kernel/a.cpp ({now[1]} mutants)"
+    assert standing.to_json()["not_measured"] == {"files": {"kernel/a.cpp": now[1]}, "mutants": now[1]}
 
 
 @pytest.mark.verifies("SWR-VER-009", technique="interface")
 def test_file_without_a_row_is_named_beside_the_measured_ones() -> None:
-    standing = judge({"a.cpp": (b"a", 100), "b.cpp": (b"b", 7)}, killed=95)
+    standing = judge({"kernel/a.cpp": (b"a", 100), "safety/b.cpp": (b"b", 7)}, killed=95)
 
-    assert standing.describe() == ["stored whole runs: 95.0% (95 of 100 killed; 1 files, 100 mutants)",
-                                   "not measured as a whole: 1 files, 7 mutants",
-                                   "not measured: b.cpp (7 mutants)"]  # fmt: skip
+    assert standing.describe() == ["kernel, stored whole runs: 95.0% (95 of 100 killed; 1 files, 100 mutants)",
+                                   "kernel, not measured as a whole: 0 files, 0 mutants",
+                                   "safety, stored whole runs: - (0 of 0 killed; 0 files, 0 mutants)",
+                                   "safety, not measured as a whole: 1 files, 7 mutants",
+                                   "not measured: safety/b.cpp (7 mutants)"]  # fmt: skip
     assert standing.findings == []
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compiles mutants of a private copy of the kernel and runs its tests on them, in bounded time and memory.
+"""Compiles mutants of a private copy of a layer and runs its tests on them, in bounded time and memory.
 
 Each test file is a program of its own, so that the one that most likely finds the fault is compiled and run first and the
 others need not be built once it has.
@@ -17,7 +17,7 @@ import signal
 import subprocess
 import time
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -25,8 +25,8 @@ from mamori.verification.mutation.sources import COMPILER, MutationError, Source
 
 COMPILE_TIMEOUT_S = 120.0
 TEST_TIMEOUT_S = 10.0  # added to what a test may need
-TEST_PATIENCE = 5.0  # times what the test took on the unchanged kernel
-SLOWEST_TEST_S = 240.0  # of the unchanged kernel, on a busy machine
+TEST_PATIENCE = 5.0  # times what the test took on the unchanged layer
+SLOWEST_TEST_S = 240.0  # of the unchanged layer, on a busy machine
 MEMORY_KIB = 4 * 1024 * 1024
 FILE_BLOCKS = 64 * 1024  # of 512 bytes, that a test may write
 LIBRARIES = ("-lgtest_main", "-lgtest", "-lpthread")
@@ -35,7 +35,7 @@ COMPARED_FLAGS = ("-O2", "-g0", "-w", "-fno-ident", "-UNDEBUG", "-ffp-contract=o
 
 
 class Baseline:
-    """The kernel as it is: its objects, what each unit includes, what each test links and how long it takes, and the order
+    """The layer as it is: its objects, what each unit includes, what each test links and how long it takes, and the order
     of the tests. Shared by all benches."""
 
     def __init__(self, sources: Sources, folder: Path, jobs: int, test_timeout_s: float = TEST_TIMEOUT_S) -> None:
@@ -47,6 +47,7 @@ class Baseline:
         self.includes: dict[str, frozenset[str]] = {}
         self.links: dict[str, frozenset[str]] = {}
         self.archive = folder / "liblayer.a"
+        self.archives = [self.archive]  # in the order in which the linker needs them
         self._took_s: dict[str, float] = {}
         self._kills: Counter[tuple[str, str]] = Counter()  # by file that was mutated and path of the test
         self._assembler: dict[str, str] = {}
@@ -57,11 +58,12 @@ class Baseline:
         bench = Bench(self, "original")
         with ThreadPoolExecutor(jobs) as pool:
             problems = [words for words in pool.map(lambda unit: self._compile(unit, bench), sources.units) if words]
+            problems += [words for words in pool.map(self._compile_below, sources.below) if words]
             if not problems:
-                self._make_archive()
+                self._make_archives()
                 problems = [words for words in pool.map(lambda test: self._measure(test, bench), self.tests) if words]
         if problems:
-            raise MutationError("the kernel must pass its tests before it is mutated:\n" + "\n".join(problems))
+            raise MutationError(f"{sources.layer} must pass its tests before it is mutated:\n" + "\n".join(problems))
         self._bench = bench
 
     @property
@@ -136,12 +138,26 @@ class Baseline:
         self.includes[unit.path] = bench.read_includes(depends)
         return ""
 
-    def _make_archive(self) -> None:
-        """All sources in one library, of which the linker takes what a test needs."""
-        objects = [str(self.get_object(unit)) for unit in self.sources.units if not unit.is_test]
-        status, words = _run(("ar", "rcs", str(self.archive), *objects), COMPILE_TIMEOUT_S)
+    def _compile_below(self, unit: Unit) -> str:
+        """What the layer stands on never changes, so it is compiled where it lies."""
+        status, words = _run((COMPILER, *unit.flags, *TEST_FLAGS, "-c", str(self.sources.root / unit.path),
+                              "-o", str(self._get_object_below(unit))), COMPILE_TIMEOUT_S)  # fmt: skip
+        return "" if status == 0 else f"{unit.path}: {words}"
+
+    def _get_object_below(self, unit: Unit) -> Path:
+        return self.folder / "objects" / ("below_" + unit.path.replace("/", "_") + ".o")
+
+    def _make_archives(self) -> None:
+        """All sources in libraries, of which the linker takes what a test needs."""
+        self._make_archive(self.archive, [self.get_object(unit) for unit in self.sources.units if not unit.is_test])
+        if self.sources.below:
+            self.archives.append(self.folder / "libbelow.a")
+            self._make_archive(self.archives[-1], [self._get_object_below(unit) for unit in self.sources.below])
+
+    def _make_archive(self, archive: Path, objects: Sequence[Path]) -> None:
+        status, words = _run(("ar", "rcs", str(archive), *map(str, objects)), COMPILE_TIMEOUT_S)
         if status != 0:
-            raise MutationError(f"the objects of {self.sources.folder} do not go into a library:\n{words}")
+            raise MutationError(f"the objects of {self.sources.layer} do not go into {archive.name}:\n{words}")
 
     def _measure(self, test: Unit, bench: Bench) -> str:
         """Notes what a test links and how long it runs. @return what is wrong with it, or nothing."""
@@ -181,7 +197,7 @@ class Bench:
                      "-o", str(output)), COMPILE_TIMEOUT_S)  # fmt: skip
 
     def check_original(self, test: Unit) -> str:
-        """@return what is wrong with the test of the unchanged kernel, or nothing."""
+        """@return what is wrong with the test of the unchanged layer, or nothing."""
         status, words = self.run_test(test, {}, SLOWEST_TEST_S)
         return "" if status == 0 else f"{test.path}: {words.strip()[-500:] or f'status {status}'}"
 
@@ -209,7 +225,7 @@ class Bench:
         return (*(flag.replace(original, str(self._layer)) for flag in unit.flags), f"-ffile-prefix-map={self.folder}/=")
 
     def trace_link(self, test: Unit) -> set[str]:
-        """@return names of the objects that the test takes from the library of the unchanged kernel."""
+        """@return names of the objects that the test takes from the library of the unchanged layer."""
         _, words = self._link(test, {}, "-Wl,-t,-t")
         return set(re.findall(rf"^\({re.escape(str(self.baseline.archive))}\)(\S+)$", words, re.MULTILINE))
 
@@ -224,12 +240,12 @@ class Bench:
     def _link(self, test: Unit, changed: Mapping[str, Path], *options: str) -> tuple[int, str]:
         own = changed.get(test.path, self.baseline.get_object(test))
         others = [str(path) for name, path in changed.items() if not name.startswith("tests/")]
-        return _run((COMPILER, str(own), *others, str(self.baseline.archive), *LIBRARIES, *options,
+        return _run((COMPILER, str(own), *others, *map(str, self.baseline.archives), *LIBRARIES, *options,
                      "-o", str(self._program(test))), COMPILE_TIMEOUT_S)  # fmt: skip
 
     def _program(self, test: Unit) -> Path:
-        """One for each test: tests of the unchanged kernel run at the same time."""
-        return self.folder / f"{test.stem}.program"
+        """One for each test: tests of the unchanged layer run at the same time."""
+        return self.folder / (test.path.replace("/", "_") + ".program")
 
 
 def _include(unit: Unit, prefix: Path) -> tuple[str, ...]:
