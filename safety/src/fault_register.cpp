@@ -2,18 +2,38 @@
 #include "mamori/safety/fault_register.hpp"
 
 #include "mamori/safety/count_up.hpp"
+#include "mamori/safety/elapsed.hpp"
 
 namespace mamori::safety {
 
-Status FaultRegister::set_confirmation(FaultIndex fault, std::uint32_t confirm_cycles) noexcept {
-    if (fault >= records_.size() || confirm_cycles == 0U) {
+namespace {
+
+/// Nothing is known of the fault yet that another rule could have judged otherwise.
+bool is_untouched(const FaultRecord& record) noexcept {
+    return !record.is_present && record.count == 0U && !record.is_latched;
+}
+
+}  // namespace
+
+Status FaultRegister::set_confirmation(FaultIndex fault, Confirmation confirmation) noexcept {
+    if (fault >= records_.size() || !is_valid(confirmation)) {
         return Status::kBadParameter;
     }
-    FaultRecord& record = records_[fault];
-    if (record.is_present || record.is_latched) {
+    if (!is_untouched(records_[fault])) {
         return Status::kPreconditionNotMet;
     }
-    record.confirm_cycles = confirm_cycles;
+    records_[fault].confirmation = confirmation;
+    return Status::kOk;
+}
+
+Status FaultRegister::set_healing(FaultIndex fault, Healing healing) noexcept {
+    if (fault >= records_.size() || !is_valid(healing)) {
+        return Status::kBadParameter;
+    }
+    if (!is_untouched(records_[fault])) {
+        return Status::kPreconditionNotMet;
+    }
+    records_[fault].healing = healing;
     return Status::kOk;
 }
 
@@ -29,22 +49,60 @@ void FaultRegister::latch(FaultRecord& record, Instant now) noexcept {
     ++latched_count_;
 }
 
-void FaultRegister::report(FaultIndex fault, bool is_present, Instant now) noexcept {
-    FaultRecord& record = records_[fault];
-    record.is_present = is_present;
-    if (!is_present) {
-        record.present_cycles = 0U;
-        return;
+bool FaultRegister::is_to_be_latched(const FaultRecord& record, Instant now) noexcept {
+    const Confirmation& limits = record.confirmation;
+    if (limits.cycles != 0U && record.count >= limits.cycles) {
+        return true;
     }
-    if (record.present_cycles == 0U && !record.is_latched) {
+    const bool is_in_time = now >= record.judged_at && calc_elapsed(record.changed_at, now) < limits.time;
+    return limits.time > Duration{0} && !is_in_time;
+}
+
+void FaultRegister::note_presence(FaultRecord& record, Instant now) noexcept {
+    if (!record.is_present) {
+        record.changed_at = now;
+        record.is_confirmed = false;
+    }
+    if (record.count == 0U && !record.is_latched) {
         record.seen_at = now;
     }
-    if (record.present_cycles < record.confirm_cycles) {
-        ++record.present_cycles;
-        if (record.present_cycles == record.confirm_cycles) {
-            latch(record, now);
-        }
+    record.is_present = true;
+    record.absent_cycles = 0U;
+    count_up(record.count);
+    if (!record.is_confirmed && is_to_be_latched(record, now)) {
+        record.is_confirmed = true;
+        latch(record, now);
     }
+}
+
+void FaultRegister::note_absence(FaultRecord& record, Instant now) noexcept {
+    const bool has_run_backwards = now < record.judged_at;
+    if (record.is_present || has_run_backwards) {
+        record.changed_at = now;
+        record.absent_cycles = 0U;
+    }
+    record.is_present = false;
+    count_up(record.absent_cycles);
+    // A presence that was confirmed is over: what comes next is judged anew.
+    const bool is_all_forgotten = record.is_confirmed || record.confirmation.decay == 0U;
+    const std::uint32_t decay = is_all_forgotten ? record.count : record.confirmation.decay;
+    record.count -= decay < record.count ? decay : record.count;
+    record.is_confirmed = false;
+}
+
+void FaultRegister::report(FaultIndex fault, bool is_present, Instant now) noexcept {
+    FaultRecord& record = records_[fault];
+    if (is_present) {
+        note_presence(record, now);
+    } else {
+        note_absence(record, now);
+    }
+    record.judged_at = now;
+}
+
+bool FaultRegister::has_healed(const FaultRecord& record) noexcept {
+    return !record.is_present && record.absent_cycles >= record.healing.cycles &&
+           calc_elapsed(record.changed_at, record.judged_at) >= record.healing.time;
 }
 
 Status FaultRegister::acknowledge(FaultIndex fault) noexcept {
@@ -52,10 +110,11 @@ Status FaultRegister::acknowledge(FaultIndex fault) noexcept {
         return Status::kBadParameter;
     }
     FaultRecord& record = records_[fault];
-    if (!record.is_latched || record.is_present) {
+    if (!record.is_latched || !has_healed(record)) {
         return Status::kPreconditionNotMet;
     }
     record.is_latched = false;
+    record.count = 0U;
     record.order = 0U;
     --latched_count_;
     if (latched_count_ == 0U) {

@@ -30,7 +30,7 @@ class FaultRegisterTest : public ::testing::Test {
 
 TEST_F(FaultRegisterTest, FaultIsLatchedInTheCycleInWhichItIsConfirmed) {
     verifies("SWR-FLT-001", Technique::kBoundaryValues);
-    ASSERT_EQ(sut_.set_confirmation(1U, 3U), Status::kOk);
+    ASSERT_EQ(sut_.set_confirmation(1U, {3U}), Status::kOk);
     report(1U, true);
     report(1U, true);
     EXPECT_FALSE(sut_.is_latched(1U));
@@ -42,7 +42,7 @@ TEST_F(FaultRegisterTest, FaultIsLatchedInTheCycleInWhichItIsConfirmed) {
 
 TEST_F(FaultRegisterTest, FaultThatIsGoneBeforeItsConfirmationIsNotLatched) {
     verifies("SWR-FLT-001", Technique::kBoundaryValues, Polarity::kViolation);
-    ASSERT_EQ(sut_.set_confirmation(1U, 3U), Status::kOk);
+    ASSERT_EQ(sut_.set_confirmation(1U, {3U}), Status::kOk);
 
     for (int i = 0; i < 100; ++i) {
         report(1U, true);
@@ -64,14 +64,14 @@ TEST_F(FaultRegisterTest, FaultWithoutASetConfirmationIsLatchedAtOnce) {
 TEST_F(FaultRegisterTest, ConfirmationIsRefusedOutOfRangeAndWhileTheFaultIsPresentOrLatched) {
     verifies("SWR-FLT-001", Technique::kInterface, Polarity::kViolation);
 
-    EXPECT_EQ(sut_.set_confirmation(4U, 1U), Status::kBadParameter);
-    EXPECT_EQ(sut_.set_confirmation(0U, 0U), Status::kBadParameter);
-    ASSERT_EQ(sut_.set_confirmation(0U, 2U), Status::kOk);
+    EXPECT_EQ(sut_.set_confirmation(4U, {1U}), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_confirmation(0U, {0U}), Status::kBadParameter);
+    ASSERT_EQ(sut_.set_confirmation(0U, {2U}), Status::kOk);
     report(0U, true);
-    EXPECT_EQ(sut_.set_confirmation(0U, 9U), Status::kPreconditionNotMet) << "present";
+    EXPECT_EQ(sut_.set_confirmation(0U, {9U}), Status::kPreconditionNotMet) << "present";
     report(0U, true);
     report(0U, false);
-    EXPECT_EQ(sut_.set_confirmation(0U, 9U), Status::kPreconditionNotMet) << "latched";
+    EXPECT_EQ(sut_.set_confirmation(0U, {9U}), Status::kPreconditionNotMet) << "latched";
 }
 
 TEST_F(FaultRegisterTest, FaultBeyondTheRegisterGoesToTheAssertionHandler) {
@@ -104,7 +104,7 @@ TEST_F(FaultRegisterTest, OccurrencesAreHeldAtTheLargestNumber) {
 
 TEST_F(FaultRegisterTest, LatchedFaultKeepsTheInstantsOfItsFirstOccurrence) {
     verifies("SWR-FLT-002");
-    ASSERT_EQ(sut_.set_confirmation(0U, 2U), Status::kOk);
+    ASSERT_EQ(sut_.set_confirmation(0U, {2U}), Status::kOk);
     report(0U, false);
     report(0U, true);
     report(0U, true);
@@ -117,7 +117,6 @@ TEST_F(FaultRegisterTest, LatchedFaultKeepsTheInstantsOfItsFirstOccurrence) {
     report(0U, true);
     EXPECT_EQ(sut_.get_record(0U).seen_at, Instant{20});
     EXPECT_EQ(sut_.get_record(0U).latched_at, Instant{30});
-    EXPECT_EQ(sut_.get_record(0U).present_cycles, 2U) << "held at the number that confirms";
     EXPECT_EQ(sut_.get_record(0U).occurrences, 2U) << "a fault that stays is one occurrence";
     EXPECT_EQ(sut_.get_latched_count(), 1U);
 }
@@ -187,7 +186,7 @@ TEST_F(FaultRegisterTest, FaultThatIsStillPresentCannotBeAcknowledged) {
 
 TEST_F(FaultRegisterTest, FaultThatReappearsUnconfirmedStillBlocksItsAcknowledgement) {
     verifies("SWR-FLT-003", Technique::kErrorGuessing, Polarity::kViolation);
-    ASSERT_EQ(sut_.set_confirmation(0U, 3U), Status::kOk);
+    ASSERT_EQ(sut_.set_confirmation(0U, {3U}), Status::kOk);
     report(0U, true);
     report(0U, true);
     report(0U, true);
@@ -210,6 +209,253 @@ TEST_F(FaultRegisterTest, AcknowledgingAllLeavesOnlyThoseThatArePresent) {
     report(1U, false);
     EXPECT_EQ(sut_.acknowledge_all(), Status::kOk);
     EXPECT_EQ(sut_.get_latched_count(), 0U);
+}
+
+// ---- Confirmation by a count that decays -----------------------------------------------------------------
+
+TEST_F(FaultRegisterTest, FaultThatFlickersIsConfirmedWhereItsCountDecaysSlowly) {
+    verifies("SWR-FLT-007");
+    ASSERT_EQ(sut_.set_confirmation(0U, {4U, 1U}), Status::kOk);
+
+    for (const bool is_present : {true, true, false, true, true, false, true}) {  // 1 2 1 2 3 2 3
+        report(0U, is_present);
+        ASSERT_FALSE(sut_.is_latched(0U));
+    }
+    report(0U, true);
+    EXPECT_TRUE(sut_.is_latched(0U));
+    EXPECT_EQ(sut_.get_record(0U).seen_at, Instant{10}) << "the first cycle of what was latched";
+}
+
+TEST_F(FaultRegisterTest, FaultThatDecaysAsFastAsItCountsIsNeverConfirmed) {
+    verifies("SWR-FLT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(0U, {3U, 2U}), Status::kOk);
+
+    for (int i = 0; i < 100; ++i) {
+        report(0U, true);
+        report(0U, true);
+        report(0U, false);
+    }
+    EXPECT_FALSE(sut_.is_latched(0U));
+    EXPECT_EQ(sut_.get_record(0U).count, 0U);
+    report(0U, true);
+    report(0U, false);
+    EXPECT_EQ(sut_.get_record(0U).count, 0U) << "a decay beyond the count ends at 0";
+}
+
+TEST_F(FaultRegisterTest, PresenceThatWasConfirmedLeavesNoCountBehind) {
+    verifies("SWR-FLT-007", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(0U, {3U, 1U}), Status::kOk);
+    for (int i = 0; i < 100; ++i) {
+        report(0U, true);
+    }
+    report(0U, false);
+    EXPECT_EQ(sut_.get_record(0U).count, 0U);
+    report(0U, true);
+    report(0U, false);
+    report(0U, true);
+    report(0U, false);
+
+    EXPECT_EQ(sut_.get_record(0U).occurrences, 1U);
+}
+
+TEST_F(FaultRegisterTest, AcknowledgementLeavesNoCountOfAFlickerBehind) {
+    verifies("SWR-FLT-007", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(0U, {3U, 1U}), Status::kOk);
+    for (const bool is_present : {true, true, true, false, true, true, false}) {
+        report(0U, is_present);
+    }
+    ASSERT_EQ(sut_.get_record(0U).count, 1U);
+    ASSERT_EQ(sut_.acknowledge(0U), Status::kOk);
+
+    report(0U, true);
+    EXPECT_EQ(sut_.get_record(0U).seen_at, now_);
+    EXPECT_EQ(sut_.get_record(0U).count, 1U);
+}
+
+TEST_F(FaultRegisterTest, OrderBeginsAnewWhenNothingIsLatched) {
+    verifies("SWR-FLT-002", Technique::kStateTransition);
+
+    for (int i = 0; i < 3; ++i) {
+        report(1U, true);
+        report(2U, true);
+        EXPECT_EQ(sut_.get_record(1U).order, 1U);
+        EXPECT_EQ(sut_.get_record(2U).order, 2U);
+        report(1U, false);
+        report(2U, false);
+        ASSERT_EQ(sut_.acknowledge_all(), Status::kOk);
+    }
+}
+
+// ---- Confirmation by time
+// ------------------------------------------------------------------------------------
+
+TEST_F(FaultRegisterTest, FaultIsConfirmedWhenItWasThereForItsTime) {
+    verifies("SWR-FLT-008", Technique::kBoundaryValues);
+    ASSERT_EQ(sut_.set_confirmation(0U, {0U, 0U, Duration{100}}), Status::kOk);
+
+    sut_.report(0U, true, Instant{7});
+    sut_.report(0U, true, Instant{106});
+    EXPECT_FALSE(sut_.is_latched(0U));
+    sut_.report(0U, true, Instant{107});
+    EXPECT_TRUE(sut_.is_latched(0U));
+    EXPECT_EQ(sut_.get_record(0U).seen_at, Instant{7});
+    EXPECT_EQ(sut_.get_record(0U).latched_at, Instant{107});
+}
+
+TEST_F(FaultRegisterTest, BreakBeginsTheTimeAnew) {
+    verifies("SWR-FLT-008", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(0U, {0U, 0U, Duration{100}}), Status::kOk);
+
+    sut_.report(0U, true, Instant{0});
+    sut_.report(0U, false, Instant{50});
+    sut_.report(0U, true, Instant{60});
+    sut_.report(0U, true, Instant{159});
+    EXPECT_FALSE(sut_.is_latched(0U));
+    EXPECT_EQ(sut_.get_record(0U).seen_at, Instant{60});
+    sut_.report(0U, true, Instant{160});
+    EXPECT_TRUE(sut_.is_latched(0U));
+}
+
+TEST_F(FaultRegisterTest, FirstOfCountAndTimeConfirms) {
+    verifies("SWR-FLT-008", Technique::kEquivalenceClasses);
+    const Confirmation both{3U, 0U, Duration{100}};
+    ASSERT_EQ(sut_.set_confirmation(0U, both), Status::kOk);
+    ASSERT_EQ(sut_.set_confirmation(1U, both), Status::kOk);
+
+    for (const std::int64_t now : {0, 1, 2}) {
+        sut_.report(0U, true, Instant{now});
+    }
+    sut_.report(1U, true, Instant{0});
+    sut_.report(1U, true, Instant{100});
+    EXPECT_TRUE(sut_.is_latched(0U)) << "by count";
+    EXPECT_TRUE(sut_.is_latched(1U)) << "by time";
+}
+
+TEST_F(FaultRegisterTest, ClockThatRunsBackwardsConfirmsAFaultThatIsJudgedByTime) {
+    verifies("SWR-FLT-008", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(0U, {0U, 0U, Duration{100}}), Status::kOk);
+    ASSERT_EQ(sut_.set_confirmation(1U, {9U}), Status::kOk);
+    for (const FaultIndex fault : {FaultIndex{0U}, FaultIndex{1U}}) {
+        sut_.report(fault, true, Instant{50});
+        sut_.report(fault, true, Instant{60});
+        sut_.report(fault, true, Instant{59});
+    }
+
+    EXPECT_TRUE(sut_.is_latched(0U));
+    EXPECT_FALSE(sut_.is_latched(1U)) << "judged by count";
+}
+
+TEST_F(FaultRegisterTest, TimeHoldsAtTheEndsOfTheTimeLine) {
+    verifies("SWR-FLT-008", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+    ASSERT_EQ(sut_.set_confirmation(0U, {0U, 0U, Duration{kLast}}), Status::kOk);
+
+    sut_.report(0U, true, Instant{0});
+    sut_.report(0U, true, Instant{kLast - 1});
+    EXPECT_FALSE(sut_.is_latched(0U));
+    sut_.report(0U, true, Instant{kLast});
+    EXPECT_TRUE(sut_.is_latched(0U));
+}
+
+TEST_F(FaultRegisterTest, ConfirmationThatCouldNeverConfirmIsRefused) {
+    verifies("SWR-FLT-008", Technique::kEquivalenceClasses, Polarity::kViolation);
+
+    EXPECT_EQ(sut_.set_confirmation(0U, {}), Status::kBadParameter) << "neither count nor time";
+    EXPECT_EQ(sut_.set_confirmation(0U, {0U, 1U, Duration{1}}), Status::kBadParameter) << "decay of no count";
+    EXPECT_EQ(sut_.set_confirmation(0U, {1U, 0U, Duration{-1}}), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_confirmation(0U, {0U, 0U, Duration{-1}}), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_confirmation(0U, {0U, 0U, Duration{1}}), Status::kOk);
+    report(0U, true);
+    EXPECT_FALSE(sut_.is_latched(0U)) << "refused rules left nothing behind";
+}
+
+TEST_F(FaultRegisterTest, RulesOfAFaultThatIsCountedAreKept) {
+    verifies("SWR-FLT-007", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(0U, {3U, 1U}), Status::kOk);
+    report(0U, true);
+    report(0U, true);
+    report(0U, false);
+    ASSERT_EQ(sut_.get_record(0U).count, 1U);
+
+    EXPECT_EQ(sut_.set_confirmation(0U, {9U}), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut_.set_healing(0U, {}), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut_.get_record(0U).confirmation.cycles, 3U);
+}
+
+// ---- Healing
+// -------------------------------------------------------------------------------------------------
+
+TEST_F(FaultRegisterTest, FaultIsAcknowledgedWhenItHasBeenGoneForItsCyclesOnly) {
+    verifies("SWR-FLT-009", Technique::kBoundaryValues);
+    ASSERT_EQ(sut_.set_healing(0U, {3U, Duration{0}}), Status::kOk);
+    report(0U, true);
+
+    report(0U, false);
+    report(0U, false);
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut_.acknowledge_all(), Status::kPreconditionNotMet);
+    report(0U, false);
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kOk);
+}
+
+TEST_F(FaultRegisterTest, FaultIsAcknowledgedWhenItHasBeenGoneForItsTimeOnly) {
+    verifies("SWR-FLT-009", Technique::kBoundaryValues);
+    ASSERT_EQ(sut_.set_healing(0U, {1U, Duration{100}}), Status::kOk);
+    sut_.report(0U, true, Instant{0});
+
+    sut_.report(0U, false, Instant{5});
+    sut_.report(0U, false, Instant{104});
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kPreconditionNotMet);
+    sut_.report(0U, false, Instant{105});
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kOk);
+}
+
+TEST_F(FaultRegisterTest, FaultThatComesBackBeginsItsHealingAnew) {
+    verifies("SWR-FLT-009", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(0U, {2U}), Status::kOk);
+    ASSERT_EQ(sut_.set_healing(0U, {2U, Duration{100}}), Status::kOk);
+    sut_.report(0U, true, Instant{0});
+    sut_.report(0U, true, Instant{10});
+
+    sut_.report(0U, false, Instant{20});
+    sut_.report(0U, true, Instant{119});  // not confirmed, and yet it was there
+    sut_.report(0U, false, Instant{120});
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kPreconditionNotMet);
+    sut_.report(0U, false, Instant{219});
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kPreconditionNotMet);
+    sut_.report(0U, false, Instant{220});
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kOk);
+}
+
+TEST_F(FaultRegisterTest, ClockThatRunsBackwardsLetsNothingHeal) {
+    verifies("SWR-FLT-009", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_healing(0U, {3U, Duration{100}}), Status::kOk);
+    sut_.report(0U, true, Instant{0});
+    sut_.report(0U, false, Instant{100});
+    sut_.report(0U, false, Instant{190});
+    sut_.report(0U, false, Instant{110});
+
+    sut_.report(0U, false, Instant{209});
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kPreconditionNotMet)
+        << "two cycles and 99 ns since the clock ran back";
+    sut_.report(0U, false, Instant{209});
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kPreconditionNotMet) << "three cycles, 99 ns";
+    sut_.report(0U, false, Instant{210});
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kOk);
+}
+
+TEST_F(FaultRegisterTest, HealingOutOfRangeIsRefused) {
+    verifies("SWR-FLT-009", Technique::kEquivalenceClasses, Polarity::kViolation);
+
+    EXPECT_EQ(sut_.set_healing(4U, {}), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_healing(0U, {0U, Duration{0}}), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_healing(0U, {1U, Duration{-1}}), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_healing(3U, {1U, Duration{0}}), Status::kOk);
+    report(0U, true);
+    EXPECT_EQ(sut_.set_healing(0U, {2U, Duration{0}}), Status::kPreconditionNotMet);
+    report(0U, false);
+    EXPECT_EQ(sut_.set_healing(0U, {2U, Duration{0}}), Status::kPreconditionNotMet) << "latched";
+    EXPECT_EQ(sut_.acknowledge(0U), Status::kOk) << "the refused rule is not in force";
 }
 
 }  // namespace

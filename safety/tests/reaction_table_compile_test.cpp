@@ -87,5 +87,39 @@ TEST(ReactionTableCompileTest, RowThatLeavesNoTimeToReactDoesNotCompile) {
     EXPECT_TRUE(names(result, "no time to react")) << result.messages;
 }
 
+TEST(ReactionTableCompileTest, TableWithARowForEveryFaultInEveryModeCompiles) {
+    verifies("SWR-FLT-011");
+
+    EXPECT_EQ(compile("MAMORI_DEFECT_NONE").exit_status, 0);
+}
+
+TEST(ReactionTableCompileTest, ModeInWhichAFaultHasNoReactionIsNamedWithTheFault) {
+    verifies("SWR-FLT-011", Technique::kErrorGuessing, Polarity::kViolation);
+
+    const Compilation result = compile("MAMORI_DEFECT_MODE_WITHOUT_ROW");
+    EXPECT_EQ(result.exit_status, 1) << result.messages;
+    EXPECT_TRUE(names(result, "declared fault without a reaction")) << result.messages;
+    EXPECT_TRUE(names(result, "Fault::kOverspeed, 0")) << result.messages;
+    EXPECT_TRUE(names(result, "Mode::kManual")) << result.messages;
+}
+
+TEST(ReactionTableCompileTest, ModeInWhichAFaultHasTwoReactionsIsNamedWithTheFault) {
+    verifies("SWR-FLT-011", Technique::kErrorGuessing, Polarity::kViolation);
+
+    const Compilation result = compile("MAMORI_DEFECT_MODE_WITH_TWO_ROWS");
+    EXPECT_EQ(result.exit_status, 1) << result.messages;
+    EXPECT_TRUE(names(result, "declared fault with more than one reaction")) << result.messages;
+    EXPECT_TRUE(names(result, "Fault::kOverspeed, 2")) << result.messages;
+    EXPECT_TRUE(names(result, "Mode::kAutomatic")) << result.messages;
+}
+
+TEST(ReactionTableCompileTest, RowOfAnUnknownModeDoesNotCompile) {
+    verifies("SWR-FLT-011", Technique::kBoundaryValues, Polarity::kViolation);
+
+    const Compilation result = compile("MAMORI_DEFECT_UNKNOWN_MODE");
+    EXPECT_EQ(result.exit_status, 1) << result.messages;
+    EXPECT_TRUE(names(result, "with no mode or an unknown one")) << result.messages;
+}
+
 }  // namespace
 }  // namespace mamori::safety

@@ -176,5 +176,68 @@ TEST_F(ReactionTableTest, RowsOfAFaultAreCounted) {
     EXPECT_TRUE((covers_all<kTable, Fault::kCount>()));
 }
 
+// ---- Modes
+// ---------------------------------------------------------------------------------------------------
+
+enum class Mode : std::uint8_t { kAutomatic, kManual, kService, kCount };
+
+constexpr std::array<ReactionRow, 4U> kModeTable{{
+    react_in(to_modes(Mode::kAutomatic), Fault::kNoise, Reaction::kSs1, 10_ms),
+    react_in(to_modes(Mode::kManual, Mode::kService), Fault::kNoise, Reaction::kDegrade, 20_ms),
+    react(Fault::kWarm, Reaction::kSs2, 30_ms),
+    react_in(to_modes(Mode::kService), Fault::kSlip, Reaction::kNone, 5_ms),
+}};
+static_assert(to_modes(Mode::kAutomatic, Mode::kService) == 5U && to_modes() == 0U);
+
+Reaction calc_in(Mode mode, const FaultRegister& faults) {
+    return calc_reaction(kModeTable, faults, static_cast<std::size_t>(mode)).reaction;
+}
+
+TEST_F(ReactionTableTest, ModeDecidesWhichRowAnswers) {
+    verifies("SWR-FLT-010");
+    latch(Fault::kNoise);
+
+    EXPECT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSs1);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kDegrade);
+    EXPECT_EQ(calc_in(Mode::kService, faults_), Reaction::kDegrade);
+    latch(Fault::kWarm);
+    EXPECT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSs1);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSs2) << "the worst of all latched faults";
+}
+
+TEST_F(ReactionTableTest, FaultWithoutARowForTheModeCutsTheTorque) {
+    verifies("SWR-FLT-010", Technique::kFaultInjection, Polarity::kViolation);
+    latch(Fault::kSlip);
+
+    EXPECT_EQ(calc_in(Mode::kService, faults_), Reaction::kNone);
+    EXPECT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSto);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSto);
+}
+
+TEST_F(ReactionTableTest, ModeThatCannotBeCutsTheTorqueForEveryFault) {
+    verifies("SWR-FLT-010", Technique::kBoundaryValues, Polarity::kViolation);
+    latch(Fault::kWarm);
+
+    EXPECT_EQ(calc_reaction(kModeTable, faults_, kSystemModeMax - 1U).reaction, Reaction::kSs2);
+    EXPECT_EQ(calc_reaction(kModeTable, faults_, kSystemModeMax).reaction, Reaction::kSto);
+    EXPECT_EQ(calc_reaction(kModeTable, faults_, static_cast<std::size_t>(-1)).reaction, Reaction::kSto);
+}
+
+TEST_F(ReactionTableTest, RowWithoutAModeOrWithAnUnknownOneIsInvalid) {
+    verifies("SWR-FLT-010", Technique::kBoundaryValues, Polarity::kViolation);
+    std::array<ReactionRow, 1U> table{
+        react_in(to_modes(Mode::kService), Fault::kNoise, Reaction::kSto, 1_ms)};
+
+    EXPECT_TRUE(are_rows_valid(table, 1U, 3U));
+    EXPECT_FALSE(are_rows_valid(table, 1U, 2U)) << "mode 2 of two modes";
+    table[0U].modes = ModeMask{1U} << 31U;
+    EXPECT_TRUE(are_rows_valid(table, 1U, 32U));
+    EXPECT_FALSE(are_rows_valid(table, 1U, 31U));
+    table[0U].modes = 0U;
+    EXPECT_FALSE(are_rows_valid(table, 1U, 3U));
+    table[0U].modes = kEveryMode;
+    EXPECT_TRUE(are_rows_valid(table, 1U, 1U));
+}
+
 }  // namespace
 }  // namespace mamori::safety

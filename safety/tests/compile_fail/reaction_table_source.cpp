@@ -32,4 +32,26 @@ constexpr std::array kReactions{
 
 static_assert(mamori::safety::covers_all<kReactions, Fault::kCount>());
 
+enum class Mode : unsigned char { kAutomatic, kManual, kCount };
+
+constexpr std::array kModeReactions{
+    mamori::safety::react_in(mamori::safety::to_modes(Mode::kAutomatic), Fault::kOverspeed, Reaction::kSs1,
+                             kSoon),
+#ifndef MAMORI_DEFECT_MODE_WITHOUT_ROW
+    mamori::safety::react_in(mamori::safety::to_modes(Mode::kManual), Fault::kOverspeed, Reaction::kSto,
+                             kSoon),
+#endif
+#ifdef MAMORI_DEFECT_MODE_WITH_TWO_ROWS
+    react(Fault::kOverspeed, Reaction::kSto, kSoon),
+#endif
+#ifdef MAMORI_DEFECT_UNKNOWN_MODE
+    mamori::safety::react_in(mamori::safety::to_modes(Mode::kCount), Fault::kOverspeed, Reaction::kSto,
+                             kSoon),
+#endif
+    react(Fault::kEncoderDiscrepancy, Reaction::kSs1, kSoon),
+    react(Fault::kTorqueRunaway, Reaction::kSto, kSoon),
+};
+
+static_assert(mamori::safety::covers_all<kModeReactions, Fault::kCount, Mode::kCount>());
+
 }  // namespace

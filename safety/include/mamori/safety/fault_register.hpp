@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Register of faults: each is confirmed over some cycles, latched, and cleared by a deliberate
-/// acknowledgement once it is gone, never by healing.
+/// Register of faults: each is confirmed by count or by time, latched, and cleared by a deliberate
+/// acknowledgement once it has been gone for long enough, never by healing.
 ///
-/// @satisfies SWR-FLT-001, SWR-FLT-002, SWR-FLT-003      Design: docs/design/faults.md#register
+/// @satisfies SWR-FLT-001, SWR-FLT-002, SWR-FLT-003, SWR-FLT-007, SWR-FLT-008, SWR-FLT-009
+/// Design:   docs/design/faults.md#register
 #ifndef MAMORI_SAFETY_FAULT_REGISTER_HPP
 #define MAMORI_SAFETY_FAULT_REGISTER_HPP
 
@@ -22,15 +23,48 @@ using FaultIndex = std::uint16_t;
 /// "No fault".
 inline constexpr FaultIndex kNoFault = 0xFFFFU;
 
+/// When a fault that is reported as present is believed: at the first of the two that is reached. A fault
+/// needs one of them.
+struct Confirmation {
+    std::uint32_t cycles{0U};  ///< count at which it is latched; 0: not judged by count
+    std::uint32_t decay{0U};   ///< what a cycle without it takes off the count; 0: all of it
+    Duration time{0};          ///< unbroken presence at which it is latched; 0: not judged by time
+};
+
+/// True when the fault can be confirmed at all: by count, or by a time and then without a decay. No time is
+/// negative.
+constexpr bool is_valid(Confirmation confirmation) noexcept {
+    if (confirmation.cycles == 0U) {
+        return confirmation.time > Duration{0} && confirmation.decay == 0U;
+    }
+    return confirmation.time >= Duration{0};
+}
+
+/// How long a latched fault must have been gone, without a break, before it may be acknowledged: both.
+struct Healing {
+    std::uint32_t cycles{1U};  ///< cycles in a row without it, >= 1
+    Duration time{0};          ///< from the first of these to the last, >= 0
+};
+
+/// True when the limits are inside their range.
+constexpr bool is_valid(Healing healing) noexcept {
+    return healing.cycles >= 1U && healing.time >= Duration{0};
+}
+
 /// What is known about one fault; also its storage. Written by FaultRegister only.
 struct FaultRecord {
-    std::uint32_t confirm_cycles{1U};  ///< cycles in a row that the fault must be present to be latched
-    std::uint32_t present_cycles{0U};  ///< cycles in a row that it has been present, held at confirm_cycles
-    std::uint32_t occurrences{0U};     ///< times it was confirmed since start, held at the largest number
-    std::uint32_t order{0U};           ///< rank among the latched faults, 1 = first; 0 while not latched
-    Instant seen_at{};                 ///< first cycle of the presence that was latched
-    Instant latched_at{};              ///< when it was confirmed
+    Confirmation confirmation{1U, 0U, Duration{0}};
+    Healing healing{};
+    std::uint32_t count{0U};          ///< cycles with it less the decay of those without it
+    std::uint32_t absent_cycles{0U};  ///< cycles in a row without it, held at the largest number
+    std::uint32_t occurrences{0U};    ///< times it was confirmed since start, held at the largest number
+    std::uint32_t order{0U};          ///< rank among the latched faults, 1 = first; 0 while not latched
+    Instant changed_at{};             ///< first cycle of the presence, or of the absence, that still lasts
+    Instant judged_at{};              ///< last report
+    Instant seen_at{};                ///< first cycle of what was latched
+    Instant latched_at{};             ///< when it was confirmed
     bool is_present{false};
+    bool is_confirmed{false};  ///< in this presence, so that one presence is one occurrence
     bool is_latched{false};
 };
 
@@ -47,21 +81,29 @@ class FaultRegister final {
         MAMORI_REQUIRE(1, records.size() >= 1U && records.size() <= kNoFault);
     }
 
-    /// Sets the debouncing of a fault; without it a fault is latched in the first cycle.
-    /// @param[in] confirm_cycles cycles in a row, >= 1.
-    /// @return kOk; kBadParameter (fault or cycles out of range); kPreconditionNotMet (fault is present or
-    ///         latched).
-    Status set_confirmation(FaultIndex fault, std::uint32_t confirm_cycles) noexcept;
+    /// Sets when a fault is believed; without it a fault is latched in the first cycle.
+    /// @return kOk; kBadParameter (fault out of range, or nothing that could confirm it); kPreconditionNotMet
+    ///         (fault is present, counted or latched).
+    Status set_confirmation(FaultIndex fault, Confirmation confirmation) noexcept;
 
-    /// Tells whether a fault is present. Call it once per cycle for each fault.
+    /// Sets how long a fault must be gone before it may be acknowledged; without it one cycle.
+    /// @return kOk; kBadParameter (fault or limits out of range); kPreconditionNotMet (fault is present,
+    ///         counted or latched).
+    Status set_healing(FaultIndex fault, Healing healing) noexcept;
+
+    /// Tells whether a fault is present. Call it once per cycle for each fault. A clock that ran backwards
+    /// confirms a fault that is judged by time, and begins the time of healing anew; before the first report
+    /// it stands at 0.
     void report(FaultIndex fault, bool is_present, Instant now) noexcept;
 
-    /// Clears a latched fault that is no longer present. Only for a deliberate act of a person.
-    /// @return kOk; kBadParameter (fault out of range); kPreconditionNotMet (not latched, or still present).
+    /// Clears a latched fault that has healed. Only for a deliberate act of a person.
+    /// @return kOk; kBadParameter (fault out of range); kPreconditionNotMet (not latched, still present, or
+    /// not
+    ///         gone for long enough).
     Status acknowledge(FaultIndex fault) noexcept;
 
-    /// Clears every latched fault that is no longer present.
-    /// @return kOk (no fault is latched now); kPreconditionNotMet (some are still present and stay latched).
+    /// Clears every latched fault that has healed.
+    /// @return kOk (no fault is latched now); kPreconditionNotMet (some have not healed and stay latched).
     Status acknowledge_all() noexcept;
 
     bool is_present(FaultIndex fault) const noexcept { return records_[fault].is_present; }
@@ -77,6 +119,10 @@ class FaultRegister final {
     std::size_t get_capacity() const noexcept { return records_.size(); }
 
   private:
+    static bool is_to_be_latched(const FaultRecord& record, Instant now) noexcept;
+    static bool has_healed(const FaultRecord& record) noexcept;
+    static void note_absence(FaultRecord& record, Instant now) noexcept;
+    void note_presence(FaultRecord& record, Instant now) noexcept;
     void latch(FaultRecord& record, Instant now) noexcept;
 
     Span<FaultRecord> records_;

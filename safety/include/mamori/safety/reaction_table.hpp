@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The table from fault to reaction. A declared fault without a reaction does not compile, and the worst of
-/// all latched faults decides.
+/// The table from fault and mode to reaction. A declared fault without a reaction in one of the modes does
+/// not compile, and the worst of all latched faults decides.
 ///
-/// @satisfies SWR-FLT-004, SWR-FLT-005, SWR-FLT-006      Design: docs/design/faults.md#reactions
+/// @satisfies SWR-FLT-004, SWR-FLT-005, SWR-FLT-006, SWR-FLT-010      Design: docs/design/faults.md#reactions
 #ifndef MAMORI_SAFETY_REACTION_TABLE_HPP
 #define MAMORI_SAFETY_REACTION_TABLE_HPP
 
@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "mamori/kernel/mode_mask.hpp"
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/time.hpp"
 #include "mamori/safety/fault_register.hpp"
@@ -45,11 +46,13 @@ constexpr const char* get_name(Reaction reaction) noexcept {
     return "Invalid";
 }
 
-/// One row: the fault, its reaction, and the time from the confirmed fault to the start of the reaction.
+/// One row: the fault, its reaction, the time from the confirmed fault to the start of the reaction, and the
+/// modes of the system in which it is the answer.
 struct ReactionRow {
     FaultIndex fault{kNoFault};
     Reaction reaction{Reaction::kSto};
     Duration within{0};
+    ModeMask modes{kEveryMode};
 };
 
 /// Writes a row as one reads it: react(Fault::kOverspeed, Reaction::kSs1, 20_ms).
@@ -61,6 +64,21 @@ constexpr ReactionRow react(Fault fault, Reaction reaction, Duration within) noe
     return {static_cast<FaultIndex>(fault), reaction, within};
 }
 
+/// The same for some modes: react_in(to_modes(Mode::kAutomatic, Mode::kManual), Fault::kOverspeed, ...).
+/// @param[in] modes of to_modes(); none is refused by covers_all().
+template <typename Fault>
+constexpr ReactionRow react_in(ModeMask modes, Fault fault, Reaction reaction, Duration within) noexcept {
+    static_assert(std::is_enum_v<Fault>, "faults are the enumerators of one enumeration");
+    return {static_cast<FaultIndex>(fault), reaction, within, modes};
+}
+
+/// @param[in] modes enumerators of the application's modes, each below kSystemModeMax. @return their set.
+template <typename... Mode>
+constexpr ModeMask to_modes(Mode... modes) noexcept {
+    static_assert((std::is_enum_v<Mode> && ...), "modes are the enumerators of one enumeration");
+    return (ModeMask{0U} | ... | to_mask(static_cast<std::size_t>(modes)));
+}
+
 /// What is demanded of the state machine.
 struct ReactionDemand {
     Reaction reaction{Reaction::kNone};
@@ -68,35 +86,47 @@ struct ReactionDemand {
     Duration within{0};
 };
 
+/// @param[in] mode in which the system is; 0 for one without modes.
 /// @return the severest reaction over all latched faults, among equals the shortest time, then the lowest
-///         fault number; Reaction::kSto at once for a latched fault that has no row.
+///         fault number; Reaction::kSto at once for a latched fault that has no row for the mode, and for
+///         every latched fault in a mode that cannot be, from kSystemModeMax on.
 /// Time: O(faults * rows).
-ReactionDemand calc_reaction(Span<const ReactionRow> table, const FaultRegister& faults) noexcept;
+ReactionDemand calc_reaction(Span<const ReactionRow> table, const FaultRegister& faults,
+                             std::size_t mode = 0U) noexcept;
 
-/// @return number of rows of `table` for `fault`.
+/// True when `row` is the answer to `fault` in `mode`.
+constexpr bool answers(const ReactionRow& row, FaultIndex fault, std::size_t mode) noexcept {
+    return row.fault == fault && mode < kSystemModeMax && (row.modes & to_mask(mode)) != 0U;
+}
+
+/// @return number of rows of `table` for `fault` in `mode`.
 template <std::size_t kRowCount>
-constexpr std::size_t count_rows(const std::array<ReactionRow, kRowCount>& table, FaultIndex fault) noexcept {
+constexpr std::size_t count_rows(const std::array<ReactionRow, kRowCount>& table, FaultIndex fault,
+                                 std::size_t mode = 0U) noexcept {
     std::size_t count = 0U;
     for (const ReactionRow& row : table) {
-        count += row.fault == fault ? 1U : 0U;
+        count += answers(row, fault, mode) ? 1U : 0U;
     }
     return count;
 }
 
-/// True when every row names one of the faults 0 .. fault_count - 1 and a time that can be kept.
+/// True when every row names one of the faults 0 .. fault_count - 1, a time that can be kept, and a mode of
+/// the modes 0 .. mode_count - 1. A row for every mode may name more.
 template <std::size_t kRowCount>
-constexpr bool are_rows_valid(const std::array<ReactionRow, kRowCount>& table,
-                              std::size_t fault_count) noexcept {
+constexpr bool are_rows_valid(const std::array<ReactionRow, kRowCount>& table, std::size_t fault_count,
+                              std::size_t mode_count = 1U) noexcept {
+    const ModeMask known = mode_count >= kSystemModeMax ? kEveryMode : to_mask(mode_count) - 1U;
     for (const ReactionRow& row : table) {
-        if (row.fault >= fault_count || row.within <= Duration{0}) {
+        const bool is_of_known_modes = row.modes == kEveryMode || (row.modes & ~known) == 0U;
+        if (row.fault >= fault_count || row.within <= Duration{0} || row.modes == 0U || !is_of_known_modes) {
             return false;
         }
     }
     return true;
 }
 
-/// Fails to compile for a fault that has not exactly one row; the compiler prints the fault.
-template <auto kFault, std::size_t kRows>
+/// Fails to compile for a fault that has not exactly one row in a mode; the compiler prints both.
+template <auto kFault, std::size_t kRows, auto kMode>
 struct FaultHasReaction : std::true_type {
     static_assert(kRows != 0U, "declared fault without a reaction; add react(<fault>, ...) to the table");
     static_assert(kRows <= 1U, "declared fault with more than one reaction; keep one row");
@@ -104,27 +134,44 @@ struct FaultHasReaction : std::true_type {
 
 namespace detail {
 
-template <const auto& kTable, typename Fault, std::size_t... kFaults>
+template <const auto& kTable, auto kMode, typename Fault, std::size_t... kFaults>
 constexpr bool covers(std::index_sequence<kFaults...>) noexcept {
-    return (FaultHasReaction<static_cast<Fault>(kFaults),
-                             count_rows(kTable, static_cast<FaultIndex>(kFaults))>::value &&
-            ...);
+    constexpr auto kModeIndex = static_cast<std::size_t>(kMode);
+    return (
+        FaultHasReaction<static_cast<Fault>(kFaults),
+                         count_rows(kTable, static_cast<FaultIndex>(kFaults), kModeIndex), kMode>::value &&
+        ...);
+}
+
+template <const auto& kTable, typename Mode, typename Fault, std::size_t kFaultCount, std::size_t... kModes>
+constexpr bool covers_modes(std::index_sequence<kModes...>) noexcept {
+    return (covers<kTable, static_cast<Mode>(kModes), Fault>(std::make_index_sequence<kFaultCount>{}) && ...);
 }
 
 }  // namespace detail
 
-/// Proves a reaction table: static_assert(covers_all<kReactions, Fault::kCount>());
-/// @tparam kTable constexpr std::array<ReactionRow, n> of static storage duration.
-/// @tparam kCount enumerator behind the last fault, its value is the number of faults.
+/// Modes of a system that has none.
+enum class OnlyMode : std::uint8_t { kAny, kCount };
+
+/// Proves a reaction table: static_assert(covers_all<kReactions, Fault::kCount, Mode::kCount>());
+/// @tparam kTable     constexpr std::array<ReactionRow, n> of static storage duration.
+/// @tparam kCount     enumerator behind the last fault, its value is the number of faults.
+/// @tparam kModeCount enumerator behind the last mode, 1 .. kSystemModeMax; left out for a system without
+///                    modes.
 /// @return true; every other outcome does not compile.
-template <const auto& kTable, auto kCount>
+template <const auto& kTable, auto kCount, auto kModeCount = OnlyMode::kCount>
 constexpr bool covers_all() noexcept {
     using Fault = decltype(kCount);
+    using Mode = decltype(kModeCount);
     static_assert(std::is_enum_v<Fault>, "faults are the enumerators of one enumeration");
+    static_assert(std::is_enum_v<Mode>, "modes are the enumerators of one enumeration");
     constexpr auto kFaultCount = static_cast<std::size_t>(kCount);
+    constexpr auto kModes = static_cast<std::size_t>(kModeCount);
     static_assert(kFaultCount >= 1U && kFaultCount <= kNoFault, "number of faults is out of range");
-    static_assert(are_rows_valid(kTable, kFaultCount), "row with an unknown fault, or with no time to react");
-    return detail::covers<kTable, Fault>(std::make_index_sequence<kFaultCount>{});
+    static_assert(kModes >= 1U && kModes <= kSystemModeMax, "number of modes is out of range");
+    static_assert(are_rows_valid(kTable, kFaultCount, kModes),
+                  "row with an unknown fault, with no time to react, or with no mode or an unknown one");
+    return detail::covers_modes<kTable, Mode, Fault, kFaultCount>(std::make_index_sequence<kModes>{});
 }
 
 }  // namespace mamori::safety
