@@ -103,6 +103,11 @@ def make_parser(with_trace: bool = False) -> Parser:
     cost.add_argument("--out", type=Path, metavar="DIR")
     cost.add_argument("--check", type=Path, metavar="BASELINE")
     cost.add_argument("--accept", type=Path, metavar="BASELINE")
+    prove = add("prove")
+    prove.add_argument("machine", choices=("safe-state",), metavar="MACHINE")
+    prove.add_argument("--json", action="store_true")
+    prove.add_argument("--out", type=Path, metavar="DIR")
+    prove.add_argument("--defect", metavar="NAME")
     fuzz = add("fuzz")
     fuzz.add_argument("names", nargs="*", metavar="NAME")
     fuzz.add_argument("--seconds", type=at_least_one, default=30, metavar="N")
@@ -147,6 +152,10 @@ def run(argv: list[str]) -> int:
                 mutation.Request(tuple(arguments.files), arguments.sample, arguments.seed, arguments.jobs, arguments.list,
                                  arguments.store)
             )  # fmt: skip
+        case "prove":
+            from mamori.verification.safe_state import command as proving
+
+            return proving.prove_safe_state(proving.Request(arguments.json, arguments.out, arguments.defect, arguments.jobs))
         case "fuzz":
             from mamori.verification.fuzz import command as fuzzing
 

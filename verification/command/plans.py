@@ -99,6 +99,16 @@ def comparison_step() -> Step:
     )
 
 
+def safe_state_step() -> Step:
+    """Properties of the compiled safe-state machine, proved by z3 and spin, and a seeded defect for each."""
+    return Step(
+        name="proofs of the safe-state machine",
+        commands=((*PYTEST, "verification/safe_state"),),
+        needs=(BUILD,),
+        result="proof-safe_state.xml",
+    )
+
+
 HOST_TOOLS = Step(name="tests of the host tools", commands=(PYTEST,), result="python-tools.xml")
 LAYERS = Step(name="layer check", commands=((*PYTHON, "mamori.verification.tools.check_layers"),))
 
@@ -229,6 +239,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         proof_step("scale proof", "scale"),
         benchmark_step(),
         comparison_step(),
+        safe_state_step(),
         build_step(SANITIZED, slow=True),
         ctest_step(SANITIZED, slow=True),
         *race_steps(),

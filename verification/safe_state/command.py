@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`./mamori prove safe-state`: builds the program that prints the step relation, proves, shows, keeps models and result.
+
+@satisfies SWR-FSM-025      Design: docs/design/safe_state.md#the-command-prove
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.profiles.input_error import InputError, nearest_names
+from mamori.profiles.text_file import write_text
+from mamori.verification.command.console import Screen
+from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, StepError, UsageError
+from mamori.verification.command.process import run_logged
+from mamori.verification.command.project import ROOT, Project
+from mamori.verification.safe_state.defects import DEFECTS, Defect
+from mamori.verification.safe_state.machine import merge
+from mamori.verification.safe_state.prove import Result, make_record, prove
+from mamori.verification.safe_state.relation import read_relation, run_program
+
+TARGET = "mamori_safe_state_relation"
+TOOLS = {"z3": "z3", "spin": "spin", "gcc": "gcc"}
+"""Programs, and the Debian packages that bring them."""
+MODELS = ("machine.smt2", "machine.pml")
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the user asked for. `defect`: the property whose seeded defect is tried."""
+
+    json: bool = False
+    out: Path | None = None
+    defect: str | None = None
+    jobs: int = 1
+
+
+def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
+    """@return exit status; 1 when a property is not proved, or when nothing could be proved, which is said on standard error.
+    @raise UsageError for an unknown defect."""
+    defect = choose_defect(request.defect)
+    try:
+        check_tools()
+        text = run_program(_build(project, request.jobs))
+        results, record = _prove(text, defect, request.out or _get_folder(project, defect))
+    except (StepError, InputError) as error:
+        print(f"mamori: prove: {error}", file=sys.stderr)
+        return EXIT_FAILED
+    if request.json:
+        print(record)
+    else:
+        show(results, defect, Screen())
+    return EXIT_OK if all(result.is_proved for result in results) else EXIT_FAILED
+
+
+def choose_defect(name: str | None) -> Defect | None:
+    """@raise UsageError when there is no property of that name."""
+    if name is None:
+        return None
+    known = {defect.breaks: defect for defect in DEFECTS}
+    if name not in known:
+        raise UsageError(f"prove: there is no defect '{name}'; {nearest_names(name, known)}")
+    return known[name]
+
+
+def check_tools() -> None:
+    """@raise StepError naming what is missing, before anything is built."""
+    missing = [name for name in TOOLS if shutil.which(name) is None]
+    if missing:
+        packages = " ".join(TOOLS[name] for name in missing)
+        raise StepError(f"{', '.join(missing)} not found in PATH; install the package(s) {packages} (as root: apt-get install {packages})")
+
+
+def _build(project: Project, jobs: int) -> Path:
+    """@return the program. @raise StepError when it cannot be built."""
+    log = project.logs / "build-prove.log"
+    log.parent.mkdir(parents=True, exist_ok=True)
+    log.write_text("", encoding="utf-8")
+    commands = (("cmake", "-S", str(project.root), "--preset", project.preset),
+                ("cmake", "--build", str(project.build), "--target", TARGET, "--parallel", str(jobs)))  # fmt: skip
+    for command in commands:
+        if run_logged(command, log, project.root, lambda _: None) != 0:
+            raise StepError(f"{TARGET} could not be built; the compiler's words are in {log}")
+    return project.build / "verification" / "safe_state" / TARGET
+
+
+def _get_folder(project: Project, defect: Defect | None) -> Path:
+    """Where the files go. What a defect does is no evidence of the machine."""
+    folder = project.evidence / "safe_state"
+    return folder / "defects" / defect.breaks if defect else folder
+
+
+def _prove(text: str, defect: Defect | None, folder: Path) -> tuple[list[Result], str]:
+    """Writes all files to `folder` when everything is known. @return the results, and the record as JSON."""
+    relation = read_relation(text, Path(TARGET))
+    machine = merge(relation)
+    facts = {"situations": len(relation.labels), "merged_situations": len(machine.labels), "steps": relation.steps,
+             "corrupted_objects": relation.corrupted_objects, "defect": defect.breaks if defect else None}  # fmt: skip
+    with tempfile.TemporaryDirectory(prefix="mamori-prove-") as scratch:
+        results = prove(defect.seed(machine) if defect else machine, Path(scratch))
+        record = json.dumps(make_record(results, facts), indent=1)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise InputError(f"cannot be made: {error.strerror}; name another folder with --out", folder) from error
+        for name in MODELS:
+            write_text(folder / name, (Path(scratch) / name).read_text(encoding="utf-8"))
+    write_text(folder / "relation.json", text)
+    write_text(folder / "proof.json", record + "\n")
+    return results, record
+
+
+def show(results: Sequence[Result], defect: Defect | None, screen: Screen) -> None:
+    """A line per property, the steps of those that do not hold, and a closing line."""
+    if defect is not None:
+        screen.say(f"seeded defect: {defect.sentence}")
+    rows = [(result.property.name, result.property.requirement, result.verdicts.get("z3", "-"), result.verdicts.get("spin", "-"))
+            for result in results]  # fmt: skip
+    screen.print_table(("property", "requirement", "z3", "spin"), rows)
+    for result in results:
+        if not result.is_proved:
+            screen.say()
+            screen.say(f"{result.property.name} does not hold: {result.property.sentence}", style="bold red")
+            for number, line in enumerate(result.steps, start=1):
+                screen.say(f"  {number:2} {line}")
+    proved = sum(result.is_proved for result in results)
+    screen.say(f"{len(results)} properties: {proved} proved, {len(results) - proved} refuted")

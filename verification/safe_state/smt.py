@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The machine as SMT-LIB for z3. Its step is a decision diagram made from the relation; bounds and times are any whole numbers.
+
+@satisfies SWR-FSM-022, SWR-FSM-023      Design: docs/design/safe_state.md#models
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mamori.verification.command.errors import StepError
+from mamori.verification.safe_state.machine import Machine, Past
+from mamori.verification.safe_state.properties import RANKS, Induction, Property
+from mamori.verification.safe_state.relation import INPUTS, LEVELS, VALUES, Array, Label
+
+SORTS = {name: "Bool" if VALUES[name] == LEVELS else "Int" for name in INPUTS}
+PREFIXES = {"demand": "Demand_", "self_test": "Test_", "time": "Time_"}
+WORSENED = ("demand", "self_test", "lock_out")
+PASTS = ("last_start", "last_reset", "has_run")
+MOVING = ("Operational", "Degraded")
+STOPS = ("ProtectiveStopSs2", "ProtectiveStopSs1", "StandstillHold", "Safe")
+TIMEOUT_S = 120.0
+
+
+@dataclass(frozen=True)
+class Query:
+    """Something that must be impossible. `owner`: the property, or "" for what all of them rest on."""
+
+    owner: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Refutation:
+    """A step that breaks the property, as z3 found it. `worse`: the letter beside it, the same where only one is spoken about."""
+
+    situation: int
+    past: Past
+    letter: tuple[int, ...]
+    worse: tuple[int, ...]
+
+
+def write_model(machine: Machine) -> str:
+    """The definitions: the step, what an onlooker sees, and one step with its past."""
+    lines = ["; Generated from the compiled safe-state machine; see docs/design/safe_state.md#models.", "(set-logic ALL)"]
+    lines += [f"(define-fun {name} () Int {number})" for number, name in enumerate(machine.states, start=1)]
+    for name, prefix in PREFIXES.items():
+        lines += [f"(define-fun {prefix}{value} () Int {digit})" for digit, value in enumerate(VALUES[name])]
+    lines += _write_views(machine) + _write_situation(machine)
+    return "\n".join(lines) + "\n"
+
+
+def _write_views(machine: Machine) -> list[str]:
+    """What an onlooker sees, as lists of situations: z3 takes minutes to unfold comparisons of nested choices."""
+
+    def view(name: str, is_seen: Callable[[Label], bool]) -> str:
+        return f"(define-fun {name} ((s Int)) Bool {_is_one_of(is_seen)})"
+
+    def _is_one_of(is_seen: Callable[[Label], bool]) -> str:
+        members = [f"(= s {number})" for number, label in enumerate(machine.labels) if is_seen(label)]
+        return f"(or {' '.join(members)})" if members else "false"
+
+    arrows = sorted({(state, target) for (state, _), target in machine.table.items() if state != target})
+    wanted = [f"(and (= wanted {state}) {_is_one_of(lambda label, state=state: label.is_consistent and label.state == state)})"
+              for state in machine.states]  # fmt: skip
+    return [
+        f"(define-fun state ((s Int)) Int {_choose('s', [label.state for label in machine.labels])})",
+        f"(define-fun rank ((s Int)) Int {_choose('s', [str(RANKS[label.state]) for label in machine.labels])})",
+        view("consistent", lambda label: label.is_consistent),
+        view("torque", lambda label: label.get("torque_enable")),
+        view("brake", lambda label: label.get("brake_release")),
+        view("limit_ss2", lambda label: label.limit == "ss2_within"),
+        view("limit_ss1", lambda label: label.limit == "ss1_within"),
+        view("is_moving", lambda label: label.is_consistent and label.state in MOVING),
+        view("is_stop", lambda label: label.is_consistent and label.state in STOPS),
+        f"(define-fun is ((s Int) (wanted Int)) Bool (or {' '.join(wanted)}))",
+        "(define-fun arrow ((a Int) (b Int)) Bool (or "
+        + " ".join(f"(and (= a {state}) (= b {target}))" for state, target in arrows) + "))",
+    ]  # fmt: skip
+
+
+def _choose(word: str, values: Sequence[str]) -> str:
+    """Nested ite over a number 0 .. count - 1."""
+    text = values[-1]
+    for number in range(len(values) - 2, -1, -1):
+        if values[number] != text:
+            text = f"(ite (= {word} {number}) {values[number]} {text})"
+    return text
+
+
+def _write_step(machine: Machine, result: str, names: Mapping[str, str]) -> list[str]:
+    """The situation after the step from `s`, as the constant `result`: one constant per node of the diagram, the deepest first.
+    `names`: of the inputs. Constants and not functions, which z3 would write out at each place where they are used."""
+    lines: list[str] = []
+    known: dict[tuple[int, bytes], str] = {}
+
+    def make(answers: Array, depth: int) -> str:
+        if (answers == answers.flat[0]).all():
+            return str(int(answers.flat[0]))
+        key = (depth, answers.tobytes())
+        if key not in known:
+            branches = [make(part, depth + 1) for part in answers]
+            name = names[INPUTS[depth]]
+            if all(branch == branches[0] for branch in branches):
+                known[key] = branches[0]
+            else:
+                known[key] = f"{result}{len(lines)}"
+                body = f"(ite {name} {branches[1]} {branches[0]})" if SORTS[INPUTS[depth]] == "Bool" else _choose(name, branches)
+                lines.append(f"(define-fun {known[key]} () Int {body})")
+        return known[key]
+
+    roots = [make(np.ascontiguousarray(answers), 0) for answers in machine.next]
+    return [*lines, f"(define-fun {result} () Int {_choose('s', roots)})"]
+
+
+def _write_situation(machine: Machine) -> list[str]:
+    """One step: its inputs, the same with something worse, the past, and which pasts can be."""
+    known = []
+    for number, pasts in enumerate(machine.pasts):
+        words = [f"(and {' '.join(_literal(*pair) for pair in zip(PASTS, _levels(past), strict=True))})" for past in sorted(pasts)]
+        known.append(f"(or {' '.join(words)})" if words else "false")
+    names = {name: name for name in INPUTS}
+    worse = names | {name: f"worse_{name}" for name in WORSENED}
+    return [
+        "(declare-const s Int)",
+        *(f"(declare-const {name} Bool)" for name in PASTS),
+        *(f"(declare-const {name} {SORTS[name]})" for name in INPUTS),
+        *(f"(declare-const worse_{name} {SORTS[name]})" for name in WORSENED),
+        *(_write_range(name, len(VALUES[name])) for name in PREFIXES),
+        *(_write_range(f"worse_{name}", len(VALUES[name])) for name in WORSENED if SORTS[name] == "Int"),
+        *_write_step(machine, "t", names),
+        *_write_step(machine, "t_worse", worse),
+        f"(define-fun known ((s Int) (last_start Bool) (last_reset Bool) (has_run Bool)) Bool (and (<= 0 s) (< s {len(known)})"
+        f" {_choose('s', known)}))",
+        "(define-fun has_run_t () Bool (and (= (state s) (state t)) (or has_run (= self_test Test_Running))))",
+    ]  # fmt: skip
+
+
+def _write_range(name: str, count: int) -> str:
+    return f"(assert (and (<= 0 {name}) (< {name} {count})))"
+
+
+def _levels(past: Past) -> tuple[bool, bool, bool]:
+    return past.start, past.reset, past.has_run
+
+
+def _literal(name: str, level: bool) -> str:
+    return name if level else f"(not {name})"
+
+
+KNOWN = "(known s last_start last_reset has_run)"
+
+
+def list_history_queries(machine: Machine) -> list[Query]:
+    """What the pasts rest on: power-up has a known one, and each step and each flipped bit leads from known ones to known ones."""
+    return [
+        Query("", f"(assert (not (known {machine.first} true true false)))"),
+        Query("", f"(assert (and {KNOWN} (not (known t start_button reset_button has_run_t))))"),
+        Query("", f"(assert (and {KNOWN} (not (known {machine.corrupted} last_start last_reset has_run))))"),
+    ]
+
+
+def list_queries(machine: Machine, wanted: Property) -> list[Query]:
+    """What must be impossible for the property to hold."""
+    if wanted.induction is not None:
+        return [Query(wanted.name, text) for text in _write_induction(machine, wanted.induction)]
+    return [Query(wanted.name, f"(assert (and {KNOWN} (not {wanted.step})))")] if wanted.step else []
+
+
+COUNTERS = {"age": "Int", "demanded": "Bool", "since_demand": "Int", "unconfirmed": "Bool", "since_stop": "Int"}
+"""Time since the entry into the state; since SS1 was demanded under torque; since an SS2 began whose standstill did not come."""
+
+
+def _write_induction(machine: Machine, induction: Induction) -> list[str]:
+    """Base, step and use of the invariant. A cycle takes 1 to `cycle`; the clock may also jump to either side of the state's time."""
+    ranges = "(and (> ss2_within 0) (> ss1_within 0) (> cycle 0) (<= 1 tick cycle))"
+    after = {name: f"{name}_t" for name in COUNTERS} | {"s": "t_all"}
+    moved = re.sub(r"\b\w+\b", lambda word: after.get(word[0], word[0]), induction.invariant)
+    elapsed = "(+ age tick)"
+
+    def against(bound: str) -> str:
+        return f"(= time (ite (< {elapsed} {bound}) Time_Within (ite (= {elapsed} {bound}) Time_AtBound Time_Beyond)))"
+
+    head = [f"(declare-const {name} {sort})" for name, sort in COUNTERS.items()]
+    head += [f"(declare-const {name} Int)" for name in ("ss2_within", "ss1_within", "cycle", "tick")]
+    head += ["(declare-const flips Bool)", f"(assert {ranges})"]
+    clock = (f"(or (= time Time_BeforeEntry) (= time Time_Beyond) (ite (limit_ss2 s) {against('ss2_within')}"
+             f" (=> (limit_ss1 s) {against('ss1_within')})))")  # fmt: skip
+    step = [
+        f"(define-fun t_all () Int (ite flips {machine.corrupted} t))",
+        f"(assert {clock})",
+        f"(define-fun age_t () Int (ite (= (state s) (state t_all)) {elapsed} 0))",
+        "(define-fun demanded_t () Bool (and (torque t_all) (or demanded (= demand Demand_Ss1))))",
+        "(define-fun since_demand_t () Int (ite demanded (+ since_demand tick) 0))",
+        "(define-fun unconfirmed_t () Bool (and (torque t_all) (or (and unconfirmed (not standstill))"
+        " (and (not (is s ProtectiveStopSs2)) (is t_all ProtectiveStopSs2)))))",
+        "(define-fun since_stop_t () Int (ite unconfirmed (+ since_stop tick) 0))",
+    ]
+    base = [f"(assert (and (= s {machine.first}) (= age 0) (not demanded) (not unconfirmed)))"]
+    return [
+        "\n".join([*head, *base, f"(assert (not {induction.invariant}))"]),
+        "\n".join([*head, *step, f"(assert (and {KNOWN} {induction.invariant} (not {moved})))"]),
+        "\n".join([*head, f"(assert (and {KNOWN} {induction.invariant} (not {induction.claim})))"]),
+    ]
+
+
+def write_file(machine: Machine, queries: Sequence[Query]) -> str:
+    """A file for z3 alone: it answers "unsat" to each query of a machine that has the properties."""
+    return write_model(machine) + "".join(f"(push)\n{query.text}\n(check-sat)\n(pop)\n" for query in queries)
+
+
+def check(machine: Machine, queries: Sequence[Query], folder: Path) -> list[Refutation | None]:
+    """Asks z3. @return for each query nothing, when it is impossible, or how it is possible. @raise StepError when z3 is missing or
+    does not answer."""
+    path = folder / "machine.smt2"
+    path.write_text(write_file(machine, queries), encoding="utf-8")
+    answers = _ask(path).split()
+    if len(answers) != len(queries) or not set(answers) <= {"sat", "unsat"}:
+        raise StepError(f"z3 gave no answer to a query: {' '.join(answers)[:200]}; the queries are in {path}")
+    return [None if answer == "unsat" else _find(machine, query, folder) for answer, query in zip(answers, queries, strict=True)]
+
+
+def _find(machine: Machine, query: Query, folder: Path) -> Refutation:
+    names = ("s", *PASTS, *INPUTS, *(f"worse_{name}" for name in WORSENED))
+    path = folder / "counterexample.smt2"
+    path.write_text(write_model(machine) + f"{query.text}\n(check-sat)\n(get-value ({' '.join(names)}))\n", encoding="utf-8")
+    values = dict(re.findall(r"\((\w+) (true|false|\d+)\)", _ask(path)))
+    numbers = {name: int(text) if text.isdecimal() else int(text == "true") for name, text in values.items()}
+    letter = tuple(numbers[name] for name in INPUTS)
+    worse = tuple(numbers[f"worse_{name}" if name in WORSENED and "t_worse" in query.text else name] for name in INPUTS)
+    return Refutation(numbers["s"], Past(*(bool(numbers[name]) for name in PASTS)), letter, worse)
+
+
+def _ask(path: Path) -> str:
+    try:
+        done = subprocess.run(("z3", str(path)), capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
+    except OSError as error:
+        raise StepError("z3 is missing; install the package z3 (./mamori prove does)") from error
+    except subprocess.TimeoutExpired as error:
+        raise StepError(f"z3 gave no answer in {TIMEOUT_S:.0f} s to {path}") from error
+    if done.returncode != 0 or "(error" in done.stdout:
+        raise StepError(f"z3 refuses {path}: {(done.stdout + done.stderr).strip()[:200]}")
+    return done.stdout
