@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: a slip in the source of the machine reaches the provers: from the C++ to the counterexample nothing is written by hand.
+# Method: a copy of the source with one slip is compiled, explored and judged; what is broken is known beforehand.
+from __future__ import annotations
+
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from mamori.verification.command.project import ROOT
+from mamori.verification.safe_state.machine import merge
+from mamori.verification.safe_state.prove import prove
+from mamori.verification.safe_state.relation import read_relation, run_program
+
+TABLE = "safety/include/mamori/safety/safe_state.hpp"
+EDGE = "safety/include/mamori/safety/rising_edge.hpp"
+MACHINE = "safety/src/safe_state_machine.cpp"
+
+
+@dataclass(frozen=True)
+class Slip:
+    """`right` stands once in `file` and becomes `wrong`; the properties `broken` are refuted then."""
+
+    file: str
+    right: str
+    wrong: str
+    broken: tuple[str, ...]
+
+
+SLIPS = {
+    "cell of the table": Slip(
+        TABLE, "kHold, kHold, kHold,  kStby, kHold,  kHold,   kHold", "kHold, kHold, kHold,  kOper, kHold,  kHold,   kHold",
+        ("stop-never-turns-into-motion",)),
+    "order of two events": Slip(
+        TABLE, "    kSelfTestFailed,       ///< a self test failed, at power-up or later\n"
+        "    kDemandSto,            ///< torque off is demanded\n", "    kDemandSto,\n    kSelfTestFailed,\n",
+        # The columns of the table keep their order: what is called STO locks out, and a failed self test leads to Safe.
+        ("lost-trust-locks-out",)),
+    "level for an edge": Slip(
+        EDGE, "level && !was_high_", "level", ("held-reset-restarts-nothing", "start-needs-an-edge")),
+    "condition of the start": Slip(
+        MACHINE, "inputs.standstill &&\n                   inputs.start_permitted", "inputs.standstill", ("start-is-bumpless",)),
+    "bound": Slip(
+        MACHINE, "is_over(entered_at_, inputs.now, bound) || (is_at_bound && !inputs.standstill)",
+        "is_over(entered_at_, inputs.now, bound) || (is_at_bound && inputs.standstill)",
+        ("ss1-within-its-bound", "ss2-escalates-within-both-bounds")),
+    "result of an earlier self test": Slip(
+        MACHINE, "    has_test_run_ = false;\n", "", ("standby-through-a-fresh-test",)),
+    "corrupted state": Slip(
+        MACHINE, "        enter(SafeState::kLockedOut, inputs.now);\n        return SafeState::kLockedOut;",
+        "        enter(SafeState::kSafe, inputs.now);\n        return SafeState::kSafe;", ("lost-trust-locks-out", "corrupted-state-locks-out")),
+}  # fmt: skip
+
+
+def build_with(slip: Slip, folder: Path) -> Path:
+    """@return the relation program, made from a copy of the source with the slip."""
+    for name in ("include", "src"):
+        shutil.copytree(ROOT / "safety" / name, folder / "safety" / name)
+    path = folder / slip.file
+    text = path.read_text(encoding="utf-8")
+    assert text.count(slip.right) == 1, "the source has changed; adapt the slip"
+    path.write_text(text.replace(slip.right, slip.wrong), encoding="utf-8")
+    program = folder / "relation"
+    sources = [ROOT / "verification/safe_state/src/main.cpp", ROOT / "kernel/src/assert.cpp", *(folder / "safety/src").glob("safe_state*.cpp")]
+    subprocess.run(("g++", "-std=c++17", "-O1", f"-I{folder / 'safety/include'}", f"-I{ROOT / 'kernel/include'}",
+                    *map(str, sources), "-o", str(program)), check=True)  # fmt: skip
+    return program
+
+
+@pytest.mark.verifies("SWR-FSM-023", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize("name", SLIPS)
+def test_slip_in_the_source_is_refuted(tmp_path: Path, name: str) -> None:
+    slip = SLIPS[name]
+    machine = merge(read_relation(run_program(build_with(slip, tmp_path)), tmp_path))
+
+    broken = [result for result in prove(machine, tmp_path) if not result.is_proved]
+
+    assert {result.property.name for result in broken} == set(slip.broken)
+    assert all(result.steps for result in broken)
