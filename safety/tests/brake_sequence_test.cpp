@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: torque holds the machine until its brakes bite wherever there is time for it, and never longer; where
 // torque is to go at once, it goes. Method: both sides of the closing time, with and without contacts, alone
-// and together with the safe-state machine, and long random runs.
+// and together with the safe-state machine.
 #include "mamori/safety/brake_sequence.hpp"
 
-#include <array>
 #include <cstdint>
-#include <random>
 
 #include "mamori/verification/verifies.hpp"
 
@@ -301,49 +299,6 @@ TEST(BrakedMachineTest, StoDoesNotWaitForTheBrakes) {
 
     sut.inputs.demand = Reaction::kSto;
     EXPECT_TRUE(sut.step() == kOff);
-}
-
-/// What a cycle of a random run shall look like.
-void expect_order(const BrakedMachine& sut, StopOutputs outputs, Duration since_hold) {
-    const StopOutputs own = calc_stop_outputs(sut.machine.get_state());
-    const bool is_handing_over = sut.machine.get_state() == SafeState::kStandby && since_hold < kCloses;
-    ASSERT_TRUE(outputs.torque_enable || !outputs.brake_release) << "open brakes without torque";
-    ASSERT_TRUE(!outputs.torque_enable || own.torque_enable || is_handing_over);
-    ASSERT_TRUE(outputs.torque_enable || !own.torque_enable) << "torque is never taken where a stop needs it";
-    ASSERT_TRUE(!outputs.brake_release || own.brake_release);
-    ASSERT_TRUE(outputs.brake_release || !own.brake_release ||
-                sut.machine.get_state() == SafeState::kProtectiveStopSs1);
-}
-
-TEST(BrakedMachineTest, NoRunOpensBrakesWithoutTorqueOrKeepsTorqueWhereItIsToGo) {
-    verifies("SWR-FSM-028", Technique::kStateTransition, Polarity::kViolation);
-    std::mt19937 random{1U};  // NOLINT(cert-msc51-cpp): the same run each time
-    std::array<std::size_t, kSafeStateCount> visits{};
-
-    for (int run = 0; run < 400; ++run) {
-        BrakedMachine sut{Duration{static_cast<std::int64_t>(random() % 50U)}};
-        sut.operate();
-        Instant held_at{};
-        for (int cycle = 0; cycle < 500; ++cycle) {
-            if (random() % 16U == 0U) {
-                sut.inputs.demand = static_cast<Reaction>(random() % 16U < 5U ? random() % 5U : 0U);
-                sut.is_standing = random() % 4U != 0U;
-            }
-            sut.inputs.start_button = random() % 2U == 0U;
-            sut.inputs.reset_button = random() % 2U == 0U;
-            sut.inputs.self_test = random() % 2U == 0U ? SelfTestStatus::kRunning : SelfTestStatus::kPassed;
-            if (sut.machine.get_state() == SafeState::kStandstillHold) {
-                held_at = sut.inputs.now + Duration{1};
-            }
-            const StopOutputs outputs = sut.step();
-            ++visits[static_cast<std::size_t>(sut.machine.get_state()) - 1U];
-            expect_order(sut, outputs, sut.inputs.now - held_at);
-            ASSERT_FALSE(::testing::Test::HasFatalFailure()) << "run " << run << ", cycle " << cycle;
-        }
-    }
-    for (std::size_t i = 0U; i + 1U < kSafeStateCount; ++i) {
-        EXPECT_GT(visits[i], 100U) << get_name(static_cast<SafeState>(i + 1U));
-    }
 }
 
 }  // namespace
