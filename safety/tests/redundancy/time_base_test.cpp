@@ -106,6 +106,16 @@ TEST_F(ClockRatioTest, AcknowledgementBeginsAnew) {
     EXPECT_EQ(step(2000000, 1000000), ClockVerdict::kGood);
 }
 
+TEST_F(ClockRatioTest, LimitsAreInsideTheirRange) {
+    verifies("SWR-RED-011", Technique::kBoundaryValues, Polarity::kViolation);
+
+    EXPECT_TRUE(is_valid(ClockRatioLimits{Duration{1}, 1U}));
+    EXPECT_TRUE(is_valid(ClockRatioLimits{Duration{1}, 999999U}));
+    EXPECT_FALSE(is_valid(ClockRatioLimits{Duration{0}, 1U}));
+    EXPECT_FALSE(is_valid(ClockRatioLimits{Duration{1}, 0U}));
+    EXPECT_FALSE(is_valid(ClockRatioLimits{Duration{1}, 1000000U}));
+}
+
 TEST_F(ClockRatioTest, LimitsOutsideTheirRangeGoToTheAssertionHandler) {
     verifies("SWR-RED-011", Technique::kBoundaryValues, Polarity::kViolation);
 

@@ -33,6 +33,15 @@ TEST(WorseValueTest, EachOrderChoosesItsWorseValue) {
     EXPECT_EQ(choose_worse(2.0, 3.0, static_cast<WorseValue>(77)), 2.0);
 }
 
+TEST(WorseValueTest, LimitsAreInsideTheirRange) {
+    verifies("SWR-RED-003", Technique::kBoundaryValues, Polarity::kViolation);
+
+    EXPECT_TRUE(is_valid(kLimits));
+    EXPECT_TRUE(is_valid({0.0, Duration{0}, WorseValue::kNone}));
+    EXPECT_FALSE(is_valid({-1.0, Duration{0}, WorseValue::kNone}));
+    EXPECT_FALSE(is_valid({0.0, Duration{0}, static_cast<WorseValue>(4)}));
+}
+
 TEST(WorseValueTest, LimitsOutsideTheirRangeGoToTheAssertionHandler) {
     verifies("SWR-RED-003", Technique::kBoundaryValues, Polarity::kViolation);
 
@@ -275,7 +284,7 @@ TEST(ValueVoter2oo3Test, ClockThatRunsBackwardsLosesEveryChannelUntilAcknowledge
     EXPECT_EQ(sut.step({{1.0, 1.0, 1.0}}, Instant{12}).get_status(), Status::kOk);
 }
 
-TEST(ValueVoter2oo3Test, OneChannelThatIsLeftVotesAboutNothing) {
+TEST(ValueVoter2oo3Test, SecondChannelThatDeviatesFailsTheVote) {
     verifies("SWR-RED-006", Technique::kFaultInjection, Polarity::kViolation);
     ValueVoter2oo3 sut({1.0, Duration{1000}, WorseValue::kGreater});
     ASSERT_EQ(sut.step({{50.0, 1.0, 1.0}}, Instant{0}).get_value(), 1.0);
@@ -295,6 +304,15 @@ TEST(DemandVoter2oo3Test, TwoOfThreeDemand) {
         EXPECT_EQ(sut.step(demands, Instant{0}), count >= 2) << bits;
         EXPECT_EQ(sut.get_discrepancy(), Discrepancy::kNone) << "three times yes or no has a majority";
     }
+}
+
+TEST(DemandVoter2oo3Test, VoteThatFailsIsADemand) {
+    verifies("SWR-RED-007", Technique::kFaultInjection, Polarity::kViolation);
+    DemandVoter2oo3 sut(Duration{100});
+    ASSERT_FALSE(sut.step({{false, false, false}}, Instant{1}));
+
+    EXPECT_TRUE(sut.step({{false, false, false}}, Instant{0})) << "the clock ran backwards";
+    EXPECT_TRUE(sut.step({{false, false, false}}, Instant{1}));
 }
 
 TEST(DemandVoter2oo3Test, WithoutALostChannelEitherOfTwoDemands) {

@@ -16,11 +16,9 @@
 #include "mamori/safety/reaction_table.hpp"
 #include "mamori/safety/rising_edge.hpp"
 #include "mamori/safety/safe_state.hpp"
+#include "mamori/safety/self_test_status.hpp"
 
 namespace mamori::safety {
-
-/// Result of the self test as a level.
-enum class SelfTestStatus : std::uint8_t { kRunning, kPassed, kFailed };
 
 /// Longest time from the begin of a stop to its confirmation, both > 0.
 struct StopBounds {

@@ -150,8 +150,10 @@ double ValueVoter<kChannels>::calc_majority(const Ballot& majority) const noexce
 
 template <std::size_t kChannels>
 Result<double> ValueVoter<kChannels>::calc_worst(const Ballot& voting) const noexcept {
-    if (limits_.worse == WorseValue::kNone || voting.count < 2U) {
-        return Status::kError;  // one channel alone votes about nothing
+    // A channel is lost by the majority of the others, and of two that are left neither is.
+    MAMORI_INVARIANT(3, voting.count >= 2U);
+    if (limits_.worse == WorseValue::kNone) {
+        return Status::kError;
     }
     double worst = voting.values[0];
     bool are_finite = true;
