@@ -2,7 +2,7 @@
 /// @file
 /// Result of a self test, as those who run tests give it and the safe-state machine takes it.
 ///
-/// @satisfies SWR-FSM-008      Design: docs/design/safe_state.md#restart
+/// @satisfies SWR-FSM-008, SWR-AOU-001      Design: docs/design/safe_state.md#restart
 #ifndef MAMORI_SAFETY_SELF_TEST_STATUS_HPP
 #define MAMORI_SAFETY_SELF_TEST_STATUS_HPP
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "mamori/safety/self_test/cpu_patterns.hpp"
 #include "mamori/safety/self_test/native_cpu.hpp"
@@ -44,19 +45,19 @@ class CpuCheck final : public SelfTest {
     static bool check(std::size_t step) noexcept {
         switch (step) {
             case 0U:
-                return check_cases<std::uint32_t>(detail::kArithmetic32) &&
-                       check_cases<std::uint32_t>(detail::kWords32) && check_bits<std::uint32_t>();
+                return check_cases<std::uint32_t, detail::kArithmetic32>() &&
+                       check_cases<std::uint32_t, detail::kWords32>() && check_bits<std::uint32_t>();
             case 1U:
-                return check_cases<std::uint64_t>(detail::kArithmetic64) &&
-                       check_cases<std::uint64_t>(detail::kWords64) && check_bits<std::uint64_t>();
+                return check_cases<std::uint64_t, detail::kArithmetic64>() &&
+                       check_cases<std::uint64_t, detail::kWords64>() && check_bits<std::uint64_t>();
             case 2U:
                 return check_order<std::int32_t>(-1, 1) && check_order<std::int64_t>(-1, 1) &&
                        check_order<float>(-1.0F, 1.0F) && check_order<double>(-1.0, 1.0);
             case 3U:
-                return check_cases<float>(detail::kFloatArithmetic) &&
-                       check_cases<double>(detail::kDoubleArithmetic);
+                return check_cases<float, detail::kFloatArithmetic>() &&
+                       check_cases<double, detail::kDoubleArithmetic>();
             case 4U:
-                return check_cases<float>(detail::kFloatMode) && check_cases<double>(detail::kDoubleMode);
+                return check_cases<float, detail::kFloatMode>() && check_cases<double, detail::kDoubleMode>();
             case 5U:
                 return check_not_a_number<float>() && check_not_a_number<double>();
             default:
@@ -64,10 +65,11 @@ class CpuCheck final : public SelfTest {
         }
     }
 
-    template <typename T, typename Operation, typename Bits, std::size_t kCount>
-    static bool check_cases(const std::array<detail::CpuCase<Operation, Bits>, kCount>& cases) noexcept {
+    template <typename T, const auto& kCases>
+    static bool check_cases() noexcept {
+        using Bits = std::decay_t<decltype(kCases[0].result)>;
         Bits difference = 0U;
-        for (const auto& one : cases) {
+        for (const auto& one : kCases) {
             const T result =
                 Cpu::calc(one.operation, __builtin_bit_cast(T, one.a), __builtin_bit_cast(T, one.b));
             difference |= static_cast<Bits>(__builtin_bit_cast(Bits, result) ^ one.result);
