@@ -9,6 +9,11 @@
 
 #include "mamori/safety/assumptions/assumption_checks.hpp"
 #include "mamori/safety/safe_state_machine.hpp"
+#include "mamori/safety/self_test/cpu_check.hpp"
+#include "mamori/safety/self_test/march.hpp"
+#include "mamori/safety/self_test/ram_area.hpp"
+#include "mamori/safety/self_test/region_crc.hpp"
+#include "mamori/safety/self_test/schedule.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -159,6 +164,61 @@ TEST(AllAssumptionsTest, EmptyTableGoesToTheAssertionHandler) {
     verifies("SWR-AOU-001", Technique::kBoundaryValues, Polarity::kViolation);
 
     EXPECT_DEATH(AssumptionMonitor{Span<const AssumptionRow>{}}, "");
+}
+
+/// The whole chain as the manual shows it: real tests, a schedule, a monitor, the safe-state machine.
+class StartTest : public ::testing::Test {
+  protected:
+    StartTest() { g_checks.fill(FakeCheck{}); }
+    /// @return state after a pass of all tests and a push of the start button.
+    SafeState start() {
+        SafeStateInputs inputs;
+        inputs.demand = Reaction::kNone;
+        inputs.faults_cleared = true;
+        inputs.standstill = true;
+        inputs.start_permitted = true;
+        EXPECT_EQ(schedule_.start(Instant{0}, Duration{10}), Status::kOk);
+        for (std::size_t i = 0U; i < schedule_.calc_step_count() + 2U; ++i) {
+            inputs.now = Instant{static_cast<std::int64_t>(i) * 10};
+            inputs.self_test = combine(schedule_.step(inputs.now), monitor_.step(inputs.now));
+            inputs.start_button = machine_.get_state() == SafeState::kStandby;
+            static_cast<void>(machine_.step(inputs));
+        }
+        return machine_.get_state();
+    }
+
+    std::array<std::uint32_t, 8U> memory_{};
+    RamArea reserved_{memory_.data(), memory_.size()};
+    RamMarch<RamArea> march_{reserved_, 50U};
+    std::array<std::byte, 9U> table_{};
+    RegionCrc constants_{{table_.data(), table_.size()}, 0xE60914AEU, 4U};  // CRC-32 of nine zero bytes
+    CpuCheck<NativeCpu> cpu_{};
+    std::array<SelfTest*, 3U> tests_{{&march_, &constants_, &cpu_}};
+    SelfTestSchedule schedule_{{tests_.data(), tests_.size()}, Duration{1000}};
+    AssumptionMonitor monitor_{kAssumptions};
+    SafeStateMachine machine_{{Duration{100}, Duration{100}}};
+};
+
+TEST_F(StartTest, MachineBecomesOperationalWhenEverythingHolds) {
+    verifies("SWR-AOU-001", Technique::kInterface);
+
+    EXPECT_EQ(start(), SafeState::kOperational);
+}
+
+TEST_F(StartTest, MachineWithAChangedConstantDoesNot) {
+    verifies("SWR-AOU-001", Technique::kInterface, Polarity::kViolation);
+    table_[3] = std::byte{1U};
+    EXPECT_EQ(start(), SafeState::kLockedOut);
+    EXPECT_EQ(schedule_.get_failure(), SelfTestFailure::kFault);
+    EXPECT_EQ(schedule_.get_test(), 1U);
+}
+
+TEST_F(StartTest, MachineWhoseWatchdogIsMissingDoesNot) {
+    verifies("SWR-AOU-001", Technique::kInterface, Polarity::kViolation);
+    g_checks[1].answer = SelfTestStatus::kFailed;
+
+    EXPECT_EQ(start(), SafeState::kLockedOut);
+    EXPECT_EQ(std::string(monitor_.get_failed_name()), "watchdog");
 }
 
 TEST(CombineTest, WorstResultCounts) {

@@ -42,6 +42,7 @@ TEST_F(ClockRatioTest, DeviationUpToTheLimitIsGoodInBothDirections) {
     EXPECT_EQ(step(1000000, 1000100), ClockVerdict::kGood);
     EXPECT_EQ(step(2000000, 2000000), ClockVerdict::kGood) << "100 ns too slow in this window";
     EXPECT_EQ(step(4000000, 4000200), ClockVerdict::kGood) << "200 ns in two windows at once";
+    EXPECT_EQ(step(5500000, 5500350), ClockVerdict::kGood) << "150 ns in one and a half";
 }
 
 TEST_F(ClockRatioTest, FastClockIsFound) {
@@ -58,6 +59,13 @@ TEST_F(ClockRatioTest, SlowClockIsFound) {
     ASSERT_EQ(step(1000000, 999950), ClockVerdict::kGood);
 
     EXPECT_EQ(step(2000000, 1999849), ClockVerdict::kViolated);
+}
+
+TEST_F(ClockRatioTest, LimitGrowsWithTheTimeThatPassedAndNoFaster) {
+    verifies("SWR-RED-011", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(step(0, 0), ClockVerdict::kMeasuring);
+
+    EXPECT_EQ(step(1500000, 1500151), ClockVerdict::kViolated);
 }
 
 TEST_F(ClockRatioTest, FrozenClockIsFoundByTheOtherOne) {
@@ -183,6 +191,18 @@ TEST_F(TimeBaseCheckTest, CounterThatGoesBackIsFoundInEitherChannel) {
     ASSERT_EQ(sut_.acknowledge(), Status::kOk);
     ASSERT_EQ(step(5U, 5U), TimeBaseFinding::kNone);
     EXPECT_EQ(step(5U, 4U), TimeBaseFinding::kSteppedBack);
+}
+
+TEST_F(TimeBaseCheckTest, StepOfHalfTheCounterIsOneBack) {
+    verifies("SWR-RED-010", Technique::kBoundaryValues, Polarity::kViolation);
+    TimeBaseCheck sut({1U << 30U, kClocks});
+    ASSERT_EQ(sut.step({0U, {}}, {0x40000000U, {}}), TimeBaseFinding::kNone);
+    ASSERT_EQ(sut.step({0x7FFFFFFFU, {}}, {0x7FFFFFFFU, {}}), TimeBaseFinding::kNone);
+    EXPECT_EQ(sut.step({0xFFFFFFFFU, {}}, {0x80000000U, {}}), TimeBaseFinding::kSteppedBack);
+
+    ASSERT_EQ(sut.acknowledge(), Status::kOk);
+    ASSERT_EQ(sut.step({0U, {}}, {0U, {}}), TimeBaseFinding::kNone);
+    EXPECT_EQ(sut.step({0x7FFFFFFFU, {}}, {0x80000000U, {}}), TimeBaseFinding::kSteppedBack);
 }
 
 TEST_F(TimeBaseCheckTest, FirstStepHasNothingToGoBackFrom) {

@@ -174,6 +174,14 @@ TEST_F(SelfTestScheduleTest, PassThatEndsAtTheIntervalIsInTime) {
     EXPECT_EQ(sut_.get_pass_count(), 2U);
 }
 
+TEST_F(SelfTestScheduleTest, IntervalBeginsWithTheStart) {
+    verifies("SWR-SLF-003", Technique::kBoundaryValues);
+    now_ns_ = 100000;
+    start();
+
+    pass();
+}
+
 TEST_F(SelfTestScheduleTest, PassThatEndsAfterTheIntervalIsAFailure) {
     verifies("SWR-SLF-003", Technique::kBoundaryValues, Polarity::kViolation);
     start();

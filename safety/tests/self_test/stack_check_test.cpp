@@ -74,11 +74,14 @@ TEST_F(StackCheckTest, EachTouchedWordOfTheMarginIsFoundAndNoneAboveIt) {
 
 TEST_F(StackCheckTest, TouchedGuardIsFoundInTheNextStepWhereverThePassIs) {
     verifies("SWR-SLF-010", Technique::kFaultInjection, Polarity::kViolation);
-    sut_.begin();
-    ASSERT_EQ(sut_.step(), SelfTestStatus::kRunning) << "the words of the guard were looked at";
+    for (std::size_t word = 0U; word < kLimits.guard_words; ++word) {
+        sut_.paint(kWords);
+        sut_.begin();
+        ASSERT_EQ(sut_.step(), SelfTestStatus::kRunning) << "the words of the guard were looked at";
 
-    words_[1] = 0U;
-    EXPECT_EQ(sut_.step(), SelfTestStatus::kFailed);
+        words_[word] = 0U;
+        EXPECT_EQ(sut_.step(), SelfTestStatus::kFailed) << word;
+    }
 }
 
 TEST_F(StackCheckTest, StackThatWasNeverPaintedIsFound) {
