@@ -29,6 +29,8 @@ TEST(WorseValueTest, EachOrderChoosesItsWorseValue) {
     EXPECT_EQ(choose_worse(2.0, 1.0, WorseValue::kSmaller), 1.0);
     EXPECT_EQ(choose_worse(-3.0, 2.0, WorseValue::kFurtherFromZero), -3.0);
     EXPECT_EQ(choose_worse(2.0, -3.0, WorseValue::kFurtherFromZero), -3.0);
+    EXPECT_EQ(choose_worse(-3.0, 3.0, WorseValue::kFurtherFromZero), -3.0) << "the first of equals";
+    EXPECT_EQ(choose_worse(3.0, -3.0, WorseValue::kFurtherFromZero), 3.0);
     EXPECT_EQ(choose_worse(2.0, 3.0, WorseValue::kNone), 2.0);
     EXPECT_EQ(choose_worse(2.0, 3.0, static_cast<WorseValue>(77)), 2.0);
 }
@@ -251,6 +253,7 @@ TEST_P(LostChannelTest, TwoThatAreLeftVoteAs1oo2) {
     lose();
 
     EXPECT_EQ(step(50.0, 4.0, 2.0, 110).get_value(), 4.0);
+    EXPECT_EQ(step(50.0, -4.0, -2.0, 110).get_value(), -2.0);
     EXPECT_EQ(step(50.0, kNan, 2.0, 110).get_status(), Status::kError);
     EXPECT_EQ(step(50.0, 2.0, 4.0, 210).get_value(), 4.0);
     EXPECT_EQ(step(50.0, 2.0, 4.0, 211).get_status(), Status::kError);

@@ -23,7 +23,7 @@ namespace mamori::safety {
 /// Check of the processor that calls it. Compiled with the options of the project: fast-math, which takes
 /// not-a-number for impossible, would make it fail.
 ///
-/// Thread safety: none. Time: a step does less than 300 operations. Memory: no heap; tables of 5 KiB.
+/// Thread safety: none. Time: a step does less than 800 operations. Memory: no heap; tables of 5 KiB.
 /// @tparam Cpu how an operation is done; NativeCpu for the real one.
 template <typename Cpu>
 class CpuCheck final : public SelfTest {
