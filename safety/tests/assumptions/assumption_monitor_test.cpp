@@ -149,6 +149,17 @@ TEST(AllAssumptionsTest, HoldAndGoOnBeingLookedAt) {
     }
 }
 
+TEST(AllAssumptionsTest, RowsSayWhatTheyWereGiven) {
+    verifies("SWR-AOU-002");
+    const AssumptionRow row = assume(Assumption::kBudget, "budget", g_checks[4], Duration{300});
+
+    EXPECT_TRUE((checks_all<kAssumptions, Assumption::kCount>()));
+    EXPECT_EQ(row.assumption, 4U);
+    EXPECT_EQ(row.check, &g_checks[4]);
+    EXPECT_EQ(row.within, Duration{300});
+    EXPECT_EQ(std::string(row.name), "budget");
+}
+
 TEST(AllAssumptionsTest, OfSeveralFailuresTheFirstRowIsNamed) {
     verifies("SWR-AOU-001", Technique::kFaultInjection, Polarity::kViolation);
     g_checks.fill(FakeCheck{});

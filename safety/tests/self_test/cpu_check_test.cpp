@@ -199,6 +199,16 @@ TEST_F(CpuCheckTest, SoundProcessorPassesAgainAndAgain) {
     EXPECT_EQ(run_pass<FaultyCpu>(), SelfTestStatus::kPassed) << "no fault is injected";
 }
 
+TEST_F(CpuCheckTest, PowersThatShiftsAreComparedWithAreRight) {
+    verifies("SWR-SLF-008", Technique::kBackToBack);
+    std::array<std::uint64_t, 64U> powers{};
+    powers = detail::make_powers<std::uint64_t>();
+
+    for (std::size_t n = 0U; n < 64U; ++n) {
+        EXPECT_EQ(powers[n], std::uint64_t{1} << n);
+    }
+}
+
 TEST_F(CpuCheckTest, EveryStuckBitOfEveryWordOperationIsFound) {
     verifies("SWR-SLF-008", Technique::kFaultInjection, Polarity::kViolation);
 

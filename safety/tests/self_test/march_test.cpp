@@ -75,6 +75,24 @@ TEST(RamMarchTest, RealMemoryPasses) {
     EXPECT_EQ(words[0], 0x0000FFFFU) << "the last background";
 }
 
+TEST(RamMarchTest, AnyTwoBitsOfAWordDifferInOneBackground) {
+    verifies("SWR-SLF-005", Technique::kRequirementsBased);
+    std::array<std::uint32_t, 6U> backgrounds{};
+    backgrounds = detail::make_backgrounds<std::uint32_t>();
+    ASSERT_EQ(detail::calc_background_count<std::uint8_t>(), 4U);
+    ASSERT_EQ(detail::make_background<std::uint8_t>(0U), 0x00U);
+    ASSERT_EQ(detail::make_background<std::uint8_t>(3U), 0x0FU);
+
+    for (unsigned int a = 0U; a < 32U; ++a) {
+        for (unsigned int b = 0U; b < a; ++b) {
+            EXPECT_TRUE(
+                std::any_of(backgrounds.begin(), backgrounds.end(),
+                            [a, b](std::uint32_t word) { return ((word >> a) & 1U) != ((word >> b) & 1U); }))
+                << a << ' ' << b;
+        }
+    }
+}
+
 TEST(RamMarchTest, TakesTenAccessesPerWordAndBackground) {
     verifies("SWR-SLF-005", Technique::kRequirementsBased);
     constexpr std::size_t kBackgrounds = 4U;  // 00, 55, 33, 0F for eight bits

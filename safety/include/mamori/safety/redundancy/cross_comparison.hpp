@@ -20,19 +20,26 @@ namespace mamori::safety {
 
 namespace detail {
 
+/// True for what can be the tolerance of a T, or stands for "exactly".
+template <typename T>
+constexpr bool is_allowed(T tolerance) noexcept {
+    if constexpr (std::is_floating_point_v<T>) {
+        return is_tolerance(static_cast<double>(tolerance));
+    } else {
+        return tolerance == T{};
+    }
+}
+
 /// Visitor of a payload that holds tolerances.
 struct ToleranceCheck {
     template <typename T>
     constexpr bool run(const T* first, std::size_t count) const noexcept {
-        bool is_good = true;
         for (std::size_t i = 0U; i < count; ++i) {
-            if constexpr (std::is_floating_point_v<T>) {
-                is_good = is_good && is_tolerance(static_cast<double>(first[i]));
-            } else {
-                is_good = is_good && first[i] == T{};
+            if (!is_allowed(first[i])) {
+                return false;
             }
         }
-        return is_good;
+        return true;
     }
     template <typename Sequence>
     constexpr bool open(const Sequence& sequence, std::size_t& count) const noexcept {

@@ -150,18 +150,16 @@ double ValueVoter<kChannels>::calc_majority(const Ballot& majority) const noexce
 
 template <std::size_t kChannels>
 Result<double> ValueVoter<kChannels>::calc_worst(const Ballot& voting) const noexcept {
-    // A channel is lost by the majority of the others, and of two that are left neither is.
-    MAMORI_INVARIANT(3, voting.count >= 2U);
     if (limits_.worse == WorseValue::kNone) {
         return Status::kError;
     }
     double worst = voting.values[0];
-    bool are_finite = true;
+    bool can_vote = voting.count >= 2U;  // always: a channel is lost by a majority, which two cannot lose
     for (std::size_t i = 0U; i < voting.count; ++i) {
-        are_finite = are_finite && agree(voting.values[i], voting.values[i], 0.0);
+        can_vote = can_vote && agree(voting.values[i], voting.values[i], 0.0);
         worst = choose_worse(worst, voting.values[i], limits_.worse);
     }
-    if (!are_finite) {
+    if (!can_vote) {
         return Status::kError;
     }
     return worst;
