@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the first expired entity is known after a reset, and nothing that was spoiled is believed.
+// Method: every single bit of several notes is flipped; values without a meaning; a memory that goes on
+// through several "resets", which are new objects over the same storage.
+#include "mamori/safety/supervision/expiry_memory.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "supervision_rig.hpp"
+
+namespace mamori::safety {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+using Violation = CheckpointViolation;
+
+constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min();
+
+constexpr std::array kEntities{supervise(Only::kEntity)};
+enum class Point : CheckpointIndex { kBegin, kEnd };
+constexpr std::array kCheckpoints{checkpoint(Point::kBegin, Only::kEntity, CheckpointRole::kInitial),
+                                  checkpoint(Point::kEnd, Only::kEntity, CheckpointRole::kFinal)};
+constexpr std::array kEdges{edge(Point::kBegin, Point::kEnd)};
+constexpr SupervisionTable kTable{kEntities, kCheckpoints, {}, {}, kEdges, 1U, 100U};
+
+class ExpiryMemoryTest : public ::testing::Test {
+  protected:
+    void SetUp() override { sut_.clear(); }
+
+    void expect_note(EntityIndex entity, Violation violation, std::int64_t at_ns) {
+        const ExpiryNote note = sut_.read();
+        EXPECT_EQ(note.state, ExpiryState::kEntity);
+        EXPECT_EQ(note.entity, entity);
+        EXPECT_EQ(note.violation, violation);
+        EXPECT_EQ(note.at.ns, at_ns);
+    }
+    void expect_nothing(ExpiryState state) {
+        const ExpiryNote note = sut_.read();
+        EXPECT_EQ(note.state, state);
+        EXPECT_EQ(note.entity, kNoEntity);
+        EXPECT_EQ(note.violation, Violation::kNone);
+        EXPECT_EQ(note.at.ns, 0);
+    }
+    void set_entity(std::uint32_t entity) {
+        storage_.entity = entity;
+        storage_.entity_complement = ~entity;
+    }
+    void set_violation(std::uint32_t violation) {
+        storage_.violation = violation;
+        storage_.violation_complement = ~violation;
+    }
+    /// @return single flipped bits that were not seen.
+    std::size_t count_unseen_flips() {
+        std::array<unsigned char, sizeof(ExpiryStorage)> bytes{};
+        std::memcpy(bytes.data(), &storage_, sizeof(storage_));
+        std::size_t unseen = 0U;
+        for (unsigned char& byte : bytes) {
+            for (unsigned bit = 0U; bit < 8U; ++bit) {
+                byte = static_cast<unsigned char>(byte ^ (1U << bit));
+                std::memcpy(&storage_, bytes.data(), sizeof(storage_));
+                unseen += sut_.read().state == ExpiryState::kCorrupted ? 0U : 1U;
+                byte = static_cast<unsigned char>(byte ^ (1U << bit));
+            }
+        }
+        std::memcpy(&storage_, bytes.data(), sizeof(storage_));
+        return unseen;
+    }
+
+    ExpiryStorage storage_{};
+    ExpiryMemory sut_{storage_};
+};
+
+TEST_F(ExpiryMemoryTest, ClearedMemoryHasNoNote) {
+    verifies("SWR-SUP-036");
+
+    expect_nothing(ExpiryState::kNone);
+}
+
+TEST_F(ExpiryMemoryTest, NoteHasEntityCauseAndTime) {
+    verifies("SWR-SUP-036", Technique::kBoundaryValues);
+
+    ASSERT_EQ(sut_.keep(0U, Violation::kLostReport, Instant{kFirst}), Status::kOk);
+    expect_note(0U, Violation::kLostReport, kFirst);
+    sut_.clear();
+    ASSERT_EQ(sut_.keep(kNoEntity - 1U, Violation::kAlive, Instant{kLast}), Status::kOk);
+    expect_note(kNoEntity - 1U, Violation::kAlive, kLast);
+}
+
+TEST_F(ExpiryMemoryTest, SupervisorNotesTheFirstEntityInTheCycleInWhichItExpires) {
+    verifies("SWR-SUP-036");
+    SupervisionRig<kTable> rig;
+    ASSERT_EQ(rig.step(10), SupervisionStatus::kOk);
+    ASSERT_EQ(rig.memory.read().state, ExpiryState::kNone);
+    rig.report(Point::kEnd, 15);
+    ASSERT_EQ(rig.step(20), SupervisionStatus::kExpired);
+    ASSERT_EQ(rig.step(30), SupervisionStatus::kExpired);
+
+    const ExpiryNote note = ExpiryMemory{rig.expiry}.read();
+    EXPECT_EQ(note.state, ExpiryState::kEntity);
+    EXPECT_EQ(note.entity, 0U);
+    EXPECT_EQ(note.violation, Violation::kOrder);
+    EXPECT_EQ(note.at.ns, 20);
+}
+
+TEST_F(ExpiryMemoryTest, SupervisorNotesOverACorruptedNote) {
+    verifies("SWR-SUP-036", Technique::kFaultInjection, Polarity::kViolation);
+    SupervisionRig<kTable> rig;
+    std::memset(&rig.expiry, 0x5A, sizeof(rig.expiry));
+    ASSERT_EQ(rig.memory.read().state, ExpiryState::kCorrupted);
+    rig.report(Point::kEnd, 15);
+    ASSERT_EQ(rig.step(20), SupervisionStatus::kExpired);
+
+    EXPECT_EQ(rig.memory.read().state, ExpiryState::kEntity);
+}
+
+TEST_F(ExpiryMemoryTest, MemoryThatWasNeverWrittenIsCorrupted) {
+    verifies("SWR-SUP-037", Technique::kErrorGuessing, Polarity::kViolation);
+
+    for (const int byte : {0x00, 0xFF, 0x55, 0xA5}) {
+        std::memset(&storage_, byte, sizeof(storage_));
+        expect_nothing(ExpiryState::kCorrupted);
+    }
+}
+
+TEST_F(ExpiryMemoryTest, EverySingleFlippedBitIsFound) {
+    verifies("SWR-SUP-037", Technique::kFaultInjection, Polarity::kViolation);
+
+    EXPECT_EQ(count_unseen_flips(), 0U) << "of the empty note";
+    for (const std::int64_t at_ns :
+         {kFirst, std::int64_t{-1}, std::int64_t{0}, std::int64_t{123456789}, kLast}) {
+        for (std::uint32_t violation = 1U; violation <= kCheckpointViolationMax; ++violation) {
+            for (const EntityIndex entity : {EntityIndex{0U}, EntityIndex{1U}, EntityIndex{0xFFFEU}}) {
+                sut_.clear();
+                ASSERT_EQ(sut_.keep(entity, static_cast<Violation>(violation), Instant{at_ns}), Status::kOk);
+                ASSERT_EQ(count_unseen_flips(), 0U) << entity << ' ' << violation << ' ' << at_ns;
+                expect_note(entity, static_cast<Violation>(violation), at_ns);
+            }
+        }
+    }
+}
+
+TEST_F(ExpiryMemoryTest, ValuesWithoutAMeaningAreNotBelievedWithTheirComplementEither) {
+    verifies("SWR-SUP-037", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(sut_.keep(3U, Violation::kAlive, Instant{5}), Status::kOk);
+
+    set_violation(0U);
+    expect_nothing(ExpiryState::kCorrupted);
+    set_violation(kCheckpointViolationMax + 1U);
+    expect_nothing(ExpiryState::kCorrupted);
+    set_violation(1U);
+    expect_note(3U, Violation::kLostReport, 5);
+    set_entity(kNoEntity);
+    expect_nothing(ExpiryState::kCorrupted);
+    set_entity(kNoEntity + std::uint32_t{1U});
+    expect_nothing(ExpiryState::kCorrupted);
+}
+
+TEST_F(ExpiryMemoryTest, FirstNoteIsKeptOverResetsUntilItIsCleared) {
+    verifies("SWR-SUP-038", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(sut_.keep(3U, Violation::kAlive, Instant{5}), Status::kOk);
+
+    for (int reset = 0; reset < 3; ++reset) {
+        ExpiryMemory after_reset{storage_};
+        EXPECT_EQ(after_reset.keep(4U, Violation::kOrder, Instant{6}), Status::kPreconditionNotMet);
+        expect_note(3U, Violation::kAlive, 5);
+    }
+}
+
+TEST_F(ExpiryMemoryTest, ClearedMemoryTakesTheNextNote) {
+    verifies("SWR-SUP-038", Technique::kStateTransition);
+    ASSERT_EQ(sut_.keep(3U, Violation::kAlive, Instant{5}), Status::kOk);
+    sut_.clear();
+    expect_nothing(ExpiryState::kNone);
+
+    EXPECT_EQ(sut_.keep(4U, Violation::kOrder, Instant{6}), Status::kOk);
+    expect_note(4U, Violation::kOrder, 6);
+}
+
+TEST_F(ExpiryMemoryTest, NoteWithoutAnEntityOrACauseIsRefused) {
+    verifies("SWR-SUP-038", Technique::kInterface, Polarity::kViolation);
+
+    EXPECT_EQ(sut_.keep(kNoEntity, Violation::kAlive, Instant{5}), Status::kBadParameter);
+    EXPECT_EQ(sut_.keep(0U, Violation::kNone, Instant{5}), Status::kBadParameter);
+    expect_nothing(ExpiryState::kNone);
+}
+
+}  // namespace
+}  // namespace mamori::safety
