@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: too few, too many and badly spread reports are found, and no burst pays for a stall.
 // Method: both sides of each margin, stalls inside and across reference cycles, right and wrong reference
-// cycles in all orders up to the tolerance.
+// cycles at both sides of the tolerance.
 #include <array>
 #include <cstdint>
 #include <initializer_list>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A sound table, and one for each fault that a table can have, in which one row of the sound one is spoiled.
-/// Judged at run time by supervision_check_test.cpp and by the compiler in compile_fail.
+/// Judged at run time by supervision_check_test.cpp, and by the compiler for supervision_compile_test.cpp.
 #ifndef MAMORI_SAFETY_TESTS_SUPERVISION_BROKEN_TABLES_HPP
 #define MAMORI_SAFETY_TESTS_SUPERVISION_BROKEN_TABLES_HPP
 

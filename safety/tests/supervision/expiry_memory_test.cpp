@@ -162,6 +162,16 @@ TEST_F(ExpiryMemoryTest, ValuesWithoutAMeaningAreNotBelievedWithTheirComplementE
     expect_nothing(ExpiryState::kCorrupted);
 }
 
+TEST_F(ExpiryMemoryTest, EachCauseIsBelievedWithItsComplement) {
+    verifies("SWR-SUP-037", Technique::kEquivalenceClasses);
+
+    for (std::uint32_t violation = 1U; violation <= kCheckpointViolationMax; ++violation) {
+        sut_.clear();
+        ASSERT_EQ(sut_.keep(7U, static_cast<Violation>(violation), Instant{-1}), Status::kOk);
+        expect_note(7U, static_cast<Violation>(violation), -1);
+    }
+}
+
 TEST_F(ExpiryMemoryTest, FirstNoteIsKeptOverResetsUntilItIsCleared) {
     verifies("SWR-SUP-038", Technique::kStateTransition, Polarity::kViolation);
     ASSERT_EQ(sut_.keep(3U, Violation::kAlive, Instant{5}), Status::kOk);

@@ -25,7 +25,7 @@ Compilation compile(const std::string& group) {
     const std::string root{MAMORI_SOURCE_FOLDER};
     const std::string command = "LC_ALL=C '" MAMORI_COMPILER "' -std=c++17 -fsyntax-only -Wno-unused -D" +
                                 group + " -I'" + root + "/kernel/include' -I'" + root + "/safety/include' '" +
-                                root + "/safety/tests/compile_fail/supervision_table_source.cpp' 2>&1";
+                                root + "/safety/tests/supervision/broken_tables_source.cpp' 2>&1";
     Compilation result{-1, {}};
     std::FILE* const output = popen(command.c_str(), "r");
     if (output == nullptr) {

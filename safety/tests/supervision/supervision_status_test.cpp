@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: local and global status follow their rules, a mode decides who is supervised, and no change of mode
-// hides an expired entity. Method: both sides of each tolerance, all sequences of mode changes around a
+// hides an expired entity. Method: both sides of each tolerance, changes of mode around each kind of
 // violation.
 #include "mamori/safety/supervision/supervision_status.hpp"
 

@@ -3,9 +3,9 @@
 /// The gate before a watchdog that asks a question: the answer comes out of the supervision itself, link by
 /// link, so that a service that left a part out answers wrong.
 ///
-/// @satisfies SWR-WDG-010, SWR-WDG-011, SWR-WDG-012      Design:
-/// docs/design/supervision.md#challenge-and-response Source:   IEC 61508-2:2010 Table A.10 (watchdog with
-/// separate time base and time window, combined with
+/// @satisfies SWR-WDG-010, SWR-WDG-011, SWR-WDG-012, SWR-WDG-013
+/// Design:   docs/design/supervision.md#challenge-and-response
+/// Source:   IEC 61508-2:2010 Table A.10 (watchdog with separate time base and time window, combined with
 ///           logical monitoring of program sequence)
 #ifndef MAMORI_SAFETY_SUPERVISION_CHALLENGE_GATE_HPP
 #define MAMORI_SAFETY_SUPERVISION_CHALLENGE_GATE_HPP

@@ -3,8 +3,8 @@
 /// Supervises entities by the checkpoints that they report: that each comes often enough and not too often,
 /// in time, and in order; and sums up to the status of the whole. A violation is latched when it is found.
 ///
-/// @satisfies SWR-SUP-020, SWR-SUP-021, SWR-SUP-022, SWR-SUP-023, SWR-SUP-024, SWR-SUP-025, SWR-SUP-026,
-///            SWR-SUP-027, SWR-SUP-028, SWR-SUP-029, SWR-SUP-030, SWR-SUP-031, SWR-SUP-036, SWR-SUP-039
+/// @satisfies SWR-SUP-020, SWR-SUP-021, SWR-SUP-022, SWR-SUP-023, SWR-SUP-024, SWR-SUP-025, SWR-SUP-026
+/// @satisfies SWR-SUP-027, SWR-SUP-028, SWR-SUP-029, SWR-SUP-030, SWR-SUP-031, SWR-SUP-036, SWR-SUP-039
 /// Design:   docs/design/supervision.md#checkpoint-supervision
 /// Source:   AUTOSAR Watchdog Manager, with the departures that the design note lists;
 ///           IEC 61508-2:2010 Table A.10 (combined temporal and logical monitoring of program sequence)
@@ -48,9 +48,8 @@ class CheckpointSupervisor final {
     /// Ends one supervision cycle: judges the reports up to `now` and what did not come, worst first.
     /// @param[in] now by the clock of the reports. One before an earlier call's expires every active entity.
     /// @param[in,out] chain gets a link of each part that has done its work.
-    /// @return kStopped: an entity has been expired for more cycles than tolerated, now or ever. kExpired:
-    /// one
-    ///         is, in whatever mode. kFailed: one has had wrong reference cycles, within its tolerance.
+    /// @return kStopped: an entity was expired for more cycles than tolerated, now or ever. kExpired: one is,
+    ///         in whatever mode. kFailed: one has had wrong reference cycles, within its tolerance. kOk.
     [[nodiscard]] SupervisionStatus step(Instant now, ProofChain& chain) noexcept;
     /// The same where no watchdog asks for an answer.
     [[nodiscard]] SupervisionStatus step(Instant now) noexcept;
@@ -63,8 +62,7 @@ class CheckpointSupervisor final {
 
     /// Takes an expired entity back to kOk, or to kDeactivated when the mode does not want it. Only for a
     /// deliberate reset, with the entity at rest: its next ordered checkpoint must be an initial one.
-    /// @return kOk; kBadParameter (no such entity); kPreconditionNotMet (not expired, or the whole is
-    /// stopped).
+    /// @return kOk; kBadParameter (no such entity); kPreconditionNotMet (not expired, or all is stopped).
     Status acknowledge(EntityIndex entity) noexcept;
 
     /// @return result of the last step(); kFailed before the first.

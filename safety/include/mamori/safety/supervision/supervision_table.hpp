@@ -4,10 +4,9 @@
 /// long it takes from one to another, and in which order they come.
 ///
 ///     constexpr std::array kEntities{supervise(Entity::kControl)};
-///     constexpr std::array kCheckpoints{checkpoint(Point::kRead, Entity::kControl,
-///     CheckpointRole::kInitial),
-///                                       checkpoint(Point::kWrite, Entity::kControl,
-///                                       CheckpointRole::kFinal)};
+///     constexpr std::array kCheckpoints{
+///         checkpoint(Point::kRead, Entity::kControl, CheckpointRole::kInitial),
+///         checkpoint(Point::kWrite, Entity::kControl, CheckpointRole::kFinal)};
 ///     constexpr std::array kAlives{alive(Point::kRead, {1U, 0U, 0U, 1U})};
 ///     constexpr std::array kDeadlines{deadline(Point::kRead, Point::kWrite, {50_us, 400_us})};
 ///     constexpr std::array kEdges{edge(Point::kRead, Point::kWrite)};

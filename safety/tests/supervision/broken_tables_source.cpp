@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled by supervision_compile_test.cpp with a group of broken tables at a time, few enough for a compiler
 // to report all; without a group it compiles.
-#include "../supervision/broken_tables.hpp"
+#include "broken_tables.hpp"
 
 namespace mamori::safety {
 namespace {
