@@ -2,25 +2,6 @@
 #include "mamori/safety/supervision/challenge_gate.hpp"
 
 namespace mamori::safety {
-namespace {
-
-ChallengeOutcome to_challenge(WatchdogOutcome outcome) noexcept {
-    switch (outcome) {
-        case WatchdogOutcome::kServiced:
-            return ChallengeOutcome::kAnswered;
-        case WatchdogOutcome::kHeldBack:
-            return ChallengeOutcome::kHeldBack;
-        case WatchdogOutcome::kRefused:
-            return ChallengeOutcome::kRefused;
-        case WatchdogOutcome::kFailed:
-            return ChallengeOutcome::kFailed;
-        case WatchdogOutcome::kClosed:
-            return ChallengeOutcome::kClosed;
-    }
-    return ChallengeOutcome::kClosed;  // only a corrupted value comes here
-}
-
-}  // namespace
 
 std::uint32_t ChallengeGate::Service::ask(Instant now) noexcept {
     asked_at_ = now;
@@ -60,7 +41,7 @@ ChallengeOutcome ChallengeGate::step(Instant now, GlobalStatus status, bool is_s
         ++wrong_count_;
         return ChallengeOutcome::kWrong;
     }
-    return to_challenge(outcome);
+    return to_challenge_outcome(outcome);
 }
 
 }  // namespace mamori::safety

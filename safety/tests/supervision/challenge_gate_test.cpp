@@ -222,6 +222,17 @@ TEST_F(ChallengeGateTest, DeviceThatDoesNotTakeAnAnswerIsAskedAndAnsweredAgain) 
     EXPECT_EQ(run(1), ChallengeOutcome::kAnswered);
 }
 
+TEST_F(ChallengeGateTest, OutcomesOfTheWindowAreItsOwn) {
+    verifies("SWR-WDG-010", Technique::kEquivalenceClasses, Polarity::kViolation);
+
+    EXPECT_EQ(to_challenge_outcome(WatchdogOutcome::kServiced), ChallengeOutcome::kAnswered);
+    EXPECT_EQ(to_challenge_outcome(WatchdogOutcome::kHeldBack), ChallengeOutcome::kHeldBack);
+    EXPECT_EQ(to_challenge_outcome(WatchdogOutcome::kRefused), ChallengeOutcome::kRefused);
+    EXPECT_EQ(to_challenge_outcome(WatchdogOutcome::kFailed), ChallengeOutcome::kFailed);
+    EXPECT_EQ(to_challenge_outcome(WatchdogOutcome::kClosed), ChallengeOutcome::kClosed);
+    EXPECT_EQ(to_challenge_outcome(static_cast<WatchdogOutcome>(77)), ChallengeOutcome::kClosed);
+}
+
 TEST_F(ChallengeGateTest, WrongAnswerClosesTheGateForGood) {
     verifies("SWR-WDG-011", Technique::kFaultInjection, Polarity::kViolation);
 

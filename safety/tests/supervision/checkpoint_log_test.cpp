@@ -62,6 +62,19 @@ TEST(CheckpointLogTest, LostReportExpires) {
     EXPECT_EQ(rig.sut.get_violation(0U), Violation::kNone) << "the other one is not to blame";
 }
 
+TEST(CheckpointLogTest, LaterLossDoesNotReplaceTheFirstViolation) {
+    verifies("SWR-SUP-025", Technique::kStateTransition, Polarity::kViolation);
+    Rig rig;
+    rig.report_as(Entity::kLeft, Point::kEnd, 0);
+    ASSERT_EQ(rig.step(0), SupervisionStatus::kExpired);
+    for (std::size_t i = 0U; i < 2U * kPendingCheckpointsMax; ++i) {
+        rig.report_as(Entity::kLeft, Point::kBegin, 0);
+    }
+
+    ASSERT_EQ(rig.step(-1), SupervisionStatus::kExpired);
+    EXPECT_EQ(rig.get_violation(), Violation::kOrder) << "neither the loss nor the clock";
+}
+
 TEST(CheckpointLogTest, CountOfLostReportsThatRunsRoundIsALossToo) {
     verifies("SWR-SUP-031", Technique::kBoundaryValues, Polarity::kViolation);
     Rig rig;

@@ -117,6 +117,17 @@ TEST(SupervisionCheckTest, RowsThatAreListedTwiceAreFound) {
     expect(broken::kEdgeTwice, Fault::kEdgeTwice, 2U, 1U);
 }
 
+TEST(SupervisionCheckTest, SeveralRowsOfOneCheckpointAreTaken) {
+    verifies("SWR-SUP-033", Technique::kEquivalenceClasses);
+    const std::array deadlines{deadline(Point::kRead, Point::kCompute, broken::kLimits),
+                               deadline(Point::kRead, Point::kWrite, broken::kLimits),
+                               deadline(Point::kCompute, Point::kWrite, broken::kLimits)};
+    SupervisionTable table = broken::kSound;
+    table.deadlines = deadlines;
+
+    expect(table, Fault::kNone);
+}
+
 TEST(SupervisionCheckTest, RowsThatJoinTwoEntitiesAreFound) {
     verifies("SWR-SUP-033", Technique::kErrorGuessing, Polarity::kViolation);
 
@@ -235,8 +246,11 @@ TEST(SupervisionCheckTest, DeadlinesThatALegalSequenceBreaksAreFound) {
 
 TEST(SupervisionCheckTest, MoreCheckpointsThanThereIsRoomForGoToTheAssertionHandler) {
     verifies("SWR-SUP-035", Technique::kInterface, Polarity::kViolation);
+    const std::array<CheckpointRow, kCheckpointMax + 1U> checkpoints{};
+    SupervisionTable table = broken::kSound;
+    table.checkpoints = checkpoints;
 
-    EXPECT_DEATH(static_cast<void>(find_fault<3U>(broken::kSound)), "");
+    EXPECT_DEATH(static_cast<void>(find_fault<kCheckpointMax>(table)), "");
 }
 
 }  // namespace

@@ -45,6 +45,23 @@ enum class ChallengeOutcome : std::uint8_t {
     kClosed,    ///< too many wrong answers, a missed window or a clock that ran backwards: none from here on
 };
 
+/// The same as the gate of the window says it.
+constexpr ChallengeOutcome to_challenge_outcome(WatchdogOutcome outcome) noexcept {
+    switch (outcome) {
+        case WatchdogOutcome::kServiced:
+            return ChallengeOutcome::kAnswered;
+        case WatchdogOutcome::kHeldBack:
+            return ChallengeOutcome::kHeldBack;
+        case WatchdogOutcome::kRefused:
+            return ChallengeOutcome::kRefused;
+        case WatchdogOutcome::kFailed:
+            return ChallengeOutcome::kFailed;
+        case WatchdogOutcome::kClosed:
+            return ChallengeOutcome::kClosed;
+    }
+    return ChallengeOutcome::kClosed;  // only a corrupted value comes here
+}
+
 /// Answers a watchdog on proven health, once for each question that it asked for:
 ///
 ///     ProofChain chain{gate.ask(now)};
