@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the first expired entity is known after a reset, and nothing that was spoiled is believed.
 // Method: every single bit of several notes is flipped; values without a meaning; a memory that goes on
-// through several "resets", which are new objects over the same storage.
+// through several "resets", which are new objects over the same storage; a write that is cut off behind each
+// of its instructions.
 #include "mamori/safety/supervision/expiry_memory.hpp"
 
+#include <sys/mman.h>
+#include <sys/ptrace.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <array>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 #include "supervision_rig.hpp"
 
@@ -170,6 +178,84 @@ TEST_F(ExpiryMemoryTest, EachCauseIsBelievedWithItsComplement) {
         ASSERT_EQ(sut_.keep(7U, static_cast<Violation>(violation), Instant{-1}), Status::kOk);
         expect_note(7U, static_cast<Violation>(violation), -1);
     }
+}
+
+/// A storage that two processes share.
+class SharedStorage final {
+  public:
+    SharedStorage()
+        : memory_(mmap(nullptr, sizeof(ExpiryStorage), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1,
+                       0)) {}
+    ~SharedStorage() { munmap(memory_, sizeof(ExpiryStorage)); }
+    SharedStorage(const SharedStorage&) = delete;
+    SharedStorage& operator=(const SharedStorage&) = delete;
+    bool is_open() const { return memory_ != MAP_FAILED; }
+    ExpiryStorage& get() const { return *static_cast<ExpiryStorage*>(memory_); }
+
+  private:
+    void* memory_;
+};
+
+/// What was read behind the instructions of another process, in the order of its first occurrence.
+struct Readings {
+    std::vector<ExpiryNote> notes{};
+    bool is_complete{false};  ///< the process came to its end under our eyes
+};
+
+bool is_same(const ExpiryNote& a, const ExpiryNote& b) {
+    return a.state == b.state && a.entity == b.entity && a.violation == b.violation && a.at == b.at;
+}
+
+/// Runs `write` in a process of its own, instruction by instruction, and reads the storage behind each.
+template <typename Write>
+Readings read_behind_each_instruction(const ExpiryMemory& memory, Write write) {
+    Readings readings;
+    const pid_t child = fork();
+    if (child == 0) {
+        ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+        raise(SIGSTOP);
+        write();
+        _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    while (WIFSTOPPED(status)) {
+        const ExpiryNote note = memory.read();
+        if (readings.notes.empty() || !is_same(readings.notes.back(), note)) {
+            readings.notes.push_back(note);
+        }
+        if (ptrace(PTRACE_SINGLESTEP, child, nullptr, nullptr) != 0) {
+            kill(child, SIGKILL);  // nobody would go on with it
+        }
+        waitpid(child, &status, 0);
+    }
+    readings.is_complete = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return readings;
+}
+
+TEST_F(ExpiryMemoryTest, WriteThatIsCutOffBehindAnyInstructionLeavesOldNoteNewNoteOrCorruption) {
+    verifies("SWR-SUP-037", Technique::kFaultInjection, Polarity::kViolation);
+    SharedStorage shared;
+    ASSERT_TRUE(shared.is_open());
+    ExpiryMemory memory{shared.get()};
+    memory.clear();
+    const ExpiryNote none = memory.read();
+
+    const Readings kept = read_behind_each_instruction(
+        memory, [&memory] { static_cast<void>(memory.keep(3U, Violation::kAlive, Instant{5})); });
+    if (!kept.is_complete) {
+        GTEST_SKIP() << "this machine lets no process be traced";
+    }
+    ASSERT_EQ(kept.notes.size(), 3U);
+    EXPECT_TRUE(is_same(kept.notes[0], none));
+    EXPECT_TRUE(is_same(kept.notes[1], ExpiryNote{}));
+    EXPECT_TRUE(is_same(kept.notes[2], {ExpiryState::kEntity, 3U, Violation::kAlive, Instant{5}}));
+
+    const Readings cleared = read_behind_each_instruction(memory, [&memory] { memory.clear(); });
+    ASSERT_EQ(cleared.notes.size(), 3U);
+    EXPECT_TRUE(is_same(cleared.notes[0], kept.notes[2]));
+    EXPECT_TRUE(is_same(cleared.notes[1], ExpiryNote{}));
+    EXPECT_TRUE(is_same(cleared.notes[2], none));
 }
 
 TEST_F(ExpiryMemoryTest, FirstNoteIsKeptOverResetsUntilItIsCleared) {
