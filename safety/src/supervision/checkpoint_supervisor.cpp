@@ -192,13 +192,11 @@ bool CheckpointSupervisor::judge_running(std::size_t row, Instant now) noexcept 
 void CheckpointSupervisor::form_status(EntityIndex entity, Instant now) noexcept {
     EntityState& state = entities_[entity];
     if (state.violation != CheckpointViolation::kNone) {
-        if (state.status != EntityStatus::kExpired) {
-            state.status = EntityStatus::kExpired;
-            if (first_expired_ == kNoEntity) {
-                first_expired_ = entity;
-                // An older note that nobody has read yet stays: it tells of what came first.
-                static_cast<void>(memory_.keep(entity, state.violation, now));
-            }
+        state.status = EntityStatus::kExpired;
+        if (first_expired_ == kNoEntity) {
+            first_expired_ = entity;
+            // An older note that nobody has read yet stays: it tells of what came first.
+            static_cast<void>(memory_.keep(entity, state.violation, now));
         }
         return;
     }
@@ -270,7 +268,6 @@ void CheckpointSupervisor::rest(EntityIndex entity) noexcept {
     EntityState& state = entities_[entity];
     state.is_run_begun = false;
     state.has_reported = false;
-    state.is_report_early = false;
     for (std::size_t i = 0U; i < alives_.size(); ++i) {
         if (get_owner(table_.alives[i].checkpoint) == entity) {
             const std::uint32_t failed_cycles = alives_[i].failed_cycles;

@@ -145,18 +145,48 @@ TEST_F(ChallengeGateTest, SoundCycleGivesTheRightAnswerInEachMode) {
     EXPECT_EQ(run(100), ChallengeOutcome::kAnswered);
 }
 
-TEST_F(ChallengeGateTest, FailedPartsGiveAWrongAnswer) {
+/// Deviations in the order of the links: reports, alives, deadline, entities, whole.
+using Deviations = std::array<std::uint8_t, 8U>;
+
+TEST_F(ChallengeGateTest, EachPartThatFoundSomethingDeviates) {
     verifies("SWR-SUP-039", Technique::kFaultInjection, Polarity::kViolation);
-    const auto is_right = [this](std::int64_t at_ns) {
-        ProofChain chain{7U};
+    const auto expect_step = [this](std::int64_t at_ns, const Deviations& deviations) {
+        ProofChain chain{12345U};
         static_cast<void>(rig_.sut.step(Instant{at_ns}, chain));
-        return chain.get_value() == calc_sound_answer(kTable, 7U);
+        ProofChain expected{12345U};
+        const std::vector<Link> links = make_sound_links();
+        for (std::size_t i = 0U; i < links.size(); ++i) {
+            expected.add(links[i].first, links[i].second, deviations[i]);
+        }
+        EXPECT_EQ(chain.get_value(), expected.get_value()) << at_ns;
+        EXPECT_EQ(chain.get_value() == calc_sound_answer(kTable, 12345U), deviations == Deviations{});
     };
     rig_.report_as(Entity::kControl, Point::kRead, 0);
-    EXPECT_TRUE(is_right(0));
-    EXPECT_FALSE(is_right(10)) << "failed: a silent cycle";
-    EXPECT_FALSE(is_right(60)) << "expired: a time that is over";
-    EXPECT_FALSE(is_right(70)) << "still";
+    expect_step(0, {});
+    expect_step(10, {0U, 0U, 1U, 0U, 0U, 1U, 0U, 1U});  // failed: a silent cycle
+    rig_.report_as(Entity::kControl, Point::kWrite, 15);
+    rig_.report_as(Entity::kControl, Point::kRead, 15);
+    expect_step(20, {});
+    expect_step(66, {0U, 0U, 1U, 0U, 1U, 1U, 0U, 1U});  // expired: a time that is over
+    expect_step(70, {1U, 0U, 1U, 0U, 1U, 1U, 0U, 1U});  // still, and nothing of it is judged any more
+}
+
+TEST_F(ChallengeGateTest, ReportThatIsWrongDeviatesInTheSameCycle) {
+    verifies("SWR-SUP-039", Technique::kFaultInjection, Polarity::kViolation);
+    ProofChain chain{12345U};
+    ProofChain expected{12345U};
+    rig_.report_as(Entity::kControl, Point::kWrite, 0);
+    static_cast<void>(rig_.sut.step(Instant{0}, chain));
+    expected.add(ProofLink::kReports, 0U, 1U);
+    expected.add(ProofLink::kReports, 1U);
+    expected.add(ProofLink::kAlive, 0U, 1U);
+    expected.add(ProofLink::kAlive, 1U);
+    expected.add(ProofLink::kDeadline, 0U, 1U);
+    expected.add(ProofLink::kEntity, 0U, 1U);
+    expected.add(ProofLink::kEntity, 1U);
+    expected.add(ProofLink::kWhole, 0U, 1U);
+
+    EXPECT_EQ(chain.get_value(), expected.get_value());
 }
 
 TEST_F(ChallengeGateTest, HealthyCyclesAreAnsweredAndCounted) {
@@ -253,6 +283,9 @@ TEST_F(ChallengeGateTest, WrongAnswersUpToTheToleranceAreCountedAndTheNextOneClo
     EXPECT_EQ(step(0, 1U), ChallengeOutcome::kWrong);
     EXPECT_EQ(step(1, calc_sound_answer(kTable, watchdog_.question)), ChallengeOutcome::kAnswered);
     EXPECT_EQ(step(2, 1U), ChallengeOutcome::kWrong) << "a right answer takes none back";
+    static_cast<void>(gate.ask(Instant{3}));
+    EXPECT_EQ(gate.step(Instant{3}, GlobalStatus::kFailed, true, 1U), ChallengeOutcome::kRefused);
+    EXPECT_EQ(gate.get_wrong_count(), 2U) << "one that was not given is not wrong";
     EXPECT_FALSE(gate.is_closed());
 
     EXPECT_EQ(step(3, 1U), ChallengeOutcome::kWrong);

@@ -399,7 +399,9 @@ TEST(CheckpointClockTest, ReportOfATimeThatDoesNotComeExpires) {
     EXPECT_EQ(rig.get_violation(), Violation::kClock);
     ASSERT_EQ(rig.step(30), SupervisionStatus::kExpired);
     ASSERT_EQ(rig.sut.acknowledge(0U), Status::kOk);
-    EXPECT_EQ(rig.step(40), SupervisionStatus::kOk) << "and does not block the reports behind it";
+    for (std::int64_t cycle = 40; cycle < 80; cycle += 10) {
+        EXPECT_EQ(rig.step(cycle), SupervisionStatus::kOk) << "it does not block the reports behind it";
+    }
 }
 
 }  // namespace

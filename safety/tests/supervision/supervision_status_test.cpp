@@ -122,6 +122,16 @@ TEST_F(SupervisionStatusTest, StoppedIsForGood) {
     EXPECT_EQ(get_control(), EntityStatus::kExpired);
 }
 
+TEST_F(SupervisionStatusTest, StoppedOutlivesASpoiledLocalStatus) {
+    verifies("SWR-SUP-028", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(step(), SupervisionStatus::kExpired);
+    ASSERT_EQ(step(), SupervisionStatus::kExpired);
+    ASSERT_EQ(step(), SupervisionStatus::kStopped);
+    rig_.storage.entities[0].violation = Violation::kNone;
+
+    EXPECT_EQ(step_with_control(), SupervisionStatus::kStopped);
+}
+
 TEST_F(SupervisionStatusTest, AcknowledgementInTimeStartsTheToleranceAnew) {
     verifies("SWR-SUP-028", Technique::kStateTransition);
     ASSERT_EQ(step(), SupervisionStatus::kExpired);
@@ -193,6 +203,16 @@ TEST_F(SupervisionStatusTest, ReportsOfADeactivatedEntityAreIgnored) {
     EXPECT_EQ(get_planner(), EntityStatus::kDeactivated);
 }
 
+TEST_F(SupervisionStatusTest, ReportOfATimeToComeOfADeactivatedEntityIsIgnored) {
+    verifies("SWR-SUP-029", Technique::kErrorGuessing);
+    rig_.report_as(Entity::kPlanner, Point::kPlan, 1000000);
+
+    for (int cycle = 0; cycle < 10; ++cycle) {
+        ASSERT_EQ(step_with_control(), SupervisionStatus::kOk);
+    }
+    EXPECT_EQ(get_planner(), EntityStatus::kDeactivated);
+}
+
 TEST_F(SupervisionStatusTest, ActivatedEntityIsSupervisedFromThenOn) {
     verifies("SWR-SUP-029", Technique::kStateTransition, Polarity::kViolation);
     ASSERT_EQ(step_with_control(), SupervisionStatus::kOk);
@@ -215,6 +235,25 @@ TEST_F(SupervisionStatusTest, EntityThatIsLeftInMidRunBeginsAnew) {
     set_mode(kWork);
 
     EXPECT_EQ(step_with_both(), SupervisionStatus::kOk);
+}
+
+TEST_F(SupervisionStatusTest, EntityThatBothModesWantIsNotDisturbed) {
+    verifies("SWR-SUP-029", Technique::kStateTransition);
+    rig_.report_as(Entity::kControl, Point::kRead, 0);
+    ASSERT_EQ(rig_.sut.set_mode(kWork, Instant{5}), Status::kOk);
+    rig_.report_as(Entity::kControl, Point::kWrite, 10);
+
+    EXPECT_EQ(step(), SupervisionStatus::kOk) << "its run goes on";
+}
+
+TEST_F(SupervisionStatusTest, EntityThatIsLeftDoesNotEndTheTimeOfAnother) {
+    verifies("SWR-SUP-029", Technique::kStateTransition, Polarity::kViolation);
+    set_mode(kWork);
+    rig_.report_as(Entity::kControl, Point::kRead, 0);
+    ASSERT_EQ(rig_.sut.set_mode(kIdle, Instant{5}), Status::kOk);
+
+    EXPECT_EQ(rig_.step(51), SupervisionStatus::kExpired);
+    EXPECT_EQ(rig_.sut.get_violation(0U), Violation::kMissingFinish);
 }
 
 TEST_F(SupervisionStatusTest, ReportOfALaterTimeCountsForTheModeToCome) {
@@ -330,6 +369,17 @@ TEST_F(SupervisionStatusTest, AcknowledgementForgetsWrongReferenceCycles) {
 
     ASSERT_EQ(step_with_control(), SupervisionStatus::kOk);
     EXPECT_EQ(step_with_control(), SupervisionStatus::kFailed) << "the first wrong one again";
+}
+
+TEST_F(SupervisionStatusTest, AcknowledgedEntityGoesOnByTheClockThatWasSetBack) {
+    verifies("SWR-SUP-027", Technique::kStateTransition);
+    ASSERT_EQ(step_with_control(), SupervisionStatus::kOk);
+    now_ = -1000;
+    ASSERT_EQ(step(), SupervisionStatus::kExpired);
+    ASSERT_EQ(rig_.sut.get_violation(0U), Violation::kClock);
+    ASSERT_EQ(acknowledge(Entity::kControl), Status::kOk);
+
+    EXPECT_EQ(step_with_control(), SupervisionStatus::kOk);
 }
 
 TEST_F(SupervisionStatusTest, AcknowledgedEntityThatTheModeDoesNotWantIsDeactivated) {
