@@ -173,6 +173,19 @@ TEST_F(SupervisionStatusTest, FirstExpiredEntityIsNamedUntilAllAreAcknowledged) 
     EXPECT_EQ(rig_.sut.get_first_expired(), kNoEntity);
 }
 
+TEST_F(SupervisionStatusTest, LaterExpiredEntityDoesNotTakeThePlaceOfTheFirst) {
+    verifies("SWR-SUP-026", Technique::kStateTransition, Polarity::kViolation);
+    set_mode(kWork);
+    rig_.report_as(Entity::kPlanner, Point::kPlan, now_);
+    ASSERT_EQ(step(), SupervisionStatus::kExpired);
+    ASSERT_EQ(rig_.sut.get_first_expired(), 0U);
+    ASSERT_EQ(step(), SupervisionStatus::kExpired);
+
+    EXPECT_EQ(get_planner(), EntityStatus::kExpired) << "its time is over";
+    EXPECT_EQ(rig_.sut.get_first_expired(), 0U);
+    EXPECT_EQ(rig_.memory.read().entity, 0U);
+}
+
 TEST_F(SupervisionStatusTest, ModeDecidesWhoIsSupervised) {
     verifies("SWR-SUP-029");
     EXPECT_EQ(rig_.sut.get_mode(), kIdle);
