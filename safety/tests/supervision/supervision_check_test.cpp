@@ -207,6 +207,34 @@ TEST(SupervisionCheckTest, RingWithoutAnEndIsTaken) {
     expect(table, Fault::kNone);
 }
 
+TEST(SupervisionCheckTest, GraphAgainstTheOrderOfTheNumbersIsTaken) {
+    verifies("SWR-SUP-035", Technique::kEquivalenceClasses);
+    const std::array checkpoints{
+        checkpoint(Point::kRead, Entity::kControl, CheckpointRole::kFinal), broken::kCheckpoints[1],
+        checkpoint(Point::kWrite, Entity::kControl, CheckpointRole::kInitial), broken::kCheckpoints[3]};
+    const std::array edges{edge(Point::kWrite, Point::kCompute), edge(Point::kCompute, Point::kRead)};
+    const std::array deadlines{deadline(Point::kWrite, Point::kRead, broken::kLimits)};
+    SupervisionTable table = broken::kSound;
+    table.checkpoints = checkpoints;
+    table.deadlines = deadlines;
+    table.edges = edges;
+
+    expect(table, Fault::kNone);
+}
+
+TEST(SupervisionCheckTest, DeadlineWhoseFinishIsTheBeginOfARingIsFound) {
+    verifies("SWR-SUP-035", Technique::kErrorGuessing, Polarity::kViolation);
+    const std::array checkpoints{
+        checkpoint(Point::kRead, Entity::kControl, CheckpointRole::kInner), broken::kCheckpoints[1],
+        checkpoint(Point::kWrite, Entity::kControl, CheckpointRole::kInitial), broken::kCheckpoints[3]};
+    const std::array edges{broken::kEdges[0], broken::kEdges[1], edge(Point::kWrite, Point::kRead)};
+    SupervisionTable table = broken::kSound;
+    table.checkpoints = checkpoints;
+    table.edges = edges;
+
+    expect(table, Fault::kDeadlineBypassed);
+}
+
 TEST(SupervisionCheckTest, DeadlineWithAnUnorderedEndIsNotForTheGraph) {
     verifies("SWR-SUP-035", Technique::kEquivalenceClasses);
     const std::array checkpoints{broken::kCheckpoints[0], broken::kCheckpoints[1], broken::kCheckpoints[2],

@@ -56,10 +56,10 @@ class CheckpointReach final {
     constexpr CheckpointReach(const SupervisionTable& table, CheckpointIndex barred) noexcept
         : table_(table), barred_(barred) {}
 
-    /// Adds the checkpoints that a run of the entity may begin with.
-    constexpr void add_initials(EntityIndex entity) noexcept {
+    /// Adds the checkpoints that a run may begin with, of every entity: no edge leads from one to another.
+    constexpr void add_initials() noexcept {
         for (const CheckpointRow& row : table_.checkpoints) {
-            if (row.entity == entity && is_initial(row.role)) {
+            if (is_initial(row.role)) {
                 add(row.checkpoint);
             }
         }
@@ -72,7 +72,7 @@ class CheckpointReach final {
             }
         }
         if (is_final(table_.checkpoints[checkpoint].role)) {
-            add_initials(table_.checkpoints[checkpoint].entity);
+            add_initials();
         }
     }
     /// Adds all that follows from what was added. A step of the longest way in each round.
@@ -126,7 +126,7 @@ constexpr bool is_left(const SupervisionTable& table, const CheckpointRow& row) 
 template <std::size_t kCheckpointMax>
 constexpr bool is_kept_by_graph(const SupervisionTable& table, const DeadlineRow& row) noexcept {
     CheckpointReach<kCheckpointMax> without_start{table, row.start};
-    without_start.add_initials(table.checkpoints[row.start].entity);
+    without_start.add_initials();
     without_start.add_successors(row.finish);
     without_start.spread();
     CheckpointReach<kCheckpointMax> without_finish{table, row.finish};
@@ -156,9 +156,7 @@ constexpr SupervisionFinding find_graph_fault(const SupervisionTable& table) noe
         return missing;
     }
     CheckpointReach<kCheckpointMax> reach{table, kNoCheckpoint};
-    for (const EntityRow& row : table.entities) {
-        reach.add_initials(row.entity);
-    }
+    reach.add_initials();
     reach.spread();
     for (std::size_t i = 0U; i < table.checkpoints.size(); ++i) {
         const CheckpointRow& row = table.checkpoints[i];
