@@ -172,6 +172,44 @@ TEST(AliveCountTest, BurstsAtTheFarEndsOfTwoReferenceCyclesDoNotHideAStall) {
     EXPECT_EQ(line.run(0U), EntityStatus::kExpired) << "silence is counted over the end";
 }
 
+constexpr std::array kShortAlives{alive(Point::kTick, {3U, 1U, 1U, 4U})};
+constexpr SupervisionTable kShort{kEntities, kCheckpoints, kShortAlives};
+constexpr std::size_t kShortCycles = 9U;
+
+/// The definition, over the whole past: is anything wrong in the first `cycles` cycles?
+bool is_wrong_in(const std::array<std::uint32_t, kShortCycles>& reports, std::size_t cycles) {
+    bool is_wrong = false;
+    std::uint32_t silent = 0U;
+    for (std::size_t i = 0U; i < cycles; ++i) {
+        std::uint32_t count = 0U;
+        for (std::size_t j = i / 4U * 4U; j <= i; ++j) {
+            count += reports[j];
+        }
+        silent = reports[i] == 0U ? silent + 1U : 0U;
+        is_wrong = is_wrong || count > 4U || (i % 4U == 3U && count < 2U) || silent > 2U;
+    }
+    return is_wrong;
+}
+
+TEST(AliveCountTest, EverySequenceOfCountsIsJudgedByTheDefinition) {
+    verifies("SWR-SUP-021", Technique::kBackToBack, Polarity::kViolation);
+
+    for (std::uint32_t sequence = 0U; sequence < 19683U;
+         ++sequence) {  // 3^9: 0, 1 or 2 reports in each cycle
+        std::array<std::uint32_t, kShortCycles> reports{};
+        std::uint32_t rest = sequence;
+        for (std::uint32_t& count : reports) {
+            count = rest % 3U;
+            rest /= 3U;
+        }
+        Line<kShort> line;
+        for (std::size_t i = 0U; i < kShortCycles; ++i) {
+            const EntityStatus status = line.run(reports[i]);
+            ASSERT_EQ(status == EntityStatus::kExpired, is_wrong_in(reports, i + 1U)) << sequence << ' ' << i;
+        }
+    }
+}
+
 TEST(AliveCountTest, StallInsideTheToleranceCountsOnceInEachReferenceCycle) {
     verifies("SWR-SUP-021", Technique::kStateTransition, Polarity::kViolation);
     Line<kTolerantLong> line;

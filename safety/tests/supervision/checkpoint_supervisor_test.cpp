@@ -176,6 +176,45 @@ TEST(CheckpointOrderTest, EachOtherSequenceExpires) {
     EXPECT_EQ(judge({Way::kAlone, Way::kLeft}), Violation::kOrder);
 }
 
+/// The ways of kWayTable as one reads them in its drawing.
+bool may_follow(Way from, Way to) {
+    switch (from) {
+        case Way::kBegin:
+            return to == Way::kLeft || to == Way::kRight;
+        case Way::kLeft:
+            return to == Way::kLeft || to == Way::kEnd;
+        case Way::kRight:
+            return to == Way::kEnd;
+        case Way::kEnd:
+        case Way::kAlone:
+            return to == Way::kBegin || to == Way::kAlone;
+        case Way::kAny:
+            break;
+    }
+    return false;
+}
+
+TEST(CheckpointOrderTest, EverySequenceOfFiveIsJudgedByTheDrawing) {
+    verifies("SWR-SUP-024", Technique::kBackToBack, Polarity::kViolation);
+
+    for (unsigned number = 0U; number < 3125U; ++number) {  // 5^5 sequences of the ordered checkpoints
+        SupervisionRig<kWayTable> rig;
+        rig.report(Way::kAny, 0);
+        Way last = Way::kEnd;
+        bool is_legal = true;
+        unsigned rest = number;
+        for (int i = 0; i < 5; ++i) {
+            const auto next = static_cast<Way>(rest % 5U);
+            rest /= 5U;
+            rig.report(next, i);
+            is_legal = is_legal && may_follow(last, next);
+            last = next;
+        }
+        static_cast<void>(rig.step(4));
+        ASSERT_EQ(rig.get_violation(), is_legal ? Violation::kNone : Violation::kOrder) << number;
+    }
+}
+
 TEST(CheckpointOrderTest, OrderIsKeptOverCycles) {
     verifies("SWR-SUP-024", Technique::kStateTransition, Polarity::kViolation);
     OrderRig rig;
