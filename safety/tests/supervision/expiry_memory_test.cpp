@@ -199,7 +199,7 @@ class SharedStorage final {
 /// What was read behind the instructions of another process, in the order of its first occurrence.
 struct Readings {
     std::vector<ExpiryNote> notes{};
-    bool is_complete{false};  ///< the process came to its end under our eyes
+    bool is_complete{false};  ///< we have seen all of it
 };
 
 bool is_same(const ExpiryNote& a, const ExpiryNote& b) {
@@ -212,24 +212,30 @@ Readings read_behind_each_instruction(const ExpiryMemory& memory, Write write) {
     Readings readings;
     const pid_t child = fork();
     if (child == 0) {
-        ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+        if (ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) {
+            _exit(1);
+        }
         raise(SIGSTOP);
         write();
-        _exit(0);
+        raise(SIGSTOP);
     }
     int status = 0;
     waitpid(child, &status, 0);
-    while (WIFSTOPPED(status)) {
+    bool has_stepped = WIFSTOPPED(status);
+    while (has_stepped) {
         const ExpiryNote note = memory.read();
         if (readings.notes.empty() || !is_same(readings.notes.back(), note)) {
             readings.notes.push_back(note);
         }
-        if (ptrace(PTRACE_SINGLESTEP, child, nullptr, nullptr) != 0) {
-            kill(child, SIGKILL);  // nobody would go on with it
-        }
+        has_stepped = ptrace(PTRACE_SINGLESTEP, child, nullptr, nullptr) == 0 &&
+                      waitpid(child, &status, 0) == child && WIFSTOPPED(status) &&
+                      WSTOPSIG(status) == SIGTRAP;
+    }
+    readings.is_complete = WIFSTOPPED(status) && WSTOPSIG(status) == SIGSTOP && readings.notes.size() > 1U;
+    if (WIFSTOPPED(status)) {
+        kill(child, SIGKILL);
         waitpid(child, &status, 0);
     }
-    readings.is_complete = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     return readings;
 }
 

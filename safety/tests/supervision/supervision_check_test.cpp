@@ -136,6 +136,27 @@ TEST(SupervisionCheckTest, RowsThatJoinTwoEntitiesAreFound) {
     expect(broken::kEdgeBetween, Fault::kEdgeBetweenEntities, 2U);
 }
 
+/// Parameters, so that the rows are not made by the compiler.
+void expect_rows(Entity entity, broken::Mode mode) {
+    const EntityRow supervised = supervise(entity, in_modes(broken::Mode::kBeyond, mode), 7U);
+    EXPECT_EQ(supervised.entity, 1U);
+    EXPECT_EQ(supervised.modes, 6U);
+    EXPECT_EQ(supervised.failed_reference_cycles, 7U);
+    EXPECT_EQ(supervise(entity).modes, kEveryMode);
+    EXPECT_EQ(supervise(entity).failed_reference_cycles, 0U);
+    const CheckpointRow passed = checkpoint(Point::kScan, entity, CheckpointRole::kFinal);
+    EXPECT_EQ(passed.checkpoint, 3U);
+    EXPECT_EQ(passed.entity, 1U);
+    EXPECT_EQ(passed.role, CheckpointRole::kFinal);
+    EXPECT_EQ(checkpoint(Point::kScan, entity).role, CheckpointRole::kUnordered);
+}
+
+TEST(SupervisionCheckTest, RowsAreWhatWasWritten) {
+    verifies("SWR-SUP-033", Technique::kInterface);
+
+    expect_rows(Entity::kMonitor, broken::Mode::kWork);
+}
+
 TEST(SupervisionCheckTest, EnumeratorBeyondSixteenBitsIsNoRow) {
     verifies("SWR-SUP-033", Technique::kBoundaryValues, Polarity::kViolation);
     enum class Wide : std::uint32_t { kLast = 0xFFFEU, kNone = 0xFFFFU, kBeyond = 0x10000U };
