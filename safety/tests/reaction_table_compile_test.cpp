@@ -66,29 +66,29 @@ TEST(ReactionTableCompileTest, TableWithARowForEveryFaultInEveryModeCompiles) {
 TEST(ReactionTableCompileTest, ModeInWhichAFaultHasNoReactionIsNamedWithTheFault) {
     verifies("SWR-FLT-011", Technique::kErrorGuessing, Polarity::kViolation);
 
-    const Compilation result = compile("MAMORI_DEFECT_MODE_WITHOUT_ROW");
+    const rig::Compilation result = compile("MAMORI_DEFECT_MODE_WITHOUT_ROW");
     EXPECT_EQ(result.exit_status, 1) << result.messages;
-    EXPECT_TRUE(names(result, "declared fault without a reaction")) << result.messages;
-    EXPECT_TRUE(names(result, "Fault::kOverspeed, 0")) << result.messages;
-    EXPECT_TRUE(names(result, "Mode::kManual")) << result.messages;
+    EXPECT_TRUE(result.names("declared fault without a reaction")) << result.messages;
+    EXPECT_TRUE(result.names("Fault::kOverspeed, 0")) << result.messages;
+    EXPECT_TRUE(result.names("Mode::kManual")) << result.messages;
 }
 
 TEST(ReactionTableCompileTest, ModeInWhichAFaultHasTwoReactionsIsNamedWithTheFault) {
     verifies("SWR-FLT-011", Technique::kErrorGuessing, Polarity::kViolation);
 
-    const Compilation result = compile("MAMORI_DEFECT_MODE_WITH_TWO_ROWS");
+    const rig::Compilation result = compile("MAMORI_DEFECT_MODE_WITH_TWO_ROWS");
     EXPECT_EQ(result.exit_status, 1) << result.messages;
-    EXPECT_TRUE(names(result, "declared fault with more than one reaction")) << result.messages;
-    EXPECT_TRUE(names(result, "Fault::kOverspeed, 2")) << result.messages;
-    EXPECT_TRUE(names(result, "Mode::kAutomatic")) << result.messages;
+    EXPECT_TRUE(result.names("declared fault with more than one reaction")) << result.messages;
+    EXPECT_TRUE(result.names("Fault::kOverspeed, 2")) << result.messages;
+    EXPECT_TRUE(result.names("Mode::kAutomatic")) << result.messages;
 }
 
 TEST(ReactionTableCompileTest, RowOfAnUnknownModeDoesNotCompile) {
     verifies("SWR-FLT-011", Technique::kBoundaryValues, Polarity::kViolation);
 
-    const Compilation result = compile("MAMORI_DEFECT_UNKNOWN_MODE");
+    const rig::Compilation result = compile("MAMORI_DEFECT_UNKNOWN_MODE");
     EXPECT_EQ(result.exit_status, 1) << result.messages;
-    EXPECT_TRUE(names(result, "with no mode or an unknown one")) << result.messages;
+    EXPECT_TRUE(result.names("with no mode or an unknown one")) << result.messages;
 }
 
 }  // namespace

@@ -103,6 +103,11 @@ def make_parser(with_trace: bool = False) -> Parser:
     cost.add_argument("--out", type=Path, metavar="DIR")
     cost.add_argument("--check", type=Path, metavar="BASELINE")
     cost.add_argument("--accept", type=Path, metavar="BASELINE")
+    end_to_end = commands.add_parser("e2e", allow_abbrev=False)
+    for option in ("--profile", "--length", "--rate", "--pe"):
+        end_to_end.add_argument(option, required=True, metavar=option.removeprefix("--").upper())
+    end_to_end.add_argument("--receivers", default="1", metavar="M")
+    end_to_end.add_argument("--json", action="store_true")
     prove = add("prove")
     prove.add_argument("machine", choices=("safe-state",), metavar="MACHINE")
     prove.add_argument("--json", action="store_true")
@@ -145,6 +150,10 @@ def run(argv: list[str]) -> int:
 
             wanted = costing.Request(arguments.system, tuple(arguments.classes), arguments.out, arguments.check, arguments.accept)
             return costing.cost(wanted, arguments.jobs)
+        case "e2e":
+            from mamori.verification.e2e import command as end_to_end
+
+            return end_to_end.run(arguments)
         case "mutate":
             from mamori.verification.mutation import command as mutation
 

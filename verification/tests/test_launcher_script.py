@@ -103,7 +103,7 @@ def test_second_run_installs_nothing(box: Box) -> None:
 @pytest.mark.verifies("SWR-CLI-001", technique="equivalence_classes")
 @pytest.mark.parametrize(
     ("words", "wanted", "unwanted"),
-    [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
+    [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("e2e",), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
      (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
      (("prove", "safe-state"), "spin", "cppcheck"), (("test",), "z3", "git"), (("demo",), "cmake", "spin"),
@@ -235,7 +235,7 @@ def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004")
-@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench", "timing", "cost", "table", "prove"])
+@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench", "timing", "cost", "e2e", "table", "prove"])
 def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
     bare = box.folder / "bare"
     bare.mkdir()
@@ -250,7 +250,7 @@ def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
-@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench", "timing", "cost", "table", "prove"])
+@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench", "timing", "cost", "e2e", "table", "prove"])
 def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
     subparsers = next(action for action in make_parser()._actions if action.dest == "command")
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}
@@ -271,6 +271,8 @@ def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, co
         (("timing", "x", "--lod"), "timing has no option '--lod'; nearest: --load or "),
         (("timing", "x", "--cycles", "-5"), "timing: argument --cycles: '-5' is no whole number from 1 on"),
         (("cost", "x", "--clas", "a"), "cost has no option '--clas'; nearest: --class or "),
+        (("e2e", "--lenght", "8"), "e2e has no option '--lenght'; nearest: --length or "),
+        (("e2e", "--length", "-8"), "e2e: argument --length: '-8' is no whole number from 1 on"),
         (("mutate", "--jobs", "-1"), "mutate: argument --jobs: '-1' is no whole number from 1 on"),
         (("demo", "--motion", "gone.yaml"), "motion file 'gone.yaml' cannot be read"),
         (("demo", "--motion=gone.yaml"), "motion file 'gone.yaml' cannot be read"),

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Residual error of a checksum: how likely a damaged frame passes, exactly, by the weights of the dual code.
+
+The words that pass are a linear code: those errors whose syndromes add up to nothing. Its dual has 2^width words, and the weight
+of each is one value of the Walsh-Hadamard transform of the syndromes. From these weights the identities of MacWilliams give the
+number of patterns of any weight that pass, as whole numbers, and the probability that one passes.
+
+@satisfies SWR-E2E-020, SWR-E2E-021      Design: docs/design/e2e.md#residual-error
+Source: MacWilliams and Sloane, The Theory of Error-Correcting Codes, chapter 5; IEC 61784-3 (rate of residual errors)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from decimal import Decimal, localcontext
+from functools import cache
+from math import comb
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+GUARD_DIGITS = 30  # kept of a result after all that cancels
+LOW_BITS = 16  # of a dual word: one block of the transform; 2^16 numbers of 16 bits fit the cache of a core
+BATCH = 16  # blocks at a time
+NO_TELLING: Callable[[float], None] = lambda share: None  # noqa: E731
+
+Words = npt.NDArray[np.uint64]
+
+
+@dataclass(frozen=True)
+class Checksum:
+    """What decides which errors pass. `gap`: bits [0 ..] that are divided but not sent, between payload and checksum."""
+
+    name: str
+    width: int
+    polynomial: int
+    gap: int = 0
+
+
+CRC8 = Checksum("CRC-8 SAE J1850", 8, 0x1D)
+CRC8_H2F = Checksum("CRC-8 H2F", 8, 0x2F, gap=8)
+CRC16 = Checksum("CRC-16 CCITT", 16, 0x1021, gap=16)
+CRC32_P4 = Checksum("CRC-32 P4", 32, 0xF4ACFB13)
+CRC32 = Checksum("CRC-32 Ethernet", 32, 0x04C11DB7)
+CRC64 = Checksum("CRC-64 ECMA", 64, 0x42F0E1EBA9EA3693)
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A profile as far as its residual error goes. Lengths in bytes, with the header."""
+
+    number: int
+    checksum: Checksum
+    length_min: int
+    length_max: int
+
+
+# An identifier in front of the payload (1, 11) changes no error; one behind it (2, 22, 5, 6) is a gap.
+PROFILES = {
+    profile.number: profile
+    for profile in (
+        Profile(1, CRC8, 2, 30),
+        Profile(2, CRC8_H2F, 2, 256),
+        Profile(4, CRC32_P4, 12, 4096),
+        Profile(5, CRC16, 3, 4096),
+        Profile(6, CRC16, 5, 4096),
+        Profile(7, CRC64, 20, 4_194_304),
+        Profile(8, CRC32_P4, 16, 4_194_304),
+        Profile(11, CRC8, 2, 30),
+        Profile(22, CRC8_H2F, 2, 256),
+        Profile(44, CRC32_P4, 12, 65_535),
+    )
+}
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Weights of the dual code: `counts[j]` of its 2^width words have j ones. `bits`: length of a frame."""
+
+    checksum: Checksum
+    bits: int
+    counts: dict[int, int]
+
+
+@dataclass(frozen=True)
+class Distance:
+    """The fewest turned bits that can pass, and how many such patterns there are."""
+
+    bits: int
+    patterns: int
+
+
+def calc_syndromes(checksum: Checksum, bits: int) -> list[int]:
+    """What each sent bit adds to the remainder: first those of the checksum, then the payload from its end on."""
+    top, mask = checksum.width - 1, (1 << checksum.width) - 1
+    syndromes, power = [], 1
+    for place in range(bits + checksum.gap):
+        if place <= top or place > top + checksum.gap:
+            syndromes.append(power)
+        power = power << 1 & mask ^ (checksum.polynomial if power >> top else 0)
+    return syndromes
+
+
+def transform(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Walsh-Hadamard transform of each column; the number of rows is a power of two. Overwrites `values`."""
+    rows, columns = values.shape
+    source, target, half = values, np.empty_like(values), 1
+    while half < rows:
+        pairs = source.reshape(rows // (2 * half), 2, half * columns)
+        results = target.reshape(pairs.shape)
+        np.add(pairs[:, 0], pairs[:, 1], out=results[:, 0])
+        np.subtract(pairs[:, 0], pairs[:, 1], out=results[:, 1])
+        source, target, half = target, source, 2 * half
+    return source
+
+
+def make_blocks(checksum: Checksum, bits: int) -> Iterator[tuple[float, npt.NDArray[Any]]]:
+    """Transforms of all 2^width dual words, some blocks at a time, each with the share of the work that is done then [0 .. 1].
+
+    A block has the dual words of one upper part; the upper part only turns the signs of the syndromes.
+    """
+    low_bits = min(checksum.width, LOW_BITS)
+    blocks = 1 << (checksum.width - low_bits)
+    words, times = np.unique(np.array(calc_syndromes(checksum, bits), dtype=np.uint64), return_counts=True)
+    lows = (words & np.uint64((1 << low_bits) - 1)).astype(np.int64)
+    highs = (words >> np.uint64(low_bits)).astype(np.int64)
+    order = np.argsort(lows, kind="stable")
+    lows, highs, times = lows[order], highs[order], times[order]
+    starts = np.flatnonzero(np.concatenate(([True], lows[1:] != lows[:-1])))
+    signs = np.array([1], dtype=np.int8)  # of a word: -1 where it has an odd number of ones
+    for _ in range(checksum.width - low_bits):
+        signs = np.concatenate((signs, -signs))
+    number = np.int16 if bits <= np.iinfo(np.int16).max else np.int32
+    for first in range(0, blocks, BATCH):
+        uppers = np.arange(first, min(first + BATCH, blocks))
+        turned = (signs[highs[:, None] & uppers[None, :]] * times[:, None]).astype(number)
+        values = np.zeros((1 << low_bits, len(uppers)), dtype=number)
+        values[lows[starts]] = np.add.reduceat(turned, starts, axis=0)
+        yield (uppers[-1] + 1) / blocks, transform(values)
+
+
+def calc_spectrum(checksum: Checksum, bits: int, tell: Callable[[float], None] = NO_TELLING) -> Spectrum:
+    """Weights of all 2^width dual words: milliseconds up to 16 bits, about half a minute for 32.
+
+    @param bits length of the frame, from the width of the checksum on. @param tell hears the share that is done [0 .. 1].
+    """
+    counts = np.zeros(2 * bits + 1, dtype=np.int64)
+    for share, values in make_blocks(checksum, bits):
+        counts += np.bincount(values.ravel().astype(np.int32) + bits, minlength=2 * bits + 1)
+        tell(share)
+    return Spectrum(checksum, bits, {(2 * bits - int(place)) // 2: int(counts[place]) for place in np.flatnonzero(counts)})
+
+
+def count_patterns(spectrum: Spectrum) -> Iterator[int]:
+    """How many error patterns of 0, 1, 2 .. bits pass (MacWilliams). @raise ValueError these are no weights of a dual code."""
+    bits = spectrum.bits
+    weights = sorted(spectrum.counts)
+    before, now = [0] * len(weights), [1] * len(weights)  # Krawtchouk polynomials of two neighbouring degrees
+    for turned in range(bits + 1):
+        total = sum(spectrum.counts[weight] * value for weight, value in zip(weights, now, strict=True))
+        count, rest = divmod(total, 1 << spectrum.checksum.width)
+        if rest or count < 0 or (turned == 0 and count != 1):
+            raise ValueError(f"{turned} turned bits: {total} / 2^{spectrum.checksum.width} is no number of patterns")
+        yield count
+        before, now = now, [
+            ((bits - 2 * weight) * value - (bits - turned + 1) * last) // (turned + 1)
+            for weight, value, last in zip(weights, now, before, strict=True)
+        ]
+
+
+def find_distance(spectrum: Spectrum) -> Distance:
+    """@raise ValueError as count_patterns()."""
+    for turned, count in enumerate(count_patterns(spectrum)):
+        if turned > 0 and count > 0:
+            return Distance(turned, count)
+    raise ValueError("nothing passes; a frame is longer than its checksum")
+
+
+def calc_residual(spectrum: Spectrum, distance: Distance, pe: Decimal) -> Decimal:
+    """Probability that a frame arrives damaged and passes [1 per frame].
+
+    It is the probability of all that passes less that of no error. What the two have in common is known beforehand, since
+    patterns of the least weight alone are a part of the result; that many more digits are taken, so none is lost.
+    @param pe bit error probability, above 0 and up to 0.5.
+    """
+    shared = 1 + ((1 - pe) / pe) ** distance.bits / distance.patterns
+    with localcontext() as context:
+        context.prec = GUARD_DIGITS + shared.adjusted() + 1
+        bias = 1 - 2 * pe
+        passing = sum((Decimal(count) * (bias**weight if weight else 1) for weight, count in spectrum.counts.items()), Decimal(0))
+        result = passing / (1 << spectrum.checksum.width) - (1 - pe) ** spectrum.bits
+    return +result
+
+
+def sum_patterns(spectrum: Spectrum, pe: Decimal) -> Decimal:
+    """The same as a plain sum over the patterns of each weight: for comparison, since it takes long frames too long."""
+    terms = (count * pe**turned * (1 - pe) ** (spectrum.bits - turned) for turned, count in enumerate(count_patterns(spectrum)) if turned)
+    return sum(terms, Decimal(0))
+
+
+def bound_residual(bits: int, distance: int, pe: Decimal) -> Decimal:
+    """What no frame exceeds if only the Hamming distance is known [1 per frame]: that so many bits are turned at all, at most."""
+    return min(Decimal(1), comb(bits, distance) * pe**distance)
+
+
+@cache
+def find_least_distance(checksum: Checksum, bits: int) -> int:
+    """A Hamming distance that is certain, found by trying all patterns of few bits: for checksums too wide for the dual code.
+
+    Sums of one, two, three syndromes, as far as memory goes: two equal sums of k are a pattern of 2 k bits. A single bit never
+    passes, whatever the length.
+    """
+    depth = next((depth for depth, most in ((3, 256), (2, 4096), (1, 524_288)) if bits <= most), 0)
+    syndromes = np.array(calc_syndromes(checksum, bits) if depth else [], dtype=np.uint64)
+    sums = [np.zeros(1, dtype=np.uint64)]
+    for size in range(1, depth + 1):
+        sums.append(np.sort(_add_all(syndromes, size)))
+    for size in range(1, depth + 1):
+        if np.isin(sums[size - 1], sums[size], assume_unique=True).any():
+            return 2 * size - 1
+        if (sums[size][1:] == sums[size][:-1]).any():
+            return 2 * size
+    least = max(2, 2 * depth + 1)
+    # A polynomial with an even number of terms lets no odd number of turned bits pass.
+    return least + least % 2 if (checksum.polynomial.bit_count() + 1) % 2 == 0 else least
+
+
+def _add_all(syndromes: Words, size: int) -> Words:
+    """All sums of `size` different syndromes."""
+    if size == 1:
+        return syndromes
+    return np.concatenate([_add_all(syndromes[place + 1 :], size - 1) ^ one for place, one in enumerate(syndromes[: 1 - size])])
