@@ -56,9 +56,13 @@ inline constexpr std::array kResidualFacts16{
 inline constexpr std::array kResidualFacts32{
     ResidualFacts{12U, 8U, 131.0, 2.04},
     ResidualFacts{16U, 8U, 836.0, 2.04},
+    ResidualFacts{20U, 8U, 4694.0, 2.04},
     ResidualFacts{24U, 8U, 19428.0, 2.41},
+    ResidualFacts{28U, 8U, 64696.0, 2.28},
     ResidualFacts{32U, 8U, 189888.0, 2.21},
+    ResidualFacts{38U, 8U, 766055.0, 2.04},
     ResidualFacts{48U, 6U, 349.0, 2.01},
+    ResidualFacts{56U, 6U, 2103.0, 2.60},
     ResidualFacts{64U, 6U, 7073.0, 4.56},
     ResidualFacts{96U, 6U, 116688.0, 2.69},
     ResidualFacts{128U, 6U, 707853.0, 2.08},
