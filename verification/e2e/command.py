@@ -15,7 +15,7 @@ from decimal import Decimal, InvalidOperation
 from mamori.profiles.input_error import nearest_names
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
 from mamori.verification.e2e import residual, spectra
-from mamori.verification.e2e.residual import CRC8, CRC8_H2F, PROFILES, Profile, Spectrum
+from mamori.verification.e2e.residual import CRC8_H2F, PROFILES, Profile, Spectrum
 
 SCHEMA = "mamori.e2e_residual/1"
 SECONDS_PER_HOUR = 3600
@@ -26,6 +26,7 @@ RATE_LEAST, RATE_MOST = Decimal("1e-9"), Decimal("1e9")
 DIGITS_MOST = 12  # of a count
 LIST_LENGTH_MAX = 14  # bytes: above it two turned bits pass in profiles 2 and 22
 EXACT_LENGTH_MAX = 65_535  # bytes: longer frames have a bound only
+WIDTH_COUNTED = 32  # bits: dual words of wider checksums are too many
 EXACT, ESTIMATE, BOUND = "exact", "estimate", "bound"
 WITHIN, OVER, NOT_SHOWN, REFUSED = "within", "over", "not shown", "refused"
 
@@ -121,19 +122,21 @@ def answer_channel(channel: Channel) -> Answer:
     """The best that can be said within a minute or so. @raise UsageError a stored file is damaged."""
     checksum, bits = channel.profile.checksum, 8 * channel.length
     limits = _list_limits(channel)
-    if checksum.width > 32:
+    if checksum.width > WIDTH_COUNTED:
         least = residual.find_least_distance(checksum, bits)
-        return Answer(channel, ESTIMATE, f"2^-{checksum.width}: each wrong remainder taken for as likely as any other",
-                      ("the estimate is usual, no proved bound", *limits), Decimal(1) / (1 << checksum.width), least, None)  # fmt: skip
+        how = f"2^-{checksum.width}: each wrong remainder taken for as likely as any other"
+        estimate = Decimal(1) / (1 << checksum.width)
+        return Answer(channel, ESTIMATE, how, ("the estimate is usual, no proved bound", *limits), estimate, least, None)
     if channel.length > EXACT_LENGTH_MAX:
         least = residual.find_least_distance(checksum, bits)
-        return Answer(channel, BOUND, f"every pattern of {least} or more bits is taken to pass",
-                      (f"frames above {EXACT_LENGTH_MAX} bytes are not calculated exactly", *limits),
-                      residual.bound_residual(bits, least, channel.pe), least, None)  # fmt: skip
+        how = f"every pattern of {least} or more bits is taken to pass"
+        left_out = f"frames above {EXACT_LENGTH_MAX} bytes are not calculated exactly"
+        return Answer(channel, BOUND, how, (left_out, *limits), residual.bound_residual(bits, least, channel.pe), least, None)
     spectrum, source = _get_spectrum(channel)
     distance = residual.find_distance(spectrum)
-    return Answer(channel, EXACT, f"weights of all 2^{checksum.width} dual words, {source}", limits,
-                  residual.calc_residual(spectrum, distance, channel.pe), distance.bits, distance.patterns)  # fmt: skip
+    how = f"weights of all 2^{checksum.width} dual words, {source}"
+    exact = residual.calc_residual(spectrum, distance, channel.pe)
+    return Answer(channel, EXACT, how, limits, exact, distance.bits, distance.patterns)
 
 
 def _get_spectrum(channel: Channel) -> tuple[Spectrum, str]:
@@ -161,13 +164,17 @@ def _list_limits(channel: Channel) -> tuple[str, ...]:
               "what a receiver compares beside the checksum (length, identifier, counter) is not counted in favour"]  # fmt: skip
     number, checksum = channel.profile.number, channel.profile.checksum
     if checksum is CRC8_H2F:
-        limits.append("for a list of equal identifiers; with others a turned bit of the counter picks another one, which can let two "
-                      "turned bits pass at any length: is_within_budget() calculates the list of a channel")  # fmt: skip
+        limits.append(
+            "for a list of equal identifiers; with others a turned bit of the counter picks another one, which can let two turned bits "
+            "pass at any length: is_within_budget() calculates the list of a channel"
+        )
     if checksum is CRC8_H2F and channel.length > LIST_LENGTH_MAX:
-        limits.append(f"above {LIST_LENGTH_MAX} bytes the profile lets two turned bits pass with any list: refused for every budget")
-    if number == 1 and checksum is CRC8:
-        limits.append("not for the alternating identifiers, where a turned bit of the counter picks the other byte: is_within_budget() "
-                      "calculates them")  # fmt: skip
+        limits.append(f"above {LIST_LENGTH_MAX} bytes two turned bits pass with any list: refused for every budget")
+    if number == 1:
+        limits.append(
+            "not for the alternating identifiers, where a turned bit of the counter picks the other byte: is_within_budget() "
+            "calculates them"
+        )
     if number == 8:
         limits.append("profile 8 is provisional: its layout has no second implementation to compare with")
     return tuple(limits)
@@ -176,7 +183,9 @@ def _list_limits(channel: Channel) -> tuple[str, ...]:
 def make_text(answer: Answer) -> str:
     """What the user sees."""
     channel = answer.channel
-    patterns = "or more; patterns not counted" if answer.patterns is None else f"bits; {answer.patterns} patterns of so many bits pass"
+    patterns = (
+        "or more; patterns not counted" if answer.patterns is None else f"bits; {answer.patterns} patterns of so many bits pass"
+    )
     sign = {EXACT: "", ESTIMATE: "about ", BOUND: "at most "}[answer.method]
     receivers = "1 receiver" if channel.receivers == 1 else f"{channel.receivers} receivers"
     lines = [

@@ -13,8 +13,10 @@ import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from mamori.verification.command.project import ROOT
 from mamori.verification.e2e.residual import CRC16, CRC32_P4, Checksum, Distance, Spectrum, calc_spectrum, find_distance
@@ -80,13 +82,14 @@ def calc_shares(spectrum: Spectrum) -> Iterator[tuple[int, float]]:
     """For each weight the share of its patterns that pass, in units of 2^-width.
 
     Krawtchouk polynomials divided by their value at 0 stay within -1 .. 1, and those of one half of the weights follow from the
-    other half, so 64-bit mantissas lose less than 1e-6.
+    other half, so the widest floating-point numbers lose less than 1e-6.
     """
     bits = spectrum.bits
     weights = np.array(sorted(spectrum.counts), dtype=np.longdouble)
     counts = np.array([spectrum.counts[weight] for weight in sorted(spectrum.counts)], dtype=np.longdouble)
     turned_counts = np.where(weights % 2 == 0, counts, -counts)
-    before, now = np.zeros_like(weights), np.ones_like(weights)
+    before: npt.NDArray[Any] = np.zeros_like(weights)
+    now: npt.NDArray[Any] = np.ones_like(weights)
     for turned in range(bits // 2 + 1):
         yield turned, float(counts @ now)
         yield bits - turned, float(turned_counts @ now)

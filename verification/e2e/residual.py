@@ -142,13 +142,15 @@ def make_blocks(checksum: Checksum, bits: int) -> Iterator[tuple[float, npt.NDAr
 
 
 def calc_spectrum(checksum: Checksum, bits: int, tell: Callable[[float], None] = NO_TELLING) -> Spectrum:
-    """Weights of all 2^width dual words: milliseconds up to 16 bits, about half a minute for 32.
+    """Weights of all 2^width dual words: milliseconds up to 16 bits, most of a minute for 32.
 
     @param bits length of the frame, from the width of the checksum on. @param tell hears the share that is done [0 .. 1].
     """
     counts = np.zeros(2 * bits + 1, dtype=np.int64)
     for share, values in make_blocks(checksum, bits):
-        counts += np.bincount(values.ravel().astype(np.int32) + bits, minlength=2 * bits + 1)
+        places = values.ravel().astype(np.intp)  # what bincount() wants; it converts more slowly
+        places += bits
+        counts += np.bincount(places, minlength=len(counts))
         tell(share)
     return Spectrum(checksum, bits, {(2 * bits - int(place)) // 2: int(counts[place]) for place in np.flatnonzero(counts)})
 
@@ -164,10 +166,9 @@ def count_patterns(spectrum: Spectrum) -> Iterator[int]:
         if rest or count < 0 or (turned == 0 and count != 1):
             raise ValueError(f"{turned} turned bits: {total} / 2^{spectrum.checksum.width} is no number of patterns")
         yield count
-        before, now = now, [
-            ((bits - 2 * weight) * value - (bits - turned + 1) * last) // (turned + 1)
-            for weight, value, last in zip(weights, now, before, strict=True)
-        ]
+        degree = turned + 1
+        terms = zip(weights, now, before, strict=True)
+        before, now = now, [((bits - 2 * weight) * value - (bits - turned + 1) * last) // degree for weight, value, last in terms]
 
 
 def find_distance(spectrum: Spectrum) -> Distance:
@@ -196,7 +197,9 @@ def calc_residual(spectrum: Spectrum, distance: Distance, pe: Decimal) -> Decima
 
 def sum_patterns(spectrum: Spectrum, pe: Decimal) -> Decimal:
     """The same as a plain sum over the patterns of each weight: for comparison, since it takes long frames too long."""
-    terms = (count * pe**turned * (1 - pe) ** (spectrum.bits - turned) for turned, count in enumerate(count_patterns(spectrum)) if turned)
+    terms = (
+        count * pe**turned * (1 - pe) ** (spectrum.bits - turned) for turned, count in enumerate(count_patterns(spectrum)) if turned
+    )
     return sum(terms, Decimal(0))
 
 
@@ -218,7 +221,8 @@ def find_least_distance(checksum: Checksum, bits: int) -> int:
     for size in range(1, depth + 1):
         sums.append(np.sort(_add_all(syndromes, size)))
     for size in range(1, depth + 1):
-        if np.isin(sums[size - 1], sums[size], assume_unique=True).any():
+        places = np.searchsorted(sums[size], sums[size - 1])
+        if (sums[size].take(places, mode="clip") == sums[size - 1]).any():
             return 2 * size - 1
         if (sums[size][1:] == sums[size][:-1]).any():
             return 2 * size

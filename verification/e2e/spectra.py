@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Weights of the dual codes of 32-bit checksums, kept in `spectra/` since each takes about half a minute to calculate.
+"""Weights of the dual codes of 32-bit checksums, kept in `spectra/` since each takes most of a minute to calculate.
 
     python -P -m mamori.verification.e2e.spectra [--again]
 

@@ -9,6 +9,7 @@ import math
 from decimal import Decimal
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mamori.verification.e2e import facts, residual, spectra
@@ -119,6 +120,19 @@ def test_blocks_of_a_32_bit_checksum_are_the_weights_of_its_dual_words() -> None
         assert bits - 2 * ones == values[lower, upper]
 
 
+@pytest.mark.verifies("SWR-E2E-020", technique="back_to_back")
+@pytest.mark.parametrize(("length", "size"), [(12, 4), (16, 4), (48, 3)])
+def test_least_patterns_of_a_32_bit_checksum_are_as_many_as_trying_them_finds(length: int, size: int) -> None:
+    """Two equal sums of `size` bits are a pattern of the least weight, in as many ways as it falls into two halves."""
+    syndromes = np.array(residual.calc_syndromes(CRC32_P4, 8 * length), dtype=np.uint64)
+    _, times = np.unique(residual._add_all(syndromes, size), return_counts=True)
+    pairs = int((times * (times - 1) // 2).sum())
+
+    halves = math.comb(2 * size, size) // 2
+    assert residual.find_distance(get_spectrum(CRC32_P4, length)) == Distance(2 * size, pairs // halves)
+    assert pairs % halves == 0
+
+
 @pytest.mark.verifies("SWR-E2E-027", technique="requirements_based")
 @pytest.mark.parametrize(("checksum", "length"), spectra.STORED)
 def test_stored_weights_are_those_of_a_dual_code(checksum: Checksum, length: int) -> None:
@@ -204,15 +218,15 @@ def test_no_weight_has_a_greater_share_than_the_compiler_is_told() -> None:
         spectrum = get_spectrum(checksum, length)
         fact = facts.make_fact(spectrum)
         bits = spectrum.bits
-        shares = [count * 2**checksum.width / math.comb(bits, turned) for turned, count in enumerate(residual.count_patterns(spectrum))]
+        shares = [
+            count * 2**checksum.width / math.comb(bits, turned) for turned, count in enumerate(residual.count_patterns(spectrum))
+        ]
 
         assert fact.ratio - 0.02 < max(shares[fact.distance.bits + 1 :]) <= fact.ratio
 
 
 @pytest.mark.verifies("SWR-E2E-023", technique="fault_injection", polarity="violation")
-def test_facts_are_not_written_without_all_stored_files(
-    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_facts_are_not_written_without_all_stored_files(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert facts.main(tmp_path / "facts.hpp") == 1
     assert "make the files first" in capsys.readouterr().err
     assert not (tmp_path / "facts.hpp").exists()
