@@ -24,8 +24,8 @@ from mamori.verification.e2e.residual import CRC32, CRC32_P4, Checksum, Spectrum
 
 FOLDER = Path(__file__).parent / "spectra"
 # Bytes: those of the published table, and as many between and above as rows of residual_facts.hpp are to have. 38: the longest
-# frame with distance 8.
-P4_LENGTHS = (12, 16, 20, 24, 28, 32, 38, 48, 56, 64, 96, 128, 256, 512, 1024, 2048, 4096)
+# frame with distance 8; 8191: with 4, above it two turned bits pass.
+P4_LENGTHS = (12, 16, 20, 24, 28, 32, 38, 48, 56, 64, 96, 128, 256, 512, 1024, 2048, 4096, 8191)
 STORED = ((CRC32, 64), *((CRC32_P4, length) for length in P4_LENGTHS))
 PATTERNS_CHECKED = 130  # weights from 0 on; each is a check of all counts together
 

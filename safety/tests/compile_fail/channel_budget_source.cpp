@@ -12,7 +12,7 @@ constexpr std::size_t kLengthMin = 8U;
 constexpr std::size_t kLengthMin = 16U;
 #endif
 #ifdef MAMORI_DEFECT_LENGTH
-constexpr std::size_t kLengthMax = 4097U;
+constexpr std::size_t kLengthMax = 8192U;
 #else
 constexpr std::size_t kLengthMax = 16U;
 #endif

@@ -71,6 +71,7 @@ inline constexpr std::array kResidualFacts32{
     ResidualFacts{1024U, 6U, 195133888326.0, 2.01},
     ResidualFacts{2048U, 6U, 12500339567322.0, 2.01},
     ResidualFacts{4096U, 6U, 800373286599232.0, 2.01},
+    ResidualFacts{8191U, 4U, 536625180.0, 2.01},
 };
 // clang-format on
 
