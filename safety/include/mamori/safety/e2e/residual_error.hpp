@@ -60,7 +60,7 @@ class SyndromeDistribution final {
     /// One more bit that may be turned. @param[in] syndrome not 0.
     constexpr void add_bit(std::uint8_t syndrome) noexcept {
         double* const turned = turned_.data();  // a compiler counts each call of an operator[]
-        std::size_t lead = 0x80U;  // highest bit of the syndrome
+        std::size_t lead = 0x80U;               // highest bit of the syndrome
         while (lead > 1U && (syndrome & lead) == 0U) {
             lead >>= 1U;
         }
