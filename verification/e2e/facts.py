@@ -9,7 +9,9 @@
 from __future__ import annotations
 
 import math
+import struct
 import sys
+import zlib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,26 +40,47 @@ TEXT = """// SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/safety/e2e/crc_catalogue.hpp"
+#include "mamori/safety/e2e/wire.hpp"
+
 namespace mamori::safety::detail {{
 
 /// Error patterns that pass in frames of one length.
 struct ResidualFacts {{
-    std::size_t length{{0U}};      ///< of the frame with its header [bytes]
-    std::uint32_t distance{{0U}};  ///< fewest turned bits that may pass
-    double patterns{{0.0}};        ///< how many patterns of so many bits pass
-    double ratio{{0.0}};           ///< greatest share of any higher weight that passes [2^-width]
+    std::size_t length{{0U}};              ///< of the frame with its header [bytes]
+    std::uint32_t distance{{0U}};          ///< fewest turned bits that may pass
+    std::uint64_t patterns{{0U}};          ///< how many patterns of so many bits pass, below 2^53
+    std::uint32_t share_hundredths{{0U}};  ///< greatest share of any higher weight that passes [2^-width / 100]
 }};
+
+/// Checksum of all rows: a row that was changed by hand does not compile.
+template <std::size_t kRows>
+constexpr std::uint32_t calc_fingerprint(const std::array<ResidualFacts, kRows>& rows) noexcept {{
+    Crc<kCrc32, 1U> crc;
+    for (const ResidualFacts& row : rows) {{
+        const std::array<std::uint64_t, 4U> values{{row.length, row.distance, row.patterns,
+                                                   row.share_hundredths}};
+        for (const std::uint64_t value : values) {{
+            for (unsigned place = 0U; place < sizeof(value); ++place) {{
+                crc.add(get_byte(value, place));
+            }}
+        }}
+    }}
+    return crc.get_value();
+}}
 
 // clang-format off: a row per line
 /// Profiles 5 and 6.
 inline constexpr std::array kResidualFacts16{{
 {rows16}
 }};
+static_assert(calc_fingerprint(kResidualFacts16) == 0x{fingerprint16:08X}U, "a row was changed; run facts.py");
 
 /// Profiles 4, 8 and 44.
 inline constexpr std::array kResidualFacts32{{
 {rows32}
 }};
+static_assert(calc_fingerprint(kResidualFacts32) == 0x{fingerprint32:08X}U, "a row was changed; run facts.py");
 // clang-format on
 
 }}  // namespace mamori::safety::detail
@@ -68,14 +91,18 @@ inline constexpr std::array kResidualFacts32{{
 
 @dataclass(frozen=True)
 class Fact:
-    """A row of the header. Length in bytes."""
+    """A row of the header. Length in bytes, share in hundredths of 2^-width."""
 
     length: int
     distance: Distance
-    ratio: float
+    share: int
+
+    @property
+    def values(self) -> tuple[int, ...]:
+        return self.length, self.distance.bits, self.distance.patterns, self.share
 
     def make_row(self) -> str:
-        return f"    ResidualFacts{{{self.length}U, {self.distance.bits}U, {self.distance.patterns}.0, {self.ratio:.2f}}},"
+        return f"    ResidualFacts{{{', '.join(f'{value}U' for value in self.values)}}},"
 
 
 def calc_shares(spectrum: Spectrum) -> Iterator[tuple[int, float]]:
@@ -97,10 +124,10 @@ def calc_shares(spectrum: Spectrum) -> Iterator[tuple[int, float]]:
 
 
 def make_fact(spectrum: Spectrum) -> Fact:
-    """The ratio is rounded up."""
+    """The share is rounded up."""
     distance = find_distance(spectrum)
     greatest = max((share for weight, share in calc_shares(spectrum) if weight > distance.bits), default=0.0)
-    return Fact(spectrum.bits // 8, distance, math.ceil(100 * greatest + 1e-3) / 100)
+    return Fact(spectrum.bits // 8, distance, math.ceil(100 * greatest + 1e-3))
 
 
 def make_facts(checksum: Checksum, lengths: Iterable[int]) -> Iterator[Fact]:
@@ -114,11 +141,13 @@ def make_facts(checksum: Checksum, lengths: Iterable[int]) -> Iterator[Fact]:
 
 def make_header() -> str:
     """The whole header. @raise ValueError as make_facts()."""
-    rows16, rows32 = (
-        "\n".join(fact.make_row() for fact in make_facts(checksum, lengths))
-        for checksum, lengths in ((CRC16, CRC16_LENGTHS), (CRC32_P4, P4_LENGTHS))
-    )
-    return TEXT.format(rows16=rows16, rows32=rows32)
+    texts: dict[str, str | int] = {}
+    for checksum, lengths in ((CRC16, CRC16_LENGTHS), (CRC32_P4, P4_LENGTHS)):
+        rows = list(make_facts(checksum, lengths))
+        values = [value for row in rows for value in row.values]
+        texts[f"rows{checksum.width}"] = "\n".join(row.make_row() for row in rows)
+        texts[f"fingerprint{checksum.width}"] = zlib.crc32(struct.pack(f"<{len(values)}Q", *values))
+    return TEXT.format(**texts)
 
 
 def main(path: Path = HEADER) -> int:

@@ -222,7 +222,7 @@ def test_no_weight_has_a_greater_share_than_the_compiler_is_told() -> None:
             count * 2**checksum.width / math.comb(bits, turned) for turned, count in enumerate(residual.count_patterns(spectrum))
         ]
 
-        assert fact.ratio - 0.02 < max(shares[fact.distance.bits + 1 :]) <= fact.ratio
+        assert fact.share - 2 < 100 * max(shares[fact.distance.bits + 1 :]) <= fact.share
 
 
 @pytest.mark.verifies("SWR-E2E-023", technique="fault_injection", polarity="violation")

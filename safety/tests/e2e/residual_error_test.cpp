@@ -201,6 +201,19 @@ TEST(E2eResidualErrorTest, BoundIsNeverBelowTheExactValue) {
     EXPECT_NEAR(calc_exact(32U, 1e-2) / 5.31e-6, 1.0, 0.005);
 }
 
+TEST(E2eResidualErrorTest, ChangedRowHasAnotherFingerprint) {
+    verifies("SWR-E2E-023", Technique::kFaultInjection, Polarity::kViolation);
+
+    const std::array<detail::ResidualFacts, 1U> row{detail::ResidualFacts{16U, 4U, 562U, 807U}};
+    const std::uint32_t fingerprint = detail::calc_fingerprint(row);
+    EXPECT_EQ(fingerprint, 0x713005D8U);
+    for (const detail::ResidualFacts& changed :
+         {detail::ResidualFacts{17U, 4U, 562U, 807U}, detail::ResidualFacts{16U, 5U, 562U, 807U},
+          detail::ResidualFacts{16U, 4U, 563U, 807U}, detail::ResidualFacts{16U, 4U, 562U, 808U}}) {
+        EXPECT_NE(detail::calc_fingerprint(std::array<detail::ResidualFacts, 1U>{changed}), fingerprint);
+    }
+}
+
 TEST(E2eResidualErrorTest, BoundOfALengthBetweenTwoRowsIsThatOfTheLongerOne) {
     verifies("SWR-E2E-023", Technique::kBoundaryValues);
 

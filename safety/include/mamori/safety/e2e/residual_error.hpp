@@ -178,17 +178,17 @@ constexpr double bound_turned(std::size_t bits, std::uint32_t turned, double pe)
 
 /// Bound for frames of `length` bytes, at most that of the row, from what is known of the row: what passes in
 /// a shorter frame passes in a longer one with zeros in front. Of the patterns above the least weight at most
-/// `ratio` * 2^-width pass, if the bits are sound which the shorter frame lacks; those are so with a
-/// probability of at least 1 - their number * pe.
+/// `share_hundredths` / 100 * 2^-width pass, if the bits are sound which the shorter frame lacks; those are
+/// so with a probability of at least 1 - their number * pe.
 template <std::size_t kWidth>
 constexpr double bound_row(const ResidualFacts& row, std::size_t length, double pe) noexcept {
     const double sound = 1.0 - static_cast<double>((row.length - length) * 8U) * pe;
     if (sound <= 0.0) {
         return 1.0;
     }
-    const double least = row.patterns * bound_pattern(length * 8U, row.distance, pe);
-    const double more =
-        row.ratio * calc_power(0.5, kWidth) * bound_turned(row.length * 8U, row.distance + 1U, pe) / sound;
+    const double least = static_cast<double>(row.patterns) * bound_pattern(length * 8U, row.distance, pe);
+    const double share = row.share_hundredths / 100.0 * calc_power(0.5, kWidth);
+    const double more = share * bound_turned(row.length * 8U, row.distance + 1U, pe) / sound;
     return least + more < 1.0 ? least + more : 1.0;
 }
 
