@@ -145,6 +145,25 @@ TEST(E2eResidualErrorTest, ListThatHidesATurnedCounterBitIsFound) {
     EXPECT_EQ(hiding, 4U);
 }
 
+TEST(E2eResidualErrorTest, CounterWithTheGreatestResidualErrorCounts) {
+    verifies("SWR-E2E-022", Technique::kBoundaryValues, Polarity::kViolation);
+
+    constexpr double kPe = 1e-3;
+    // Two of its neighbours hide a turned bit of `counter`, and of the neighbours each hides one only.
+    for (const std::uint32_t counter : {0U, 15U}) {
+        IdListChannel channel{{}, 8U};
+        for (const std::uint32_t bit : {1U, 2U}) {
+            const double before = try_patterns<E2eProfile22<>>(channel, 8U, 1U, kPe, counter);
+            std::uint8_t& id = channel.data_ids[counter ^ bit];
+            while (try_patterns<E2eProfile22<>>(channel, 8U, 1U, kPe, counter) <= before && id < 255U) {
+                ++id;
+            }
+        }
+        const double worst = bound_residual_error<E2eProfile22<>>(channel, kPe);
+        EXPECT_NEAR(worst / (2.0 * kPe * std::pow(1.0 - kPe, 63.0)), 1.0, 0.01) << counter;
+    }
+}
+
 template <typename Profile>
 void expect_bounded(const typename Profile::Channel& channel, const Published& published, double loosest) {
     for (std::size_t i = 0U; i < published.size(); ++i) {
@@ -163,6 +182,17 @@ TEST(E2eResidualErrorTest, BoundsAreNeverBelowThePublishedResidualErrorsAndNotFa
     expect_bounded<E2eProfile04<>>(make_sent(16U), {2.54e-14, 7.42e-22, 8.35e-38}, 1.5);
     expect_bounded<E2eProfile08<>>(make_sent(32U), {1.69e-12, 1.48e-19, 1.89e-35}, 150.0);
     expect_bounded<E2eProfile44<>>(make_sent(64U), {8.78e-11, 4.29e-15, 7.04e-27}, 15.0);
+}
+
+TEST(E2eResidualErrorTest, BoundsAreThoseOfTheDesignNote) {
+    verifies("SWR-E2E-023");
+
+    expect_published<E2eProfile05<>>(make_known(16U), {4.87e-6, 5.29e-10, 5.62e-18});
+    expect_published<E2eProfile06<>>(make_known(32U), {5.83e-5, 4.73e-9, 5.38e-17});
+    expect_published<E2eProfile05<>>(make_known(64U), {3.65e-5, 5.92e-8, 8.34e-16});
+    expect_published<E2eProfile44<>>(make_sent(16U), {3.41e-14, 7.50e-22, 8.35e-38});
+    expect_published<E2eProfile04<>>(make_sent(32U), {7.38e-12, 1.54e-19, 1.89e-35});
+    expect_published<E2eProfile08<>>(make_sent(64U), {1.11e-9, 6.13e-15, 7.06e-27});
 }
 
 /// Residual error of a 16-bit checksum, by following how likely turned bits add up to each of 65536 sums.
@@ -307,6 +337,10 @@ TEST(E2eResidualErrorTest, UseOutOfRangeIsRefused) {
     const auto judge = [](const ChannelUse& use) {
         return judge_budget<E2eProfile04<>>(make_sent(16U), use).fault;
     };
+    EXPECT_EQ(judge({}), BudgetFault::kUse) << "a use without a rate";
+    EXPECT_EQ(ChannelUse{}.bit_error_probability, 1e-2);
+    EXPECT_EQ(ChannelUse{}.receivers, 1U);
+    EXPECT_EQ(ChannelUse{}.budget_per_hour, kSil3ChannelBudget);
     EXPECT_EQ(judge({1e-9, 1e-5, 1U, 1.0}), BudgetFault::kNone);
     EXPECT_EQ(judge({0.0, 1e-5, 1U, 1.0}), BudgetFault::kUse);
     EXPECT_EQ(judge({kNone, 1e-5, 1U, 1.0}), BudgetFault::kUse);
@@ -323,17 +357,25 @@ TEST(E2eResidualErrorTest, ChannelsThatCannotBeJudgedAreRefused) {
     verifies("SWR-E2E-024", Technique::kBoundaryValues, Polarity::kViolation);
 
     constexpr ChannelUse kUse{1e-3, 1e-9};
-    EXPECT_EQ(judge_budget<E2eProfile04<>>(make_sent(8U), kUse).fault, BudgetFault::kChannel);
-    EXPECT_EQ(judge_budget<E2eProfile02<>>(make_constant_list(14U), kUse).fault, BudgetFault::kNone);
-    EXPECT_EQ(judge_budget<E2eProfile02<>>(make_constant_list(15U), kUse).fault, BudgetFault::kShortDistance);
-    EXPECT_EQ(judge_budget<E2eProfile22<>>(make_constant_list(15U), kUse).fault, BudgetFault::kShortDistance);
-    EXPECT_EQ(judge_budget<E2eProfile01<>>(make_nibbles(30U), kUse).fault, BudgetFault::kNone);
+    const auto judge = [&kUse](auto profile, const auto& channel) {
+        const BudgetVerdict verdict = judge_budget<decltype(profile)>(channel, kUse);
+        EXPECT_EQ(verdict.times, 0U);
+        return verdict.fault;
+    };
+    EXPECT_EQ(judge(E2eProfile04<>{}, make_sent(8U)), BudgetFault::kChannel);
+    EXPECT_EQ(judge(E2eProfile02<>{}, make_constant_list(14U)), BudgetFault::kNone);
+    EXPECT_EQ(judge(E2eProfile02<>{}, make_constant_list(15U)), BudgetFault::kShortDistance);
+    EXPECT_EQ(judge(E2eProfile22<>{}, make_constant_list(15U)), BudgetFault::kShortDistance);
+    EXPECT_EQ(judge(E2eProfile01<>{}, make_nibbles(30U)), BudgetFault::kNone);
     const std::size_t known = detail::kResidualFacts32.back().length;
-    EXPECT_EQ(judge_budget<E2eProfile44<>>(make_sent(known), kUse).fault, BudgetFault::kNone);
-    EXPECT_EQ(judge_budget<E2eProfile44<>>(make_sent(known + 1U), kUse).fault, BudgetFault::kUnknownLength);
-    EXPECT_EQ(judge_budget<E2eProfile08<>>(make_sent(known + 1U), kUse).fault, BudgetFault::kUnknownLength);
-    EXPECT_EQ(judge_budget<E2eProfile07<>>(make_sent(4194304U), kUse).fault, BudgetFault::kNone);
-    EXPECT_EQ(judge_budget<E2eProfile05<>>(make_known(4096U), kUse).fault, BudgetFault::kNone);
+    EXPECT_EQ(judge(E2eProfile44<>{}, make_sent(known)), BudgetFault::kNone);
+    EXPECT_EQ(judge(E2eProfile44<>{}, make_sent(known + 1U)), BudgetFault::kUnknownLength);
+    EXPECT_EQ(judge(E2eProfile08<>{}, make_sent(known + 1U)), BudgetFault::kUnknownLength);
+    EXPECT_EQ(judge(E2eProfile07<>{}, make_sent(4194304U)), BudgetFault::kNone);
+    EXPECT_EQ(judge(E2eProfile05<>{}, make_known(4096U)), BudgetFault::kNone);
+    ChannelUse none = kUse;
+    none.receivers = 0U;
+    EXPECT_EQ(judge_budget<E2eProfile04<>>(make_sent(16U), none).times, 0U);
 }
 
 TEST(E2eResidualErrorTest, ChannelWithinItsBudgetIsProven) {

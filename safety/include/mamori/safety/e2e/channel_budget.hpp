@@ -91,8 +91,8 @@ constexpr bool is_use_sound(const ChannelUse& use) noexcept {
 
 /// What is wrong with a channel and its use.
 struct BudgetVerdict {
-    BudgetFault fault{BudgetFault::kNone};
-    std::uint64_t times{0U};  ///< kBudget: so often the budget goes into the rate, rounded up; stops at 1e18
+    BudgetFault fault;
+    std::uint64_t times;  ///< kBudget: so often the budget goes into the rate, rounded up; stops at 1e18
 };
 
 /// @return the first fault that is true, in the order of BudgetFault.

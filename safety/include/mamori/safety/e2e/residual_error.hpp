@@ -26,13 +26,13 @@ namespace detail {
 /// the profiles 1 (alternating), 2 and 22 not linear, so the four bits of the counter are followed one by
 /// one.
 struct ByteChecksumModel {
-    std::uint8_t polynomial{0U};
-    std::size_t length{0U};                    ///< of the frame [bytes]
-    std::size_t crc_at{0U};                    ///< [bytes]
-    std::size_t counter_offset{0U};            ///< [bits] as in NibbleCounterChannel
-    std::uint32_t counter_max{0U};             ///< greatest counter that is sent
-    bool is_id_behind{false};                  ///< else in front of the frame
-    std::array<std::uint8_t, 16U> data_ids{};  ///< byte that goes into the checksum with each counter
+    std::uint8_t polynomial;
+    std::size_t length;                      ///< of the frame [bytes]
+    std::size_t crc_at;                      ///< [bytes]
+    std::size_t counter_offset;              ///< [bits] as in NibbleCounterChannel
+    std::uint32_t counter_max;               ///< greatest counter that is sent
+    bool is_id_behind;                       ///< else in front of the frame
+    std::array<std::uint8_t, 16U> data_ids;  ///< byte that goes into the checksum with each counter
 
     /// x times the remainder `power`.
     constexpr std::uint8_t shift(std::uint8_t power) const noexcept {
@@ -41,11 +41,10 @@ struct ByteChecksumModel {
     }
 };
 
-/// Sum of those `syndromes` whose bits are set in `bits`.
+/// `sum` and those `syndromes` whose bits are set in `bits`.
 template <std::size_t kCount>
-constexpr std::uint8_t add_syndromes(const std::array<std::uint8_t, kCount>& syndromes,
+constexpr std::uint8_t add_syndromes(std::uint32_t sum, const std::array<std::uint8_t, kCount>& syndromes,
                                      std::uint32_t bits) noexcept {
-    std::uint32_t sum = 0U;
     for (std::size_t i = 0U; i < kCount; ++i) {
         sum ^= ((bits >> i) & 1U) != 0U ? syndromes[i] : 0U;
     }
@@ -142,7 +141,7 @@ constexpr double calc_residual_error(const ByteChecksumModel& model, double pe) 
         double sum = calc_nibble(0U, pe) * rest.get_turned(0U);
         for (std::uint32_t turned = 1U; turned < 16U; ++turned) {
             const std::uint8_t ids = model.data_ids[counter] ^ model.data_ids[counter ^ turned];
-            const std::uint8_t needed = add_syndromes(counter_bits, turned) ^ add_syndromes(id_bits, ids);
+            const std::uint8_t needed = add_syndromes(add_syndromes(0U, counter_bits, turned), id_bits, ids);
             sum += calc_nibble(turned, pe) * rest.calc_any(needed);
         }
         worst = sum > worst ? sum : worst;

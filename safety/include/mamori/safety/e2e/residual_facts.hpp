@@ -18,10 +18,10 @@ namespace mamori::safety::detail {
 
 /// Error patterns that pass in frames of one length.
 struct ResidualFacts {
-    std::size_t length{0U};              ///< of the frame with its header [bytes]
-    std::uint32_t distance{0U};          ///< fewest turned bits that may pass
-    std::uint64_t patterns{0U};          ///< how many patterns of so many bits pass, below 2^53
-    std::uint32_t share_hundredths{0U};  ///< greatest share of any higher weight that passes [2^-width / 100]
+    std::size_t length;              ///< of the frame with its header [bytes]
+    std::uint32_t distance;          ///< fewest turned bits that may pass
+    std::uint64_t patterns;          ///< how many patterns of so many bits pass, below 2^53
+    std::uint32_t share_hundredths;  ///< greatest share of any higher weight that passes [2^-width / 100]
 };
 
 /// Checksum of all rows: a row that was changed by hand does not compile.
