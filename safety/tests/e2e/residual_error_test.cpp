@@ -327,7 +327,7 @@ TEST(E2eResidualErrorTest, BudgetIsKeptUpToItselfAndNotAbove) {
     EXPECT_EQ(over.times, 2U);
 
     use.budget_per_hour = 1e-300;
-    EXPECT_EQ(judge_budget<E2eProfile04<>>(channel, use).times, 1000000000000000001U);
+    EXPECT_EQ(judge_budget<E2eProfile04<>>(channel, use).times, 1000000001U);
 }
 
 TEST(E2eResidualErrorTest, UseOutOfRangeIsRefused) {

@@ -92,7 +92,7 @@ constexpr bool is_use_sound(const ChannelUse& use) noexcept {
 /// What is wrong with a channel and its use.
 struct BudgetVerdict {
     BudgetFault fault;
-    std::uint64_t times;  ///< kBudget: so often the budget goes into the rate, rounded up; stops at 1e18
+    std::uint64_t times;  ///< kBudget: so often the budget goes into the rate, rounded up; stops at 1e9
 };
 
 /// @return the first fault that is true, in the order of BudgetFault.
@@ -100,7 +100,7 @@ template <typename Profile>
 constexpr BudgetVerdict judge_budget(const typename Profile::Channel& channel,
                                      const ChannelUse& use) noexcept {
     constexpr std::size_t kLongestWithDistance = 14U;
-    constexpr double kMostTimes = 1e18;
+    constexpr double kMostTimes = 1e9;
     if (Profile::find_fault(channel) != ChannelFault::kNone) {
         return {BudgetFault::kChannel, 0U};
     }
