@@ -313,6 +313,15 @@ TEST(E2eResidualErrorTest, RateIsThatOfAllReceiversInAnHour) {
     EXPECT_NEAR(bound_residual_rate<E2eProfile01<>>(make_nibbles(8U), kThrice), 1.32e3, 15.0);
 }
 
+TEST(E2eResidualErrorTest, BudgetsAreOnePercentOfTheBandsOfTheLevels) {
+    verifies("SWR-E2E-024");
+
+    EXPECT_EQ(kSil1ChannelBudget, 1e-7);
+    EXPECT_EQ(kSil2ChannelBudget, 1e-8);
+    EXPECT_EQ(kSil3ChannelBudget, 1e-9);
+    EXPECT_EQ(kSil4ChannelBudget, 1e-10);
+}
+
 TEST(E2eResidualErrorTest, BudgetIsKeptUpToItselfAndNotAbove) {
     verifies("SWR-E2E-024", Technique::kBoundaryValues, Polarity::kViolation);
 
