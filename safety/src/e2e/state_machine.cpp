@@ -3,21 +3,6 @@
 
 namespace mamori::safety {
 
-ChannelStateMachine::ChannelStateMachine(Span<ProfileStatus> window, const ChannelDemands& demands) noexcept
-    : window_(window), demands_(demands), is_ready_(are_sound(demands, window.size())) {
-    restart();
-}
-
-void ChannelStateMachine::restart() noexcept {
-    for (ProfileStatus& status : window_) {
-        status = ProfileStatus::kNotAvailable;
-    }
-    next_ = 0U;
-    ok_count_ = 0U;
-    error_count_ = 0U;
-    state_ = ChannelState::kNoData;
-}
-
 Status ChannelStateMachine::check(ProfileStatus status) noexcept {
     if (!is_ready_) {
         return Status::kPreconditionNotMet;

@@ -55,6 +55,10 @@ class E2eProtector final {
         return Status::kOk;
     }
 
+    /// The frame that was protected last is replaced before it leaves: the next one gets its counter. Only
+    /// after a protect() that gave kOk, once.
+    constexpr void take_back() noexcept { counter_ = counter_ == 0U ? Profile::kCounterMax : counter_ - 1U; }
+
     /// Counter of the next frame.
     constexpr std::uint32_t get_counter() const noexcept { return counter_; }
 

@@ -58,7 +58,10 @@ class ChannelStateMachine final {
     /// @param[in] window  storage for the statuses; must outlive this object; its size is the window, 1 ..
     /// 255.
     /// @param[in] demands where they are not sound, every check() is refused and the state stays kNoData.
-    ChannelStateMachine(Span<ProfileStatus> window, const ChannelDemands& demands) noexcept;
+    constexpr ChannelStateMachine(Span<ProfileStatus> window, const ChannelDemands& demands) noexcept
+        : window_(window), demands_(demands), is_ready_(are_sound(demands, window.size())) {
+        restart();
+    }
 
     /// Notes the status of one check, silence included, and judges the channel anew. Once per check of the
     /// channel.
@@ -66,7 +69,15 @@ class ChannelStateMachine final {
     Status check(ProfileStatus status) noexcept;
 
     /// Begins anew, as after construction.
-    void restart() noexcept;
+    constexpr void restart() noexcept {
+        for (ProfileStatus& status : window_) {
+            status = ProfileStatus::kNotAvailable;
+        }
+        next_ = 0U;
+        ok_count_ = 0U;
+        error_count_ = 0U;
+        state_ = ChannelState::kNoData;
+    }
 
     ChannelState get_state() const noexcept { return state_; }
     /// True where the content of an accepted frame may be used.

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// How frames are taken out of an input of the kernel, each of them once: one that keeps the latest value, or
+/// one that queues. Not for users.
+///
+/// @satisfies SWR-E2E-036      Design: docs/design/e2e.md#ports
+#ifndef MAMORI_SAFETY_E2E_FRAME_SOURCE_HPP
+#define MAMORI_SAFETY_E2E_FRAME_SOURCE_HPP
+
+#include <cstdint>
+#include <limits>
+
+#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/time.hpp"
+
+namespace mamori::safety::detail {
+
+/// Frames of an input that keeps the latest value.
+template <typename Port, bool kIsQueue = Port::kIsQueue>
+class FrameSource final {
+  public:
+    constexpr explicit FrameSource(Port& port) noexcept : port_(port) {}
+
+    /// True for a frame that was not taken yet. The port calls a value new once more when the cycle that saw
+    /// it did not end well; that is no new frame, and no publication has the instant of the one before.
+    bool has_frame() const noexcept { return port_.is_new() && port_.get_published_at() != taken_at_; }
+    /// The frame, for this action. @pre has_frame().
+    const typename Port::Payload& take() noexcept {
+        taken_at_ = port_.get_published_at();
+        return port_.read();
+    }
+    /// Of the frame that was taken.
+    Instant get_published_at() const noexcept { return taken_at_; }
+
+  private:
+    Port& port_;
+    Instant taken_at_{std::numeric_limits<std::int64_t>::min()};
+};
+
+/// Frames of an input that queues.
+template <typename Port>
+class FrameSource<Port, true> final {
+  public:
+    constexpr explicit FrameSource(Port& port) noexcept : port_(port) {}
+
+    bool has_frame() noexcept { return port_.has_waiting(); }
+    /// The oldest frame that waits, until the next call. @pre has_frame().
+    const typename Port::Payload& take() noexcept {
+        frame_.clear();  // what could not be read is no frame, and least of all the one before
+        static_cast<void>(port_.read(frame_));
+        return frame_;
+    }
+    Instant get_published_at() const noexcept { return port_.get_published_at(); }
+
+  private:
+    Port& port_;
+    typename Port::Payload frame_{};
+};
+
+}  // namespace mamori::safety::detail
+
+#endif  // MAMORI_SAFETY_E2E_FRAME_SOURCE_HPP
