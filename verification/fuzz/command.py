@@ -39,13 +39,13 @@ class Request:
 
 
 def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
-    """Runs the harnesses of `folder` against the kernel below `root`. @return exit status; 1 when one found something, did
+    """Runs the harnesses of `folder` against kernel and safety layer below `root`. @return exit status; 1 when one found something, did
     nothing, or when there is none at all. @raise UsageError for a harness that does not exist."""
     project = Project(root)
     try:
         harnesses = choose(find_harnesses(folder, root / "build" / "fuzz"), request.names, folder)
         print(f"building {len(harnesses)} harnesses with address and undefined-behaviour sanitizers", flush=True)
-        sources = sorted((root / "kernel" / "src").rglob("*.cpp"))
+        sources = sorted(path for layer in ("kernel", "safety") for path in (root / layer / "src").rglob("*.cpp"))
         build_harnesses(harnesses, sources, list_includes(root), request.jobs)
         with ThreadPoolExecutor(request.jobs) as pool:
             runs = list(pool.map(lambda one: run_harness(one, request.seconds, _say), harnesses))
