@@ -35,12 +35,13 @@ from mamori.verification.command.steps import Context, Step, all_passed, run_ste
 EXACT = "exact"
 BENCHES = {
     "port": "write and read of a port, one thread: 8 B, 64 B, 1 KB, 64 KB",
+    "e2e": "the same with an end-to-end protected message: 8 B, 64 B, 1 KB",
     "scheduler": "a component per cycle, with and without supervision: 10, 100, 1000 components",
     "wake-up": "wake-up of another thread: the guarded host of the real-time port, and the floor",
     GRID: "lateness of wake-ups at 1 kHz: the grid of the real-time port, and cyclictest; needs a fixed priority",
     EXACT: "exact instruction counts (callgrind), and no heap or system call after start",
 }
-SEALED = ("port_8", "port_64", "cycle_20", "supervised_cycle_20")
+SEALED = ("port_8", "port_64", "e2e_port_32", "cycle_20", "supervised_cycle_20")
 """Operations that may neither use the heap nor make a system call; their clocks cost nothing, since clocks belong to ports."""
 
 

@@ -15,7 +15,7 @@ from mamori.verification.bench.samples import Samples
 from mamori.verification.command.console import Screen
 
 Row = tuple[str, ...]
-SIZE_UNITS = {"port": "B", "scheduler": "components", "wake-up": "B", "grid": "% of wake-ups"}
+SIZE_UNITS = {"port": "B", "e2e": "B", "scheduler": "components", "wake-up": "B", "grid": "% of wake-ups"}
 
 
 def show_run(run: Run, screen: Screen) -> None:

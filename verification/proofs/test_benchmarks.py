@@ -15,7 +15,7 @@ from mamori.verification.bench.samples import Samples, read_samples
 from mamori.verification.command.project import Project
 
 PEERS = ("Boost SPSC", "LCM memq", "CycloneDDS", "iceoryx2 local", "ETL message_bus", "F Prime synchronous port",
-         "reactor-cpp with deadline")  # fmt: skip
+         "reactor-cpp with deadline", "vsomeip profile 4")  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +28,7 @@ def program(project: Project) -> Path:
 @pytest.fixture(scope="module")
 def samples(program: Path, tmp_path_factory: pytest.TempPathFactory) -> Samples:
     out = tmp_path_factory.mktemp("bench") / "samples.json"
-    words = ["--rounds", "5", "--batches", "1", "--batch-ns", "1000", "--only", "port", "scheduler", "wake-up"]
+    words = ["--rounds", "5", "--batches", "1", "--batch-ns", "1000", "--only", "port", "e2e", "scheduler", "wake-up"]
     subprocess.run([str(program), "--out", str(out), *words], check=True, capture_output=True, timeout=300)
     return read_samples(out)
 

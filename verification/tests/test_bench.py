@@ -118,6 +118,25 @@ def test_absent_floor_or_ours_is_a_failure(missing: str) -> None:
     assert judge_recorded(make_bars(3.0), cases=cases)[0].verdict == FAILED
 
 
+def judge_protected(subjects: dict[str, list[float]]) -> list[RatioResult]:
+    cases = [make_case(size, subjects, "e2e") for size in (8, 64, 1024)]
+    return judge(parse_samples({**RECORDED, "cases": cases}), load_bars())
+
+
+@pytest.mark.verifies("SWR-BEN-010")
+def test_protected_exchange_is_held_against_a_frame_with_the_same_checksum() -> None:
+    results = judge_protected({"mamori protected port": [6.0] * 5, "CRC-32 frame": [5.0] * 5})
+
+    assert [(one.id, one.size, one.ratio, one.limit, one.kind, one.verdict) for one in results] == [
+        ("P2", 8, 1.2, 1.5, "gate", PASSED), ("P2", 64, 1.2, 1.3, "gate", PASSED), ("P2", 1024, 1.2, 1.15, "gate", FAILED)]  # fmt: skip
+
+
+@pytest.mark.verifies("SWR-BEN-010", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize("left", ["mamori protected port", "CRC-32 frame"])
+def test_protected_exchange_without_its_floor_fails(left: str) -> None:
+    assert [one.verdict for one in judge_protected({left: [5.0] * 5})] == [FAILED] * 3
+
+
 @pytest.mark.verifies("SWR-BEN-002")
 def test_reason_of_the_build_replaces_that_of_the_configuration() -> None:
     samples = parse_samples({**RECORDED, "absent": [{"name": "iceoryx2 local", "reason": "not built"}]})

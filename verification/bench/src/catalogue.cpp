@@ -25,6 +25,13 @@ std::vector<Case> make_catalogue() {
     add_port_floors(ports);
     add_peers(ports);
 
+    std::vector<Case> e2e;
+    for (const std::size_t size : kE2eSizes) {
+        e2e.push_back({"e2e", size, "ns per protected write and read", 1U, &calc_sum_of_words, {}});
+    }
+    add_mamori_e2e(e2e);
+    add_e2e_floors(e2e);
+
     std::vector<Case> schedulers;
     for (const std::size_t count : kComponentCounts) {
         schedulers.push_back(
@@ -39,6 +46,7 @@ std::vector<Case> make_catalogue() {
     add_wake_up_floor(wake_ups);
 
     std::vector<Case> all = std::move(ports);
+    all.insert(all.end(), e2e.begin(), e2e.end());
     all.insert(all.end(), schedulers.begin(), schedulers.end());
     all.insert(all.end(), wake_ups.begin(), wake_ups.end());
     return all;

@@ -11,13 +11,15 @@
 
 namespace mamori::verification::bench {
 
-/// @return all cases: port write and read, scheduler, wake-up.
+/// @return all cases: port write and read, the same with a protected message, scheduler, wake-up.
 std::vector<Case> make_catalogue();
 
 /// @name One function per file of subjects
 /// @{
 void add_port_floors(std::vector<Case>& ports);
 void add_mamori_port(std::vector<Case>& ports);
+void add_e2e_floors(std::vector<Case>& e2e);
+void add_mamori_e2e(std::vector<Case>& e2e);
 void add_scheduler_floors(std::vector<Case>& schedulers);
 void add_mamori_executive(std::vector<Case>& schedulers);
 void add_wake_up_floor(std::vector<Case>& wake_ups);

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <memory>
 
+#include "e2e_rig.hpp"
 #include "executive_rig.hpp"
 #include "mamori/kernel/data_port.hpp"
 #include "seal.hpp"
@@ -48,9 +49,31 @@ struct SeqlockRig {
     Seqlock<Message<64U>> lock;
 };
 
+/// A frame of 64 bytes that is protected and checked, in order.
+template <typename Profile>
+struct FrameRig {
+    static constexpr safety::SentIdChannel kChannel{0x0A0B0C0DU, 64U, 64U};
+    static_assert(safety::is_sound<Profile, kChannel>());
+
+    std::array<std::byte, 64U> frame{};
+    safety::E2eProtector<Profile> sender{kChannel};
+    safety::HardenedE2eChecker<Profile> receiver{kChannel, {}};
+
+    void exchange() noexcept {
+        static_cast<void>(sender.protect(frame));
+        touch(frame);
+        safety::CheckStatus status = receiver.check(frame);
+        touch(status);
+    }
+};
+
 PortRig<8U> g_port_8;
 PortRig<64U> g_port_64;
 SeqlockRig g_seqlock;
+FrameRig<safety::E2eProfile04<>> g_frame;
+FrameRig<safety::E2eProfile07<>> g_frame_p07;
+E2eRig<32U> g_e2e_port;
+const Message<32U> g_e2e_value{};
 ComponentPool g_pool{1U};
 Component* g_component = &g_pool.at(0U);
 ExecutiveRig<10U, CountingClock> g_ten;
@@ -76,6 +99,21 @@ extern "C" {
     touch(g_seqlock);
     static_cast<void>(g_seqlock.lock.try_read(g_seqlock.read));
     touch(g_seqlock);
+}
+[[gnu::noinline]] void measured_e2e_64() {
+    g_frame.exchange();
+}
+[[gnu::noinline]] void measured_e2e_p07_64() {
+    g_frame_p07.exchange();
+}
+[[gnu::noinline]] void measured_e2e_port_32() {
+    g_e2e_port.exchange(g_e2e_value);
+}
+[[gnu::noinline]] void measured_crc32_64() {
+    safety::Crc<safety::kCrc32P4> crc;
+    crc.add(g_frame.frame);
+    std::uint32_t value = crc.get_value();
+    touch(value);
 }
 [[gnu::noinline]] void measured_virtual_call() {
     static_cast<void>(g_component->on_execute({0, Instant{}}));
@@ -121,10 +159,14 @@ struct Operation {
     void (*work)();
 };
 
-constexpr std::array<Operation, 12> kOperations{{
+constexpr std::array<Operation, 16> kOperations{{
     {"port_8", &measured_port_8},
     {"port_64", &measured_port_64},
     {"seqlock_64", &measured_seqlock_64},
+    {"e2e_64", &measured_e2e_64},
+    {"e2e_p07_64", &measured_e2e_p07_64},
+    {"e2e_port_32", &measured_e2e_port_32},
+    {"crc32_64", &measured_crc32_64},
     {"virtual_call", &measured_virtual_call},
     {"cycle_10", &measured_cycle_10},
     {"cycle_20", &measured_cycle_20},

@@ -90,12 +90,16 @@ class E2eInPort final {
             outcome_ = E2eOutcome::kUnproven;
         }
         count_up(counts_[static_cast<std::size_t>(outcome_)]);
-        if (!has_value_ || judge_age(origin_, now, kLimits.age_max) != E2eOutcome::kAccepted) {
-            value = substitute_;
-            return E2eWorth::kSubstitute;
+        if (outcome_ == E2eOutcome::kAccepted) {
+            value = value_;
+            return E2eWorth::kNew;
         }
-        value = value_;
-        return outcome_ == E2eOutcome::kAccepted ? E2eWorth::kNew : E2eWorth::kHeld;
+        if (has_value_ && judge_age(origin_, now, kLimits.age_max) == E2eOutcome::kAccepted) {
+            value = value_;
+            return E2eWorth::kHeld;
+        }
+        value = substitute_;
+        return E2eWorth::kSubstitute;
     }
 
     /// True when a frame waits that no reading has seen.

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A protected message from a component's output to another one's input: profile 4, which has the checksum of
+/// the floor.
+#ifndef MAMORI_VERIFICATION_BENCH_E2E_RIG_HPP
+#define MAMORI_VERIFICATION_BENCH_E2E_RIG_HPP
+
+#include "mamori/kernel/data_port.hpp"
+#include "mamori/safety/e2e/e2e.hpp"
+#include "subject.hpp"
+
+namespace mamori::verification::bench {
+
+using E2eProfile = safety::E2eProfile04<>;
+
+template <std::size_t kSize>
+inline constexpr safety::SentIdChannel kE2eChannel{0x0A0B0C0DU, E2eProfile::kHeaderSize + kSize,
+                                                   E2eProfile::kHeaderSize + kSize};
+inline constexpr safety::E2eInLimits<safety::HardenedSequence> kE2eLimits{
+    Duration{1000}, {}, 4U, {{1U, 0U}, {1U, 0U}, {1U, 0U}}};
+
+/// Both ports with the ends of the channel, in use: the order is found and the channel valid.
+template <std::size_t kSize>
+class E2eRig {
+    using Message = safety::E2eMessage<bench::Message<kSize>, E2eProfile, kE2eChannel<kSize>>;
+
+  public:
+    E2eRig() noexcept {
+        const bench::Message<kSize> nothing{};
+        for (int i = 0; i < 8; ++i) {
+            exchange(nothing);
+        }
+    }
+
+    /// A component writes, the window closes, the next window opens, a component reads.
+    void exchange(const bench::Message<kSize>& value) noexcept {
+        now_ = now_ + Duration{1};
+        static_cast<void>(sender_.write(value));
+        out_.publish(now_);
+        touch(out_);
+        in_.take(out_.get_published_sample());
+        touch(in_);
+        static_cast<void>(receiver_.read(now_, read_));
+        in_.mark_read();
+    }
+    /// What was read last.
+    const bench::Message<kSize>& get_read() const noexcept { return read_; }
+
+  private:
+    OutPort<typename Message::Frame> out_{"out"};
+    InPort<typename Message::Frame> in_{"in"};
+    safety::E2eOutPort<Message> sender_{out_};
+    safety::E2eInPort<Message, kE2eLimits> receiver_{in_, {}};
+    bench::Message<kSize> read_{};
+    Instant now_{};
+};
+
+}  // namespace mamori::verification::bench
+
+#endif  // MAMORI_VERIFICATION_BENCH_E2E_RIG_HPP
