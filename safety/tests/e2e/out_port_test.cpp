@@ -180,5 +180,47 @@ TEST(E2eMessageTest, PayloadLiesBehindTheLastByteOfTheHeader) {
     EXPECT_EQ((E2eMessage<Speed, E2eProfile22<>, kFarList>::kPayloadAt), 5U);
 }
 
+TEST(E2eMessageTest, PlaceOfThePayloadIsThatOfTheFieldWhichLiesLast) {
+    verifies("SWR-E2E-030", Technique::kBoundaryValues);
+    NibbleCounterChannel channel{0x0123U, DataIdMode::kNibble, 16U, 8U, 16U, 28U};
+    EXPECT_EQ(detail::calc_payload_begin<E2eProfile01<>>(channel), 4U);
+    channel.nibble_offset = 20U;
+    EXPECT_EQ(detail::calc_payload_begin<E2eProfile01<>>(channel), 3U);
+    channel.nibble_offset = 4U;
+    EXPECT_EQ(detail::calc_payload_begin<E2eProfile01<>>(channel), 3U);
+    channel.counter_offset = 0U;
+    EXPECT_EQ(detail::calc_payload_begin<E2eProfile01<>>(channel), 2U);
+    channel.nibble_offset = 28U;
+    channel.mode = DataIdMode::kBoth;  // sends no nibble, wherever it would lie
+    EXPECT_EQ(detail::calc_payload_begin<E2eProfile01<>>(channel), 2U);
+
+    SentIdChannel sent{7U, 30U, 30U};
+    EXPECT_EQ(detail::calc_payload_begin<E2eProfile04<>>(sent), 12U);
+    sent.offset = 8U;
+    EXPECT_EQ(detail::calc_payload_begin<E2eProfile04<>>(sent), 20U);
+}
+
+TEST(E2eMessageTest, ChannelTakesTheFramesOfAMessageAndNoOthers) {
+    verifies("SWR-E2E-037", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto takes = [](std::size_t least, std::size_t greatest) {
+        return detail::takes_exactly<E2eProfile04<>>({7U, least, greatest}, 24U, 28U);
+    };
+
+    EXPECT_TRUE(takes(24U, 28U));
+    EXPECT_FALSE(takes(23U, 28U));
+    EXPECT_FALSE(takes(25U, 28U));
+    EXPECT_FALSE(takes(24U, 27U));
+    EXPECT_FALSE(takes(24U, 29U));
+}
+
+TEST(E2eMessageTest, ShortestEncodingHasNothingInItsSequencesAndTexts) {
+    verifies("SWR-E2E-030", Technique::kBackToBack);
+
+    EXPECT_EQ(detail::calc_least_end<Mixed>(0U), mamori::calc_encoded_size(Mixed{}).get_value());
+    EXPECT_EQ(detail::calc_least_end<Note>(0U), mamori::calc_encoded_size(Note{}).get_value());
+    EXPECT_EQ(detail::calc_least_end<Speed>(0U), mamori::max_encoded_size<Speed>());
+    EXPECT_EQ(detail::calc_least_end<Speed>(4U), 20U);  // aligned to 8 first
+}
+
 }  // namespace
 }  // namespace e2e_port_test

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
@@ -16,10 +17,10 @@
 namespace mamori::safety::detail {
 
 /// Frames of an input that keeps the latest value.
-template <typename Port, bool kIsQueue = Port::kIsQueue>
-class FrameSource final {
+template <typename Port>
+class LatestFrames final {
   public:
-    constexpr explicit FrameSource(Port& port) noexcept : port_(port) {}
+    constexpr explicit LatestFrames(Port& port) noexcept : port_(port) {}
 
     /// True for a frame that was not taken yet. The port calls a value new once more when the cycle that saw
     /// it did not end well; that is no new frame, and no publication has the instant of the one before.
@@ -39,9 +40,9 @@ class FrameSource final {
 
 /// Frames of an input that queues.
 template <typename Port>
-class FrameSource<Port, true> final {
+class QueuedFrames final {
   public:
-    constexpr explicit FrameSource(Port& port) noexcept : port_(port) {}
+    constexpr explicit QueuedFrames(Port& port) noexcept : port_(port) {}
 
     bool has_frame() noexcept { return port_.has_waiting(); }
     /// The oldest frame that waits, until the next call. @pre has_frame().
@@ -56,6 +57,9 @@ class FrameSource<Port, true> final {
     Port& port_;
     typename Port::Payload frame_{};
 };
+
+template <typename Port>
+using FrameSource = std::conditional_t<Port::kIsQueue, QueuedFrames<Port>, LatestFrames<Port>>;
 
 }  // namespace mamori::safety::detail
 
