@@ -22,7 +22,8 @@ namespace detail {
 
 inline constexpr SentIdChannel kExampleChannel{1U, 12U + 8U + 28U, 12U + 8U + 48U};
 inline constexpr E2eInLimits<HardenedSequence> kExampleLimits{Duration{1}, {}, 8U, {}};
-using ExampleMessage = E2eMessage<Stamped<ExamplePayload>, E2eProfile04<>, kExampleChannel>;
+/// A struct, for a short name of what is made of it.
+struct ExampleMessage : E2eMessage<Stamped<ExamplePayload>, E2eProfile04<>, kExampleChannel> {};
 
 }  // namespace detail
 
