@@ -40,8 +40,10 @@ class RatioResult:
     note: str = ""
 
 
-def judge(samples: Samples, bars: Bars, floors: Sequence[str] = ("seqlock", "CRC-32 frame", "virtual call", "virtual call + clock")
-          ) -> list[RatioResult]:  # fmt: skip
+FLOORS = ("seqlock", "CRC-32 frame", "virtual call", "virtual call + clock")
+
+
+def judge(samples: Samples, bars: Bars, floors: Sequence[str] = FLOORS) -> list[RatioResult]:
     """@param floors subjects that are part of the program, so that one that is missing is a failure.
     @return one result for each bar and size whose metric was measured.
     """

@@ -39,8 +39,8 @@ class Request:
 
 
 def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
-    """Runs the harnesses of `folder` against kernel and safety layer below `root`. @return exit status; 1 when one found something, did
-    nothing, or when there is none at all. @raise UsageError for a harness that does not exist."""
+    """Runs the harnesses of `folder` against kernel and safety layer below `root`. @return exit status; 1 when one found
+    something, did nothing, or when there is none at all. @raise UsageError for a harness that does not exist."""
     project = Project(root)
     try:
         harnesses = choose(find_harnesses(folder, root / "build" / "fuzz"), request.names, folder)

@@ -128,7 +128,10 @@ def test_protected_exchange_is_held_against_a_frame_with_the_same_checksum() -> 
     results = judge_protected({"mamori protected port": [6.0] * 5, "CRC-32 frame": [5.0] * 5})
 
     assert [(one.id, one.size, one.ratio, one.limit, one.kind, one.verdict) for one in results] == [
-        ("P2", 8, 1.2, 1.5, "gate", PASSED), ("P2", 64, 1.2, 1.3, "gate", PASSED), ("P2", 1024, 1.2, 1.15, "gate", FAILED)]  # fmt: skip
+        ("P2", 8, 1.2, 1.5, "gate", PASSED),
+        ("P2", 64, 1.2, 1.3, "gate", PASSED),
+        ("P2", 1024, 1.2, 1.15, "gate", FAILED),
+    ]
 
 
 @pytest.mark.verifies("SWR-BEN-010", technique="fault_injection", polarity="violation")
