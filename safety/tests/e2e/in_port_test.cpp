@@ -514,6 +514,46 @@ TEST(E2eSourceTest, FrameThatGaveWayInAQueueIsALoss) {
     EXPECT_EQ(ends.sut.get_checker().get_cause(), FrameCause::kOutOfOrder);
 }
 
+/// A queue that says that a frame waits, and cannot give it.
+struct BrokenQueue {
+    using Payload = M04::Frame;
+    static constexpr bool kIsQueue = true;
+
+    bool has_waiting() noexcept { return is_waiting; }
+    Status read(Payload& frame) noexcept {
+        if (!is_broken) {
+            frame = next;
+        }
+        return is_broken ? Status::kOutOfResources : Status::kOk;
+    }
+    Instant get_published_at() const noexcept { return Instant{}; }
+
+    Payload next{};
+    bool is_waiting{true};
+    bool is_broken{false};
+};
+
+TEST(E2eSourceTest, FrameThatAQueueCannotGiveIsNone) {
+    verifies("SWR-E2E-036", Technique::kFaultInjection, Polarity::kViolation);
+    mamori::OutPort<M04::Frame> out{"out"};
+    E2eOutPort<M04> sender{out};
+    BrokenQueue queue;
+    E2eInPort<M04, kLoose<PlainSequence>, BrokenQueue> sut{queue, kSafe};
+    Speed value{};
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_EQ(sender.write({1.0, Gear::kDrive}), Status::kOk);
+        static_cast<void>(out.publish(Instant{}));
+        queue.next = out.get_published();
+        static_cast<void>(sut.read(Instant{}, value));
+    }
+    ASSERT_EQ(sut.get_outcome(), E2eOutcome::kAccepted);
+
+    queue.is_broken = true;
+    EXPECT_EQ(sut.read(Instant{}, value), E2eWorth::kHeld);
+    EXPECT_EQ(sut.get_checker().get_cause(), FrameCause::kTooShort);
+    EXPECT_EQ(sut.get_checker().get_count(FrameCause::kRepeated), 0U);
+}
+
 TEST(E2eSourceTest, AgeOfAQueuedFrameIsItsOwn) {
     verifies("SWR-E2E-034", Technique::kBoundaryValues, Polarity::kViolation);
     Ends<M04, kYoung, Queue> ends{kSafe};

@@ -18,6 +18,7 @@
 #include "mamori/kernel/span.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
+#include "mamori/safety/count_up.hpp"
 #include "mamori/safety/e2e/check_status.hpp"
 #include "mamori/safety/e2e/checker.hpp"
 #include "mamori/safety/e2e/frame.hpp"
@@ -108,8 +109,7 @@ class E2eInPort final {
     /// Forgets value, order and state; counts go on. Only for a deliberate reset.
     void restart() noexcept {
         checker_.restart();
-        machine_.restart();
-        has_value_ = false;
+        machine_.restart();  // and the next reading drops the value
     }
 
     /// What became of the last reading; kSilent before the first.
