@@ -52,8 +52,7 @@ void demand(bool condition) {
     }
 }
 
-// ---- Recomputation
-// ------------------------------------------------------------------------------------------
+// ---- Recomputation ----
 
 /// Register of `width` bits, bit by bit, most significant first; reflected ones are turned on the way.
 std::uint64_t divide(const Bytes& bytes, unsigned width, std::uint64_t polynomial, std::uint64_t start,
@@ -135,8 +134,7 @@ bool is_good(unsigned profile, const Bytes& frame, std::size_t shortest, std::si
     }
 }
 
-// ---- The ends
-// -----------------------------------------------------------------------------------------------
+// ---- The ends ----
 
 constexpr NibbleCounterChannel kNibbles{kShortId, DataIdMode::kBoth, 18U};
 constexpr IdListChannel kListed{{1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U, 11U, 12U, 13U, 14U, 15U, 16U}, 18U};

@@ -22,8 +22,7 @@ using mamori::verification::verifies;
 constexpr Instant kFirst{std::numeric_limits<std::int64_t>::min()};
 constexpr Instant kLast{std::numeric_limits<std::int64_t>::max()};
 
-// ---- Every profile, both orders, both kinds of input
-// -------------------------------------------------------
+// ---- Every profile, both orders, both kinds of input ----
 
 template <typename M, typename O, bool kQueues>
 struct Way {
@@ -85,8 +84,7 @@ TYPED_TEST(E2eInPortTest, EachTurnedBitKeepsTheValueIn) {
     EXPECT_EQ(ends.sut.get_state(), ChannelState::kInvalid);
 }
 
-// ---- Each cause, both orders
-// -------------------------------------------------------------------------------
+// ---- Each cause, both orders ----
 
 /// Frames of a port may be longer than those of the message.
 using Roomy = mamori::InPort<E2eFrame<40U>>;
@@ -204,8 +202,7 @@ TYPED_TEST(E2eCausesTest, CountsOfTheOutcomesSumUpToTheReadings) {
                   this->ends_.sut.get_checker().get_count(FrameCause::kOutOfOrder));
 }
 
-// ---- Losses within the limit
-// -------------------------------------------------------------------------------
+// ---- Losses within the limit ----
 
 constexpr E2eInLimits<PlainSequence> kOneLoss{100_ms, {2U}, 12U, {{1U, 11U}, {1U, 11U}, {1U, 11U}}};
 constexpr E2eInLimits<HardenedSequence> kOneLossHard{100_ms, {2U}, 12U, {{1U, 11U}, {1U, 11U}, {1U, 11U}}};
@@ -233,8 +230,7 @@ TEST(E2eLossTest, LossesWithinTheLimitOfTheOrderAreAllowed) {
     expect_one_loss_is_allowed<kOneLossHard>();
 }
 
-// ---- State of the channel
-// ----------------------------------------------------------------------------------
+// ---- State of the channel ----
 
 /// Two good readings of three prove the channel; one bad one of three ends that.
 constexpr E2eInLimits<PlainSequence> kStrict{100_ms, {1U}, 3U, {{2U, 0U}, {1U, 0U}, {3U, 0U}}};
@@ -300,8 +296,7 @@ TEST(E2eStateTest, SilenceFromTheStartGivesTheSubstitute) {
     EXPECT_EQ(ends.sut.get_count(E2eOutcome::kSilent), 1U);
 }
 
-// ---- Substitute
-// --------------------------------------------------------------------------------------------
+// ---- Substitute ----
 
 TEST(E2eSubstituteTest, OutParameterNeverKeepsWhatStoodInIt) {
     verifies("SWR-E2E-032", Technique::kErrorGuessing);
@@ -313,8 +308,7 @@ TEST(E2eSubstituteTest, OutParameterNeverKeepsWhatStoodInIt) {
     EXPECT_EQ(ends.value.gear, kSafe.gear);
 }
 
-// ---- Content
-// -----------------------------------------------------------------------------------------------
+// ---- Content ----
 
 TEST(E2eContentTest, GoodFrameWithoutAValueOfTheTypeIsRefusedAndAnError) {
     verifies("SWR-E2E-031", Technique::kFaultInjection, Polarity::kViolation);
@@ -378,8 +372,21 @@ TEST(E2eContentTest, FrameThatWasCutToAnotherAllowedLengthIsRefused) {
     EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kMalformed);
 }
 
-// ---- Age
-// ---------------------------------------------------------------------------------------------------
+using BigMessage = E2eMessage<Speed, E2eProfile04<>, kSent12, mamori::ByteOrder::kBig>;
+
+TEST(E2eContentTest, ByteOrderOfThePayloadIsThatOfTheMessage) {
+    verifies("SWR-E2E-031", Technique::kEquivalenceClasses);
+    Ends<BigMessage, kLoose<PlainSequence>> ends{kSafe};
+    ends.synchronise();
+
+    const auto frame = ends.make({1.0, Gear::kDrive});
+    EXPECT_EQ(frame[12U], 0x3FU);  // 1.0 is 3F F0 00 ..
+    EXPECT_EQ(frame[23U], 1U);
+    ASSERT_EQ(ends.receive(frame), E2eWorth::kNew);
+    EXPECT_EQ(ends.value.rad_s, 1.0);
+}
+
+// ---- Age ----
 
 constexpr E2eInLimits<PlainSequence> kYoung{25_ms, {1U}, 12U, {{1U, 11U}, {1U, 11U}, {1U, 11U}}};
 using Young = Ends<M04, kYoung>;
@@ -463,8 +470,7 @@ TEST(E2eAgeTest, StampsBeyondAllTimesAreRefusedWithoutOverflow) {
     EXPECT_EQ(judge_age({-2}, {0}, 1_ns), E2eOutcome::kLate);
 }
 
-// ---- Each frame once
-// ---------------------------------------------------------------------------------------
+// ---- Each frame once ----
 
 TEST(E2eSourceTest, FrameThatThePortStillCallsNewIsNoSecondFrame) {
     verifies("SWR-E2E-036", Technique::kStateTransition);
@@ -569,8 +575,7 @@ TEST(E2eSourceTest, AgeOfAQueuedFrameIsItsOwn) {
     EXPECT_EQ(ends.value.rad_s, 2.0);
 }
 
-// ---- Reset
-// -------------------------------------------------------------------------------------------------
+// ---- Reset ----
 
 TEST(E2eRestartTest, SenderThatBeganAnewIsHeardAfterADeliberateResetOnly) {
     verifies("SWR-E2E-039", Technique::kStateTransition, Polarity::kViolation);
@@ -609,8 +614,7 @@ TEST(E2eRestartTest, ResetTakesTheValueBackAndKeepsTheCounts) {
     EXPECT_EQ(ends.sut.get_count(E2eOutcome::kAccepted), 4U);
 }
 
-// ---- Names
-// -------------------------------------------------------------------------------------------------
+// ---- Names ----
 
 TEST(E2eOutcomeTest, EachOutcomeHasItsName) {
     verifies("SWR-E2E-035", Technique::kInterface);
