@@ -533,6 +533,7 @@ struct BrokenQueue {
         return is_broken ? Status::kOutOfResources : Status::kOk;
     }
     Instant get_published_at() const noexcept { return Instant{}; }
+    Instant get_restarted_at() const noexcept { return Instant{}; }
 
     Payload next{};
     bool is_waiting{true};
@@ -573,6 +574,46 @@ TEST(E2eSourceTest, AgeOfAQueuedFrameIsItsOwn) {
     EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kLate);
     EXPECT_EQ(ends.sut.read(start + 35_ms, ends.value), E2eWorth::kNew);
     EXPECT_EQ(ends.value.rad_s, 2.0);
+}
+
+// ---- Modes ----
+
+template <typename Port>
+class E2eModeTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        ends_.synchronise();
+        ASSERT_EQ(ends_.send({1.0, Gear::kDrive}), E2eWorth::kNew);
+    }
+    Ends<M04, kLoose<HardenedSequence>, Port> ends_{kSafe};
+};
+using Inputs = ::testing::Types<mamori::InPort<M04::Frame>, Queue>;
+struct InputName {
+    template <typename Port>
+    static std::string GetName(int) {  // NOLINT(readability-identifier-naming)
+        return Port::kIsQueue ? "Queue" : "Latest";
+    }
+};
+TYPED_TEST_SUITE(E2eModeTest, Inputs, InputName);
+
+TYPED_TEST(E2eModeTest, ValueOfAnotherModeIsNotHeld) {
+    verifies("SWR-E2E-041", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(this->ends_.read(), E2eWorth::kHeld);
+
+    this->ends_.in.restart(this->ends_.now, this->ends_.revision);
+    EXPECT_EQ(this->ends_.read(), E2eWorth::kSubstitute);
+    EXPECT_EQ(this->ends_.value.rad_s, kSafe.rad_s);
+    EXPECT_EQ(this->ends_.sut.get_state(), ChannelState::kValid);
+}
+
+TYPED_TEST(E2eModeTest, SameChannelGoesOnInTheNewMode) {
+    verifies("SWR-E2E-041", Technique::kStateTransition);
+    this->ends_.in.restart(this->ends_.now, this->ends_.revision);
+    ASSERT_EQ(this->ends_.read(), E2eWorth::kSubstitute);
+
+    EXPECT_EQ(this->ends_.send({2.0, Gear::kDrive}), E2eWorth::kNew);
+    EXPECT_EQ(this->ends_.value.rad_s, 2.0);
+    EXPECT_EQ(this->ends_.read(), E2eWorth::kHeld);
 }
 
 // ---- Reset ----

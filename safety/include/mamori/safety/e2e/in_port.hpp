@@ -84,7 +84,7 @@ class E2eInPort final {
     /// @return which of them it is.
     [[nodiscard]] E2eWorth read(Instant now, Value& value) noexcept {
         outcome_ = has_frame() ? judge_frame(now) : note_silence();
-        if (!machine_.is_valid()) {
+        if (!machine_.is_valid() || !source_.is_of_this_mode()) {
             has_value_ = false;
         }
         if (outcome_ == E2eOutcome::kAccepted && !has_value_) {
