@@ -174,8 +174,9 @@ enum class Step : std::uint8_t {
     kWait,       ///< so many milliseconds pass
     kQueueUp,    ///< the last frame once more, without a cycle
     kRestart,    ///< a deliberate reset
+    kNewMode,    ///< the connection is restarted
 };
-constexpr unsigned kStepCount = 9U;
+constexpr unsigned kStepCount = 10U;
 
 class Input final {
   public:
@@ -244,6 +245,10 @@ class Run final {
             case Step::kRestart:
                 checker_.restart();
                 port_.restart();
+                held_.clear();
+                return;
+            case Step::kNewMode:
+                in_.restart(now_, revision_);
                 held_.clear();
                 return;
         }

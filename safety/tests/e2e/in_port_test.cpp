@@ -606,6 +606,17 @@ TYPED_TEST(E2eModeTest, ValueOfAnotherModeIsNotHeld) {
     EXPECT_EQ(this->ends_.sut.get_state(), ChannelState::kValid);
 }
 
+TYPED_TEST(E2eModeTest, RefusedFrameOfTheNewModeDoesNotBringTheOldValueBack) {
+    verifies("SWR-E2E-041", Technique::kFaultInjection, Polarity::kViolation);
+    const auto repeated = this->ends_.out.get_published();
+    this->ends_.in.restart(this->ends_.now, this->ends_.revision);
+    this->ends_.now = this->ends_.now + 10_ms;
+
+    EXPECT_EQ(this->ends_.receive(repeated), E2eWorth::kSubstitute);
+    EXPECT_EQ(this->ends_.sut.get_outcome(), E2eOutcome::kRefused);
+    EXPECT_EQ(this->ends_.read(), E2eWorth::kSubstitute);
+}
+
 TYPED_TEST(E2eModeTest, SameChannelGoesOnInTheNewMode) {
     verifies("SWR-E2E-041", Technique::kStateTransition);
     this->ends_.in.restart(this->ends_.now, this->ends_.revision);

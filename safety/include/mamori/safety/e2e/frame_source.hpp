@@ -3,7 +3,7 @@
 /// How frames are taken out of an input of the kernel, each of them once: one that keeps the latest value, or
 /// one that queues. Not for users.
 ///
-/// @satisfies SWR-E2E-036, SWR-E2E-041      Design: docs/design/e2e.md#ports
+/// @satisfies SWR-E2E-036      Design: docs/design/e2e.md#ports
 #ifndef MAMORI_SAFETY_E2E_FRAME_SOURCE_HPP
 #define MAMORI_SAFETY_E2E_FRAME_SOURCE_HPP
 
@@ -28,18 +28,16 @@ class LatestFrames final {
     /// The frame, for this action. @pre has_frame().
     const typename Port::Payload& take() noexcept {
         taken_at_ = port_.get_published_at();
-        restarted_at_ = port_.get_restarted_at();
         return port_.read();
     }
-    /// False when the connection was restarted since the frame was taken: it is of another mode.
-    bool is_of_this_mode() const noexcept { return port_.get_restarted_at() == restarted_at_; }
+    /// Of the connection: what came before is of another mode.
+    Instant get_restarted_at() const noexcept { return port_.get_restarted_at(); }
     /// Of the frame that was taken.
     Instant get_published_at() const noexcept { return taken_at_; }
 
   private:
     Port& port_;
     Instant taken_at_{std::numeric_limits<std::int64_t>::min()};
-    Instant restarted_at_{};
 };
 
 /// Frames of an input that queues.
@@ -51,18 +49,16 @@ class QueuedFrames final {
     bool has_frame() noexcept { return port_.has_waiting(); }
     /// The oldest frame that waits, until the next call. @pre has_frame().
     const typename Port::Payload& take() noexcept {
-        restarted_at_ = port_.get_restarted_at();
         frame_.clear();  // what could not be read is no frame, and least of all the one before
         static_cast<void>(port_.read(frame_));
         return frame_;
     }
-    bool is_of_this_mode() const noexcept { return port_.get_restarted_at() == restarted_at_; }
+    Instant get_restarted_at() const noexcept { return port_.get_restarted_at(); }
     Instant get_published_at() const noexcept { return port_.get_published_at(); }
 
   private:
     Port& port_;
     typename Port::Payload frame_{};
-    Instant restarted_at_{};
 };
 
 template <typename Port>

@@ -3,7 +3,8 @@
 /// The receiving end of a protected message, behind an ordinary input of the kernel. A value comes out only
 /// when its frame, its content, its age and the state of the channel allow it; else a substitute does.
 ///
-/// @satisfies SWR-E2E-031, SWR-E2E-032, SWR-E2E-033, SWR-E2E-034, SWR-E2E-035, SWR-E2E-037, SWR-E2E-039
+/// @satisfies SWR-E2E-031, SWR-E2E-032, SWR-E2E-033, SWR-E2E-034, SWR-E2E-035
+/// @satisfies SWR-E2E-037, SWR-E2E-039, SWR-E2E-041
 /// Design:   docs/design/e2e.md#ports
 #ifndef MAMORI_SAFETY_E2E_IN_PORT_HPP
 #define MAMORI_SAFETY_E2E_IN_PORT_HPP
@@ -83,8 +84,12 @@ class E2eInPort final {
     /// @param[out] value always written: never anything but a value that may be used now, or the substitute.
     /// @return which of them it is.
     [[nodiscard]] E2eWorth read(Instant now, Value& value) noexcept {
+        if (source_.get_restarted_at() != restarted_at_) {
+            restarted_at_ = source_.get_restarted_at();
+            has_value_ = false;  // whatever this reading brings: what is held is of another mode
+        }
         outcome_ = has_frame() ? judge_frame(now) : note_silence();
-        if (!machine_.is_valid() || !source_.is_of_this_mode()) {
+        if (!machine_.is_valid()) {
             has_value_ = false;
         }
         if (outcome_ == E2eOutcome::kAccepted && !has_value_) {
@@ -160,7 +165,8 @@ class E2eInPort final {
     ChannelStateMachine machine_{window_, kLimits.demands};
     Value substitute_;
     Value value_;
-    Instant origin_{};  ///< from which the age of value_ counts
+    Instant origin_{};        ///< from which the age of value_ counts
+    Instant restarted_at_{};  ///< of the connection, as the last reading found it
     E2eOutcomeCounts counts_{};
     E2eOutcome outcome_{E2eOutcome::kSilent};
     bool has_value_{false};
