@@ -3,7 +3,8 @@
 /// The table from fault and mode to reaction. A declared fault without a reaction in one of the modes does
 /// not compile, and the worst of all latched faults decides.
 ///
-/// @satisfies SWR-FLT-004, SWR-FLT-005, SWR-FLT-006, SWR-FLT-010      Design: docs/design/faults.md#reactions
+/// @satisfies SWR-FLT-004, SWR-FLT-005, SWR-FLT-006, SWR-FLT-010, SWR-FLT-011
+/// Design: docs/design/faults.md#reactions
 #ifndef MAMORI_SAFETY_REACTION_TABLE_HPP
 #define MAMORI_SAFETY_REACTION_TABLE_HPP
 
