@@ -12,7 +12,8 @@ using namespace mamori::safety;  // NOLINT: this component is made of them
 
 Status SafetySupervisor::on_initialize() noexcept {
     for (std::size_t fault = 0U; fault < kArmFaultCount; ++fault) {
-        const Status result = faults_.set_confirmation(static_cast<FaultIndex>(fault), {kConfirmFrames[fault]});
+        const Status result =
+            faults_.set_confirmation(static_cast<FaultIndex>(fault), {kConfirmFrames[fault]});
         if (result != Status::kOk) {
             return result;
         }
