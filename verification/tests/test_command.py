@@ -24,7 +24,7 @@ from mamori.verification.command.steps import Context, run_steps
         (("build", "a", "b"), "build does not take 'b'"),
         (("demo", "--jobs", "0"), "'0' is no whole number from 1 on"),
         (("mutate", "--jobs", "-1"), "mutate: argument --jobs: '-1' is no whole number from 1 on"),
-        (("mutate", "nothing.cpp"), "mutate: 'nothing.cpp' is no source or header of the kernel; ./mamori mutate --list"),
+        (("mutate", "nothing.cpp"), "mutate: 'nothing.cpp' is no source or header of kernel or safety; ./mamori mutate --list"),
         (("demo", "--instants", "-1"), "--instants"),
         (("demo", "--instants", "1.5"), "'1.5' is no whole number from 1 on"),
         (("demo", "--motion"), "expected one argument"),

@@ -102,9 +102,10 @@ class FaultySram final {
   private:
     bool get(std::size_t bit) const { return ((cells_[bit / kBits] >> (bit % kBits)) & 1U) != 0U; }
     void set(std::size_t bit, bool value) {
-        const auto mask = static_cast<Word>(1U << (bit % kBits));
-        Word& cell = cells_[bit / kBits];
-        cell = static_cast<Word>(value ? cell | mask : cell & ~mask);
+        // As the widest word, so that no narrower one is widened with a sign on the way.
+        const std::uint64_t mask = std::uint64_t{1U} << (bit % kBits);
+        const std::uint64_t cell = cells_[bit / kBits];
+        cells_[bit / kBits] = static_cast<Word>(value ? cell | mask : cell & ~mask);
     }
     bool get_aggressor() const { return fault_.aggressor < size() * kBits && get(fault_.aggressor); }
     bool get_victim() const { return fault_.victim < size() * kBits && get(fault_.victim); }

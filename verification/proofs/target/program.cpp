@@ -5,6 +5,7 @@
 #include "arm_system.hpp"
 #include "board.hpp"
 #include "other_parts.hpp"
+#include "safety_parts.hpp"
 
 namespace proof {
 namespace {
@@ -47,6 +48,7 @@ bool is_refused(mamori::Status status, const char* what) noexcept {
 int run_program() noexcept {
     mamori::set_assertion_handler(&on_failed_check);
     if (is_refused(prepare_other_parts("slow"), "prepare the other parts") ||
+        is_refused(prepare_safety_parts(), "prepare the parts of the safety layer") ||
         is_refused(prepare(), "prepare") || is_refused(executive.initialize(), "initialize") ||
         is_refused(executive.start(), "start")) {
         return kNotStarted;
