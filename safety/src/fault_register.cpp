@@ -94,7 +94,7 @@ void FaultRegister::report(FaultIndex fault, bool is_present, Instant now) noexc
     FaultRecord& record = records_[fault];
     if (is_present) {
         note_presence(record, now);
-    } else {
+    } else if (!is_untouched(record)) {  // else the way of nearly every cycle: nothing decays, nothing heals
         note_absence(record, now);
     }
     record.judged_at = now;
