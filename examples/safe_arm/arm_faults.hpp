@@ -3,7 +3,7 @@
 /// Faults of the example arm and the reaction that each leads to. A fault without a reaction does not
 /// compile.
 ///
-/// @satisfies SWR-SAF-002      Design: docs/design/safe_arm.md#reactions
+/// @satisfies SWR-SAF-002, SWR-SAF-020      Design: docs/design/safe_arm.md#reactions
 #ifndef EXAMPLES_SAFE_ARM_ARM_FAULTS_HPP
 #define EXAMPLES_SAFE_ARM_ARM_FAULTS_HPP
 
