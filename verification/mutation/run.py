@@ -123,6 +123,7 @@ def try_mutants(
                     for result in results:
                         note(result)
         except BaseException:
+            baseline.is_stopped = True
             pool.shutdown(wait=False, cancel_futures=True)
             raise
 

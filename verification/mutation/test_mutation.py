@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+import time
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -13,7 +14,7 @@ import pytest
 
 from mamori.verification.command.errors import UsageError
 from mamori.verification.command.project import ROOT, Project
-from mamori.verification.mutation import baseline
+from mamori.verification.mutation import baseline, workbench
 from mamori.verification.mutation.command import Keeper, choose_files, describe, read_standing, run_layers
 from mamori.verification.mutation.equivalent import Row, read_list
 from mamori.verification.mutation.operators import Mutant, make_mutants
@@ -333,6 +334,25 @@ def test_mutant_that_never_ends_is_killed_in_time(sources: Sources) -> None:
     result = try_alone(Bench(original, "bench"), endless, source)
 
     assert (result.verdict, result.killer) == (KILLED, f"tests/limit_test.cpp {TIMED_OUT}")
+
+
+@pytest.mark.verifies("SWR-VER-008", technique="fault_injection", polarity="violation")
+def test_stopped_run_begins_no_other_test(sources: Sources, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Stopped by the first result, as by Ctrl-C; both benches are at work then."""
+    calls: list[float] = []
+    monkeypatch.setattr(workbench, "_run", lambda *rest, run=workbench._run: (calls.append(time.monotonic()), run(*rest))[1])
+    plan = make_plan(sources.root, Selection((SOURCE,)), ())
+    stopped: list[float] = []
+
+    def stop(_: Result) -> None:
+        stopped.append(time.monotonic())
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        try_mutants(sources, plan.mutants, plan.sources, sources.root / "work", 2, stop, TIMEOUT_S)
+
+    assert len(stopped) == 1
+    assert sum(call > stopped[0] for call in calls) <= 2
 
 
 @pytest.mark.verifies("SWR-VER-008")

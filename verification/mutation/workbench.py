@@ -47,6 +47,7 @@ class Baseline:
         self.includes: dict[str, frozenset[str]] = {}
         self.links: dict[str, frozenset[str]] = {}
         self.archive = folder / "liblayer.a"
+        self.is_stopped = False  # benches begin nothing any more: the judgement of many mutants takes minutes
         self.archives = [self.archive]  # in the order in which the linker needs them
         self._took_s: dict[str, float] = {}
         self._kills: Counter[tuple[str, str]] = Counter()  # by file that was mutated and path of the test
@@ -193,7 +194,7 @@ class Bench:
     def compile(self, unit: Unit, output: Path, *options: str) -> tuple[int, str]:
         """@return status and the compiler's words."""
         prefix = _include(unit, self.baseline.prefix)
-        return _run((COMPILER, *self._map(unit), *TEST_FLAGS, *prefix, *options, "-c", str(self._layer / unit.path),
+        return self._run((COMPILER, *self._map(unit), *TEST_FLAGS, *prefix, *options, "-c", str(self._layer / unit.path),
                      "-o", str(output)), COMPILE_TIMEOUT_S)  # fmt: skip
 
     def check_original(self, test: Unit) -> str:
@@ -206,7 +207,7 @@ class Bench:
         output = self.folder / "compared.s"
         output.unlink(missing_ok=True)
         prefix = _include(unit, self.baseline.compared_prefix)
-        _run((COMPILER, *self._map(unit), *COMPARED_FLAGS, *prefix, "-S", str(self._layer / unit.path), "-o", str(output)),
+        self._run((COMPILER, *self._map(unit), *COMPARED_FLAGS, *prefix, "-S", str(self._layer / unit.path), "-o", str(output)),
              COMPILE_TIMEOUT_S)  # fmt: skip
         if not output.exists():
             return ""
@@ -235,17 +236,22 @@ class Bench:
         status, words = self._link(test, changed)
         if status != 0:
             return status, words
-        return _run((str(self._program(test)), "--gtest_brief=1", *options), timeout_s, cwd=self.folder)
+        return self._run((str(self._program(test)), "--gtest_brief=1", *options), timeout_s, cwd=self.folder)
 
     def _link(self, test: Unit, changed: Mapping[str, Path], *options: str) -> tuple[int, str]:
         own = changed.get(test.path, self.baseline.get_object(test))
         others = [str(path) for name, path in changed.items() if not name.startswith("tests/")]
-        return _run((COMPILER, str(own), *others, *map(str, self.baseline.archives), *LIBRARIES, *options,
+        return self._run((COMPILER, str(own), *others, *map(str, self.baseline.archives), *LIBRARIES, *options,
                      "-o", str(self._program(test))), COMPILE_TIMEOUT_S)  # fmt: skip
 
     def _program(self, test: Unit) -> Path:
         """One for each test: tests of the unchanged layer run at the same time."""
         return self.folder / (test.path.replace("/", "_") + ".program")
+
+    def _run(self, argv: Iterable[str], timeout_s: float, cwd: Path | None = None) -> tuple[int, str]:
+        if self.baseline.is_stopped:
+            raise MutationError("stopped")
+        return _run(argv, timeout_s, cwd)
 
 
 def _include(unit: Unit, prefix: Path) -> tuple[str, ...]:
