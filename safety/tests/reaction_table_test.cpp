@@ -225,8 +225,8 @@ TEST_F(ReactionTableTest, ModeThatCannotBeCutsTheTorqueForEveryFault) {
 
 TEST_F(ReactionTableTest, RowWithoutAModeOrWithAnUnknownOneIsInvalid) {
     verifies("SWR-FLT-010", Technique::kBoundaryValues, Polarity::kViolation);
-    std::array<ReactionRow, 1U> table{
-        react_in(to_modes(Mode::kService), Fault::kNoise, Reaction::kSto, 1_ms)};
+    std::array<ReactionRow, 1U> table{};
+    table[0U] = react_in(to_modes(Mode::kService), Fault::kNoise, Reaction::kSto, 1_ms);
 
     EXPECT_TRUE(are_rows_valid(table, 1U, 3U));
     EXPECT_FALSE(are_rows_valid(table, 1U, 2U)) << "mode 2 of two modes";

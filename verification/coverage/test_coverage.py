@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -38,6 +39,7 @@ int main() {
 """
 ALL_CALLS = ("are_both<int>(1, 1); are_both<int>(0, 1); are_both<long>(1, 1); are_both<long>(1, 0);",
              "is_small(1); is_small(10);", "demand(1, 1); demand_in_child(2, 1); demand_in_child(1, 2);", "forgotten();")  # fmt: skip
+FUNCTION_BODY = re.compile(r"\)[\w\s]*\{")
 FORGOTTEN = "are_both<int>", "is_small(10)", "demand_in_child(1, 2)", "forgotten()"
 
 
@@ -74,8 +76,10 @@ def test_every_condition_is_shown_or_listed(measured: tuple[Verdict, str]) -> No
 def test_evidence_holds_each_file_of_each_layer(measured: tuple[Verdict, str]) -> None:
     evidence = json.loads((Project(ROOT).evidence / "coverage" / "coverage.json").read_text(encoding="utf-8"))
 
-    sources = {path.relative_to(ROOT).as_posix() for layer in LAYERS for path in (ROOT / layer / "src").rglob("*.cpp")}
-    assert sources <= {file["file"] for file in evidence["files"]}
+    sources = [path for layer in LAYERS for path in (ROOT / layer / "src").rglob("*.cpp")]
+    with_functions = {path.relative_to(ROOT).as_posix() for path in sources if FUNCTION_BODY.search(path.read_text(encoding="utf-8"))}
+    assert len(with_functions) > 40
+    assert with_functions <= {file["file"] for file in evidence["files"]}
     assert evidence["total"]["conditions"] > 100
     assert all(gap["reason"] for gap in evidence["gaps"])
 

@@ -100,7 +100,9 @@ class FaultySram final {
     std::vector<std::size_t> touched_{};
 
   private:
-    bool get(std::size_t bit) const { return ((cells_[bit / kBits] >> (bit % kBits)) & 1U) != 0U; }
+    bool get(std::size_t bit) const {
+        return ((std::uint64_t{cells_[bit / kBits]} >> (bit % kBits)) & 1U) != 0U;
+    }
     void set(std::size_t bit, bool value) {
         // As the widest word, so that no narrower one is widened with a sign on the way.
         const std::uint64_t mask = std::uint64_t{1U} << (bit % kBits);

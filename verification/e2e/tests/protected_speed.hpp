@@ -67,9 +67,9 @@ class Drive final : public mamori::Component {
     safety::E2eInPort<SafeSpeed, kSpeedLimits> speed_{in, kStandstill};
 };
 
-inline Planner planner;
-inline Drive drive;
-inline constexpr auto kSystem = mamori::system(
+static Planner planner;
+static Drive drive;
+static constexpr auto kSystem = mamori::system(
     mamori::frame(10_ms), mamori::window("drive", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(drive)),
     mamori::window("plan", 5_ms, 2_ms, mamori::budget(1_ms), mamori::run(planner)),
     mamori::connect(planner.out, drive.in));
