@@ -85,6 +85,14 @@ TEST_F(DeadlineSupervisorTest, RefusesLimitsAndSlotsOutOfRange) {
     EXPECT_FALSE(sut_.step(Instant{0}));
 }
 
+TEST_F(DeadlineSupervisorTest, LimitsThatWereLeftOutAreRefused) {
+    verifies("SWR-SUP-003", Technique::kEquivalenceClasses, Polarity::kViolation);
+
+    EXPECT_EQ(sut_.watch(1U, {}), Status::kBadParameter);
+    EXPECT_EQ(DeadlineLimits{}.shortest, 0_ns);
+    EXPECT_EQ(DeadlineLimits{}.longest, 0_ns);
+}
+
 TEST_F(DeadlineSupervisorTest, StorageOutsideItsSizesGoesToTheAssertionHandler) {
     verifies("SWR-SUP-003", Technique::kErrorGuessing, Polarity::kViolation);
 
