@@ -7,13 +7,14 @@ namespace mamori {
 namespace {
 
 /// In the order of Rule.
-constexpr std::array<const char*, 41> kNames{{
+constexpr std::array<const char*, 43> kNames{{
     "None",
     "FrameNotPositive",
     "WindowRowInvalid",
     "ComponentRowInvalid",
     "PortRowInvalid",
     "ConnectionRowInvalid",
+    "WindowNamedTwice",
     "PeriodNotInFrame",
     "WindowOutsideFrame",
     "WindowsOverlap",
@@ -25,6 +26,7 @@ constexpr std::array<const char*, 41> kNames{{
     "PortOfUnknownComponent",
     "InputNotConnected",
     "InputHasTwoWriters",
+    "AgeLimitNotPositive",
     "CrossingWithoutBuffer",
     "CrossingUsedTwice",
     "CrossingNotOrdered",

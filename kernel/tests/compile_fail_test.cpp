@@ -121,6 +121,56 @@ TEST(CompileFailTest, AReaderThatOpensWhileItsWriterIsOpenIsRefused) {
                    "ReaderNeverOpensWhileItsWriterIsOpen<Consumer, &Consumer::in, 0>");
 }
 
+TEST(CompileFailTest, WindowsOfOneNameAreRefused) {
+    verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
+    expect_refused("window_named_twice", "WindowHasANameOfItsOwn<mamori::Name<'s', 'e', 'n', 's', 'e'>");
+}
+
+TEST(CompileFailTest, AnAgeLimitAtWhichNothingIsFreshIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("age_limit_not_positive", "InputCanBeFresh<Consumer, &Consumer::in, 0>");
+}
+
+TEST(CompileFailTest, ADeclaredRateOfZeroIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("rate_of_zero", "RateEqualsOccurrences<mamori::Name<'s', 'e', 'n', 's', 'e'>");
+}
+
+TEST(CompileFailTest, ASecondBudgetOfAWindowIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("window_option_twice", "each option of a window is said once");
+}
+
+TEST(CompileFailTest, ASecondListOfRatesIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("window_rates_twice", "each option of a window is said once");
+}
+
+TEST(CompileFailTest, AWindowWithATriggerAndEventsIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("window_of_two_kinds", "not both");
+}
+
+TEST(CompileFailTest, ASecondAgeLimitOfAConnectionIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("connection_option_twice", "each option of a connection is said once");
+}
+
+TEST(CompileFailTest, ASecondAbortPolicyIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("abort_policy_twice", "abort_policy(...) is said once");
+}
+
+TEST(CompileFailTest, AReactionToAFaultOfAnotherEnumerationIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("faults_of_two_enumerations", "all faults of a system are enumerators of one enumeration");
+}
+
+TEST(CompileFailTest, ReactionsOfTwoEnumerationsAreRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("reactions_of_two_enumerations", "and so are all reactions");
+}
+
 TEST(CompileFailTest, AMemberThatIsNoPortIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
     expect_refused("port_is_no_port", "names members that are ports");

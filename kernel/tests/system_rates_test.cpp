@@ -126,7 +126,45 @@ TEST(SystemRatesTest, ADeclaredRateIsThatOfTheOpenings) {
     EXPECT_EQ(check_rate(1001_hz, 1_ms), Rules{Rule::kRateNotOccurrences});
     EXPECT_EQ(check_rate(999_hz, 1_ms), Rules{Rule::kRateNotOccurrences});
     EXPECT_EQ(check_rate(Rate{-1000.0}, 1_ms), Rules{Rule::kRateNotOccurrences});
+    EXPECT_EQ(check_rate(Rate{0.0}, 1_ms), Rules{Rule::kRateNotOccurrences});
     EXPECT_EQ(check_rate(Rate{1000.0 * (1.0 + 2.0e-9)}, 1_ms), Rules{Rule::kRateNotOccurrences});
+}
+
+TEST(SystemRatesTest, WindowsAreToldApartByTheirNames) {
+    verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
+    Counter third{"third"};
+    const auto check_names = [&third](const char* a, const char* b, const char* c) {
+        std::array<Finding, 4U> findings{};
+        const auto table = system(frame(1_ms), window(a, 0_us, 1_us, budget(1_us), run(g_counter)),
+                                  window(b, 1_us, 1_us, budget(1_us), run(g_other)),
+                                  window(c, 0_us, 1_us, core(1U), budget(1_us), run(third)));
+        const std::size_t count = check_all(make_view(table), findings);
+        std::vector<std::array<std::size_t, 2U>> rows;
+        for (std::size_t i = 0U; i < count; ++i) {
+            EXPECT_EQ(findings[i].rule, Rule::kWindowNamedTwice);
+            rows.push_back({findings[i].element, findings[i].other});
+        }
+        return rows;
+    };
+    using Rows = std::vector<std::array<std::size_t, 2U>>;
+    const std::string other_place{"a"};
+
+    EXPECT_EQ(check_names("a", "b", "ab"), Rows{});
+    EXPECT_EQ(check_names("a", "b", other_place.c_str()), (Rows{{2U, 0U}})) << "on another core, too";
+    EXPECT_EQ(check_names("a", "b", "b"), (Rows{{2U, 1U}}));
+    EXPECT_EQ(check_names("a", "a", "a"), (Rows{{1U, 0U}, {2U, 0U}})) << "each one once";
+}
+
+TEST(SystemRatesTest, AValueCanBeFreshForAWhile) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_age = [](Duration age_max) {
+        return list_rules(system(frame(1_ms), window("a", 0_us, 1_us, budget(1_us), run(g_counter, g_relay)),
+                                 connect(g_counter.out, g_relay.in, fresh_within(age_max))));
+    };
+
+    EXPECT_EQ(check_age(1_ns), Rules{});
+    EXPECT_EQ(check_age(0_ns), Rules{Rule::kAgeLimitNotPositive});
+    EXPECT_EQ(check_age(Duration{-1}), Rules{Rule::kAgeLimitNotPositive});
 }
 
 TEST(SystemRatesTest, ASlowerRateIsAWholePartOfTheFirst) {

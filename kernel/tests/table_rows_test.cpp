@@ -265,6 +265,9 @@ void add_connections(Damages& d) {
         // Not every connection has them.
         d.add_null(at + "deliver", {}, n, operation(&ConnectionOperations::deliver));
         d.add_null(at + "hand_on", {}, n, operation(&ConnectionOperations::hand_on));
+        d.list.push_back({at + "age limit 0", {Rule::kAgeLimitNotPositive}, n, [n](Table& x) {
+                              x.connections[n].age_max = Duration{0};
+                          }});
         d.add(at + "is_set", invalid, n, false, operation(&ConnectionOperations::is_set));
         d.add_index(at + "source_window", invalid, n, t.windows.size(), of(&ConnectionRow::source_window));
         d.add_index(at + "sink_window", invalid, n, t.windows.size(), of(&ConnectionRow::sink_window));

@@ -41,6 +41,9 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
             return "row " + std::to_string(finding.element) +
                    " needs a name, a partition, a positive period, a kind with what belongs to it, and the "
                    "components, ports, connections and parameters that name it";
+        case Rule::kWindowNamedTwice:
+            return "row " + std::to_string(finding.element) + " has the name of row " +
+                   std::to_string(finding.other) + "; windows are told apart by their names";
         case Rule::kPeriodNotInFrame:
             return "its period of " + format(row.period) + " does not divide the frame of " +
                    format(view.frame);
@@ -84,6 +87,9 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
         case Rule::kInputHasTwoWriters:
             return "input " + quote(get_input_name(view, finding.element)) +
                    " is fed by more than one connection";
+        case Rule::kAgeLimitNotPositive:
+            return connection + ": no value is fresh within " + format(row.age_max) +
+                   "; the limit must be positive";
         case Rule::kCrossingWithoutBuffer:
             return connection + " leaves its core or partition without through(...) a Crossing or a queue";
         case Rule::kCrossingUsedTwice:
@@ -125,6 +131,7 @@ std::string describe(const Finding& finding, const SystemView& view) {
         case Rule::kFrameNotPositive:
             return "the frame of " + format(view.frame) + " is not positive";
         case Rule::kWindowRowInvalid:
+        case Rule::kWindowNamedTwice:
         case Rule::kPeriodNotInFrame:
         case Rule::kWindowOutsideFrame:
         case Rule::kWindowsOverlap:
@@ -152,6 +159,7 @@ std::string describe(const Finding& finding, const SystemView& view) {
         case Rule::kPortOfUnknownComponent:
         case Rule::kInputNotConnected:
         case Rule::kInputHasTwoWriters:
+        case Rule::kAgeLimitNotPositive:
         case Rule::kCrossingWithoutBuffer:
         case Rule::kCrossingUsedTwice:
         case Rule::kCrossingNotOrdered:

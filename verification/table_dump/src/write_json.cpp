@@ -45,7 +45,7 @@ std::string make_window(const SystemView& view, std::size_t index) {
            ", \"length_ns\": " + std::to_string(row.length.ns) +
            ", \"period_ns\": " + std::to_string(row.period.ns) +
            ", \"budget_ns\": " + std::to_string(row.budget.ns) +
-           ", \"rate_hz\": " + (row.rate_hz == 0.0 ? "null" : format_number(row.rate_hz)) +
+           ", \"rate_hz\": " + (row.has_rate ? format_number(row.rate_hz) : "null") +
            ", \"slower_periods_ns\": [" + slower + "], \"events_per_cycle\": " +
            (row.kind == ExecutionKind::kEventDriven ? std::to_string(row.events_per_cycle) : "null") + "}";
 }

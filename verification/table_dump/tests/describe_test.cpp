@@ -61,7 +61,7 @@ TEST_F(DescribeTest, TheFrameIsNamedWithItsLength) {
 TEST_F(DescribeTest, WindowsAreNamedWithTheTimesThatDisagree) {
     verifies("SWR-TAB-003");
     table_.windows[0].period = 3_ms;
-    table_.windows[0].rate_hz = 0.0;
+    table_.windows[0].has_rate = false;
     table_.windows[0].alternative_count = 0U;
     table_.windows[1].offset = 3_ms;
     EXPECT_EQ(
@@ -76,6 +76,20 @@ TEST_F(DescribeTest, OverlappingWindowsAreBothNamed) {
     verifies("SWR-TAB-003");
     table_.windows[1].core = 0U;
     EXPECT_EQ(describe_table(), Sentences{"window 'plan': it overlaps window 'sense' on core 0"});
+}
+
+TEST_F(DescribeTest, WindowsOfOneNameAreToldApartByTheirRows) {
+    verifies("SWR-TAB-003");
+    table_.windows[1].name = "sense";
+    EXPECT_EQ(describe_table(), Sentences{"window 'sense': row 1 has the name of row 0; windows are told "
+                                          "apart by their names"});
+}
+
+TEST_F(DescribeTest, AnAgeLimitIsNamedWithItsConnection) {
+    verifies("SWR-TAB-003");
+    table_.connections[0].age_max = {0};
+    EXPECT_EQ(describe_table(), Sentences{"connection 'encoder.out -> monitor.in': no value is fresh within "
+                                          "0 ns; the limit must be positive"});
 }
 
 TEST_F(DescribeTest, ABudgetIsComparedWithItsWindow) {

@@ -136,6 +136,7 @@ TEST(WriteJsonTest, RowsThatPointNowhereGiveWholeJson) {
     table.windows[0].name = nullptr;
     table.windows[0].partition = nullptr;
     table.windows[0].alternative_count = 99U;
+    table.windows[1].has_rate = true;
     table.windows[1].rate_hz = std::numeric_limits<double>::infinity();
     table.components[0] = nullptr;
     table.component_rows[1].window = 99U;

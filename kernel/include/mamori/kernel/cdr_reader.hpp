@@ -44,11 +44,19 @@ class CdrReader final {
         if (start > buffer_.size() || count > (buffer_.size() - start) / kSize) {
             return false;
         }
+        const std::byte* source = buffer_.data() + start;
+        position_ = start + count * kSize;
+        if constexpr (kStores && kIsEncodedAsStored<kIsBig, T>) {
+            if (!__builtin_is_constant_evaluated()) {
+                __builtin_memcpy(first, source, count * kSize);
+                return true;
+            }
+        }
         bool is_valid = true;
         if constexpr (kStores || std::is_same_v<T, bool> || std::is_enum_v<T>) {
             for (std::size_t i = 0U; i < count; ++i) {
-                const auto bits = load<kIsBig, WireBits<T>>(buffer_.data() + start + i * kSize,
-                                                            std::make_index_sequence<kSize>{});
+                const auto bits =
+                    load<kIsBig, WireBits<T>>(source + i * kSize, std::make_index_sequence<kSize>{});
                 is_valid = is_valid && is_value<T>(bits);
                 if constexpr (kStores) {
                     // A wrong value can come here only when somebody changes the buffer meanwhile.
@@ -56,7 +64,6 @@ class CdrReader final {
                 }
             }
         }
-        position_ = start + count * kSize;
         return is_valid;
     }
     template <typename Sequence>

@@ -67,6 +67,13 @@ constexpr T from_bits(WireBits<T> bits) noexcept {
         return static_cast<T>(bits);
     }
 }
+/// Are values of T in memory, one after another, their encoding? Then a block of them is copied at once. Not
+/// said of booleans and enumerations, each of which has to be judged.
+template <bool kIsBig, typename T>
+inline constexpr bool kIsEncodedAsStored =
+    std::is_arithmetic_v<T> && !std::is_same_v<T, bool> &&
+    (sizeof(T) == 1U || kIsBig == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__));
+
 /// Is this a value of T? Every pattern of a number is; of booleans and enumerations only the declared ones.
 template <typename T>
 constexpr bool is_value(WireBits<T> bits) noexcept {

@@ -28,6 +28,22 @@ constexpr void store(std::byte* target, Bits bits, std::index_sequence<kIndex...
      ...);
 }
 
+/// Bytes of a block of numbers: copied at once where that is their encoding, which no constant expression
+/// may.
+template <bool kIsBig, typename T>
+constexpr void store_block(std::byte* target, const T* first, std::size_t count) noexcept {
+    if constexpr (kIsEncodedAsStored<kIsBig, T>) {
+        if (!__builtin_is_constant_evaluated()) {
+            __builtin_memcpy(target, first, count * sizeof(T));
+            return;
+        }
+    }
+    constexpr std::size_t kSize = calc_wire_size<T>();
+    for (std::size_t i = 0U; i < count; ++i) {
+        store<kIsBig>(target + i * kSize, to_bits(first[i]), std::make_index_sequence<kSize>{});
+    }
+}
+
 /// Counts the bytes that the writer will write. False when a value has no encoding: no reader would take it.
 class CdrMeter final {
   public:
@@ -82,10 +98,7 @@ class CdrWriter final {
             for (std::size_t i = position_; i < start; ++i) {
                 buffer_.data()[i] = std::byte{0};
             }
-            for (std::size_t i = 0U; i < count; ++i) {
-                store<kIsBig>(buffer_.data() + start + i * kSize, to_bits(first[i]),
-                              std::make_index_sequence<kSize>{});
-            }
+            store_block<kIsBig>(buffer_.data() + start, first, count);
             position_ = start + count * kSize;
         }
         return true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of connections: both ends are in the table, and what leaves a core or a partition goes through
-/// storage that was made for it, in an order that holds. Not for users.
+/// Rules of connections: both ends are in the table, a value can be fresh, and what leaves a core or a
+/// partition goes through storage that was made for it, in an order that holds. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_CONNECTION_CHECK_HPP
@@ -13,23 +13,18 @@
 #include "mamori/kernel/opening_distance.hpp"
 #include "mamori/kernel/system_table.hpp"
 #include "mamori/kernel/table_index.hpp"
+#include "mamori/kernel/text_cursor.hpp"
+#include "mamori/kernel/time.hpp"
 
 namespace mamori::detail {
-
-constexpr bool are_equal(const char* a, const char* b) noexcept {
-    while (*a != '\0' && *a == *b) {  // ends with the shorter name
-        ++a;
-        ++b;
-    }
-    return *a == *b;
-}
 
 constexpr void check_crossing(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
     const ConnectionRow& row = view.connections[i];
     const WindowRow& writer = view.windows[row.source_window];
     const WindowRow& reader = view.windows[row.sink_window];
     const bool leaves_core = writer.core != reader.core;
-    if ((leaves_core || !are_equal(writer.partition, reader.partition)) && !row.operations.may_leave_core) {
+    const bool leaves_partition = !(make_text(writer.partition) == make_text(reader.partition));
+    if ((leaves_core || leaves_partition) && !row.operations.may_leave_core) {
         findings.add(Rule::kCrossingWithoutBuffer, i);
     }
     if (leaves_core && row.operations.is_latest && calc_distance(writer, reader) < writer.length) {
@@ -48,6 +43,9 @@ constexpr void check_connections(const SystemView& view, FindingList& findings) 
         if (row.source_window == kNoIndex || row.sink_window == kNoIndex) {
             findings.add(Rule::kPortOfUnknownComponent, i);
         } else {
+            if (row.age_max <= Duration{0}) {
+                findings.add(Rule::kAgeLimitNotPositive, i);
+            }
             check_crossing(view, i, findings);
         }
     }

@@ -14,6 +14,7 @@
 #include "mamori/kernel/connection_option.hpp"
 #include "mamori/kernel/connection_row.hpp"
 #include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/option_words.hpp"
 #include "mamori/kernel/part_types.hpp"
 
 namespace mamori {
@@ -32,12 +33,13 @@ struct ConnectionPart {
 /// Feeds `sink` from `source`; their payload types must be the same.
 /// @param[in] source  must outlive the table.
 /// @param[in] sink    InPort or QueueInPort; must outlive the table.
-/// @param[in] options fresh_within(...), through(...), only_in(...).
+/// @param[in] options fresh_within(...), through(...), only_in(...); each is said once.
 template <typename T, typename Sink, typename... Options>
 constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(OutPort<T>& source, Sink& sink,
                                                                               Options... options) noexcept {
     static_assert(std::is_base_of_v<InPortBase, Sink>, "connect() joins an output to an input");
     static_assert(std::is_same_v<T, typename Sink::Payload>, "connect() joins ports of one payload type");
+    static_assert(detail::kIsEachSaidOnce<Options...>, "each option of a connection is said once");
     ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> part{};
     part.row.source = &source;
     part.row.sink = &sink;

@@ -34,6 +34,10 @@ struct InputHasOneWriter {
     static_assert(kKept<C>, "an input has one writer");
 };
 template <typename C, auto kPort, std::size_t kInstance>
+struct InputCanBeFresh {
+    static_assert(kKept<C>, "the age up to which a value is fresh is positive: fresh_within(...)");
+};
+template <typename C, auto kPort, std::size_t kInstance>
 struct InputFromElsewhereHasACrossing {
     static_assert(kKept<C>,
                   "a connection between cores or partitions goes through(...) a Crossing, or to a queue");

@@ -19,8 +19,10 @@ struct NoTypes {
     using Components = TypeList<>;
     using Ports = TypeList<>;
     using Faults = TypeList<>;
-    using Members = TypeList<>;  ///< components that the modes run, mode by mode
-    using Events = TypeList<>;   ///< enumeration of each transition's event
+    using FaultTypes = TypeList<>;     ///< enumeration of each fault, declared or answered
+    using ReactionTypes = TypeList<>;  ///< enumeration of each reaction
+    using Members = TypeList<>;        ///< components that the modes run, mode by mode
+    using Events = TypeList<>;         ///< enumeration of each transition's event
     static constexpr std::size_t kWindows = 0U;
     static constexpr std::size_t kConnections = 0U;
     static constexpr std::size_t kReactions = 0U;
@@ -49,6 +51,8 @@ struct JoinedTypes {
     using Components = typename Concat<typename TypesOfPart<Parts>::Components...>::Type;
     using Ports = typename Concat<typename TypesOfPart<Parts>::Ports...>::Type;
     using Faults = typename Concat<typename TypesOfPart<Parts>::Faults...>::Type;
+    using FaultTypes = typename Concat<typename TypesOfPart<Parts>::FaultTypes...>::Type;
+    using ReactionTypes = typename Concat<typename TypesOfPart<Parts>::ReactionTypes...>::Type;
     using Members = typename Concat<typename TypesOfPart<Parts>::Members...>::Type;
     using Events = typename Concat<typename TypesOfPart<Parts>::Events...>::Type;
     static constexpr std::size_t kWindows = (TypesOfPart<Parts>::kWindows + ... + 0U);

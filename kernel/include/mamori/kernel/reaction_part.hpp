@@ -27,6 +27,7 @@ template <auto... kFaults>
 struct FaultsPart {
     struct Types : detail::NoTypes {
         using Faults = detail::TypeList<FaultName<kFaults>...>;
+        using FaultTypes = detail::TypeList<decltype(kFaults)...>;
     };
 };
 /// Declares faults, each an enumerator of the application: the table is refused until each has one reaction.
@@ -47,15 +48,18 @@ constexpr Within within(Duration limit) noexcept {
 }
 
 /// Made by react().
+template <typename Fault, typename Reaction>
 struct ReactionPart {
     struct Types : detail::NoTypes {
+        using FaultTypes = detail::TypeList<Fault>;
+        using ReactionTypes = detail::TypeList<Reaction>;
         static constexpr std::size_t kReactions = 1U;
     };
     ReactionRow row{};
 };
 /// What a fault leads to; both are enumerators of the application or of the safety layer, of at most 32 bits.
 template <typename Fault, typename Reaction>
-constexpr ReactionPart react(Fault fault, Reaction reaction, Within time) noexcept {
+constexpr ReactionPart<Fault, Reaction> react(Fault fault, Reaction reaction, Within time) noexcept {
     return {{detail::to_number(fault), detail::to_number(reaction), time.limit}};
 }
 

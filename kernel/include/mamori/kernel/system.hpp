@@ -31,6 +31,7 @@
 #include "mamori/kernel/context_plan.hpp"
 #include "mamori/kernel/mode_builder.hpp"
 #include "mamori/kernel/mode_part.hpp"
+#include "mamori/kernel/option_words.hpp"
 #include "mamori/kernel/part_types.hpp"
 #include "mamori/kernel/reaction_part.hpp"
 #include "mamori/kernel/system_builder.hpp"
@@ -74,8 +75,8 @@ template <typename Builder, std::size_t kModeCount>
 constexpr void add_part(Builder& builder, const ConnectionPart<kModeCount>& part) noexcept {
     builder.add_connection(part);
 }
-template <typename Builder>
-constexpr void add_part(Builder& builder, const ReactionPart& part) noexcept {
+template <typename Builder, typename Fault, typename Reaction>
+constexpr void add_part(Builder& builder, const ReactionPart<Fault, Reaction>& part) noexcept {
     builder.add(part.row);
 }
 template <typename Builder>
@@ -119,6 +120,10 @@ constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
     static_assert(Types::kModes <= kSystemModeMax, "a system has at most 32 modes");
     static_assert(detail::kIsOfOneType<typename Types::Events>,
                   "the events of all transitions of a system are enumerators of one enumeration");
+    static_assert(detail::kIsOfOneType<typename Types::FaultTypes> &&
+                      detail::kIsOfOneType<typename Types::ReactionTypes>,
+                  "all faults of a system are enumerators of one enumeration, and so are all reactions");
+    static_assert(detail::kTimesSaid<AbortPolicyPart, Parts...> <= 1U, "abort_policy(...) is said once");
     detail::TableBuilder<DescribedSystem<Types>> builder{};
     builder.table.frame = frame_part.length;
     (detail::add_part(builder, parts), ...);

@@ -59,6 +59,7 @@ constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) n
         return findings.get_count();
     }
     for (std::size_t i = 0U; i < view.windows.size(); ++i) {
+        detail::check_window_name(view, i, findings);
         detail::check_window_times(view, i, findings);
         detail::check_window_load(view, i, findings);
     }

@@ -21,6 +21,7 @@ enum class Rule {
     kPortRowInvalid,       ///< port row that names not exactly one port, or is no row of its owner and window
     kConnectionRowInvalid,    ///< connection with a null end, without operations or the Crossing that they
                               ///< need, or of windows, components or ports that it does not join
+    kWindowNamedTwice,        ///< window; `other` is the earlier listed one of the same name
     kPeriodNotInFrame,        ///< window whose period does not divide the frame
     kWindowOutsideFrame,      ///< window that does not lie inside its period
     kWindowsOverlap,          ///< window; `other` is the earlier listed one of the same core
@@ -32,6 +33,7 @@ enum class Rule {
     kPortOfUnknownComponent,  ///< connection that names a port of no component in the table
     kInputNotConnected,       ///< port row: mandatory input without a connection
     kInputHasTwoWriters,      ///< port row: input with more than one connection
+    kAgeLimitNotPositive,     ///< connection whose value would never be fresh
     kCrossingWithoutBuffer,   ///< connection that leaves its core or partition without a Crossing
     kCrossingUsedTwice,       ///< connection; `other` is the earlier one through the same Crossing
     kCrossingNotOrdered,      ///< connection whose reader may open while its writer's window is open

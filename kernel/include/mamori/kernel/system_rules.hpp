@@ -33,6 +33,8 @@ constexpr std::size_t refuse() noexcept {
     } else if constexpr (kRule == Rule::kComponentRowInvalid) {
         return sizeof(
             rules::WorstCaseIsNotNegative<ComponentAt<kTable, kElement>, calc_instance<kTable, kElement>()>);
+    } else if constexpr (kRule == Rule::kWindowNamedTwice) {
+        return sizeof(rules::WindowHasANameOfItsOwn<WindowName<kTable, kElement>>);
     } else if constexpr (kRule == Rule::kPeriodNotInFrame) {
         return sizeof(rules::PeriodDividesFrame<WindowName<kTable, kElement>>);
     } else if constexpr (kRule == Rule::kWindowOutsideFrame) {
@@ -56,6 +58,8 @@ constexpr std::size_t refuse() noexcept {
         return sizeof(OfPort<rules::InputIsConnected, kTable, kElement>);
     } else if constexpr (kRule == Rule::kInputHasTwoWriters) {
         return sizeof(OfPort<rules::InputHasOneWriter, kTable, kElement>);
+    } else if constexpr (kRule == Rule::kAgeLimitNotPositive) {
+        return sizeof(OfSink<rules::InputCanBeFresh, kTable, kElement>);
     } else if constexpr (kRule == Rule::kCrossingWithoutBuffer) {
         return sizeof(OfSink<rules::InputFromElsewhereHasACrossing, kTable, kElement>);
     } else if constexpr (kRule == Rule::kCrossingUsedTwice) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of windows: where they lie in the frame, and what their components take and at which rate. Not for
-/// users.
+/// Rules of windows: what they are called, where they lie in the frame, and what their components take and at
+/// which rate. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_CHECK_HPP
@@ -12,9 +12,19 @@
 #include "mamori/kernel/finding_list.hpp"
 #include "mamori/kernel/opening_distance.hpp"
 #include "mamori/kernel/system_table.hpp"
+#include "mamori/kernel/text_cursor.hpp"
 #include "mamori/kernel/time.hpp"
 
 namespace mamori::detail {
+
+constexpr void check_window_name(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
+    for (std::size_t j = 0U; j < i; ++j) {
+        if (make_text(view.windows[j].name) == make_text(view.windows[i].name)) {
+            findings.add(Rule::kWindowNamedTwice, i, j);
+            break;
+        }
+    }
+}
 
 constexpr void check_window_times(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
     const WindowRow& row = view.windows[i];
@@ -57,7 +67,7 @@ constexpr void check_window_load(const SystemView& view, std::size_t i, FindingL
         }
         left = left - worst_case;
     }
-    if (row.rate_hz != 0.0 && !is_rate_of(row.rate_hz, row.period)) {
+    if (row.has_rate && !is_rate_of(row.rate_hz, row.period)) {
         findings.add(Rule::kRateNotOccurrences, i);
     }
     for (std::size_t a = 0U; a < row.alternative_count; ++a) {

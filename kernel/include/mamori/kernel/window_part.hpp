@@ -7,9 +7,9 @@
 #define MAMORI_KERNEL_WINDOW_PART_HPP
 
 #include <cstddef>
-#include <type_traits>
 
 #include "mamori/kernel/component_part.hpp"
+#include "mamori/kernel/option_words.hpp"
 #include "mamori/kernel/part_types.hpp"
 #include "mamori/kernel/run_list.hpp"
 #include "mamori/kernel/time.hpp"
@@ -51,14 +51,18 @@ constexpr auto finish_window(WindowRow row, const Option& option, const Options&
 }  // namespace detail
 
 /// One window: opens `offset` after the start of its period, closes `length` later.
-/// @param[in] name    static storage; shown by the compiler and in every report.
+/// @param[in] name    static storage; shown by the compiler and in every report, so no other window has it.
 /// @param[in] offset  >= 0. @param[in] length > 0; offset + length lie within the period.
 /// @param[in] options budget(...) and, last, run(...); also every(...), rate(...), core(...), partition(...),
-///                     triggered_by(...), event_driven(...).
+///                     and one of triggered_by(...), event_driven(...). Each is said once.
 template <typename... Options>
 constexpr auto window(const char* name, Duration offset, Duration length,
                       const Options&... options) noexcept {
-    static_assert((std::is_same_v<Options, Budget> || ...), "a window needs its budget(...)");
+    static_assert(detail::kTimesSaid<Budget, Options...> > 0U, "a window needs its budget(...)");
+    static_assert(detail::kIsEachSaidOnce<Options...>, "each option of a window is said once");
+    static_assert(
+        detail::kTimesSaid<TriggeredBy, Options...> + detail::kTimesSaid<EventDriven, Options...> <= 1U,
+        "a window is triggered_by(...) or event_driven(...), not both");
     WindowRow row{};
     row.name = name;
     row.offset = offset;

@@ -54,6 +54,7 @@ constexpr Duration to_period(Rate value) noexcept {
 
 template <std::size_t kCount>
 constexpr void apply(WindowRow& row, const Rates<kCount>& option) noexcept {
+    row.has_rate = true;
     row.rate_hz = option.values[0].hz;
     row.alternative_count = kCount - 1U;
     for (std::size_t i = 1U; i < kCount; ++i) {

@@ -27,7 +27,7 @@ struct WindowRow {
     Duration length{};          ///< from opening to close
     Duration period{};          ///< between two openings; divides the frame
     Duration budget{};          ///< from the opening of the window; never beyond its close
-    double rate_hz{0.0};        ///< declared cycles per second; 0: not declared
+    double rate_hz{0.0};        ///< declared cycles per second; only where `has_rate`
     /// Slower ones, each a whole multiple of `period`; as many as `alternative_count` says.
     std::array<Duration, kAlternativeRateMax> alternative_periods{};
     std::size_t alternative_count{0U};
@@ -46,6 +46,7 @@ struct WindowRow {
     std::size_t events_per_cycle{1U};   ///< bound of kind kEventDriven
     bool has_second_pass{true};         ///< a component of it overrides on_state_update
     bool has_hand_on{false};            ///< a connection of it is forward in the window
+    bool has_rate{false};               ///< `rate_hz` is declared
 };
 
 /// What the table knows of one component.

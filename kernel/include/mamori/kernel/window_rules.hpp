@@ -25,6 +25,10 @@ struct WindowRowIsValid {
                   "trigger exactly when it is triggered, and slower rates only when it is periodic");
 };
 template <typename WindowName>
+struct WindowHasANameOfItsOwn {
+    static_assert(kKept<WindowName>, "windows are told apart by their names");
+};
+template <typename WindowName>
 struct PeriodDividesFrame {
     static_assert(kKept<WindowName>, "the period of a window divides the frame");
 };
