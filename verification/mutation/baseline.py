@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from mamori.verification.mutation.operators import iterate_words
 from mamori.verification.mutation.score import Counts, add_up_layers
 from mamori.verification.mutation.sources import LAYERS, Layer, MutationError, get_layer
 
@@ -20,7 +21,8 @@ STORE = Path(__file__).resolve().with_name("baseline.toml")
 HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
 # Mutation score of kernel and safety, file by file, as `./mamori mutate --store` found it. Written by that command only.
-# `fingerprint` is that of the mutated file: the row of a file that has changed since counts for nothing until its next run.
+# `fingerprint` is that of the code in the mutated file, comments aside: the row of a file whose code has changed since counts for
+# nothing until its next run.
 """
 
 
@@ -88,7 +90,8 @@ class Standing:
 
 
 def fingerprint(source: bytes) -> str:
-    return hashlib.sha256(source).hexdigest()[:16]
+    """Of the code alone: its words in their order, whatever comments and spaces stand between them."""
+    return hashlib.sha256(b"\0".join(iterate_words(source))).hexdigest()[:16]
 
 
 def read_store(path: Path = STORE) -> dict[str, Entry]:

@@ -36,6 +36,8 @@ SKIPPED = frozenset(
      "template_parameter_list", "template_argument_list", "operator_name", "attribute_declaration", "noexcept",
      "alignas_qualifier", "decltype", "fold_expression", "linkage_specification_string")
 )  # fmt: skip
+# Words whose spaces count.
+LITERALS = frozenset(("string_literal", "raw_string_literal", "char_literal"))
 INTEGER = re.compile(r"(0[xX][0-9A-Fa-f']+|[0-9']+)([uUlLzZ]*)")
 INTEGER_TYPE = re.compile(r"(?:std::)?(?:u?int(?:8|16|32|64)_t|size_t|ptrdiff_t|int|unsigned)|double|float")
 CHECK = re.compile(r"MAMORI_[A-Z]+")
@@ -70,6 +72,18 @@ class Mutant:
         after = self.apply(source).decode("utf-8").splitlines()
         number = next(index for index, pair in enumerate(zip(before, after, strict=True)) if pair[0] != pair[1])
         return before[number].strip(), after[number].strip()
+
+
+def iterate_words(source: bytes) -> Iterator[bytes]:
+    """The words of the code in their order, without comments and the spaces between words."""
+    left = [Parser(LANGUAGE).parse(source).root_node]
+    while left:
+        node = left.pop()
+        if node.child_count == 0 or node.type in LITERALS:
+            if node.type != "comment":
+                yield source[node.start_byte : node.end_byte]
+        else:
+            left.extend(reversed(node.children))
 
 
 def make_mutants(file: str, source: bytes) -> list[Mutant]:

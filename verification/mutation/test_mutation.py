@@ -445,6 +445,28 @@ def test_row_of_another_state_of_its_file_counts_for_nothing(now: tuple[bytes, i
     assert standing.to_json()["not_measured"] == {"files": {"kernel/a.cpp": now[1]}, "mutants": now[1]}
 
 
+CODE = b"#define A 1\nint f(int a) { return a < 1; }\nauto t = \"a  b\"; auto c = ' ';\n"
+
+
+@pytest.mark.parametrize(
+    "same", [CODE.replace(b"{ ", b"{\n  // why\n  "), b"// Licence\n/// @file\n" + CODE, CODE.replace(b"a < 1", b"a /* x */  <  1")],
+    ids=["line broken", "comment before", "comment within"],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-VER-009", technique="equivalence_classes")
+def test_row_outlives_a_change_of_comments_and_spaces(same: bytes) -> None:
+    assert baseline.fingerprint(same) == baseline.fingerprint(CODE)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [(b"a < 1", b"a < 2"), (b"a < 1", b"a <= 1"), (b"a  b", b"a b"), (b"' '", b"'  '"), (b"A 1", b"A 2"), (b"int f", b"intf")],
+    ids=["number", "operator", "text", "character", "macro", "word"],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-VER-009", technique="equivalence_classes", polarity="violation")
+def test_row_falls_with_any_change_of_the_code(old: bytes, new: bytes) -> None:
+    assert old in CODE
+    assert baseline.fingerprint(CODE.replace(old, new)) != baseline.fingerprint(CODE)
+
+
 @pytest.mark.verifies("SWR-VER-009", technique="interface")
 def test_file_without_a_row_is_named_beside_the_measured_ones() -> None:
     standing = judge({"kernel/a.cpp": (b"a", 100), "safety/b.cpp": (b"b", 7)}, killed=95)
