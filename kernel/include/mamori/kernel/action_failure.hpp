@@ -57,9 +57,9 @@ constexpr const char* get_name(ComponentAction action) noexcept {
 
 /// One answer that was not kOk.
 struct ActionFailure {
-    Instant at{};                ///< instant that the action was given
-    Status status{Status::kOk};  ///< kOk: nothing has failed yet
-    ComponentAction action{ComponentAction::kStartup};
+    Instant at{};                                       ///< instant that the action was given
+    Status status{Status::kOk};                         ///< kOk: nothing has failed yet
+    ComponentAction action{ComponentAction::kStartup};  ///< without meaning while kOk
 };
 
 }  // namespace mamori

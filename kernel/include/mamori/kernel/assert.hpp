@@ -14,9 +14,9 @@ namespace mamori {
 
 /// Where a check failed. `id` is unique within the file and never changes its meaning.
 struct AssertionRecord {
-    const char* file;  ///< static storage
-    std::uint32_t id;  ///< 1, 2, ...
-    std::uint32_t line;
+    const char* file;    ///< as the compiler was given it; static storage
+    std::uint32_t id;    ///< 1, 2, ...
+    std::uint32_t line;  ///< of the check, 1, 2, ...
 };
 
 /// Takes the failure record; must not return. Called from any context, interrupts included, and at most
@@ -34,7 +34,9 @@ namespace detail {
 
 }  // namespace mamori
 
-/// Pre-condition, post-condition and invariant: same mechanism, three words for the reader.
+/// Pre-condition, post-condition and invariant: same mechanism, three words for the reader. The condition is
+/// evaluated once, in any context, interrupts included; a failure in a constant expression stops the
+/// compiler. `id` as in AssertionRecord.
 #define MAMORI_REQUIRE(id, condition)   \
     ((condition) ? static_cast<void>(0) \
                  : ::mamori::detail::fail_assertion(__FILE__, (id), static_cast<std::uint32_t>(__LINE__)))

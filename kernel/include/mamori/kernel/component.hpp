@@ -72,8 +72,9 @@ class LifecycleRegion {
 
 /// Base of every component. Derive, add ports, override the actions you need; each defaults to kOk.
 ///
-/// Thread safety: none; actions are called by one context, never reentrantly.
-/// Time:          an action must return within its window's budget.
+/// Thread safety: none; actions are called by one context, never reentrantly, and what calls them is to be
+///                called from the core that runs the component. is_alive() and get_name() from anywhere.
+/// Time:          an action must return within its window's budget; O(1) beside the actions.
 /// Memory:        no heap; instances are static and constant-initialised.
 class Component : public LifecycleRegion {
   public:
@@ -84,7 +85,7 @@ class Component : public LifecycleRegion {
     /// @{
     /// Created -> Alive. Anything but kOk keeps the component Created.
     virtual Status on_initialize() noexcept { return Status::kOk; }
-    /// Alive -> Created.
+    /// Alive -> Created, whatever it returns.
     virtual Status on_finalize() noexcept { return Status::kOk; }
     /// @}
 
@@ -92,15 +93,15 @@ class Component : public LifecycleRegion {
     /// @{
     /// The context starts. Anything but kOk keeps it Stopped.
     virtual Status on_startup(ContextHandle) noexcept { return Status::kOk; }
-    /// The context stops; the state of the component stays.
+    /// The context stops, whatever it returns; the state of the component stays.
     virtual Status on_shutdown(ContextHandle) noexcept { return Status::kOk; }
     /// Inactive -> Active. Anything but kOk leads to Error.
     virtual Status on_activated(ContextHandle) noexcept { return Status::kOk; }
     /// Active -> Inactive, whatever it returns.
     virtual Status on_deactivated(ContextHandle) noexcept { return Status::kOk; }
-    /// Once per entry into Error, which it cannot prevent.
+    /// Once per entry into Error, which it cannot prevent; what it returns is ignored.
     virtual Status on_aborting(ContextHandle) noexcept { return Status::kOk; }
-    /// Error -> Inactive when kOk.
+    /// Error -> Inactive when kOk, else it stays in Error.
     virtual Status on_reset(ContextHandle) noexcept { return Status::kOk; }
     /// @}
 
@@ -110,7 +111,7 @@ class Component : public LifecycleRegion {
     virtual Status on_execute(ContextHandle) noexcept { return Status::kOk; }
     /// Second pass, while Active. Anything but kOk leads to Error.
     virtual Status on_state_update(ContextHandle) noexcept { return Status::kOk; }
-    /// In place of both while in Error.
+    /// In place of both while in Error; what it returns is ignored.
     virtual Status on_error(ContextHandle) noexcept { return Status::kOk; }
     /// @}
 
@@ -145,7 +146,7 @@ class Component : public LifecycleRegion {
 
     /// @name Contexts of the component, as the standard asks for them
     /// @{
-    /// Those that it participates in: one or none.
+    /// Those that it participates in: one or none. The span refers to this component.
     Span<ExecutionContext* const> get_participating_contexts() const noexcept {
         return {&context_, context_ == nullptr ? 0U : 1U};
     }
@@ -171,7 +172,7 @@ class Component : public LifecycleRegion {
     const char* get_name() const noexcept { return name_; }
 
   protected:
-    /// @param[in] name instance name; must have static storage.
+    /// @param[in] name instance name; must have static storage and not be nullptr.
     constexpr explicit Component(const char* name) noexcept : name_(name) {}
     ~Component() = default;
 

@@ -41,7 +41,8 @@ struct ContextPlan {
     AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
     /// Set exactly when the kind is kOther; must outlive the context and serve no other one.
     ExternalTrigger* trigger{nullptr};
-    /// Upper bound of the events that each state machine takes in one cycle, >= 1; kEventDriven only.
+    /// Upper bound of the events that each state machine takes in one cycle, >= 1 whatever the kind is; used
+    /// in kEventDriven only.
     std::size_t events_per_cycle{1U};
 };
 

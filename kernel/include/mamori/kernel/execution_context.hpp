@@ -33,9 +33,10 @@ namespace mamori {
 /// are never reentrant and nothing changes in mid-cycle. The instant `now` of an operation is what the
 /// actions find in their ContextHandle, by the clock of the windows; nothing else depends on it.
 ///
-/// Thread safety: none; call from the context that runs the windows. Only get_acting_position() may be asked
-///                while an abandoned action still runs elsewhere.
-/// Time:          O(participants). Nothing blocks beyond the actions.
+/// Thread safety: none; call from the context that runs the windows. While an abandoned action still runs
+///                elsewhere, is_busy(), is_running(), get_acting_position() and get_state_at() may be asked.
+/// Time:          O(participants); attach() also judges the tables of state machines, and a cycle serves
+///                their events. Nothing blocks beyond the actions.
 /// Memory:        no heap; refers to the participant list, which must outlive it.
 class ExecutionContext final {
   public:
@@ -63,7 +64,7 @@ class ExecutionContext final {
     Status remove_component(Component&) noexcept { return Status::kUnsupported; }
 
     /// Stopped -> Running; on_startup of every participant. A participant that refuses keeps the context
-    /// Stopped; those already started get on_shutdown.
+    /// Stopped; those already started get on_shutdown. Ticks of the trigger that came before are ignored.
     /// @return kOk; kPreconditionNotMet (not attached, Running, busy, or a participant is not alive); else
     ///         on_startup's code.
     Status start(Instant now) noexcept;
@@ -99,7 +100,7 @@ class ExecutionContext final {
     ExecutionKind get_kind() const noexcept { return plan_.kind; }
     /// Time between two cycles in use now; 0 while not attached.
     Duration get_period() const noexcept { return period_; }
-    /// Windows of the plan per cycle in use now, >= 1.
+    /// Windows of the plan per cycle in use now, >= 1; 1 while not attached.
     std::int64_t get_divisor() const noexcept { return divisor_; }
     /// Cycles per second in use now; negative when the kind has no periodic processing, and while not
     /// attached.
@@ -134,7 +135,8 @@ class ExecutionContext final {
     /// Position of the participant whose action is being called or hangs, else of the one that was cut off
     /// and has not come back. @return kPreconditionNotMet: none.
     Result<std::size_t> get_acting_position() const noexcept;
-    /// Position of the participant that refused the last start(). @return kPreconditionNotMet: none did.
+    /// Position of the participant whose on_startup refused the last start() that came to calling any; one
+    /// that was refused with kPreconditionNotMet did not. @return kPreconditionNotMet: none did.
     Result<std::size_t> get_refusing_position() const noexcept;
 
     /// @name One cycle in steps, as the executive needs it: take_turn, begin, execute 0..n-1,

@@ -17,7 +17,9 @@
 
 namespace mamori {
 
-/// Listener to one executive. Indices are positions in the system table (components, windows).
+/// Listener to one executive. Indices are positions in the system table (components, windows). `now` is the
+/// host's time in on_budget_overrun and on_late_release, else the planned opening of the window that runs, or
+/// ran last (zero before the first one).
 ///
 /// Calling context: the context that runs the windows, except on_budget_overrun, which a port's guard may
 /// call from its own context. Implementations must not block and must be O(1); operations on the executive
@@ -28,8 +30,9 @@ class ExecutionObserver {
     /// begins at the window's opening or the end of the turn before.
     Span<ExecutionRecord> get_records() const noexcept { return records_; }
 
-    /// Window `window` used its budget up while `component` was running, in either pass, or could not begin
-    /// because `component` still hangs from an earlier cycle; its outputs are not published.
+    /// Window `window` used its budget up while `component` was running, in either pass, in a switch of modes
+    /// or in a late stop, or could not begin because `component` still hangs from before; its outputs are not
+    /// published.
     virtual void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept = 0;
     /// Window `window` opened `lateness` (> 0) after its place in the frame; called before its components
     /// run.

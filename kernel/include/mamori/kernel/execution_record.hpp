@@ -22,6 +22,7 @@ namespace mamori {
 /// Thread safety: the executive writes while a window runs, the owner in the same execution context. A run
 ///                that its host cuts off in the same moment, on another thread, may write as well: its flag
 ///                is lost then, or a flag that was just taken comes back, and the overrun tells of it anyway.
+/// Time:          O(1), nothing blocks. Memory: two durations and a word.
 class ExecutionRecord final {
   public:
     static constexpr std::uint32_t kWithin = 1U;   ///< a run within the limits
@@ -29,7 +30,8 @@ class ExecutionRecord final {
 
     /// Without limits every run is within them.
     constexpr ExecutionRecord() noexcept = default;
-    /// @param[in] shortest run allowed, >= 0. @param[in] longest one, >= shortest.
+    /// @param[in] shortest run allowed, >= 0. @param[in] longest one, >= shortest. Neither is checked: the
+    ///            owner sees to it.
     constexpr ExecutionRecord(Duration shortest, Duration longest) noexcept
         : shortest_(shortest), longest_(longest) {}
 

@@ -28,7 +28,7 @@ enum class WindowOutcome : std::uint8_t {
     kCompleted,  ///< every component came through both passes; outputs are published
     kOverrun,    ///< the budget ran out, or earlier work still hangs; no output of this window is published
     kMissed,     ///< it opened after its planned close; nothing ran, and no component is to blame
-    kStopped,    ///< the context is Stopped; nothing ran
+    kStopped,    ///< the context is Stopped; no cycle ran, at most what stop() had to leave for later
     kNotDue,     ///< no cycle in this opening: a slower rate leaves it out, or no tick has come
 };
 
@@ -61,8 +61,11 @@ struct WindowState {
 /// Operations called from within an action of a component or from the observer are refused; running a window
 /// from there is an own bug.
 ///
-/// Thread safety: none; one executive per core. Time: O(components + connections + ports) per window.
-/// Memory: no heap; refers to the table.
+/// Thread safety: none; one executive per core, called from the context that runs its windows.
+/// Time:          O(components + connections + ports) per window, and the parameters of a set that is
+///                switched there; initialize() judges the table as check() does. Nothing blocks beyond
+///                actions and host.
+/// Memory:        no heap; refers to the table.
 class Executive {
   public:
     Executive(const Executive&) = delete;
@@ -75,24 +78,25 @@ class Executive {
     /// @return kOk; kPreconditionNotMet (done before, called from an action, or the table has modes or sets
     ///         but the executive no SystemModes); kBadParameter (the table breaks a rule, see check_all(), a
     ///         value of a set is refused, with nothing switched, a component participates elsewhere, or the
-    ///         SystemModes is that of another table or has no room for this core); else the code of the
-    ///         on_initialize that refused.
+    ///         SystemModes is that of another table or has no room for this core); either of them as
+    ///         ExecutionContext::attach() says of a state machine; else the code of the on_initialize that
+    ///         refused.
     Status initialize() noexcept;
 
     /// Starts every context, then activates every component that the current mode runs, in table order. After
     /// a refusal everything is stopped again, as by stop().
-    /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is in Error,
-    ///         other cores are switching modes, or called from an action); kBadParameter (a value is refused
-    ///         of the set that holds, or of one that was asked for: that request is gone then); else the code
-    ///         of the on_startup or on_activated that refused.
+    /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is not alive, in
+    ///         Error or Active already, other cores are switching modes, or called from an action);
+    ///         kBadParameter (a value is refused of the set that holds, or of one that was asked for: that
+    ///         request is gone then); else the code of the on_startup or on_activated that refused.
     Status start() noexcept;
 
     /// Deactivates every Active component and stops every running context, in reverse order. A context whose
     /// work hangs runs no cycle any more: it is stopped when its window next opens after the work has come
     /// back, or by another call.
-    /// @return kOk; kPreconditionNotMet (not initialised, called from an action, or the work of a context
-    ///         hangs: the others are stopped); else the code of the first refusal: everything is stopped
-    ///         anyway.
+    /// @return kOk; kPreconditionNotMet (not initialised, or called from an action); else the first refusal:
+    ///         the code of an on_deactivated or on_shutdown, which keeps nothing from being stopped, or
+    ///         kPreconditionNotMet (the work of a context hangs: the others are stopped).
     Status stop() noexcept;
 
     /// Gives every context's components up and finalizes them, in reverse order; initialize() may follow.
@@ -103,7 +107,7 @@ class Executive {
 
     /// Runs window `index` once. Actions and publications carry the planned instants, not the measured ones,
     /// so a late release changes no data.
-    /// @param[in] index   0 .. get_view().windows.size() - 1, a window of this core.
+    /// @param[in] index   0 .. get_view().windows.size() - 1, a window of this core; any other is an own bug.
     /// @param[in] release planned opening of the window, not after host.get_now(); later is an own bug.
     /// @param[in] host    clock and budget guard; work that it abandons may run on after this returns, so it
     ///                    must outlive that. The next opening and stop() ask whether it has come back.
@@ -114,26 +118,29 @@ class Executive {
         return run_window(index, host.get_now(), host);
     }
 
-    /// Context of window `index`, to start, stop or reset a single component.
+    /// Context of window `index`, to activate, deactivate or reset a single component or to set the rate.
+    /// That of a window of another core has no participants.
     /// @param[in] index 0 .. get_view().windows.size() - 1; out of range is an own bug.
     ExecutionContext& get_context(std::size_t index) noexcept { return windows_[index].context; }
     /// The table, as it was given.
     const SystemView& get_view() const noexcept { return view_; }
     /// Core whose windows it runs, as WindowRow::core.
     std::size_t get_core() const noexcept { return core_; }
-    /// Component whose refusal ended the last initialize() or start(), for a participation elsewhere the
-    /// first of its window; kNoIndex when none did.
+    /// Component whose refusal ended the last initialize() or start(), for a context that could not take its
+    /// participants the first of its window; kNoIndex when none did.
     std::size_t get_failed_component() const noexcept { return failed_component_; }
 
-    /// @param[in] observer listens to the course of execution, or nullptr; must outlive the executive. One
-    ///            with records must have one for each component of the table, else an own bug. Not to be
-    ///            called from within an action or from the observer (own bug).
+    /// @param[in] observer listens to the course of execution, or nullptr; must outlive the executive, or be
+    ///            replaced before. Its records are asked for here, once: none, or one for each component of
+    ///            the table, else an own bug. Not to be called from within an action or from the observer
+    ///            (own bug).
     void set_observer(ExecutionObserver* observer) noexcept;
     /// Shows the course of execution to tools from now on: at the end of each opening of a window, and after
     /// initialize(), start(), stop() and finalize(). A table that breaks a rule shows nothing. No hash and no
     /// window depends on it.
-    /// @param[in] introspection of the same table, else an own bug; or nullptr; must outlive the executive.
-    ///            Not to be called from within an action or from the observer (own bug).
+    /// @param[in] introspection of the same table, else an own bug; or nullptr; must outlive the executive,
+    ///            or be replaced before. Not to be called from within an action or from the observer (own
+    ///            bug).
     void set_introspection(Introspection* introspection) noexcept;
     /// Hash of every publication so far: port row, sequence, instant and value.
     std::uint64_t get_trace_hash() const noexcept { return trace_hash_.get_value(); }
@@ -242,7 +249,8 @@ template <typename Table>
 class ExecutiveFor final : private detail::WindowStorage<Table::kWindowCount>, public Executive {
   public:
     /// @param[in] table must outlive the executive; check it with MAMORI_CHECK.
-    /// @param[in] core  whose windows it runs; each core of a system has an executive of its own.
+    /// @param[in] core  whose windows it runs, below kModeCoreMax with a SystemModes; each core of a system
+    ///            has an executive of its own.
     constexpr explicit ExecutiveFor(const Table& table, std::size_t core = 0U) noexcept
         : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core, nullptr) {
         static_assert(!Table::kNeedsModes,

@@ -27,7 +27,7 @@ enum class LifecycleEvent : std::uint32_t {
     kActivate,    ///< ExecutionContext.activate_component()
     kDeactivate,  ///< ExecutionContext.deactivate_component()
     kReset,       ///< ExecutionContext.reset_component()
-    kFail,        ///< on_activated, on_execute or on_state_update did not return kOk
+    kFail,        ///< one of the actions that lead to Error did not return kOk: see Component
 };
 inline constexpr std::size_t kLifecycleEventCount = 5U;
 
@@ -40,7 +40,8 @@ struct LifecycleTransition {
 };
 
 /// Cell for (state, event). Pure; O(1). A value that is no enumerator is an own bug (corrupted memory).
-/// @return admission kOk with the target; kBadParameter (not alive yet); kPreconditionNotMet (wrong state).
+/// @return admission kOk with the target; kBadParameter (kActivate or kDeactivate of one that is not alive);
+///         kPreconditionNotMet (any other event that the state does not allow).
 constexpr LifecycleTransition get_transition(LifecycleState state, LifecycleEvent event) noexcept {
     constexpr LifecycleTransition kBad{Status::kBadParameter, LifecycleState::kCreated};
     constexpr LifecycleTransition kNo{};

@@ -46,6 +46,7 @@ class Span final {
     }
     constexpr std::size_t size() const noexcept { return size_; }
     constexpr bool empty() const noexcept { return size_ == 0U; }
+    /// First element; nullptr for a span that was made of nothing.
     constexpr T* data() const noexcept { return data_; }
     constexpr T* begin() const noexcept { return data_; }
     constexpr T* end() const noexcept { return data_ + size_; }

@@ -58,6 +58,7 @@ class [[nodiscard]] Result final {
         : value_(), status_(status == Status::kOk ? Status::kError : status) {}
 
     constexpr bool has_value() const noexcept { return status_ == Status::kOk; }
+    /// kOk when there is a value, else why there is none.
     constexpr Status get_status() const noexcept { return status_; }
     /// @return the value; a default-constructed T when has_value() is false.
     constexpr const T& get_value() const noexcept { return value_; }

@@ -11,7 +11,8 @@
 
 namespace mamori {
 
-/// Signed span of time. Range: +-292 years; sums are not checked for overflow beyond it.
+/// Signed span of time. Range: +-292 years; sums, differences and multiples are not checked for overflow
+/// beyond it.
 struct Duration {
     std::int64_t ns{0};
 
@@ -26,7 +27,8 @@ struct Duration {
     friend constexpr bool operator>=(Duration a, Duration b) noexcept { return a.ns >= b.ns; }
 };
 
-/// Point on the monotonic time line of the port; zero is the port's start.
+/// Point on the monotonic time line of the port; zero is the port's start. Range and overflow as for
+/// Duration.
 struct Instant {
     std::int64_t ns{0};
 
@@ -41,12 +43,12 @@ struct Instant {
     friend constexpr bool operator>=(Instant a, Instant b) noexcept { return a.ns >= b.ns; }
 };
 
-/// Seconds as a real number, for physics and reports; exact up to 2^53 ns (104 days).
+/// Duration [s] as a real number, for physics and reports; relative error below 2^-51.
 constexpr double to_seconds(Duration duration) noexcept {
     return static_cast<double>(duration.ns) * 1.0e-9;
 }
 
-/// Spelled durations, as in 200_us; sums and factors are not checked for overflow.
+/// Spelled durations, as in 200_us; more than 2^63 - 1 ns (292 years) are not checked for.
 inline namespace literals {
 constexpr Duration operator""_ns(unsigned long long value) noexcept {
     return {static_cast<std::int64_t>(value)};

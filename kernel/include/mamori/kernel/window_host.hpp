@@ -16,8 +16,9 @@ namespace mamori {
 
 /// Clock and budget guard of the core that runs the windows.
 ///
-/// Calling context: the context that runs the windows. Time: get_now() and get_step_end() are asked once or
-/// twice per window and once per step, and must not block.
+/// Calling context: the context that runs the windows; get_step_end() the one that runs the step.
+/// Time: get_now() is asked a few times per window and once per mode step, get_step_end() once per step, and
+/// must not block.
 class WindowHost {
   public:
     /// Which part of a component's cycle a piece of work is.
@@ -48,7 +49,8 @@ class WindowHost {
     ///         yet.
     virtual Instant get_step_end() const noexcept = 0;
 
-    /// Runs the steps of `work`, each at most once and in order, together or one by one.
+    /// Runs the steps of `work`, each at most once and in order, together or one by one; returns by the
+    /// deadline where the host can abandon work, else when the steps are done.
     /// @param[in] deadline instant at which the window's budget is used up; may have passed already.
     /// @return how many of them returned by the deadline; less than count when the budget ran out
     ///         first, whether that step returned late or was abandoned. Abandoned work may enter one more
