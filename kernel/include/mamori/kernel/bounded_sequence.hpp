@@ -21,7 +21,8 @@ namespace mamori {
 /// Up to N elements of T, trivially copyable, so that it travels through ports as bytes. Only the first
 /// size() elements mean anything: hashes, encodings and comparisons never look at the rest.
 ///
-/// Thread safety: none. Time: O(1), copies O(N). Memory: N elements and a count, no heap.
+/// Thread safety: none. Time: O(1); copies, assign(), resize() and comparisons O(N). Memory: N elements and a
+/// count, no heap. Pointers to elements are valid as long as the sequence. @tparam N 1 .. 2^32 - 1.
 template <typename T, std::size_t N>
 class BoundedSequence final {
     static_assert(std::is_trivially_copyable_v<T>, "the elements travel as bytes");

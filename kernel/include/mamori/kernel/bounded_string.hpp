@@ -21,7 +21,8 @@ namespace mamori {
 /// of them, as in IDL. Behind the closing NUL nothing means anything: hashes, encodings and comparisons never
 /// look there.
 ///
-/// Thread safety: none. Time: O(length), copies O(N). Memory: N + 1 characters and a count, no heap.
+/// Thread safety: none. Time: O(1); assign() and comparisons O(length), copies O(N). Memory: N + 1 characters
+/// and a count, no heap. @tparam N 1 .. 2^32 - 2.
 template <std::size_t N>
 class BoundedString final {
     static_assert(N >= 1U, "a text of nothing needs no string");

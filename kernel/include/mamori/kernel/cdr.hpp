@@ -38,7 +38,7 @@ constexpr Result<std::size_t> calc_encoded_size(const T& value) noexcept {
 
 /// Encodes `value` into the first bytes of `buffer`. Padding is written as zero; there is none at the end.
 /// Bytes behind the encoding are not touched. Thread safe on separate objects, O(encoded size), no memory.
-/// @param[out] buffer max_encoded_size<T>() bytes are always enough.
+/// @param[out] buffer max_encoded_size<T>() bytes are always enough; no part of `value`.
 /// @return bytes written; kOutOfResources (buffer too small) and kBadParameter (an enumeration holds none of
 ///     its enumerators), both with the buffer unchanged.
 template <typename T>
@@ -56,7 +56,7 @@ constexpr Result<std::size_t> encode(const T& value, Span<std::byte> buffer, Byt
 
 /// Decodes the whole of `buffer`, which may come from anywhere: no byte outside it is read, whatever it
 /// holds. Thread safe on separate objects, O(size of the buffer), no memory.
-/// @param[in] buffer must not change during the call.
+/// @param[in] buffer must not change during the call; no part of `value`.
 /// @param[in,out] value takes the decoded value; unchanged on anything but kOk.
 /// @return kOk; kBadParameter: the buffer ends too early or too late, a sequence or string is longer than its
 ///     bound, a string lacks its closing NUL or has one inside, a boolean is neither 0 nor 1, or an

@@ -48,7 +48,7 @@ class Crossing final : public CrossingBase {
     /// For the executive of the reading core, at the opening of its window. A value whose publication lies
     /// after `opening` is left for the next one: the reader is late, and keeps what it took last, since the
     /// one that it would have found has been replaced. One from before the sink's last restart() is of
-    /// another mode.
+    /// another mode. @param[in,out] sink always the same one: it remembers what it has taken.
     template <typename Sink>
     void latch(Sink& sink, Instant opening) noexcept {
         static_cast<void>(buffer_.update());
@@ -69,6 +69,7 @@ class Crossing final : public CrossingBase {
 
 /// What the executive calls for a connection; one constant per pair of port types. nullptr: nothing to do.
 /// The crossing is that of the row; nullptr where the connection has none, and then it is not looked at.
+/// Ports and crossing are of the types that connect() was given: nothing checks them again.
 ///
 /// Calling context: deliver and hand_on on the core of the source, latch on that of the sink.
 struct ConnectionOperations {

@@ -46,14 +46,15 @@ struct QueueCounts {
 
 /// Type-free part of an output, for the executive and the table.
 ///
-/// Thread safety: none; all from the core of its component. Time: O(1), hash_into() O(payload).
-/// Memory: no heap.
+/// Thread safety: none; all from the core of its component. Time: O(1), hash_into() O(payload). Nothing
+///                blocks.
+/// Memory:        no heap.
 class OutPortBase {
   public:
     OutPortBase(const OutPortBase&) = delete;
     OutPortBase& operator=(const OutPortBase&) = delete;
 
-    /// Name given at construction; static storage.
+    /// Name given at construction; static storage, never nullptr.
     const char* get_name() const noexcept { return name_; }
     /// Number of publications so far (wraps at 2^32).
     std::uint32_t get_sequence() const noexcept { return sequence_; }
@@ -122,9 +123,9 @@ class InPortBase {
     InPortBase(const InPortBase&) = delete;
     InPortBase& operator=(const InPortBase&) = delete;
 
-    /// Name given at construction; static storage.
+    /// Name given at construction; static storage, never nullptr.
     const char* get_name() const noexcept { return name_; }
-    /// False until the first value has arrived.
+    /// False until the first value has arrived, and again from a restart() to the next one.
     bool has_value() const noexcept { return has_value_; }
     /// True when the value arrived since the last cycle in which its owner was Active or in Error and came
     /// through its first pass within the budget. A value that the owner had no chance to use stays new.
@@ -148,7 +149,7 @@ class InPortBase {
     void mark_read() noexcept { is_new_ = false; }
     /// Instant of the last restart(); before the first one before every other instant.
     Instant get_restarted_at() const noexcept { return restarted_at_; }
-    /// For the executive. @param[in] age_max limit of the connection that feeds this input, >= 0.
+    /// For the executive. @param[in] age_max limit of the connection that feeds this input, > 0.
     void set_age_max(Duration age_max) noexcept { age_max_ = age_max; }
 
   protected:
@@ -207,10 +208,11 @@ class OutPort final : public OutPortBase {
   public:
     using Payload = T;
 
-    /// @param[in] name port name with static storage.
+    /// @param[in] name port name with static storage, not nullptr.
     constexpr explicit OutPort(const char* name) noexcept : OutPortBase(name, &hash_published) {}
 
-    /// Stages a value for the close of the window; a second write in one cycle replaces the first.
+    /// Stages a value for the close of the window; a second write in one cycle replaces the first. For the
+    /// actions of its component.
     void write(const T& value) noexcept {
         slots_[get_staged_slot()].value = value;
         ++revision_;
@@ -259,10 +261,11 @@ class InPort final : public InPortBase {
     static constexpr bool kIsMandatory = kNeed == Need::kMandatory;
     static constexpr bool kIsQueue = false;
 
-    /// @param[in] name port name with static storage.
+    /// @param[in] name port name with static storage, not nullptr.
     constexpr explicit InPort(const char* name) noexcept : InPortBase(name) {}
 
-    /// Latched value; a value-initialised T while has_value() is false. Stays as it is within an action.
+    /// Latched value; a value-initialised T while has_value() is false. Stays as it is within an action; the
+    /// reference is valid as long as the port.
     const T& read() const noexcept { return slot_.value; }
 
     /// As in InPortBase; the value that was held is not left to be read either.

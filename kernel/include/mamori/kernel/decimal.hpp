@@ -91,6 +91,7 @@ constexpr void take_digits(TextCursor& cursor, DigitCollector& collector, bool i
 }  // namespace detail
 
 /// Takes a number from `cursor`: sign, digits with at most one point, exponent (`-12`, `.5`, `1e-3`).
+/// O(length).
 /// @return the number; kBadParameter (no number stands here); kUnsupported (more digits than fit 64 bits, 19
 ///         always do). On a refusal the cursor stands where the number ends to make sense.
 constexpr Result<Decimal> take_decimal(TextCursor& cursor) noexcept {
@@ -109,7 +110,8 @@ constexpr Result<Decimal> take_decimal(TextCursor& cursor) noexcept {
     return collector.has_lost_digit ? Result<Decimal>{Status::kUnsupported} : collector.number;
 }
 
-/// The number as a whole one. @return kBadParameter when it has a fraction or its magnitude exceeds 64 bits.
+/// The number as a whole one, in at most 20 steps.
+/// @return kBadParameter when it has a fraction or its magnitude exceeds 64 bits.
 constexpr Result<Whole> to_whole(const Decimal& number) noexcept {
     constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t magnitude = number.digits;

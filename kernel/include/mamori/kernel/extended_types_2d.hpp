@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The extended robot types of the plane, and colour: names, field order and wire form are those of OpenRTM.
-/// Units: metres, seconds, radians. TimedX is X with a time stamp.
+/// Units: metres, seconds, radians. TimedX is X with a time stamp. No decoder enforces a range.
 ///
 /// @satisfies SWR-CDR-005      Design: docs/design/payloads.md#timed-types
 /// Source:   OpenRTM-aist, ExtendedDataTypes.idl (module RTC)

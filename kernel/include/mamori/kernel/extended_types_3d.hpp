@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The extended robot types of space: names, field order and wire form are those of OpenRTM. Units:
-/// metres, seconds, radians. TimedX is X with a time stamp.
+/// metres, seconds, radians. TimedX is X with a time stamp. No decoder enforces a range.
 ///
 /// @satisfies SWR-CDR-005      Design: docs/design/payloads.md#timed-types
 /// Source:   OpenRTM-aist, ExtendedDataTypes.idl (module RTC)
@@ -104,7 +104,7 @@ struct OAP {
     Vector3D position{};
 };
 
-/// Orientation as a unit quaternion; w is the real part.
+/// Orientation as a unit quaternion; w is the real part. The value-initialised one, all zeros, is none.
 struct Quaternion {
     double x{0.0}, y{0.0}, z{0.0}, w{0.0};
 };

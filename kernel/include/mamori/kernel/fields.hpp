@@ -152,6 +152,7 @@ class EachScalar final {
 
 /// Calls `visitor(scalar)` for every number, bool or enum of `value`, in declaration order. A bounded
 /// sequence or string gives its length as std::uint32_t and then the elements in use, never the others.
+/// O(scalars in use), beside the visitor.
 template <typename T, typename Visitor>
 constexpr void visit_scalars(const T& value, Visitor& visitor) noexcept {
     detail::EachScalar<Visitor> each(visitor);

@@ -118,9 +118,9 @@ class FifoBuffer final {
     /// Most entries that ever waited, 0 .. kCapacity. Never too low; too high only by entries that the reader
     /// took while the writer looked.
     std::uint32_t get_high_water_mark() const noexcept { return get(high_water_mark_); }
-    /// Entries that were refused.
+    /// Entries that were refused (kFull is kDoNothing).
     std::uint32_t get_rejected_count() const noexcept { return get(rejected_count_); }
-    /// Entries that gave way before they were read.
+    /// Entries that gave way before they were read (kFull is kOverwrite).
     std::uint32_t get_overwritten_count() const noexcept { return get(overwritten_count_); }
     /// Calls of pop() that found nothing waiting.
     std::uint32_t get_empty_read_count() const noexcept { return get(empty_read_count_); }

@@ -3,6 +3,7 @@
 /// How far the openings of two windows are apart at least, whatever their periods are. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
+/// Source:   J. Korst et al., "Periodic multiprocessor scheduling", PARLE 1991
 #ifndef MAMORI_KERNEL_OPENING_DISTANCE_HPP
 #define MAMORI_KERNEL_OPENING_DISTANCE_HPP
 

@@ -26,7 +26,9 @@ namespace mamori {
 /// older, so a cycle that takes it for as old errs on the safe side.
 ///
 /// Thread safety: read by its component; filled by the executive of the source's core, which may be another.
-/// Time:          wait-free; read() and push() copy one T. Memory: kCapacity + 3 T, no heap.
+///                Counts may be asked for anywhere, those of empty reads where the component runs.
+/// Time:          wait-free; read() and push() copy one T, open() is O(kCapacity). Counts wrap at 2^32.
+/// Memory:        kCapacity + 3 T and kCapacity + 2 instants, no heap.
 template <typename T, std::size_t kCapacity, FullPolicy kFull = FullPolicy::kOverwrite,
           EmptyPolicy kEmpty = EmptyPolicy::kReadback, Need kNeed = Need::kMandatory>
 class QueueInPort final : public InPortBase {
@@ -39,7 +41,7 @@ class QueueInPort final : public InPortBase {
     static constexpr bool kIsQueue = true;
     static constexpr bool kMayLeaveCore = true;
 
-    /// @param[in] name port name with static storage.
+    /// @param[in] name port name with static storage, not nullptr.
     constexpr explicit QueueInPort(const char* name) noexcept : InPortBase(name) {}
 
     /// Takes the oldest value whose publication is not after the opening of the window.

@@ -136,7 +136,9 @@ constexpr Result<S> from_decimal(const Decimal& decimal) noexcept {
     }
 }
 
-/// The value that is called `name`: `true` and `false` of bool, an enumerator by its get_name().
+/// The value that is called `name`: `true` and `false` of bool, an enumerator by its get_name(). Of an
+/// enumeration with names the enumerators 0 .. 63 are found, and 64 must not be one: what get_name() says of
+/// it is taken for what it says of no enumerator. O(64 names).
 /// @return kBadParameter (S has no value of this name); kUnsupported (the values of S have no names).
 template <typename S>
 constexpr Result<S> from_name(Text name) noexcept {

@@ -26,14 +26,16 @@ enum class FullPolicy : std::uint8_t {
     kDoNothing,  ///< "do_nothing": the new entry is refused
 };
 
-/// What became of an entry.
+/// What became of an entry: kReplacedOldest under kOverwrite only, kRefused under kDoNothing only.
 enum class Publication : std::uint8_t { kStored, kReplacedOldest, kRefused };
 
 /// Order of up to kCapacity published slots. Slots are numbers 0 .. kSlotCount - 1: one is always the
 /// writer's, one the reader's, one waits in each word of the ring.
 ///
 /// Thread safety: one context calls the writer's members, one other the reader's; they need no lock.
-/// Time:          O(1), wait-free; a claim is tried at most kTries times. Memory: kCapacity + 5 words.
+/// Time:          O(1), wait-free; a claim is tried at most kTries times. Memory: kCapacity + 5 words, no
+///                heap.
+/// @tparam kCapacity entries that wait, 1 .. 254. @tparam Word only tests give another than the default.
 template <std::size_t kCapacity, FullPolicy kFull, typename Word = std::atomic<std::uint32_t>>
 class SlotRing final {
     static_assert(kCapacity >= 1U, "a FIFO needs room for at least one entry");
@@ -52,7 +54,8 @@ class SlotRing final {
     /// Writer: the slot that publish() will publish.
     Slot get_write_slot() const noexcept { return write_slot_; }
 
-    /// Writer: appends the write slot and gets another one, unless the ring is full and kFull refuses.
+    /// Writer: appends the write slot and gets another one, unless the ring is full and kFull refuses. A full
+    /// ring that overwrites gives the slot of its oldest entry back.
     [[nodiscard]] Publication publish() noexcept {
         Word& cell = cells_[write_position_ % kCapacity];
         if constexpr (kFull == FullPolicy::kDoNothing) {
@@ -75,7 +78,7 @@ class SlotRing final {
         return calc_level(write_position_, claimed_.load(std::memory_order_relaxed));
     }
 
-    /// Reader: the slot that was claimed last.
+    /// Reader: the slot that was claimed last; before the first claim() one that was never published.
     Slot get_read_slot() const noexcept { return read_slot_; }
 
     /// Reader: swaps the read slot for the oldest entry.

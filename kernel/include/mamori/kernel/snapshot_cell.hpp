@@ -32,6 +32,7 @@ class SnapshotCell final {
     static_assert(Word::is_always_lock_free, "this machine has no lock-free load and store of a word");
 
   public:
+    /// Copies that one try_read() makes at most.
     static constexpr int kTries = 3;
 
     constexpr SnapshotCell() noexcept = default;

@@ -17,7 +17,7 @@ namespace mamori {
 /// Characters owned by somebody else, without a closing zero.
 using Text = Span<const char>;
 
-/// Text of a C string. @param[in] characters not nullptr; must outlive the text.
+/// Text of a C string. O(length). @param[in] characters not nullptr; must outlive the text.
 constexpr Text make_text(const char* characters) noexcept {
     std::size_t size = 0U;
     while (characters[size] != '\0') {
@@ -57,7 +57,8 @@ class TextCursor final {
     constexpr bool is_at_digit() const noexcept {
         return !is_at_end() && text_[position_] >= '0' && text_[position_] <= '9';
     }
-    /// Value 0 .. 9 of the digit here, which is taken. is_at_digit() is the caller's duty.
+    /// Value 0 .. 9 of the digit here, which is taken. is_at_digit() is the caller's duty; at the end the
+    /// call is an own bug.
     constexpr std::uint32_t take_digit() noexcept {
         const char character = text_[position_];
         ++position_;
@@ -75,7 +76,8 @@ class TextCursor final {
             ++position_;
         }
     }
-    /// Takes letters, digits and underscores; empty when there is none here.
+    /// Takes letters (a .. z, A .. Z), digits and underscores; empty when there is none here. Refers to the
+    /// text.
     constexpr Text take_word() noexcept {
         const std::size_t first = position_;
         while (!is_at_end() && is_word_character(text_[position_])) {

@@ -26,7 +26,7 @@ struct Time {
 
 inline constexpr std::int64_t kNsPerS = 1'000'000'000;  ///< [ns/s]
 
-/// @return the stamp; kBadParameter when the instant is negative or beyond 2^32 - 1 s (136 years).
+/// @return the stamp; kBadParameter when the instant is negative, or 2^32 s (136 years) or more.
 constexpr Result<Time> calc_time(Instant instant) noexcept {
     if (instant.ns < 0 || instant.ns / kNsPerS > std::int64_t{std::numeric_limits<std::uint32_t>::max()}) {
         return Status::kBadParameter;
@@ -34,7 +34,8 @@ constexpr Result<Time> calc_time(Instant instant) noexcept {
     return Time{static_cast<std::uint32_t>(instant.ns / kNsPerS),
                 static_cast<std::uint32_t>(instant.ns % kNsPerS)};
 }
-/// @return the instant; kBadParameter when nsec is 10^9 or more: such a stamp has no one reading.
+/// @return the instant, 0 .. 2^32 s; kBadParameter when nsec is 10^9 or more: such a stamp has no one
+///         reading.
 constexpr Result<Instant> calc_instant(Time time) noexcept {
     if (time.nsec >= kNsPerS) {
         return Status::kBadParameter;
@@ -42,7 +43,8 @@ constexpr Result<Instant> calc_instant(Time time) noexcept {
     return Instant{std::int64_t{time.sec} * kNsPerS + std::int64_t{time.nsec}};
 }
 
-/// A value and the time it belongs to. Each IDL type `TimedX` is Timed<X>.
+/// A value and the time it belongs to. Each IDL type `TimedX` is Timed<X>. The unit of the value is the
+/// application's.
 template <typename T>
 struct Timed {
     Time tm{};

@@ -35,12 +35,13 @@ class TraceHash final {
         }
     }
 
-    /// Adds every scalar of a payload in declaration order; padding never takes part.
+    /// Adds every scalar of a payload in declaration order, as visit_scalars(); padding never takes part.
     template <typename T>
     constexpr void add(const T& payload) noexcept {
         visit_scalars(payload, *this);
     }
 
+    /// Hash of what was added so far; the offset basis when nothing was.
     constexpr std::uint64_t get_value() const noexcept { return value_; }
 
   private:
