@@ -23,7 +23,8 @@ struct TimedComponent {
     Duration worst_case;
 };
 /// Declares what `component` takes at most in one cycle, both passes together; the table is refused when the
-/// sum of a window is over its budget. A declaration, not a measurement. @param[in] duration > 0.
+/// sum of a window is over its budget. A declaration, not a measurement.
+/// @param[in] component must outlive the table. @param[in] duration > 0; 0 declares nothing.
 template <typename C>
 constexpr TimedComponent<C> worst_case(C& component, Duration duration) noexcept {
     return {component, duration};

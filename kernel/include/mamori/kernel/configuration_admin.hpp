@@ -31,13 +31,14 @@ inline constexpr std::size_t kNoConfigurationSet = std::numeric_limits<std::uint
 ///
 /// Thread safety: the requests, find() and get_active_configuration_set() from any thread, without waiting;
 ///                the switch and get_last_finding() only from the context that runs the components.
-/// Time:          a request for a set by its name O(sets), for a value O(parameters); a switch
-///                O(parameters + values of the set). Nothing blocks.
+/// Time:          a request for a set by its name O(sets), for a value O(parameters); a switch O(parameters *
+///                assignments of the set), beside its values. Nothing blocks.
 /// Memory:        no heap; refers to the table.
 class ConfigurationAdmin final {
   public:
     /// @param[in] view        its table must outlive the admin; check it with MAMORI_CHECK_CONFIGURATION.
-    /// @param[in] initial_set requested from the start on, or none.
+    /// @param[in] initial_set place of the set that is requested from the start on, or none; any other number
+    ///                        is an own bug.
     constexpr explicit ConfigurationAdmin(const ConfigurationView& view,
                                           std::size_t initial_set = kNoConfigurationSet) noexcept
         : view_(view), requested_(static_cast<std::uint32_t>(initial_set)) {
@@ -50,7 +51,7 @@ class ConfigurationAdmin final {
     /// @param[in] index 0 .. get_view().sets.size() - 1.
     /// @return kOk; kBadParameter (no such set).
     Status activate_configuration_set(std::size_t index) noexcept;
-    /// The same by the set's name.
+    /// The same by the set's name, which need not outlive the call.
     Status activate_configuration_set(Text name) noexcept;
 
     /// Asks for one value from the next switch on. At one switch the set comes first, then the single values.
@@ -82,9 +83,12 @@ class ConfigurationAdmin final {
     /// @{
     /// Takes the request for a set. @return kNoConfigurationSet when there is none.
     std::size_t take_requested_set() noexcept;
-    /// Judges every value of a set. @return the first one that is refused, or kNone.
+    /// Judges every value of a set; from any thread.
+    /// @param[in] set place in the table; any other is an own bug.
+    /// @return the first one that is refused, or kNone.
     ConfigurationFinding judge_set(std::size_t set) const noexcept;
-    /// Makes the values of a set active that belong to these parameters. Call it after judge_set().
+    /// Makes the values of a set active that belong to these parameters. Call it after judge_set(): a value
+    /// that is refused here is an own bug.
     void activate_set(std::size_t set, Span<const ParameterRow> parameters) noexcept;
     /// Makes the single values active that were asked for.
     static void commit(Span<const ParameterRow> parameters) noexcept;

@@ -79,7 +79,7 @@ constexpr ConfigurationFinding check(const ConfigurationView& view) noexcept {
 }
 
 /// Every broken rule at once, each value judged by the constraint of the parameter itself. Rows that are
-/// invalid in themselves hide the rest, here and in check().
+/// invalid in themselves hide the rest, here and in check(). O(rows squared), from any thread.
 /// @param[out] findings as many as have room. @return how many there are.
 std::size_t collect_findings(const ConfigurationView& view, Span<ConfigurationFinding> findings) noexcept;
 

@@ -21,7 +21,8 @@ namespace mamori {
 struct FreshWithin {
     Duration age_max;
 };
-/// Age at which the value of an input is stale: its status becomes kBufferTimeout. @param[in] age_max > 0.
+/// Age up to which the value of an input is fresh; beyond it its status is kBufferTimeout.
+/// @param[in] age_max > 0.
 constexpr FreshWithin fresh_within(Duration age_max) noexcept {
     return {age_max};
 }

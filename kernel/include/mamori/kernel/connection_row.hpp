@@ -22,7 +22,7 @@ struct PortRow {
     Component* owner{nullptr};
     InPortBase* input{nullptr};
     OutPortBase* output{nullptr};
-    bool is_mandatory{false};
+    bool is_mandatory{false};         ///< of an input
     std::size_t window{kNoIndex};     ///< that of its owner
     std::size_t component{kNoIndex};  ///< its owner's place in the table
     /// What an input that queues has counted.

@@ -50,7 +50,8 @@ struct Range {
 
 /// A constraint as data: an element may have a value that lies in any of its ranges.
 ///
-/// Thread safety: constant once parsed. Time: O(kRanges). Memory: kRanges ranges; no text.
+/// Thread safety: constant once parsed. Time: O(kRanges). Memory: kRanges ranges; no text, no heap.
+/// Before any range is added it admits nothing.
 template <typename S, std::size_t kRanges>
 class Constraint final {
     static_assert(kRanges > 0U && kRanges < Range<S>::kEachElement);
@@ -67,7 +68,7 @@ class Constraint final {
         }
         return false;
     }
-    /// The ranges in the order of the text, for tools.
+    /// The ranges in the order of the text, for tools; valid as long as the constraint.
     constexpr Span<const Range<S>> get_ranges() const noexcept { return {ranges_.data(), range_count_}; }
 
     /// @name For the parser

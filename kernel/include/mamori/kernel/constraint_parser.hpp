@@ -274,7 +274,7 @@ class ConstraintParser final {
 /// Reads `text` as the constraint of a value with `element_count` elements of type S.
 /// O(length of the text, and for named elements kRanges squared).
 /// @param[in] text          need not outlive the call.
-/// @param[in] element_count 1 .. 65534.
+/// @param[in] element_count 1 .. 65534, which is not checked.
 /// @return the constraint, with finding.rule kNone, or the first thing that is wrong.
 template <typename S, std::size_t kRanges>
 constexpr ParsedConstraint<S, kRanges> parse_constraint(Text text, std::size_t element_count = 1U) noexcept {

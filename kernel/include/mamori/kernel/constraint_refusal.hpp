@@ -2,7 +2,7 @@
 /// @file
 /// Makes a compiler's message about a constraint say what is wrong and where. In a failed constant expression
 /// g++ shows the template arguments of the calls that led there and clang the values of their arguments, so
-/// rule and place are handed on as both.
+/// rule and place are handed on as both. Not for users.
 ///
 /// @satisfies SWR-PAR-004      Design: docs/design/parameters.md#refusal-at-compile-time
 #ifndef MAMORI_KERNEL_CONSTRAINT_REFUSAL_HPP

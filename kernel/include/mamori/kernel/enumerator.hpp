@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Enumerators of an application in the rows of a table, where they are numbers: events, faults, reactions.
+/// Not for users.
 ///
 /// @satisfies SWR-MOD-004, SWR-KRN-018      Design: docs/design/modes.md#requests
 #ifndef MAMORI_KERNEL_ENUMERATOR_HPP

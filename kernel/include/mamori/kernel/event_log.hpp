@@ -33,18 +33,21 @@ struct Event {
 
 /// Ring of events over storage given by its owner, which must outlive it.
 ///
-/// Thread safety: none; one log per context. Time: O(1). Memory: none of its own beyond the counters.
+/// Thread safety: none; one log per context. Time: O(1), with a recorder too.
+/// Memory:        none of its own beyond the counters.
 class EventLog final {
   public:
     /// @param[in] storage room for the records; with none at all every write is a lost record.
     constexpr explicit EventLog(Span<Event> storage) noexcept : storage_(storage) {}
 
     /// Hands every later record on to a recorder as well, which outlives the program; for a start without one
-    /// nothing needs to be called. @param[in] recorder open, and to be left open until the last write.
+    /// nothing needs to be called. @param[in] recorder open, and to be left open until the last write; must
+    /// outlive the log.
     /// @return kOk; kPreconditionNotMet (the recorder is not open, or there is one already).
     Status attach(FlightRecorder& recorder) noexcept;
 
-    /// Appends a record; never fails, never blocks.
+    /// Appends a record, in the recorder first; never fails, never blocks. A recorder that was attached and
+    /// is closed since is an own bug.
     void write(Instant time, Severity severity, std::uint16_t source, std::uint16_t code,
                std::int64_t argument) noexcept;
 
@@ -53,7 +56,7 @@ class EventLog final {
     /// @param[in] index 0 = oldest kept .. size() - 1 = newest.
     /// @return valid until the next write; an index out of range is an own bug.
     const Event& get(std::size_t index) const noexcept;
-    /// Records that were overwritten before anyone could read them (saturates at 2^32 - 1).
+    /// Records that gave way to later ones, read or not, or found no room at all (saturates at 2^32 - 1).
     std::uint32_t get_lost_count() const noexcept { return lost_count_; }
 
   private:

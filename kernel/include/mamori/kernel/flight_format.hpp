@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Bytes of a flight recorder's region: a header, then a ring of records of one size, all little-endian. Pure
-/// functions between values and bytes; who writes them in which order is the business of FlightRecorder.
+/// functions between values and bytes, each O(1) and for any context; who writes them in which order is the
+/// business of FlightRecorder.
 ///
 /// @satisfies SWR-REC-001      Design: docs/design/recorder.md#region
 #ifndef MAMORI_KERNEL_FLIGHT_FORMAT_HPP
@@ -67,7 +68,8 @@ using HeaderBytes = std::array<std::uint8_t, kHeaderSize>;
 using RecordBytes = std::array<std::uint8_t, kRecordSize>;
 using SessionBytes = std::array<std::uint8_t, kSessionSize>;
 
-/// Bytes of a region that holds `capacity` records. @param[in] capacity 0 .. 2^32 - 1.
+/// Bytes of a region that holds `capacity` records. @param[in] capacity 0 .. 2^32 - 1, as far as std::size_t
+/// counts the bytes: that is not checked.
 constexpr std::size_t calc_region_size(std::size_t capacity) noexcept {
     return kHeaderSize + capacity * kRecordSize;
 }

@@ -38,7 +38,7 @@ class FlightReader final {
     /// @return as flight::decode_record(). O(1).
     SlotState read(std::size_t slot, FlightRecord& record) const noexcept;
 
-    /// The newest that the header knows of a session; number 0 when it knows none. O(1).
+    /// The newest that the header knows of a session; number 0 when it knows none, or before open(). O(1).
     FlightSession calc_session() const noexcept;
     /// Which of flight::kSessionOffsets tells of it; 0 when neither does. O(1).
     std::size_t calc_session_place() const noexcept;

@@ -39,8 +39,8 @@ class FlightRecorder final {
     /// @return kOk; kBadParameter (room for no record, or for more than 2^32 - 1);
     ///         kPreconditionNotMet (open already); kUnsupported (written by another format version); kError
     ///         (foreign, damaged header, written for another size, or damaged so that neither header nor any
-    ///         record tells which numbers were given); kOutOfResources (record numbers used up). Unless kOk,
-    ///         neither region nor recorder was changed: the caller decides about format().
+    ///         record tells which numbers were given); kOutOfResources (numbers of records or sessions used
+    ///         up). Unless kOk, neither region nor recorder was changed: the caller decides about format().
     Status open(Span<std::byte> region) noexcept;
 
     /// Ends the session; the region may go.
@@ -56,7 +56,7 @@ class FlightRecorder final {
     std::uint32_t get_session() const noexcept { return session_; }
     /// Number that the next record gets, from 1 on; 0 while closed.
     std::uint64_t get_next_sequence() const noexcept { return next_sequence_; }
-    /// Records of this and earlier sessions that gave way to one of this session.
+    /// Records of this and earlier sessions that gave way to one of this session; 0 while closed.
     std::uint64_t get_overwritten_count() const noexcept { return overwritten_count_; }
 
   private:

@@ -17,7 +17,8 @@ namespace mamori {
 
 /// Walks through the openings of one core in order of time; equal instants cannot be, windows are disjoint.
 ///
-/// Thread safety: none. Time: O(windows) per opening. Memory: two words beyond the view.
+/// Thread safety: none. Time: O(windows) per opening; nothing blocks.
+/// Memory:        the view, two words and an instant.
 class FrameSchedule final {
   public:
     /// One opening.
@@ -31,10 +32,11 @@ class FrameSchedule final {
     constexpr FrameSchedule(const SystemView& view, std::size_t core, Instant start) noexcept
         : view_(view), core_(core), next_(find(start)) {}
 
-    /// The opening that comes next; does not move on.
+    /// The opening that comes next; does not move on. The reference is valid as long as this object, its
+    /// value until advance().
     constexpr const Opening& get_next() const noexcept { return next_; }
 
-    /// Moves on to the opening after it.
+    /// Moves on to the opening after it; without effect when no window runs on this core.
     constexpr void advance() noexcept {
         if (next_.window != kNoIndex) {
             next_ = find(next_.release + Duration{1});

@@ -105,7 +105,8 @@ struct FsmTableKeeps {
 
 }  // namespace detail
 
-/// First broken rule, or kNone. Constant expression for a constexpr table; O(rows squared).
+/// First broken rule, or kNone. Constant expression for a constexpr table; O(rows squared). That a span has
+/// the rows it counts and that a name ends is taken for granted.
 constexpr FsmFinding check(const FsmTable& table) noexcept {
     if (table.name == nullptr) {
         return {FsmRule::kTableNameMissing, 0U};

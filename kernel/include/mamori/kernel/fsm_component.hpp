@@ -26,7 +26,9 @@ namespace mamori {
 ///
 /// Thread safety: send_stimulus() from any thread or interrupt; the rest from the core that runs the
 ///                component.
-/// Time:          O(1), find_message() O(messages); taking an event is O(transitions). Memory: no heap.
+/// Time:          O(1), send_stimulus() as FsmEventQueue::post(), find_message() O(messages); serving an
+///                event is O(transitions + behaviours of the profile), beside the actions. Nothing blocks.
+/// Memory:        no heap.
 class FsmComponent : public Component {
   public:
     /// Queues a message; the next cycle of the machine's context serves it. A message that the state at that
@@ -47,7 +49,7 @@ class FsmComponent : public Component {
     Status set_fsm_profile(FsmProfile) noexcept { return Status::kUnsupported; }
     const FsmTable& get_fsm_structure() const noexcept { return fsm_.get_table(); }
     Status set_fsm_structure(const FsmTable&) noexcept { return Status::kUnsupported; }
-    /// Row of the state; while on_action is called the old one until the entry.
+    /// Row of the state, 0 .. number of states - 1; while on_action is called the old one until the entry.
     FsmIndex get_current_state() const noexcept { return fsm_.get_state(); }
     const char* get_current_state_name() const noexcept {
         return get_fsm_structure().states[get_current_state()].name;
@@ -61,7 +63,7 @@ class FsmComponent : public Component {
     const FsmEventQueue& get_queue() const noexcept { return fsm_.get_queue(); }
 
   protected:
-    /// @param[in] name    instance name; must have static storage.
+    /// @param[in] name    instance name; must have static storage and not be nullptr.
     /// @param[in] table   checked with MAMORI_CHECK_FSM; must outlive the component.
     /// @param[in] profile participants of the same context; must outlive the component.
     /// @param[in] cells   see FsmEventQueue.

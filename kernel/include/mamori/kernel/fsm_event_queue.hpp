@@ -25,10 +25,11 @@ struct FsmEventCell {
 
 /// First in, first out, over cells given by its owner.
 ///
-/// Thread safety: post() from any thread or interrupt; take(), clear() and the rest from one context. Events
-///                of one sender stay in order; between senders on different cores the order is that of
-///                arrival.
-/// Time:          O(1); post() tries again when another sender was faster, at most once for each of them.
+/// Thread safety: post() from any thread or interrupt; take() and clear() from one context; counts from
+///                anywhere. Events of one sender stay in order; between senders on different cores the order
+///                is that of arrival.
+/// Time:          O(1); post() tries again when another sender was faster, at most once for each of them and
+///                capacity + 1 times in all; clear() is O(capacity). Nothing blocks.
 /// Memory:        no heap; the cells must outlive the queue.
 class FsmEventQueue final {
   public:
@@ -41,17 +42,20 @@ class FsmEventQueue final {
     /// @return kOk; kOutOfResources (full, or more other senders were faster than there are cells): counted,
     ///         nothing is overwritten.
     Status post(const FsmEvent& event) noexcept;
-    /// Takes the oldest event. @return the event; kPreconditionNotMet (there is none).
+    /// Takes the oldest event.
+    /// @return the event; kPreconditionNotMet (there is none, or its sender has not filled its place yet:
+    /// then
+    ///         those behind it wait).
     Result<FsmEvent> take() noexcept;
-    /// Drops what waits.
+    /// Drops what waits at the time of the call, as far as take() gives it.
     void clear() noexcept;
 
     std::size_t get_capacity() const noexcept { return cells_.size(); }
     /// Events that wait, as of some moment.
     std::size_t get_size() const noexcept;
-    /// Most events that ever waited at one post().
+    /// Most events that ever waited at one post(), 0 .. capacity.
     std::size_t get_high_water_mark() const noexcept { return high_water_.load(std::memory_order_relaxed); }
-    /// Events refused because the queue was full (wraps at 2^32).
+    /// Events that post() refused (wraps at 2^32).
     std::uint32_t get_refused_count() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
   private:

@@ -55,8 +55,10 @@ std::size_t visit_rows(Span<ShownRow<Row>> rows, Visitor& visitor) noexcept {
 ///
 /// Thread safety: const members for any number of readers, at any time; the others for the executives, each
 ///                of which writes the rows of its own core.
-/// Time:          publish_window() is wait-free and O(components + ports of the window); one read is O(1).
-/// Memory:        no heap; refers to the table and to no component. One row of stack per call.
+/// Time:          publish_window() is wait-free and O(windows of the table + components and ports of the
+///                window); one read is O(1), read_core() O(windows). Nothing blocks.
+/// Memory:        no heap; refers to the table, and from publish_window() to its components and ports. One
+///                row of stack per call.
 class Introspection {
   public:
     Introspection(const Introspection&) = delete;
@@ -116,7 +118,8 @@ class Introspection {
     /// The first pass of `component` took `used`. Also from an action that its host has abandoned, while it
     /// still counts as hanging.
     void note_used(std::size_t component, Duration used) noexcept;
-    /// Shows the rows of `window`. @param[in] opening planned opening that ran last.
+    /// Shows the rows of `window`, of a table that keeps the rules. @param[in] opening planned opening that
+    /// ran last. @param[in] trace_hash of its core, after it.
     void publish_window(std::size_t window, const ExecutionContext& context, Instant opening,
                         std::uint64_t trace_hash) noexcept;
     /// True when its rows are those of `view`.

@@ -23,7 +23,7 @@ namespace mamori {
 struct CoreSnapshot {
     Instant observed_at{};         ///< planned opening of the window that ran last
     std::uint64_t frame{0U};       ///< number of its frame: 0, 1, ...
-    std::uint64_t trace_hash{0U};  ///< after it, as Executive::get_trace_hash()
+    std::uint64_t trace_hash{0U};  ///< after it, as Executive::get_trace_hash() of that core
 };
 
 /// How a window keeps its time. Counts and worst cases are those since the introspection was attached.

@@ -28,7 +28,8 @@ template <typename... Cs>
 struct Runs {
     std::array<Component*, sizeof...(Cs)> components{};
 };
-/// The components that are Active in a mode; all others are Inactive in it. They outlive the table.
+/// The components that are Active in a mode; all others are Inactive in it. They outlive the table, and each
+/// is listed in a window of it.
 template <typename... Cs>
 constexpr Runs<Cs...> runs(Cs&... components) noexcept {
     return {{&components...}};
@@ -53,7 +54,7 @@ struct SystemModePart {
     SystemModeRow row{};
     std::array<Component*, sizeof...(Cs)> members{};
 };
-/// One mode of the system; the first one listed is the one that it starts in.
+/// One mode of the system, of at most kSystemModeMax; the first one listed is the one that it starts in.
 /// @param[in] name static storage; unique. @param[in] set without it the mode changes no parameter.
 template <typename... Cs>
 constexpr SystemModePart<Cs...> system_mode(const char* name, const Runs<Cs...>& members,
@@ -77,7 +78,8 @@ struct ModeTransitionPart {
     };
     ModeTransitionRow row{};
 };
-/// In mode `source`, `event` leads to mode `target`. An event that a mode has no transition for is refused.
+/// In mode `source`, `event` leads to mode `target`; of one mode and event there is one transition. An event
+/// that a mode has no transition for is refused by SystemModes::request().
 /// @param[in] source, target names of modes, static storage. @param[in] event enumerator of the application,
 ///            of at most 32 bits; all events of a table are of one enumeration.
 template <typename Event>

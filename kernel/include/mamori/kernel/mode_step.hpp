@@ -35,7 +35,7 @@ enum class ModeFailureCause : std::uint8_t {
     kRequested,   ///< request_safe_mode()
 };
 
-/// The first failure since the last reset.
+/// The first failure since the last SystemModes::reset(); cause kNone when there was none.
 struct ModeFailure {
     ModeFailureCause cause{ModeFailureCause::kNone};
     ModeStep step{ModeStep::kNone};

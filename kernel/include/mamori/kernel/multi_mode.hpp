@@ -19,7 +19,7 @@ class ExecutionContext;
 
 /// One way of working. Its identity is its address.
 struct Mode {
-    const char* name;  ///< static storage
+    const char* name;  ///< static storage, not nullptr
 };
 
 /// The modes of one component, and how far a change has come.
@@ -32,6 +32,7 @@ class ModeSwitch final {
         : modes_(modes), current_(modes[0U]), told_(modes[0U]) {}
 
     const Mode& get_default() const noexcept { return *modes_[0U]; }
+    /// @return never nullptr.
     const Mode* get_current() const noexcept { return current_; }
     /// @return nullptr: no change waits.
     const Mode* get_pending() const noexcept { return pending_; }
@@ -42,7 +43,8 @@ class ModeSwitch final {
     void wish(const Mode& mode) noexcept { pending_ = &mode == current_ ? nullptr : &mode; }
     /// Commits a pending mode. @return true when it differs from the one that the component was told last.
     bool take_change() noexcept;
-    /// Commits a mode, one of its own, now; whether the component must be told is left to take_change().
+    /// Commits a mode now; whether the component must be told is left to take_change(). @param[in] mode one
+    /// of its own, which is not checked, here as in wish(): see has().
     void commit(const Mode& mode) noexcept;
 
   private:
@@ -57,8 +59,9 @@ class ModeSwitch final {
 /// A mode that is set with `immediate` false is pending until the next cycle of the component's context,
 /// where it becomes current and on_mode_changed is called before on_execute; the states of the component do
 /// not matter for that. With `immediate` true it is current when set_mode() returns; on_mode_changed is
-/// called at once too, or, while the context is busy, in the component's next turn, since actions are never
-/// reentrant. A mode stays set when on_mode_changed fails; see docs/design/rtc_semantics.md#failures.
+/// called at once too, or, while the context is busy or the component not alive, in its next turn, since
+/// actions are never reentrant. A mode stays set when on_mode_changed fails; see
+/// docs/design/rtc_semantics.md#failures.
 ///
 /// Thread safety: none; call from the core that runs the component.
 /// Time:          O(modes), and that of on_mode_changed. Memory: no heap.
@@ -85,7 +88,7 @@ class MultiModeComponent : public Component {
     Status set_mode(const Mode& mode, bool immediate, Instant now) noexcept;
 
   protected:
-    /// @param[in] name  instance name; must have static storage.
+    /// @param[in] name  instance name; must have static storage and not be nullptr.
     /// @param[in] modes at least one and none of them nullptr, else an own bug; must outlive the component.
     constexpr MultiModeComponent(const char* name, Span<const Mode* const> modes) noexcept
         : Component(name), switch_(modes) {

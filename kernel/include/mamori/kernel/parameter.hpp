@@ -44,8 +44,10 @@ enum class RequestSlot : std::uint8_t { kEmpty, kFull, kBusy };
 /// A constraint that is malformed and a default that violates it stop the compiler when the component is a
 /// constant (MAMORI_CONSTINIT) and end in the assertion handler otherwise.
 ///
-/// Time: O(elements * kRanges). Memory: two T and kRanges ranges of two elements each.
-/// @tparam kRanges room for the ranges and choices of the constraint, all elements together.
+/// Thread safety: as ParameterBase; get() from its component, admits() from any thread.
+/// Time:          O(elements * kRanges); get() and commit() copy at most one T. Nothing blocks.
+/// Memory:        two T and kRanges ranges of two elements each, no heap.
+/// @tparam kRanges room for the ranges and choices of the constraint, all elements together, 1 .. 65534.
 template <typename T, std::size_t kRanges = detail::Elements<T>::kCount + 3U>
 class Parameter final : public ParameterBase {
     using Elements = detail::Elements<T>;
@@ -68,7 +70,8 @@ class Parameter final : public ParameterBase {
         detail::require_default_within_constraint(admits(default_value));
     }
 
-    /// The active value; the same from the beginning of a cycle to its end.
+    /// The active value; the same from the beginning of a cycle to its end. The reference is valid as long as
+    /// the parameter.
     constexpr const T& get() const noexcept { return active_; }
 
     /// May the parameter have this value?

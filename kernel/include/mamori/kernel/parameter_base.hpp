@@ -17,8 +17,9 @@ namespace mamori {
 
 /// Type-free part of a parameter, for the configuration admin and for tools.
 ///
-/// Thread safety: check() and the requests from any thread, each without waiting; the others only from the
-/// context that runs the component, between its cycles. Memory: no heap.
+/// Thread safety: check(), the requests and what was given at construction from any thread, each without
+///                waiting; the others only from the context that runs the component, between its cycles.
+/// Time:          O(elements * ranges of the constraint), for a text also its length. Memory: no heap.
 class ParameterBase {
   public:
     ParameterBase(const ParameterBase&) = delete;
@@ -40,7 +41,8 @@ class ParameterBase {
     ///         parameter at this moment: ask again).
     virtual Status request_scalars(Span<const Scalar> values) noexcept = 0;
     /// The same for a text: numbers or names, separated by commas, as configuration files have them.
-    /// @param[in] text need not outlive the call.
+    /// @param[in] text one word per element; need not outlive the call.
+    /// @return as request_scalars(); kBadParameter also for a text that does not spell the values.
     virtual Status request_text(Text text) noexcept = 0;
     /// Copies the active value. @param[out] values one per element; written on kOk only.
     /// @return kOk; kBadParameter (not one place per element).
@@ -55,7 +57,7 @@ class ParameterBase {
     /// @}
 
   protected:
-    /// @param[in] name, constraint static storage. @param[in] element_count >= 1.
+    /// @param[in] name, constraint static storage, not nullptr. @param[in] element_count >= 1.
     constexpr ParameterBase(const char* name, const char* constraint, std::size_t element_count) noexcept
         : name_(name), constraint_text_(constraint), element_count_(element_count) {}
     ~ParameterBase() = default;

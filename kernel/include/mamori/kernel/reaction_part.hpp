@@ -30,7 +30,8 @@ struct FaultsPart {
         using FaultTypes = detail::TypeList<decltype(kFaults)...>;
     };
 };
-/// Declares faults, each an enumerator of the application: the table is refused until each has one reaction.
+/// Declares faults, each an enumerator of the application or of the safety layer and declared once: the table
+/// is refused until each has one reaction.
 template <auto... kFaults>
 constexpr FaultsPart<kFaults...> faults() noexcept {
     static_assert((std::is_enum_v<decltype(kFaults)> && ...),
@@ -58,6 +59,7 @@ struct ReactionPart {
     ReactionRow row{};
 };
 /// What a fault leads to; both are enumerators of the application or of the safety layer, of at most 32 bits.
+/// The kernel keeps the row and carries nothing out.
 template <typename Fault, typename Reaction>
 constexpr ReactionPart<Fault, Reaction> react(Fault fault, Reaction reaction, Within time) noexcept {
     return {{detail::to_number(fault), detail::to_number(reaction), time.limit}};

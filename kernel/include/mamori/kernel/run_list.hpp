@@ -19,7 +19,7 @@
 
 namespace mamori {
 
-/// The components of one window in execution order; they form one execution context.
+/// The components of one window in execution order; they form one execution context. Made by run().
 template <typename... Cs>
 struct RunList {
     static constexpr std::size_t kPortCount = (detail::ComponentTypes<Cs>::kPortCount + ... + 0U);
@@ -60,7 +60,8 @@ struct RunListBuilder {
 
 }  // namespace detail
 
-/// Components in the order in which they run, each as itself or with its worst_case().
+/// Components in the order in which they run, each as itself or with its worst_case(). They outlive the
+/// table.
 template <typename... Cs>
 constexpr RunList<std::remove_const_t<std::remove_reference_t<Cs>>...> run(Cs&&... components) noexcept {
     static_assert(sizeof...(Cs) > 0U, "a window runs at least one component");

@@ -112,8 +112,9 @@ struct DescribedSystem : detail::TableOf<PartTypes> {
     using Types = PartTypes;
 };
 
-/// Builds the table from a frame and its parts, in any order; components are numbered as they are listed.
-/// MAMORI_CHECK tells what the table breaks; what it refers to must outlive it.
+/// Builds the table from a frame and its parts, in any order; windows, components, ports, connections, modes
+/// and reactions are numbered as they are listed. MAMORI_CHECK tells what the table breaks; what it refers to
+/// must outlive it. For constant expressions: O(rows squared).
 template <typename... Parts>
 constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
     using Types = detail::JoinedTypes<Parts...>;

@@ -41,12 +41,14 @@ inline constexpr std::int64_t kModeStepFrames = 3;
 /// Thread safety: requests and get_...() from any thread, without waiting; the part for executives each core
 ///                from its own context.
 /// Time:          O(transitions) for a request; O(cores) per frame, and O(values of the set) in the one in
-///                which a step with a set is over. Nothing blocks.
+///                which a step with a set is over, and for prepare(). Nothing blocks.
 /// Memory:        no heap; refers to the table.
 class SystemModes final {
   public:
-    /// @param[in] view        its table must outlive this object; check it with MAMORI_CHECK.
-    /// @param[in] initial_set of a table without modes: requested from the start on, or none.
+    /// @param[in] view        its table must outlive this object; check it with MAMORI_CHECK. More than 4095
+    ///                        configuration sets are an own bug.
+    /// @param[in] initial_set meant for a table without modes: place of the set that is requested from the
+    ///                        start on, or none; any other number is an own bug.
     constexpr explicit SystemModes(const SystemView& view,
                                    std::size_t initial_set = kNoConfigurationSet) noexcept
         : view_(view),
@@ -71,22 +73,26 @@ class SystemModes final {
     /// Asks for the safe mode, whatever is under way; never refused where there is one.
     /// @return kOk; kUnsupported (the table has no safe mode).
     Status request_safe_mode() noexcept;
-    /// Sets and values of parameters, to be asked for at any time. A set that is asked for beside the modes
-    /// waits for the end of a switch and holds until the next mode with a set of its own.
+    /// Sets and values of parameters, to be asked for at any time; switching them is left to the executives.
+    /// A set that is asked for beside the modes waits for the end of a switch and holds until the next mode
+    /// with a set of its own.
     ConfigurationAdmin& get_configuration() noexcept { return configuration_; }
 
-    /// The mode that all cores are in; during a switch the one that they come from.
+    /// The mode that all cores are in, as its place in the table; during a switch the one that they come
+    /// from; 0 in a system without modes.
     std::size_t get_mode() const noexcept { return mode_.load(std::memory_order_acquire); }
     /// The step that is agreed and not over; kNone when no switch is under way.
     ModeStep get_step() const noexcept { return ModePlan{plan_.load(std::memory_order_acquire)}.get_step(); }
-    /// First failure since the last reset; while there is one, requests are refused.
+    /// First failure since the last reset; while there is one, requests are refused. Cause kNone: none.
     ModeFailure get_failure() const noexcept;
-    /// Forgets the failure and goes back to the first mode. A deliberate act of an operator.
+    /// Forgets the failure and a request that waits, and goes back to the first mode. A deliberate act of an
+    /// operator.
     /// @return kOk; kPreconditionNotMet (an executive is running).
     Status reset() noexcept;
 
     /// @name For executives
     /// @{
+    /// True when it was made of the table of `view`.
     bool is_of(const SystemView& view) const noexcept {
         return view_.components.data() == view.components.data() &&
                view_.modes.modes.size() == view.modes.modes.size();
@@ -100,8 +106,10 @@ class SystemModes final {
     Status join(std::size_t core) noexcept;
     /// The core has stopped. The last one ends a switch that is under way: in the safe mode.
     void leave(std::size_t core) noexcept;
-    /// Agrees on what comes next, when that is this core's business. @return the plan that is agreed, due or
-    ///         not.
+    /// Agrees on what comes next, when that is this core's business; once per frame of a core that has
+    /// joined.
+    /// @param[in] frame number of the frame since instant 0, the same on each core.
+    /// @return the plan that is agreed, due or not.
     ModePlan begin_frame(std::size_t core, std::int64_t frame) noexcept;
     /// The core has carried the plan out, or knows and has reported that it failed.
     void finish(std::size_t core, ModePlan plan) noexcept {

@@ -40,7 +40,7 @@ template <std::size_t kWindows, std::size_t kComponents, std::size_t kPorts, std
           typename Configuration = ConfigurationTable<0U, 0U, 0U, 0U>,
           typename Modes = ModeTable<0U, 0U, 0U, 0U>>
 struct SystemTable {
-    Duration frame{};  ///< after which everything repeats, > 0
+    Duration frame{};  ///< after which everything repeats, > 0; common to all cores
     std::array<WindowRow, kWindows> windows{};
     std::array<Component*, kComponents> components{};
     std::array<ComponentRow, kComponents> component_rows{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A list of types, for what the compiler alone computes: fields of a payload, components of a table; how
-/// lists are joined and a type is picked out of one.
+/// lists are joined and a type is picked out of one. Not for users.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_TYPE_LIST_HPP

@@ -40,7 +40,7 @@ struct Core {
     std::size_t index;
 };
 /// Processor core that runs the window; without it: core 0. Cores share the frame and its start.
-/// @param[in] index 0, 1, ...; in a system with modes below kModeCoreMax.
+/// @param[in] index 0, 1, ...; in a system with modes or configuration sets below kModeCoreMax.
 constexpr Core core(std::size_t index) noexcept {
     return {index};
 }
@@ -60,7 +60,7 @@ struct TriggeredBy {
     ExternalTrigger& trigger;
 };
 /// The cycles of the window come with the ticks of `trigger`, one at most per opening (kind OTHER).
-/// @param[in] trigger must outlive the table; serves one window.
+/// @param[in] trigger must outlive the table; serves one window, which nothing checks.
 constexpr TriggeredBy triggered_by(ExternalTrigger& trigger) noexcept {
     return {trigger};
 }

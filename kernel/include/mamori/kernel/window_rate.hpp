@@ -15,7 +15,7 @@
 
 namespace mamori {
 
-/// Cycles per second.
+/// Cycles per second [Hz].
 struct Rate {
     double hz;
 };
@@ -35,7 +35,7 @@ struct Rates {
 };
 /// Declares the rate of the window, which must be that of its openings, and up to four slower ones between
 /// which ExecutionContext::set_rate() may choose; each must divide the first without rest.
-/// @param[in] first  > 0. @param[in] slower > 0, at most 1e9 Hz; rounded to periods of whole nanoseconds.
+/// @param[in] first  > 0. @param[in] slower 2e-10 .. 1e9 Hz; rounded to periods of whole nanoseconds.
 template <typename... Alternatives>
 constexpr Rates<1U + sizeof...(Alternatives)> rate(Rate first, Alternatives... slower) noexcept {
     static_assert(sizeof...(Alternatives) <= kAlternativeRateMax,

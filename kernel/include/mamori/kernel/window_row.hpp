@@ -22,11 +22,11 @@ inline constexpr std::size_t kAlternativeRateMax = 4U;
 /// One window: opens at `offset`, `offset + period`, ... of each frame; its components form one execution
 /// context.
 struct WindowRow {
-    const char* name{nullptr};  ///< static storage
-    Duration offset{};          ///< first opening, from the start of the frame
-    Duration length{};          ///< from opening to close
-    Duration period{};          ///< between two openings; divides the frame
-    Duration budget{};          ///< from the opening of the window; never beyond its close
+    const char* name{nullptr};  ///< static storage; unique
+    Duration offset{};          ///< first opening, from the start of the frame, >= 0
+    Duration length{};          ///< from opening to close, > 0; with the offset within the period
+    Duration period{};          ///< between two openings, > 0; divides the frame
+    Duration budget{};          ///< from the opening of the window, > 0; never beyond its close
     double rate_hz{0.0};        ///< declared cycles per second; only where `has_rate`
     /// Slower ones, each a whole multiple of `period`; as many as `alternative_count` says.
     std::array<Duration, kAlternativeRateMax> alternative_periods{};
@@ -52,7 +52,7 @@ struct WindowRow {
 /// What the table knows of one component.
 struct ComponentRow {
     std::size_t window{kNoIndex};  ///< that runs it
-    Duration worst_case{};         ///< declared execution time of both passes; 0: not declared
+    Duration worst_case{};         ///< declared execution time of both passes, >= 0; 0: not declared
     std::size_t first_port{0U};    ///< its ports, places of the table one after the other
     std::size_t port_count{0U};
     std::size_t first_outgoing{0U};  ///< connections from its outputs, places of `outgoing_order`
