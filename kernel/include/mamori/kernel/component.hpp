@@ -24,7 +24,9 @@ namespace mamori {
 /// Names the context an action is called from. Valid for the duration of the call and as an identity.
 struct ContextHandle {
     std::int32_t id{-1};  ///< index of the window in the system table; -1: no context
-    Instant now{};        ///< start of the window that runs the action (not the time of the call: see LET)
+    /// Planned start of the window that runs the action (not the time of the call: see LET), or the instant
+    /// that was given to the operation which calls it.
+    Instant now{};
 };
 
 class Component;

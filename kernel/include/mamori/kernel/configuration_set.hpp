@@ -73,8 +73,11 @@ constexpr auto configuration_set(const char* name, const Assignment<kElements>&.
     return set;
 }
 
-/// Collects parameters and sets into a table; parts may come in any order. For constant expressions: add() is
-/// O(rows), finish() O(parameters * assignments). One part too many is an error of the compiler.
+/// Collects parameters and sets into a table, as a constant; parts may come in any order. One too many is an
+/// error of the compiler.
+///
+/// Thread safety: none. Time: add() O(rows), finish() O(parameters * assignments).
+/// Memory:        the table and a declaration for each parameter.
 template <std::size_t kParameters, std::size_t kSets, std::size_t kAssignments, std::size_t kValues>
 class ConfigurationBuilder final {
   public:

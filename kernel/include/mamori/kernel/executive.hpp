@@ -108,7 +108,7 @@ class Executive {
     /// Runs window `index` once. Actions and publications carry the planned instants, not the measured ones,
     /// so a late release changes no data.
     /// @param[in] index   0 .. get_view().windows.size() - 1, a window of this core; any other is an own bug.
-    /// @param[in] release planned opening of the window, not after host.get_now(); later is an own bug.
+    /// @param[in] release planned opening of the window, >= 0, not after host.get_now(); later is an own bug.
     /// @param[in] host    clock and budget guard; work that it abandons may run on after this returns, so it
     ///                    must outlive that. The next opening and stop() ask whether it has come back.
     /// @return what became of the opening; kStopped, kNotDue and kMissed ran no cycle.

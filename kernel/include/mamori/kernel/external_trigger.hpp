@@ -21,8 +21,8 @@ namespace mamori {
 /// Time:          O(1), wait-free. Memory: no heap.
 class ExternalTrigger final {
   public:
-    /// @param[in] backlog_limit ticks that may wait for a window, 1 .. kLargestLimit; later ones overflow.
-    ///                          With 0 every tick overflows.
+    /// @param[in] backlog_limit ticks that may wait for a window, 1 .. kLargestLimit, which is not checked;
+    ///                          later ones overflow. With 0 every tick overflows.
     constexpr explicit ExternalTrigger(std::uint32_t backlog_limit = kLargestLimit) noexcept
         : backlog_limit_(backlog_limit) {}
     ExternalTrigger(const ExternalTrigger&) = delete;

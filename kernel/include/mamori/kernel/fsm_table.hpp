@@ -50,7 +50,7 @@ struct FsmTransition {
 /// The rows outlive every machine that runs them. Of several transitions for one state and message, the first
 /// whose guard allows it is taken.
 struct FsmTable {
-    const char* name{nullptr};
+    const char* name{nullptr};  ///< static storage
     Span<const FsmState> states{};
     Span<const FsmMessage> messages{};
     Span<const FsmTransition> transitions{};

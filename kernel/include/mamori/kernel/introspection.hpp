@@ -67,9 +67,9 @@ class Introspection {
     /// @name For tools. Rows are those of the system table, and cores have the numbers that it gives them.
     /// Each row is whole in itself; rows belong to one cycle when their observed_at are equal.
     /// @param[out] snapshot written on kOk only.
-    /// @return kOk; kBadParameter (there is no such row); kPreconditionNotMet (no executive of its core was
-    ///         attached yet); kOutOfResources (the executive was faster in each of SnapshotCell::kTries
-    ///         tries: ask again).
+    /// @return kOk; kBadParameter (there is no such row); kPreconditionNotMet (nothing of it was shown yet,
+    ///         as before an executive of its core is attached); kOutOfResources (the executive was faster in
+    ///         each of SnapshotCell::kTries tries: ask again).
     /// @{
     Status read_core(std::size_t core, CoreSnapshot& snapshot) const noexcept {
         return detail::read_row(cores_, find_core_row(core), snapshot);

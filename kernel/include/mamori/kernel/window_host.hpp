@@ -49,8 +49,8 @@ class WindowHost {
     ///         yet.
     virtual Instant get_step_end() const noexcept = 0;
 
-    /// Runs the steps of `work`, each at most once and in order, together or one by one; returns by the
-    /// deadline where the host can abandon work, else when the steps are done.
+    /// Runs the steps of `work`, each at most once and in order, together or one by one. Blocks until they
+    /// are done; a host that can abandon work returns when the deadline has passed.
     /// @param[in] deadline instant at which the window's budget is used up; may have passed already.
     /// @return how many of them returned by the deadline; less than count when the budget ran out
     ///         first, whether that step returned late or was abandoned. Abandoned work may enter one more
