@@ -149,12 +149,13 @@ Status ExecutionContext::start(Instant now) noexcept {
     if (id_ < 0 || is_running_ || is_busy()) {
         return Status::kPreconditionNotMet;
     }
-    for (const Component* component : participants_) {
-        if (!component->is_alive()) {
+    refusing_position_ = kNoPosition;
+    for (std::size_t i = 0U; i < participants_.size(); ++i) {
+        if (!participants_[i]->is_alive()) {
+            refusing_position_ = i;
             return Status::kPreconditionNotMet;
         }
     }
-    refusing_position_ = kNoPosition;
     const ContextHandle handle = make_handle(now);
     for (std::size_t i = 0U; i < participants_.size(); ++i) {
         const ActionScope scope{*this, i};

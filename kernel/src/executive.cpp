@@ -292,7 +292,7 @@ WindowOutcome Executive::run_window(std::size_t index, Instant release, WindowHo
         }
         is_busy_ = false;
     }
-    if (introspection_ != nullptr) {
+    if (introspection_ != nullptr && is_table_sound_) {
         show_opening(index, release, opened, outcome, host);
     }
     return outcome;

@@ -7,7 +7,7 @@ namespace mamori {
 namespace {
 
 /// In the order of Rule.
-constexpr std::array<const char*, 43> kNames{{
+constexpr std::array<const char*, 45> kNames{{
     "None",
     "FrameNotPositive",
     "WindowRowInvalid",
@@ -15,6 +15,7 @@ constexpr std::array<const char*, 43> kNames{{
     "PortRowInvalid",
     "ConnectionRowInvalid",
     "WindowNamedTwice",
+    "TriggerUsedTwice",
     "PeriodNotInFrame",
     "WindowOutsideFrame",
     "WindowsOverlap",
@@ -30,6 +31,7 @@ constexpr std::array<const char*, 43> kNames{{
     "CrossingWithoutBuffer",
     "CrossingUsedTwice",
     "CrossingNotOrdered",
+    "FaultDeclaredTwice",
     "FaultWithoutReaction",
     "FaultWithTwoReactions",
     "ReactionWithoutTime",

@@ -171,6 +171,21 @@ TEST(CompileFailTest, ReactionsOfTwoEnumerationsAreRefused) {
     expect_refused("reactions_of_two_enumerations", "and so are all reactions");
 }
 
+TEST(CompileFailTest, ATriggerOfTwoWindowsIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("trigger_used_twice", "TriggerServesOneWindow<mamori::Name<'a'>, mamori::Name<'b'>");
+}
+
+TEST(CompileFailTest, APeriodOfZeroIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("period_of_zero", "WindowRowIsValid<mamori::rules::Row<0>");
+}
+
+TEST(CompileFailTest, AFaultThatIsDeclaredTwiceIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("fault_declared_twice", "FaultIsDeclaredOnce<Fault::kOverspeed>");
+}
+
 TEST(CompileFailTest, AMemberThatIsNoPortIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
     expect_refused("port_is_no_port", "names members that are ports");

@@ -203,6 +203,18 @@ TEST_F(ExecutionContextTest, ARefusedStartupKeepsTheContextStoppedAndShutsTheSta
     EXPECT_FALSE(sut_.get_refusing_position().has_value());
 }
 
+TEST_F(ExecutionContextTest, AStartThatAParticipantCannotFollowNamesIt) {
+    verifies("SWR-KRN-012", Technique::kErrorGuessing, Polarity::kViolation);
+    a_.answers["on_startup"] = Status::kError;
+    ASSERT_EQ(sut_.start(now_), Status::kError);
+    ASSERT_EQ(sut_.get_refusing_position().get_value(), 0U);
+    ASSERT_EQ(b_.exit(now_), Status::kOk);
+
+    EXPECT_EQ(sut_.start(now_), Status::kPreconditionNotMet);
+
+    EXPECT_EQ(sut_.get_refusing_position().get_value(), 1U);
+}
+
 TEST_F(ExecutionContextTest, AFailingShutdownIsReportedButStopsAnyway) {
     verifies("SWR-KRN-012", Technique::kFaultInjection, Polarity::kViolation);
     start_and_activate();

@@ -155,6 +155,21 @@ TEST_F(ExecutiveLifeTest, ARefusedStartupInsideAWindowNamesTheComponentThatRefus
     EXPECT_EQ(sut_.get_failed_component(), 1U);
 }
 
+TEST_F(ExecutiveLifeTest, AComponentThatHasLeftRefusesTheNextStartByItsName) {
+    verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(sut_.initialize(), Status::kOk);
+    c_.answers["on_startup"] = Status::kError;
+    ASSERT_EQ(sut_.start(), Status::kError);
+    ASSERT_EQ(sut_.get_failed_component(), 2U);
+    ASSERT_EQ(b_.exit(Instant{}), Status::kOk);
+    calls_.clear();
+
+    EXPECT_EQ(sut_.start(), Status::kPreconditionNotMet);
+
+    EXPECT_EQ(sut_.get_failed_component(), 1U) << "not the one of the start before";
+    EXPECT_TRUE(calls_.empty()) << "nobody was started";
+}
+
 TEST_F(ExecutiveLifeTest, ARefusedActivationStopsTheWholeSystemAndLeavesTheGuiltyInError) {
     verifies("SWR-KRN-024", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(sut_.initialize(), Status::kOk);

@@ -410,6 +410,24 @@ TEST_F(IntrospectionTest, DetachedItKeepsWhatItShowedLast) {
     EXPECT_EQ(read_window(0U).cycles, 1U);
 }
 
+TEST_F(IntrospectionTest, ARefusedTableShowsNothingWhicheverWindowIsAskedToRun) {
+    verifies("SWR-INS-003", Technique::kErrorGuessing, Polarity::kViolation);
+    auto table = table_;
+    table.frame = 0_ns;
+    ExecutiveFor executive{table};
+    IntrospectionFor introspection{table};
+    const Introspection& shown = introspection;
+    executive.set_introspection(&introspection);
+    ASSERT_EQ(executive.initialize(), Status::kBadParameter);
+
+    EXPECT_EQ(executive.run_window(0U, Instant{0}, host_), WindowOutcome::kStopped);
+
+    WindowSnapshot window{};
+    EXPECT_EQ(shown.read_window(0U, window), Status::kPreconditionNotMet);
+    CoreSnapshot core{};
+    EXPECT_EQ(shown.read_core(0U, core), Status::kPreconditionNotMet);
+}
+
 TEST_F(IntrospectionTest, OneThatBelongsToAnotherTableIsRefused) {
     verifies("SWR-INS-002", Technique::kErrorGuessing, Polarity::kViolation);
     const auto other = table_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/external_trigger.hpp"
 #include "mamori/kernel/system.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/flow_components.hpp"
@@ -153,6 +154,54 @@ TEST(SystemRatesTest, WindowsAreToldApartByTheirNames) {
     EXPECT_EQ(check_names("a", "b", other_place.c_str()), (Rows{{2U, 0U}})) << "on another core, too";
     EXPECT_EQ(check_names("a", "b", "b"), (Rows{{2U, 1U}}));
     EXPECT_EQ(check_names("a", "a", "a"), (Rows{{1U, 0U}, {2U, 0U}})) << "each one once";
+}
+
+TEST(SystemRatesTest, ATriggerReleasesOneWindow) {
+    verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
+    Counter third{"third"};
+    ExternalTrigger one;
+    ExternalTrigger two;
+    const auto check_triggers = [&third](ExternalTrigger& b, ExternalTrigger& c) {
+        std::array<Finding, 4U> findings{};
+        const auto table = system(frame(1_ms), window("a", 0_us, 1_us, budget(1_us), run(g_counter)),
+                                  window("b", 1_us, 1_us, triggered_by(b), budget(1_us), run(g_other)),
+                                  window("c", 2_us, 1_us, triggered_by(c), budget(1_us), run(third)));
+        const std::size_t count = check_all(make_view(table), findings);
+        EXPECT_EQ(count == 0U ? Rule::kNone : Rule::kTriggerUsedTwice, findings[0].rule);
+        EXPECT_LE(count, 1U);
+        return std::array<std::size_t, 2U>{findings[0].element, findings[0].other};
+    };
+
+    EXPECT_EQ(check_triggers(one, two), (std::array<std::size_t, 2U>{0U, 0U}));
+    EXPECT_EQ(check_triggers(one, one), (std::array<std::size_t, 2U>{2U, 1U}));
+}
+
+TEST(SystemRatesTest, APeriodThatIsSaidIsPositive) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_period = [](Duration period) {
+        return list_rules(
+            system(frame(1_ms), window("a", 0_us, 1_ns, every(period), budget(1_ns), run(g_counter))));
+    };
+
+    EXPECT_EQ(check_period(1_ns), Rules{});
+    EXPECT_EQ(check_period(0_ns), Rules{Rule::kWindowRowInvalid});
+    EXPECT_EQ(check_period(Duration{-1}), Rules{Rule::kWindowRowInvalid});
+}
+
+TEST(SystemRatesTest, AFaultIsDeclaredOnce) {
+    verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const auto table = system(frame(1_ms), faults<Fault::kHot, Fault::kFast, Fault::kHot, Fault::kHot>(),
+                              react(Fault::kHot, Reaction::kStop, within(1_ms)),
+                              react(Fault::kFast, Reaction::kStop, within(1_ms)));
+    std::array<Finding, 4U> findings{};
+
+    ASSERT_EQ(check_all(make_view(table), findings), 2U);
+    EXPECT_EQ(findings[0].rule, Rule::kFaultDeclaredTwice);
+    EXPECT_EQ(findings[0].element, 2U);
+    EXPECT_EQ(findings[0].other, 0U);
+    EXPECT_EQ(findings[1].rule, Rule::kFaultDeclaredTwice);
+    EXPECT_EQ(findings[1].element, 3U);
+    EXPECT_EQ(findings[1].other, 0U);
 }
 
 TEST(SystemRatesTest, AValueCanBeFreshForAWhile) {

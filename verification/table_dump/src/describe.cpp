@@ -44,6 +44,8 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
         case Rule::kWindowNamedTwice:
             return "row " + std::to_string(finding.element) + " has the name of row " +
                    std::to_string(finding.other) + "; windows are told apart by their names";
+        case Rule::kTriggerUsedTwice:
+            return "its trigger releases window " + quote(get_window_name(view, finding.other)) + " too";
         case Rule::kPeriodNotInFrame:
             return "its period of " + format(row.period) + " does not divide the frame of " +
                    format(view.frame);
@@ -108,6 +110,8 @@ std::string describe_reactions(const Finding& finding, const SystemView& view) {
     const std::string reaction =
         "the reaction to fault " + std::to_string(get_row(view.reactions, finding.element).fault);
     switch (finding.rule) {
+        case Rule::kFaultDeclaredTwice:
+            return fault + " is declared twice";
         case Rule::kFaultWithoutReaction:
             return fault + " has no reaction";
         case Rule::kFaultWithTwoReactions:
@@ -132,6 +136,7 @@ std::string describe(const Finding& finding, const SystemView& view) {
             return "the frame of " + format(view.frame) + " is not positive";
         case Rule::kWindowRowInvalid:
         case Rule::kWindowNamedTwice:
+        case Rule::kTriggerUsedTwice:
         case Rule::kPeriodNotInFrame:
         case Rule::kWindowOutsideFrame:
         case Rule::kWindowsOverlap:
@@ -164,6 +169,7 @@ std::string describe(const Finding& finding, const SystemView& view) {
         case Rule::kCrossingUsedTwice:
         case Rule::kCrossingNotOrdered:
             return describe_wiring(finding, view);
+        case Rule::kFaultDeclaredTwice:
         case Rule::kFaultWithoutReaction:
         case Rule::kFaultWithTwoReactions:
         case Rule::kReactionWithoutTime:

@@ -52,6 +52,10 @@ struct ReaderNeverOpensWhileItsWriterIsOpen {
                   "a latest value crosses cores between the close of its writer and its next opening");
 };
 template <auto kFault>
+struct FaultIsDeclaredOnce {
+    static_assert(kKept<decltype(kFault)>, "a fault is declared once");
+};
+template <auto kFault>
 struct FaultHasReaction {
     static_assert(kKept<decltype(kFault)>,
                   "a declared fault has exactly one reaction: add react(fault, ...)");

@@ -135,8 +135,8 @@ class ExecutionContext final {
     /// Position of the participant whose action is being called or hangs, else of the one that was cut off
     /// and has not come back. @return kPreconditionNotMet: none.
     Result<std::size_t> get_acting_position() const noexcept;
-    /// Position of the participant whose on_startup refused the last start() that came to calling any; one
-    /// that was refused with kPreconditionNotMet did not. @return kPreconditionNotMet: none did.
+    /// Position of the participant that the last start() of an attached, stopped and idle context failed at:
+    /// it is not alive, or its on_startup refused. @return kPreconditionNotMet: none.
     Result<std::size_t> get_refusing_position() const noexcept;
 
     /// @name One cycle in steps, as the executive needs it: take_turn, begin, execute 0..n-1,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of faults and reactions: each declared fault leads to one reaction, in a positive time. Not for
-/// users.
+/// Rules of faults and reactions: each fault is declared once and leads to one reaction, in a positive time.
+/// Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_REACTION_CHECK_HPP
@@ -20,6 +20,12 @@ constexpr void check_reactions(const SystemView& view, FindingList& findings) no
         std::size_t count = 0U;
         for (const ReactionRow& reaction : view.reactions) {
             count += reaction.fault == view.faults[i].fault ? 1U : 0U;
+        }
+        for (std::size_t j = 0U; j < i; ++j) {
+            if (view.faults[j].fault == view.faults[i].fault) {
+                findings.add(Rule::kFaultDeclaredTwice, i, j);
+                break;
+            }
         }
         if (count == 0U) {
             findings.add(Rule::kFaultWithoutReaction, i);

@@ -40,7 +40,7 @@ struct TableBuilder {
     constexpr void add_window(const Part& part) noexcept {
         WindowRow& row = table.windows[window_count];
         row = part.row;
-        row.period = part.row.period == Duration{0} ? table.frame : part.row.period;
+        row.period = part.opens_once_per_frame ? table.frame : part.row.period;
         row.first_component = component_count;
         row.component_count = part.list.components.size();
         row.first_port = port_count;

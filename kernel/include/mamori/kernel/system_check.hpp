@@ -60,6 +60,7 @@ constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) n
     }
     for (std::size_t i = 0U; i < view.windows.size(); ++i) {
         detail::check_window_name(view, i, findings);
+        detail::check_window_trigger(view, i, findings);
         detail::check_window_times(view, i, findings);
         detail::check_window_load(view, i, findings);
     }

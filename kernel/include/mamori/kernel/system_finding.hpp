@@ -22,6 +22,7 @@ enum class Rule {
     kConnectionRowInvalid,    ///< connection with a null end, without operations or the Crossing that they
                               ///< need, or of windows, components or ports that it does not join
     kWindowNamedTwice,        ///< window; `other` is the earlier listed one of the same name
+    kTriggerUsedTwice,        ///< window; `other` is the earlier listed one of the same trigger
     kPeriodNotInFrame,        ///< window whose period does not divide the frame
     kWindowOutsideFrame,      ///< window that does not lie inside its period
     kWindowsOverlap,          ///< window; `other` is the earlier listed one of the same core
@@ -37,6 +38,7 @@ enum class Rule {
     kCrossingWithoutBuffer,   ///< connection that leaves its core or partition without a Crossing
     kCrossingUsedTwice,       ///< connection; `other` is the earlier one through the same Crossing
     kCrossingNotOrdered,      ///< connection whose reader may open while its writer's window is open
+    kFaultDeclaredTwice,      ///< fault; `other` is its earlier declaration
     kFaultWithoutReaction,    ///< fault that no reaction names
     kFaultWithTwoReactions,   ///< fault that more than one reaction names
     kReactionWithoutTime,     ///< reaction whose time is not positive

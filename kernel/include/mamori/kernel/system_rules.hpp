@@ -35,6 +35,9 @@ constexpr std::size_t refuse() noexcept {
             rules::WorstCaseIsNotNegative<ComponentAt<kTable, kElement>, calc_instance<kTable, kElement>()>);
     } else if constexpr (kRule == Rule::kWindowNamedTwice) {
         return sizeof(rules::WindowHasANameOfItsOwn<WindowName<kTable, kElement>>);
+    } else if constexpr (kRule == Rule::kTriggerUsedTwice) {
+        return sizeof(
+            rules::TriggerServesOneWindow<WindowName<kTable, kOther>, WindowName<kTable, kElement>>);
     } else if constexpr (kRule == Rule::kPeriodNotInFrame) {
         return sizeof(rules::PeriodDividesFrame<WindowName<kTable, kElement>>);
     } else if constexpr (kRule == Rule::kWindowOutsideFrame) {
@@ -66,6 +69,8 @@ constexpr std::size_t refuse() noexcept {
         return sizeof(OfSink<rules::InputHasACrossingOfItsOwn, kTable, kElement>);
     } else if constexpr (kRule == Rule::kCrossingNotOrdered) {
         return sizeof(OfSink<rules::ReaderNeverOpensWhileItsWriterIsOpen, kTable, kElement>);
+    } else if constexpr (kRule == Rule::kFaultDeclaredTwice) {
+        return sizeof(rules::FaultIsDeclaredOnce<At<typename TypesOf<kTable>::Faults, kElement>::kValue>);
     } else if constexpr (kRule == Rule::kFaultWithoutReaction || kRule == Rule::kFaultWithTwoReactions) {
         return sizeof(rules::FaultHasReaction<At<typename TypesOf<kTable>::Faults, kElement>::kValue>);
     } else if constexpr (kRule == Rule::kReactionWithoutTime || kRule == Rule::kReactionToUnknownFault) {

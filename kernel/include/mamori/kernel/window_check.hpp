@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of windows: what they are called, where they lie in the frame, and what their components take and at
-/// which rate. Not for users.
+/// Rules of windows: what they are called, what releases them, where they lie in the frame, and what their
+/// components take and at which rate. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_CHECK_HPP
@@ -21,6 +21,15 @@ constexpr void check_window_name(const SystemView& view, std::size_t i, FindingL
     for (std::size_t j = 0U; j < i; ++j) {
         if (make_text(view.windows[j].name) == make_text(view.windows[i].name)) {
             findings.add(Rule::kWindowNamedTwice, i, j);
+            break;
+        }
+    }
+}
+
+constexpr void check_window_trigger(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
+    for (std::size_t j = 0U; j < i && view.windows[i].trigger != nullptr; ++j) {
+        if (view.windows[j].trigger == view.windows[i].trigger) {
+            findings.add(Rule::kTriggerUsedTwice, i, j);
             break;
         }
     }

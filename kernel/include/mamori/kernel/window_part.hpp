@@ -31,13 +31,14 @@ struct WindowPart {
     };
     WindowRow row{};
     RunList<Cs...> list{};
+    bool opens_once_per_frame{true};  ///< no every(...) is said
 };
 
 namespace detail {
 
 template <typename... Cs>
 constexpr WindowPart<Cs...> finish_window(const WindowRow& row, const RunList<Cs...>& list) noexcept {
-    WindowPart<Cs...> part{row, list};
+    WindowPart<Cs...> part{row, list, true};
     part.row.has_second_pass = (ComponentTypes<Cs>::kHasSecondPass || ...);
     return part;
 }
@@ -67,7 +68,9 @@ constexpr auto window(const char* name, Duration offset, Duration length,
     row.name = name;
     row.offset = offset;
     row.length = length;
-    return detail::finish_window(row, options...);
+    auto part = detail::finish_window(row, options...);
+    part.opens_once_per_frame = detail::kTimesSaid<Every, Options...> == 0U;
+    return part;
 }
 
 }  // namespace mamori

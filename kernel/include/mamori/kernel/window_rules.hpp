@@ -28,6 +28,10 @@ template <typename WindowName>
 struct WindowHasANameOfItsOwn {
     static_assert(kKept<WindowName>, "windows are told apart by their names");
 };
+template <typename WindowName, typename OtherName>
+struct TriggerServesOneWindow {
+    static_assert(kKept<WindowName>, "an ExternalTrigger releases one window");
+};
 template <typename WindowName>
 struct PeriodDividesFrame {
     static_assert(kKept<WindowName>, "the period of a window divides the frame");
