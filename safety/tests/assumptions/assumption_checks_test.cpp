@@ -8,6 +8,7 @@
 
 #include "mamori/safety/self_test/cpu_check.hpp"
 #include "mamori/verification/verifies.hpp"
+#include "support/fake_clock.hpp"
 
 namespace mamori::safety {
 namespace {
@@ -15,19 +16,6 @@ namespace {
 using verification::Polarity;
 using verification::Technique;
 using verification::verifies;
-
-class FakeClock final : public ClockSource {
-  public:
-    explicit FakeClock(std::int64_t distance_ns) : step_ns(distance_ns) {}
-    Instant read() noexcept override {
-        now_.ns += step_ns;
-        return now_;
-    }
-    std::int64_t step_ns;
-
-  private:
-    Instant now_{};
-};
 
 class TickSourceCheckTest : public ::testing::Test {
   protected:

@@ -131,6 +131,17 @@ struct Ends {
     Value value{};
 };
 
+/// Two good readings of three prove the channel; one bad one of three ends that.
+inline constexpr E2eInLimits<PlainSequence> kStrict{100_ms, {1U}, 3U, {{2U, 0U}, {1U, 0U}, {3U, 0U}}};
+using Strict = Ends<M04, kStrict>;
+
+/// A value of more than 25 ms is too old.
+inline constexpr E2eInLimits<PlainSequence> kYoung{25_ms, {1U}, 12U, {{1U, 11U}, {1U, 11U}, {1U, 11U}}};
+using Young = Ends<M04, kYoung>;
+
+/// An input that queues two frames.
+using Queue = mamori::QueueInPort<M04::Frame, 2U>;
+
 }  // namespace e2e_port_test
 
 #endif  // MAMORI_SAFETY_TESTS_E2E_PORT_RIG_HPP
