@@ -9,11 +9,10 @@
 #ifndef MAMORI_SAFETY_SAFE_STATE_MACHINE_HPP
 #define MAMORI_SAFETY_SAFE_STATE_MACHINE_HPP
 
-#include <cstdint>
-
 #include "mamori/kernel/assert.hpp"
 #include "mamori/kernel/time.hpp"
 #include "mamori/safety/reaction_table.hpp"
+#include "mamori/safety/redundancy/complement_stored.hpp"
 #include "mamori/safety/rising_edge.hpp"
 #include "mamori/safety/safe_state.hpp"
 #include "mamori/safety/self_test_status.hpp"
@@ -58,8 +57,8 @@ class SafeStateMachine final {
     /// @return the new state.
     SafeState step(const SafeStateInputs& inputs) noexcept;
 
-    /// @return the state; kLockedOut when its two stored forms disagree.
-    SafeState get_state() const noexcept { return is_consistent() ? state_ : SafeState::kLockedOut; }
+    /// @return the state; kLockedOut when its two stored forms disagree or name no state.
+    SafeState get_state() const noexcept;
 
     /// @return when the state was entered; the first cycle for the first state.
     Instant get_entered_at() const noexcept { return entered_at_; }
@@ -73,19 +72,15 @@ class SafeStateMachine final {
         bool has_reset_risen;
     };
 
-    bool is_raised(SafeStateEvent event, const SafeStateInputs& inputs, Edges edges) const noexcept;
-    bool is_stop_overdue(const SafeStateInputs& inputs) const noexcept;
+    bool is_raised(SafeStateEvent event, SafeState state, const SafeStateInputs& inputs,
+                   Edges edges) const noexcept;
+    bool is_stop_overdue(SafeState state, const SafeStateInputs& inputs) const noexcept;
     bool may_restart(const SafeStateInputs& inputs) const noexcept;
     void enter(SafeState state, Instant now) noexcept;
 
-    static constexpr std::uint8_t complement(SafeState state) noexcept {
-        return static_cast<std::uint8_t>(~static_cast<std::uint32_t>(state) & 0xFFU);
-    }
-
     StopBounds bounds_;
     Instant entered_at_{};
-    SafeState state_{SafeState::kSelfTest};
-    std::uint8_t state_complement_{complement(SafeState::kSelfTest)};
+    ComplementStored<SafeState> state_{SafeState::kSelfTest};
     RisingEdge start_edge_{};
     RisingEdge reset_edge_{};
     bool has_stepped_{false};
