@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from mamori.verification.tools.deviations import check_deviations
 from mamori.verification.tools.layer_table import FORBIDDEN_IMPORTS, LISTED_STD, TEST_INCLUDES, Layer, get_layer
 from mamori.verification.tools.target_limits import MEASURED_HEADERS, check_headers, check_size, check_words
 
@@ -45,13 +46,23 @@ class Finding:
 def check_tree(root: Path) -> list[Finding]:
     """All findings below `root`, sorted."""
     findings: set[Finding] = set()
+    target_code: dict[str, str] = {}
     for folder in FOLDERS:
         for path in sorted((root / folder).rglob("*")):
             if path.is_file():
                 findings.update(_check_file(root, path))
+                if _is_target_code(root, path):
+                    target_code[path.relative_to(root).as_posix()] = path.read_text(encoding="utf-8")
     headers = {path.name: path.read_text(encoding="utf-8").count("\n") for path in (root / MEASURED_HEADERS).rglob("*.hpp")}
     findings.update(Finding(MEASURED_HEADERS, *found) for found in check_headers(headers))
+    findings.update(Finding(*found) for found in check_deviations(root, target_code))
     return sorted(findings)
+
+
+def _is_target_code(root: Path, path: Path) -> bool:
+    parts = path.relative_to(root).parts
+    layer = get_layer(parts)
+    return path.suffix in (".hpp", ".cpp") and layer is not None and layer.target and "tests" not in parts
 
 
 def _check_file(root: Path, path: Path) -> Iterator[Finding]:
@@ -71,7 +82,7 @@ def _check_file(root: Path, path: Path) -> Iterator[Finding]:
         text = path.read_text(encoding="utf-8")
         for line, message in _check_includes(root, path, layer, text, is_test="tests" in parts):
             yield Finding(name, line, "include", message)
-        if layer.target and "tests" not in parts:
+        if _is_target_code(root, path):
             for line, rule, message in (*check_words(text), *check_size(text)):
                 yield Finding(name, line, rule, message)
     elif path.name == "CMakeLists.txt":

@@ -13,14 +13,14 @@ namespace mamori::safety {
 ///         when the program runs.
 template <typename T>
 inline T hide(T value) noexcept {
-    asm volatile("" : "+m"(value));
+    asm volatile("" : "+m"(value));  // DEV-001
     return value;
 }
 
 /// Whatever the compiler knows about memory that others can reach, it forgets: the next access is one.
 /// @param[in] memory an object, which others can reach from here on, should nobody have known of it before.
 inline void forget(const volatile void* memory) noexcept {
-    asm volatile("" : : "r"(memory) : "memory");
+    asm volatile("" : : "r"(memory) : "memory");  // DEV-002
 }
 
 }  // namespace mamori::safety
