@@ -117,6 +117,11 @@ WatchdogCause SoftwareWatchdog::get_cause() const noexcept {
     return judge(state, clock_.get_now());
 }
 
+bool SoftwareWatchdog::is_watching() const noexcept {
+    const std::int64_t state = state_.load(std::memory_order_acquire);
+    return state != kClosed && state != kSilent && judge(state, clock_.get_now()) == WatchdogCause::kNone;
+}
+
 void SoftwareWatchdog::watch() noexcept {
     // Without it a crash of this very thread by its stack ends the process unrecorded; the rest is the same.
     static_cast<void>(crash_stack_.take());

@@ -139,6 +139,17 @@ Status WatchdogDevice::service(Instant) noexcept {
     return Status::kOk;
 }
 
+Result<Duration> WatchdogDevice::read_time_left() const noexcept {
+    if (!is_open()) {
+        return Status::kPreconditionNotMet;
+    }
+    int seconds = 0;
+    if (calls_.control(device_, WDIOC_GETTIMELEFT, &seconds) != 0) {
+        return errno == EOPNOTSUPP || errno == ENOTTY ? Status::kUnsupported : Status::kError;
+    }
+    return Duration{seconds * kSecondNs};
+}
+
 Status WatchdogDevice::disarm() noexcept {
     if (!is_open()) {
         return Status::kPreconditionNotMet;

@@ -26,12 +26,14 @@ struct FakeDriver {
     int open_error{0};
     int set_error{0};
     int get_error{0};
+    int left_error{0};
     std::atomic<int> write_error{0};
     // What became of it.
     std::atomic<int> services{0};
     int opens{0};
     int other_writes{0};
     int timeout_s{30};
+    int left_s{30};
     bool is_open{false};
     bool is_running{false};
     bool is_stop_allowed{false};
@@ -92,6 +94,12 @@ inline int control(int, unsigned long request, void* argument) {
                 return fail(driver.get_error);
             }
             *static_cast<int*>(argument) = driver.timeout_s;
+            return 0;
+        case WDIOC_GETTIMELEFT:
+            if (driver.left_error != 0) {
+                return fail(driver.left_error);
+            }
+            *static_cast<int*>(argument) = driver.left_s;
             return 0;
         default:
             return fail(ENOTTY);

@@ -45,9 +45,10 @@ enum class WatchdogCause : std::uint8_t {
 /// Silent until its first service; from then on each must come in its window after the one before. Expired,
 /// it stays so: whoever wants to go on starts the program again.
 ///
-/// Thread safety: service() from one context, has_expired() and get_cause() from any, the rest before and
-///                after. Time: service() is a reading of the clock and one exchange, at its first call a
-///                system call too; it never waits. Memory: no heap; the thread, and its second stack.
+/// Thread safety: service() from one context, has_expired(), get_cause() and is_watching() from any, the
+///                rest before and after. Time: service() is a reading of the clock and one exchange, at its
+///                first call a system call too; it never waits. Memory: no heap; the thread, and its second
+///                stack.
 class SoftwareWatchdog final : public safety::Watchdog {
   public:
     /// @param[in] clock    the watchdog's own, must outlive it; what callers take for the time is not asked.
@@ -79,6 +80,8 @@ class SoftwareWatchdog final : public safety::Watchdog {
     /// True from the instant on at which the time is over, be it that the thread is only about to react.
     bool has_expired() const noexcept;
     WatchdogCause get_cause() const noexcept;
+    /// True from the first service on, as long as it has neither expired nor been closed.
+    bool is_watching() const noexcept;
 
     /// What the thread was given in open().
     Right get_priority_right() const noexcept { return priority_right_; }

@@ -75,6 +75,11 @@ class WatchdogDevice final : public safety::Watchdog {
     ///         and can be served).
     Status disarm() noexcept;
 
+    /// Asks the driver how long it still waits for a service. May be called beside service().
+    /// @return whole seconds; kPreconditionNotMet (closed); kUnsupported (the driver does not tell); kError
+    ///         (it failed to).
+    Result<Duration> read_time_left() const noexcept;
+
     bool is_open() const noexcept { return device_ >= 0; }
     /// What the driver granted, not longer than what was asked for; 0 while closed.
     Duration get_timeout() const noexcept { return timeout_; }

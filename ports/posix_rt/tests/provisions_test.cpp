@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: each provision tells what is in effect from what is not, and from what nobody can say, as the running
+// system has it. Method: memory is really locked, unlocked, and mapped beside it; modes of the floating-point
+// unit are really switched; threads really get their priorities; the drivers are made for the test, since a
+// real watchdog would reset the machine.
+#include "mamori/ports/posix_rt/provisions.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cfenv>
+#include <cstdio>
+#include <thread>
+
+#include "mamori/ports/posix_rt/real_time_rights.hpp"
+#include "mamori/verification/verifies.hpp"
+#include "support/fake_driver.hpp"
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+using safety::ProvisionCheck;
+using safety::SelfTestStatus;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+// ---- Memory ----
+
+class MemoryLockedTest : public ::testing::Test {
+  protected:
+    void TearDown() override { munlockall(); }
+    /// @return false when this machine, or a sanitizer, locks nothing.
+    static bool lock() {
+        const std::uint64_t before = read_locked_kib();
+        return lock_memory(4096U).is_granted && read_locked_kib() > before;
+    }
+    static std::uint64_t read_locked_kib() {
+        FILE* const file = std::fopen("/proc/self/status", "r");
+        std::array<char, 256U> line{};
+        unsigned long locked = 0U;
+        while (file != nullptr && std::fgets(line.data(), line.size(), file) != nullptr) {
+            if (std::sscanf(line.data(), "VmLck: %lu kB", &locked) == 1) {
+                break;
+            }
+        }
+        if (file != nullptr) {
+            std::fclose(file);
+        }
+        return locked;
+    }
+    MemoryLocked sut_;
+};
+
+TEST_F(MemoryLockedTest, LockedMemoryIsInEffect) {
+    verifies("SWR-AOU-011");
+    ASSERT_EQ(sut_.open(), Status::kOk);
+    EXPECT_EQ(sut_.open(), Status::kPreconditionNotMet);
+    if (!lock()) {
+        GTEST_SKIP() << "memory cannot be locked here";
+    }
+
+    EXPECT_EQ(sut_.look(), Status::kOk);
+    EXPECT_TRUE(sut_.is_in_effect());
+}
+
+TEST_F(MemoryLockedTest, MemoryThatIsNotLockedOrNotAllOfItIsNot) {
+    verifies("SWR-AOU-011", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(), Status::kOk);
+    EXPECT_EQ(sut_.look(), Status::kPreconditionNotMet) << "nothing is locked yet";
+    if (!lock()) {
+        GTEST_SKIP() << "memory cannot be locked here";
+    }
+    ProvisionCheck check{sut_};
+    ASSERT_EQ(check.check(), SelfTestStatus::kPassed);
+    constexpr std::size_t kSize = 4U << 20U;
+    void* const other = mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(other, MAP_FAILED);
+    EXPECT_EQ(sut_.look(), Status::kOk) << "locked as it is mapped";
+
+    ASSERT_EQ(munlock(other, kSize), 0);
+    EXPECT_EQ(sut_.look(), Status::kPreconditionNotMet);
+    MemoryLocked tolerant{MemoryLocked::kKernelBytes + kSize};
+    ASSERT_EQ(tolerant.open(), Status::kOk);
+    EXPECT_EQ(tolerant.look(), Status::kOk) << "the application knows of it";
+    EXPECT_EQ(check.check(), SelfTestStatus::kFailed);
+    ASSERT_EQ(munmap(other, kSize), 0);
+    EXPECT_EQ(sut_.look(), Status::kOk);
+}
+
+TEST_F(MemoryLockedTest, WithoutTheFileNobodyCanSay) {
+    verifies("SWR-AOU-011", Technique::kErrorGuessing, Polarity::kViolation);
+
+    EXPECT_EQ(sut_.look(), Status::kUnsupported);
+    EXPECT_FALSE(sut_.is_in_effect());
+}
+
+// ---- Timers ----
+
+TEST(PreciseTimersTest, AnswerIsThatOfTheClock) {
+    verifies("SWR-AOU-012", Technique::kBackToBack);
+    timespec resolution{};
+    ASSERT_EQ(clock_getres(CLOCK_MONOTONIC, &resolution), 0);
+    const bool is_precise = resolution.tv_sec == 0 && resolution.tv_nsec <= 1000;
+
+    PreciseTimers sut;
+    EXPECT_EQ(sut.look(), is_precise ? Status::kOk : Status::kPreconditionNotMet);
+}
+
+TEST(PreciseTimersTest, ClockThatGoesOnByTicksOrDoesNotSayIsNotInEffect) {
+    verifies("SWR-AOU-012", Technique::kFaultInjection, Polarity::kViolation);
+    PreciseTimers coarse{CLOCK_MONOTONIC_COARSE};
+    PreciseTimers none{12345};
+
+    EXPECT_EQ(coarse.look(), Status::kPreconditionNotMet);
+    EXPECT_EQ(none.look(), Status::kUnsupported);
+}
+
+// ---- Floating-point unit ----
+
+TEST(FloatingPointModeTest, ModeThatAProgramBeginsWithIsInEffect) {
+    verifies("SWR-AOU-013");
+    FloatingPointMode sut;
+
+    EXPECT_EQ(sut.look(), Status::kOk);
+}
+
+TEST(FloatingPointModeTest, OtherRoundingIsNotInEffect) {
+    verifies("SWR-AOU-013", Technique::kFaultInjection, Polarity::kViolation);
+    FloatingPointMode sut;
+    for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        ASSERT_EQ(std::fesetround(mode), 0);
+        const Status status = sut.look();
+        ASSERT_EQ(std::fesetround(FE_TONEAREST), 0);
+        EXPECT_EQ(status, Status::kPreconditionNotMet) << mode;
+    }
+    EXPECT_EQ(sut.look(), Status::kOk);
+}
+
+TEST(FloatingPointModeTest, FlushedDenormalsAreNotInEffect) {
+    verifies("SWR-AOU-013", Technique::kFaultInjection, Polarity::kViolation);
+#if defined(__SSE2__)
+    FloatingPointMode sut;
+    const unsigned int mode = _mm_getcsr();  // of results, then of operands
+    _mm_setcsr(mode | 0x8000U);
+    const Status flushed = sut.look();
+    _mm_setcsr(mode | 0x0040U);
+    const Status zero = sut.look();
+    _mm_setcsr(mode);
+
+    EXPECT_EQ(flushed, Status::kPreconditionNotMet);
+    EXPECT_EQ(zero, Status::kPreconditionNotMet);
+    EXPECT_EQ(sut.look(), Status::kOk);
+#else
+    GTEST_SKIP() << "this processor is switched in another way";
+#endif
+}
+
+TEST(FloatingPointModeTest, ModeIsThatOfTheThreadThatAsks) {
+    verifies("SWR-AOU-013", Technique::kInterface);
+    FloatingPointMode sut;
+    Status other = Status::kOk;
+    std::thread([&] {
+        static_cast<void>(std::fesetround(FE_UPWARD));
+        other = sut.look();
+    }).join();
+
+    EXPECT_EQ(other, Status::kPreconditionNotMet);
+    EXPECT_EQ(sut.look(), Status::kOk);
+}
+
+// ---- Guard of budgets ----
+
+/// Asks on a thread of its own, which has the place of a window. @return kError without the right for it.
+Status look_with(GuardAbove& sut, int priority) {
+    Status status = Status::kError;
+    std::thread([&] {
+        if (priority == 0 || set_priority(pthread_self(), priority).is_granted) {
+            status = sut.look();
+        }
+    }).join();
+    return status;
+}
+
+TEST(GuardAboveTest, GuardAboveTheWindowsIsInEffectAndOneBesideOrBelowIsNot) {
+    verifies("SWR-AOU-014", Technique::kBoundaryValues, Polarity::kViolation);
+    GuardAbove sut;
+    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet) << "nobody guards";
+    sut.set_guard();
+    EXPECT_EQ(look_with(sut, 0), Status::kPreconditionNotMet) << "both are ordinary threads";
+    if (!set_priority(pthread_self(), 20).is_granted) {
+        GTEST_SKIP() << "no right for fixed priorities";
+    }
+
+    const Status below = look_with(sut, 19);
+    const Status ordinary = look_with(sut, 0);  // it inherits the priority of its maker
+    const Status above = look_with(sut, 21);
+    ASSERT_TRUE(set_priority(pthread_self(), 0).is_granted);
+    EXPECT_EQ(below, Status::kOk);
+    EXPECT_EQ(ordinary, Status::kPreconditionNotMet) << "equal";
+    EXPECT_EQ(above, Status::kPreconditionNotMet);
+    EXPECT_EQ(look_with(sut, 19), Status::kPreconditionNotMet) << "the guard has lost its priority";
+}
+
+TEST(GuardAboveTest, GuardThatHasEndedIsNotInEffect) {
+    verifies("SWR-AOU-014", Technique::kFaultInjection, Polarity::kViolation);
+    GuardAbove sut;
+    std::thread([&] { sut.set_guard(); }).join();
+
+    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet);
+}
+
+TEST(GuardAboveTest, GuardOfAnOrdinaryWindowIsInEffect) {
+    verifies("SWR-AOU-014");
+    GuardAbove sut;
+    std::atomic<bool> is_ready{false};
+    std::atomic<bool> is_ending{false};
+    bool has_right = false;
+    std::thread guard([&] {
+        has_right = set_priority(pthread_self(), 20).is_granted;
+        sut.set_guard();
+        is_ready = true;
+        while (!is_ending) {
+            get_monotonic_clock().wait_until(get_monotonic_clock().read_ns() + 1'000'000);
+        }
+    });
+    while (!is_ready) {
+        std::this_thread::yield();
+    }
+    const Status status = sut.look();
+    is_ending = true;
+    guard.join();
+    if (!has_right) {
+        GTEST_SKIP() << "no right for fixed priorities";
+    }
+
+    EXPECT_EQ(status, Status::kOk);
+}
+
+// ---- Watchdogs ----
+
+void keep_outputs(void*) noexcept {}
+
+TEST(SoftwareWatchdogArmedTest, ItIsArmedFromTheFirstServiceUntilItIsClosed) {
+    verifies("SWR-AOU-015", Technique::kStateTransition);
+    const FrameClock clock = FrameClock::starting_in(0_ms);
+    SoftwareWatchdog watchdog{clock, {0_ms, Duration{3'600'000'000'000}}, {&keep_outputs, nullptr, false}};
+    SoftwareWatchdogArmed sut{watchdog};
+    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet);
+    ASSERT_EQ(watchdog.open({}), Status::kOk);
+    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet) << "it watches nobody yet";
+
+    ASSERT_EQ(watchdog.service(clock.get_now()), Status::kOk);
+    EXPECT_EQ(sut.look(), Status::kOk);
+    ASSERT_EQ(watchdog.close(), Status::kOk);
+    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet);
+}
+
+TEST(SoftwareWatchdogArmedTest, ExpiredWatchdogIsNotArmed) {
+    verifies("SWR-AOU-015", Technique::kFaultInjection, Polarity::kViolation);
+    const FrameClock clock = FrameClock::starting_in(0_ms);
+    SoftwareWatchdog watchdog{clock, {0_ms, 1_ms}, {&keep_outputs, nullptr, false}};
+    SoftwareWatchdogArmed sut{watchdog};
+    ASSERT_EQ(watchdog.open({}), Status::kOk);
+    ASSERT_EQ(watchdog.service(clock.get_now()), Status::kOk);
+    clock.wait_until(clock.get_now() + 2_ms);
+
+    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet);
+    ASSERT_EQ(watchdog.close(), Status::kOk);
+    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet);
+}
+
+class DeviceWatchdogArmedTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        FakeDriver::reset();
+        ASSERT_EQ(sut_.look(), Status::kPreconditionNotMet) << "closed";
+        ASSERT_EQ(device_.open("/dev/fake", 10000_ms), Status::kOk);
+    }
+    void TearDown() override { ASSERT_EQ(device_.disarm(), Status::kOk); }
+
+    FakeDriver& driver_ = FakeDriver::get();
+    WatchdogDevice device_{kFakeCalls};
+    DeviceWatchdogArmed sut_{device_};
+};
+
+TEST_F(DeviceWatchdogArmedTest, DeviceThatCountsDownIsArmed) {
+    verifies("SWR-AOU-016", Technique::kBoundaryValues);
+    for (const int left_s : {1, 9}) {
+        driver_.left_s = left_s;
+        EXPECT_EQ(sut_.look(), Status::kOk);
+        EXPECT_EQ(device_.read_time_left().get_value(), Duration{left_s * 1'000'000'000LL});
+    }
+}
+
+TEST_F(DeviceWatchdogArmedTest, DeviceThatStandsOrFailsIsNot) {
+    verifies("SWR-AOU-016", Technique::kFaultInjection, Polarity::kViolation);
+    for (const int left_s : {0, -1}) {
+        driver_.left_s = left_s;
+        EXPECT_EQ(sut_.look(), Status::kPreconditionNotMet) << left_s;
+    }
+    driver_.left_s = 9;
+    driver_.left_error = EIO;
+    EXPECT_EQ(device_.read_time_left().get_status(), Status::kError);
+    EXPECT_EQ(sut_.look(), Status::kPreconditionNotMet);
+}
+
+TEST_F(DeviceWatchdogArmedTest, DriverThatDoesNotTellLeavesItOpen) {
+    verifies("SWR-AOU-016", Technique::kEquivalenceClasses, Polarity::kViolation);
+    for (const int error : {EOPNOTSUPP, ENOTTY}) {
+        driver_.left_error = error;
+        EXPECT_EQ(sut_.look(), Status::kUnsupported);
+        EXPECT_FALSE(sut_.is_in_effect());
+    }
+}
+
+}  // namespace
+}  // namespace mamori::ports::posix_rt
