@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "arm_assumptions.hpp"
 #include "arm_faults.hpp"
 #include "arm_limits.hpp"
 #include "safety_supervisor.hpp"
@@ -55,6 +56,8 @@ std::string describe_argument(const mamori::Event& event) {
             return kArmFaultNames[static_cast<std::size_t>(event.argument)];
         case ArmEvent::kReactionBegun:
             return get_name(static_cast<Reaction>(event.argument));
+        case ArmEvent::kAssumptionFailed:
+            return kArmAssumptionNames.at(static_cast<std::size_t>(event.argument));
         case ArmEvent::kWatchdogRefused:
             break;
     }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "arm_assumptions.hpp"
 #include "arm_faults.hpp"
 #include "run_record.hpp"
 #include "safety_supervisor.hpp"
@@ -27,7 +28,8 @@ Json make_names(Enum first, Enum last) {
 
 /// The table that `mamori log` reads: docs/design/recorder.md.
 std::string make_name_table() {
-    constexpr std::array<const char*, kArmEventNames.size()> kArguments{"state", "fault", "reaction", ""};
+    constexpr std::array<const char*, kArmEventNames.size()> kArguments{"state", "fault", "reaction", "",
+                                                                        "assumption"};
     Json codes = Json::object();
     for (std::size_t code = 0U; code < kArmEventNames.size(); ++code) {
         codes[std::to_string(code)] = {{"name", kArmEventNames[code]}, {"argument", kArguments[code]}};
@@ -36,11 +38,16 @@ std::string make_name_table() {
     for (std::size_t fault = 0U; fault < kArmFaultCount; ++fault) {
         faults[std::to_string(fault)] = kArmFaultNames[fault];
     }
+    Json assumptions = Json::object();
+    for (std::size_t assumption = 0U; assumption < kArmAssumptionNames.size(); ++assumption) {
+        assumptions[std::to_string(assumption)] = kArmAssumptionNames[assumption];
+    }
     const Json table = {{"sources", {{"0", "supervisor"}}},
                         {"codes", codes},
                         {"arguments",
                          {{"state", make_names(SafeState::kSelfTest, SafeState::kLockedOut)},
                           {"fault", faults},
+                          {"assumption", assumptions},
                           {"reaction", make_names(Reaction::kNone, Reaction::kSto)}}}};
     return table.dump(1) + "\n";
 }

@@ -2,6 +2,8 @@
 // The static table of the example: read it as a drawing.
 #include "safe_arm_system.hpp"
 
+#include "arm_assumptions.hpp"
+
 namespace safe_arm {
 
 // Components are defined beside their table: the compiler then compares their addresses under every
@@ -14,9 +16,15 @@ mamori::ports::virtual_time::VirtualWatchdog watchdog{kWatchdogTimeout};
 static mamori::safety::ExecutionStorage<kComponentCount> supervision_storage;
 mamori::safety::ExecutionSupervisor supervision{supervision_storage, kLatenessMax};
 
+static ArmChecks checks{watchdog};
+static constexpr std::array kAssumptions = make_arm_assumptions(checks);
+static_assert(mamori::safety::checks_all<kAssumptions, ArmAssumption::kCount>());
+static mamori::safety::AssumptionMonitor assumptions{kAssumptions};
+static DecisionFlow decision_flow;
+
 ArmReader reader{inputs};
 JointMonitor monitor;
-SafetySupervisor supervisor{supervision, kControllerIndex, watchdog, event_log};
+SafetySupervisor supervisor{supervision, kControllerIndex, watchdog, event_log, assumptions, decision_flow};
 MotionController controller;
 mamori::ports::virtual_time::SimulatedChannel<TorqueCommand, kChannelCapacity> channel{"channel"};
 DriveGate gate{outputs};

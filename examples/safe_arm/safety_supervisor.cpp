@@ -22,10 +22,11 @@ Status SafetySupervisor::on_initialize() noexcept {
 }
 
 Status SafetySupervisor::on_execute(ContextHandle context) noexcept {
+    flow_.report(FlowPoint::kBegun, context.now);
     const JointReading& now = reading.read();
     const GlobalStatus health = supervision_.step(context.now);
     SafeStateInputs inputs{};
-    inputs.self_test = step_self_test(now, context.now);
+    inputs.self_test = combine(step_self_test(now, context.now), check_assumptions(context.now));
     report_faults(inputs.self_test, context.now);
     follow_reset(now);
     const ReactionDemand demand = calc_reaction(kArmReactions, faults_);
@@ -39,6 +40,7 @@ Status SafetySupervisor::on_execute(ContextHandle context) noexcept {
     inputs.lock_out = is_sto_unconfirmed(now);
     const SafeState before = machine_.get_state();
     const SafeState state = machine_.step(inputs);
+    flow_.report(FlowPoint::kJudged, context.now);
     if (state != before) {
         write_event(context.now, Severity::kInfo, ArmEvent::kStateEntered, static_cast<std::int64_t>(state));
     }
@@ -46,7 +48,9 @@ Status SafetySupervisor::on_execute(ContextHandle context) noexcept {
     const StopOutputs outputs = calc_stop_outputs(state);
     stop.write(
         {state, outputs.torque_enable, outputs.brake_release && !are_brakes_due(), outputs.stop_requested});
-    serve_watchdog(health, machine_.is_consistent() && !inputs.lock_out, context.now);
+    flow_.report(FlowPoint::kCommanded, context.now);
+    const GlobalStatus flow = to_global_status(flow_.supervisor.step(context.now));
+    serve_watchdog(calc_worst(health, flow), machine_.is_consistent() && !inputs.lock_out, context.now);
     return Status::kOk;
 }
 
@@ -69,6 +73,16 @@ SelfTestStatus SafetySupervisor::step_self_test(const JointReading& now, Instant
         return SelfTestStatus::kFailed;
     }
     return good_frames_ >= kSelfTestFrames ? SelfTestStatus::kPassed : SelfTestStatus::kRunning;
+}
+
+/// One that is lost while the arm moves fails the self test too, and that locks out.
+SelfTestStatus SafetySupervisor::check_assumptions(Instant instant) noexcept {
+    const bool had_failed = assumptions_.get_status() == SelfTestStatus::kFailed;
+    const SelfTestStatus status = assumptions_.step(instant);
+    if (status == SelfTestStatus::kFailed && !had_failed) {
+        write_event(instant, Severity::kFault, ArmEvent::kAssumptionFailed, assumptions_.get_failed());
+    }
+    return status;
 }
 
 void SafetySupervisor::report_faults(SelfTestStatus self_test, Instant instant) noexcept {
@@ -114,11 +128,17 @@ void SafetySupervisor::follow_reset(const JointReading& now) noexcept {
     static_cast<void>(faults_.acknowledge_all());
 }
 
-/// The stop of last resort has a confirmation too: the drives' own feedback.
+/// The stop of last resort has a confirmation too: the drives' own feedback. Memory that has changed by
+/// itself does not tell how long it has been missing, and stays so: that counts as too long.
 bool SafetySupervisor::is_sto_unconfirmed(const JointReading& now) noexcept {
+    const mamori::Result<Duration> so_far = torque_despite_sto_for_.read();
+    if (!so_far.has_value()) {
+        return true;
+    }
     const bool is_contradicted = !calc_stop_outputs(machine_.get_state()).torque_enable && now.torque_enabled;
-    torque_despite_sto_for_ = is_contradicted ? torque_despite_sto_for_ + kFrame : Duration{0};
-    return torque_despite_sto_for_ > kTorqueFeedbackTime;
+    const Duration missing_for = is_contradicted ? so_far.get_value() + kFrame : Duration{0};
+    torque_despite_sto_for_.set(missing_for);
+    return missing_for > kTorqueFeedbackTime;
 }
 
 /// At the end of a controlled stop the brakes close while the torque still holds the arm, so it does not sag

@@ -3,8 +3,8 @@
 /// The place of decision: latches faults, chooses the severest reaction, steps the safe-state machine,
 /// commands its outputs and serves the watchdog on proven health.
 ///
-/// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015, SWR-SAF-018, SWR-SAF-019      Design:
-/// docs/design/safe_arm.md#reactions
+/// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015, SWR-SAF-018, SWR-SAF-019, SWR-SAF-021, SWR-SAF-022
+/// @satisfies SWR-SAF-023      Design: docs/design/safe_arm.md#reactions
 #ifndef EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 #define EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 
@@ -13,11 +13,14 @@
 
 #include "arm_faults.hpp"
 #include "arm_limits.hpp"
+#include "decision_flow.hpp"
 #include "mamori/kernel/event_log.hpp"
 #include "mamori/kernel/system.hpp"
+#include "mamori/safety/assumptions/assumption_monitor.hpp"
 #include "mamori/safety/elapsed.hpp"
 #include "mamori/safety/execution_supervisor.hpp"
 #include "mamori/safety/fault_register.hpp"
+#include "mamori/safety/redundancy/complement_stored.hpp"
 #include "mamori/safety/rising_edge.hpp"
 #include "mamori/safety/safe_state_machine.hpp"
 #include "mamori/safety/stop_outputs.hpp"
@@ -28,14 +31,15 @@ namespace safe_arm {
 
 /// Codes of the events that the supervisor writes; arguments in brackets.
 enum class ArmEvent : std::uint16_t {
-    kStateEntered,     ///< [SafeState]
-    kFaultLatched,     ///< [ArmFault]
-    kReactionBegun,    ///< [Reaction]
-    kWatchdogRefused,  ///< [GlobalStatus]
+    kStateEntered,      ///< [SafeState]
+    kFaultLatched,      ///< [ArmFault]
+    kReactionBegun,     ///< [Reaction]
+    kWatchdogRefused,   ///< [GlobalStatus]
+    kAssumptionFailed,  ///< [ArmAssumption]
 };
 /// Spelling of an event in logs, indexed by its code.
-inline constexpr std::array<const char*, 4U> kArmEventNames{"state_entered", "fault_latched",
-                                                            "reaction_begun", "watchdog_refused"};
+inline constexpr std::array<const char*, 5U> kArmEventNames{
+    "state_entered", "fault_latched", "reaction_begun", "watchdog_refused", "assumption_failed"};
 
 class SafetySupervisor final : public mamori::Component {
   public:
@@ -43,13 +47,18 @@ class SafetySupervisor final : public mamori::Component {
     /// @param[in] controller  place of the controller in the system table.
     /// @param[in] watchdog    serviced through the gate; static storage.
     /// @param[in] log         takes the events; static storage.
+    /// @param[in] assumptions stepped here, once per frame; static storage.
+    /// @param[in] flow        of this component; static storage.
     constexpr SafetySupervisor(mamori::safety::ExecutionSupervisor& supervision, std::size_t controller,
-                               mamori::safety::Watchdog& watchdog, mamori::EventLog& log) noexcept
+                               mamori::safety::Watchdog& watchdog, mamori::EventLog& log,
+                               mamori::safety::AssumptionMonitor& assumptions, DecisionFlow& flow) noexcept
         : Component("safety_supervisor"),
           supervision_(supervision),
           controller_(controller),
           gate_(watchdog, kWatchdogWindow),
-          log_(log) {}
+          log_(log),
+          assumptions_(assumptions),
+          flow_(flow) {}
 
     mamori::InPort<JointReading> reading{"reading"};
     mamori::InPort<JointState> arm_state{"arm_state"};
@@ -69,6 +78,7 @@ class SafetySupervisor final : public mamori::Component {
 
   private:
     mamori::safety::SelfTestStatus step_self_test(const JointReading& now, mamori::Instant instant) noexcept;
+    mamori::safety::SelfTestStatus check_assumptions(mamori::Instant instant) noexcept;
     void report_faults(mamori::safety::SelfTestStatus self_test, mamori::Instant instant) noexcept;
     bool is_controller_silent() noexcept;
     void follow_reset(const JointReading& now) noexcept;
@@ -90,8 +100,11 @@ class SafetySupervisor final : public mamori::Component {
     mamori::safety::SafeStateMachine machine_{kStopBounds};
     mamori::safety::WatchdogGate gate_;
     mamori::EventLog& log_;
+    mamori::safety::AssumptionMonitor& assumptions_;
+    DecisionFlow& flow_;
     mamori::safety::RisingEdge reset_edge_{};
-    mamori::Duration torque_despite_sto_for_{};
+    /// With its complement: it decides when the watchdog has to switch off what the software cannot.
+    mamori::safety::ComplementStored<mamori::Duration> torque_despite_sto_for_{mamori::Duration{0}};
     std::uint32_t good_frames_{0U};
     mamori::Instant self_test_began_{};
     mamori::safety::FaultIndex first_fault_{mamori::safety::kNoFault};

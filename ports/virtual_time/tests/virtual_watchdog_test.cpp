@@ -17,10 +17,12 @@ TEST(VirtualWatchdogTest, RelayStaysClosedWhileTheServiceComesInTime) {
     VirtualWatchdog sut{5_ms};
     sut.check(Instant{} + 100_ms);
     EXPECT_FALSE(sut.has_expired()) << "not started yet";
+    EXPECT_FALSE(sut.is_watching());
 
     ASSERT_EQ(sut.service(Instant{} + 100_ms), Status::kOk);
     sut.check(Instant{} + 105_ms);
     EXPECT_FALSE(sut.has_expired());
+    EXPECT_TRUE(sut.is_watching());
     EXPECT_EQ(sut.service(Instant{} + 105_ms), Status::kOk);
 }
 
@@ -31,6 +33,7 @@ TEST(VirtualWatchdogTest, RelayOpensForGoodAfterTheTimeout) {
 
     sut.check(Instant{} + 5_ms + 1_ns);
     EXPECT_TRUE(sut.has_expired());
+    EXPECT_FALSE(sut.is_watching());
     EXPECT_EQ(sut.service(Instant{} + 6_ms), Status::kError);
     EXPECT_TRUE(sut.has_expired());
 }

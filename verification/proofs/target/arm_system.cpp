@@ -2,6 +2,7 @@
 // The static table of the target image: read it as a drawing.
 #include "arm_system.hpp"
 
+#include "arm_assumptions.hpp"
 #include "arm_limits.hpp"
 #include "arm_reader.hpp"
 #include "drive_gate.hpp"
@@ -44,9 +45,16 @@ mamori::safety::ExecutionStorage<kComponentCount> supervision_storage;
 mamori::safety::ExecutionSupervisor supervision{supervision_storage, safe_arm::kLatenessMax};
 Facts facts;
 
+safe_arm::ArmChecks checks{watchdog};
+constexpr std::array kAssumptions = safe_arm::make_arm_assumptions(checks);
+static_assert(mamori::safety::checks_all<kAssumptions, safe_arm::ArmAssumption::kCount>());
+mamori::safety::AssumptionMonitor assumptions{kAssumptions};
+safe_arm::DecisionFlow decision_flow;
+
 safe_arm::ArmReader reader{inputs};
 safe_arm::JointMonitor monitor;
-safe_arm::SafetySupervisor supervisor{supervision, kControllerIndex, watchdog, event_log};
+safe_arm::SafetySupervisor supervisor{supervision, kControllerIndex, watchdog,
+                                      event_log,   assumptions,      decision_flow};
 HoldController controller;
 virtual_time::SimulatedChannel<safe_arm::TorqueCommand, 4U> channel{"channel"};
 safe_arm::DriveGate gate{outputs};

@@ -30,6 +30,8 @@ class VirtualWatchdog final : public safety::Watchdog {
     /// True once the relay has opened. It stays closed while the watchdog has not been started by a first
     /// service.
     bool has_expired() const noexcept { return has_expired_; }
+    /// True from the first service on, until the relay opens.
+    bool is_watching() const noexcept { return is_started_ && !has_expired_; }
 
   private:
     Duration timeout_;
