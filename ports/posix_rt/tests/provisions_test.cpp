@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cfenv>
-#include <cstdio>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
@@ -43,16 +43,13 @@ class MemoryLockedTest : public ::testing::Test {
         return lock_memory(4096U).is_granted && read_locked_kib() > before;
     }
     static std::uint64_t read_locked_kib() {
-        FILE* const file = std::fopen("/proc/self/status", "r");
-        std::array<char, 256U> line{};
-        unsigned long locked = 0U;
-        while (file != nullptr && std::fgets(line.data(), line.size(), file) != nullptr) {
-            if (std::sscanf(line.data(), "VmLck: %lu kB", &locked) == 1) {
-                break;
+        std::ifstream file{"/proc/self/status"};
+        std::string word;
+        std::uint64_t locked = 0U;
+        while (file >> word) {
+            if (word == "VmLck:") {
+                file >> locked;
             }
-        }
-        if (file != nullptr) {
-            std::fclose(file);
         }
         return locked;
     }
