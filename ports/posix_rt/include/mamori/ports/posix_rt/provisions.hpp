@@ -54,7 +54,8 @@ class MemoryLocked final : public LinuxProvision {
     Status open() noexcept;
 
     /// In effect: what is mapped is locked but for `unlockable`, and nothing is swapped out.
-    /// @return as any; kUnsupported while not open, and for a file without these figures.
+    /// @return as any; kUnsupported while not open, and for a file without these figures in its first 4 KiB,
+    ///         as of a user in hundreds of groups.
     Status look() noexcept override;
 
   private:
