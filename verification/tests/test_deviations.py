@@ -14,7 +14,15 @@ from mamori.verification.tools.deviations import FILE, check_deviations
 
 CODE = "safety/src/a.cpp"
 GOOD_CODE = 'void keep(int a) {\n    asm volatile("" : "+m"(a));  // DEV-007\n}\n'
-GOOD_ROW = {"id": "DEV-007", "rule": "10.4.1", "file": CODE, "function": "keep", "reason": "why", "safe_because": "how", "agreed": "decision.md"}
+GOOD_ROW = {
+    "id": "DEV-007",
+    "rule": "10.4.1",
+    "file": CODE,
+    "function": "keep",
+    "reason": "why",
+    "safe_because": "how",
+    "agreed": "decision.md",
+}
 
 
 def check(root: Path, rows: object, code: str = GOOD_CODE) -> list[str]:
