@@ -38,7 +38,7 @@ from mamori.verification.mutation.workbench import TIMED_OUT, Baseline, Bench
 
 SAMPLES = {"kernel": 60, "safety": 40}
 SEED = 1
-TIMEOUT_S = 2.0  # of a test that needs a few milliseconds
+TIMEOUT_S = 2.0  # of a test that needs a few milliseconds; a loop that runs the wrong way counts in 64 bits, so it never ends in time
 
 HEADER = "kernel/include/limit.hpp"
 SOURCE = "kernel/src/limit.cpp"
@@ -47,14 +47,14 @@ FILES = {
 constexpr int calc_limit(int scale) { return 10 * scale; }
 bool is_allowed(int value);
 int keep(int value);
-unsigned count_to(unsigned end);
+unsigned long long count_to(unsigned long long end);
 """,
     SOURCE: """\
 #include "limit.hpp"
 bool is_allowed(int value) { return value < calc_limit(1); }
 int keep(int value) { const int nothing = 0 * value; return value + nothing; }
-unsigned count_to(unsigned end) {
-    unsigned i = 0U;
+unsigned long long count_to(unsigned long long end) {
+    unsigned long long i = 0U;
     while (i != end) { ++i; }
     return i;
 }
