@@ -38,7 +38,8 @@ from mamori.verification.mutation.workbench import TIMED_OUT, Baseline, Bench
 
 SAMPLES = {"kernel": 60, "safety": 40}
 SEED = 1
-TIMEOUT_S = 2.0  # of a test that needs a few milliseconds; a loop that runs the wrong way counts in 64 bits, so it never ends in time
+# Of a test that needs a few milliseconds. The loop that a mutant lets run the wrong way counts in 64 bits, so it never ends in time.
+TIMEOUT_S = 2.0
 
 HEADER = "kernel/include/limit.hpp"
 SOURCE = "kernel/src/limit.cpp"
