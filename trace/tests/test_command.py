@@ -71,11 +71,11 @@ def test_a_missing_folder_is_named_in_one_line(sample: Sample, trace: Callable, 
 @pytest.mark.verifies("SWR-TRC-008", technique="requirements_based", polarity="nominal")
 def test_a_review_makes_a_suspect_link_good_again(sample: Sample, trace: Callable) -> None:
     sample.replace(SYSTEM, "The tool shall run offline.", "The tool shall run alone.")
-    before = trace("check", "--root", sample.root, "--format", "json")
+    before = trace("check", "--root", sample.root, "--output", "json")
 
     review = trace("review", "SYS-003", "--by", "Somebody Else", "--root", sample.root)
 
-    after = trace("check", "--root", sample.root, "--format", "json")
+    after = trace("check", "--root", sample.root, "--output", "json")
     assert (before.rules, review.status, after.rules) == ({"suspect-link"}, 0, set())
     lines = (sample.root / "requirements" / "trace.lock").read_text().splitlines()
     assert [line.split()[0::2][:2] for line in lines if line.endswith("Somebody Else")] == [["SWR-TLS-001", "SYS-003"], ["SYS-003", "STK-001"]]
@@ -85,7 +85,7 @@ def test_a_review_makes_a_suspect_link_good_again(sample: Sample, trace: Callabl
 def test_a_change_of_either_end_makes_the_link_suspect(sample: Sample, trace: Callable) -> None:
     sample.replace(SYSTEM, "The kernel shall supervise time.", "The kernel shall supervise everything.")
 
-    outcome = trace("check", "--root", sample.root, "--format", "json")
+    outcome = trace("check", "--root", sample.root, "--output", "json")
 
     suspects = {finding["item"] for finding in outcome.content["findings"]}
     assert (outcome.status, outcome.rules, suspects) == (1, {"suspect-link"}, {"SYS-001", "SWR-SUP-001", "SWR-SUP-002"})

@@ -42,7 +42,7 @@ def report(sample: Sample, trace: Callable, folder: Path) -> Callable[..., tuple
 
     def run(record: object = RECORD) -> tuple[str, Any]:
         (folder / "cost.json").write_text(record if isinstance(record, str) else json.dumps(record), encoding="utf-8")
-        outcome = trace("report", "--root", sample.root, "--format", "json")
+        outcome = trace("report", "--root", sample.root, "--output", "json")
         page = (sample.root / "report" / "index.html").read_text(encoding="utf-8")
         return page[page.index('<section id="timing"') : page.index('<section id="matrix"')], outcome
 

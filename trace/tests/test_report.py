@@ -129,7 +129,7 @@ def test_a_series_that_cannot_be_drawn_is_told_and_the_page_is_written(
     series = sample.evidence / "campaign" / "encoder_freeze-1" / "series.csv"
     series.write_text(series.read_text().replace(old, new, 1))
 
-    outcome = trace("report", "--root", sample.root, "--format", "json")
+    outcome = trace("report", "--root", sample.root, "--output", "json")
 
     assert (outcome.status, outcome.rules) == (2, {"unreadable-input"})
     assert message in outcome.content["findings"][0]["message"]
@@ -148,7 +148,7 @@ def test_a_run_that_lacks_its_facts_is_shown_without_them(sample: Sample, trace:
     path.write_text(json.dumps(content))
     (sample.evidence / "environment.json").write_text(json.dumps({"schema": "mamori.environment/1", "commit": "0123456789ab"}))
 
-    outcome = trace("report", "--root", sample.root, "--format", "json")
+    outcome = trace("report", "--root", sample.root, "--output", "json")
 
     assert (outcome.status, outcome.rules) == (2, {"unreadable-input"})
     assert "tells no speed limits" in outcome.content["findings"][0]["message"]

@@ -88,7 +88,7 @@ def test_an_input_that_cannot_be_read_is_named_and_ends_with_status_2(
 ) -> None:
     (sample.root / file).write_bytes(data)
 
-    outcome = trace("check", "--root", sample.root, "--format", "json")
+    outcome = trace("check", "--root", sample.root, "--output", "json")
 
     found = [f for f in outcome.content["findings"] if f["rule"] == "unreadable-input"]
     assert (outcome.status, [(f["file"], f["line"]) for f in found]) == (2, [(file, line)])
@@ -96,14 +96,14 @@ def test_an_input_that_cannot_be_read_is_named_and_ends_with_status_2(
 
 @pytest.mark.verifies("SWR-TRC-009", technique="requirements_based", polarity="nominal")
 def test_whole_inputs_are_not_refused(sample: Sample, trace: Callable) -> None:
-    outcome = trace("check", "--root", sample.root, "--format", "json")
+    outcome = trace("check", "--root", sample.root, "--output", "json")
 
     assert (outcome.status, outcome.rules) == (0, set())
 
 
 @pytest.mark.verifies("SWR-TRC-005", technique="requirements_based", polarity="nominal")
 def test_a_campaign_case_counts_for_each_item_that_it_names(sample: Sample, trace: Callable) -> None:
-    row = json.loads(trace("show", "SYS-002", "--root", sample.root, "--format", "json").out)
+    row = json.loads(trace("show", "SYS-002", "--root", sample.root, "--output", "json").out)
 
     assert row["cases"] == [{"case": "no_fault-1", "passed": True}, {"case": "encoder_freeze-1", "passed": True}]
 
@@ -115,7 +115,7 @@ def test_a_case_may_show_another_side_of_one_item(sample: Sample, trace: Callabl
     content["cases"][1]["requirement_polarity"] = {"SYS-002": "nominal"}
     path.write_text(json.dumps(content, indent=1))
 
-    outcome = trace("check", "--root", sample.root, "--format", "json")
+    outcome = trace("check", "--root", sample.root, "--output", "json")
 
     assert (outcome.rules, outcome.get_verdict("SYS-002")) == ({"campaign-missing"}, "incomplete")
 
@@ -127,6 +127,6 @@ def test_a_written_pass_does_not_count_when_a_check_failed(sample: Sample, trace
     content["cases"][1]["checks"][0].update(measured="Operational", passed=False)
     path.write_text(json.dumps(content, indent=1))
 
-    outcome = trace("check", "--root", sample.root, "--format", "json")
+    outcome = trace("check", "--root", sample.root, "--output", "json")
 
     assert (outcome.status, outcome.rules, outcome.get_verdict("SYS-002")) == (1, {"result-failed"}, "failed")

@@ -284,7 +284,7 @@ def find_line(s: Sample, file: str, text: str, after: str = "") -> int:
 
 @pytest.mark.verifies("SWR-TRC-010", technique="requirements_based", polarity="nominal")
 def test_a_clean_project_has_no_finding_and_status_0(sample: Sample, trace: Callable) -> None:
-    outcome = trace("check", "--root", sample.root, "--format", "json")
+    outcome = trace("check", "--root", sample.root, "--output", "json")
 
     assert (outcome.status, outcome.content["findings"]) == (0, [])
     assert outcome.content["summary"]["verdicts"] == {"verified": 8}
@@ -299,7 +299,7 @@ def test_a_seeded_fault_is_named_and_no_other_rule_speaks_up(
     if reviewed:
         sample.review()
 
-    outcome = trace("check", "--root", sample.root, "--format", "json")
+    outcome = trace("check", "--root", sample.root, "--output", "json")
 
     findings = outcome.content["findings"]
     severity = next(each.severity for each in list_rules() if each.id == rule)
@@ -315,7 +315,7 @@ def test_many_faults_are_told_in_one_run(sample: Sample, trace: Callable) -> Non
         seed(sample)
     sample.review()
 
-    outcome = trace("check", "--root", sample.root, "--format", "json")
+    outcome = trace("check", "--root", sample.root, "--output", "json")
 
     assert outcome.rules == {rule for seed, rule, _ in SEEDS if seed in chosen}
 
@@ -331,7 +331,7 @@ def test_each_rule_has_a_seeded_fault() -> None:
 def test_evidence_of_another_commit_is_told(sample: Sample, trace: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mamori.trace.readers.project.read_head", lambda root: "f" * 40)
 
-    outcome = trace("check", "--root", sample.root, "--format", "json")
+    outcome = trace("check", "--root", sample.root, "--output", "json")
 
     assert (outcome.status, outcome.rules) == (1, {"evidence-stale"})
     assert all(COMMIT[:12] in finding["message"] for finding in outcome.content["findings"])

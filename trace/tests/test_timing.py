@@ -66,7 +66,7 @@ def report(sample: Sample, trace: Callable, folder: Path) -> Callable[..., tuple
 
     def run(record: object = RECORD) -> tuple[str, Any]:
         (folder / "timing.json").write_text(record if isinstance(record, str) else json.dumps(record), encoding="utf-8")
-        outcome = trace("report", "--root", sample.root, "--format", "json")
+        outcome = trace("report", "--root", sample.root, "--output", "json")
         page = (sample.root / "report" / "index.html").read_text(encoding="utf-8")
         return page[page.index('<section id="timing"') : page.index('<section id="matrix"')], outcome
 
@@ -211,7 +211,7 @@ def test_a_record_that_is_cut_off_gives_nothing_and_one_problem(report: Callable
 def test_a_record_that_cannot_be_opened_is_one_problem(sample: Sample, trace: Callable, folder: Path) -> None:
     (folder / "timing.json").mkdir()
 
-    outcome = trace("report", "--root", sample.root, "--format", "json")
+    outcome = trace("report", "--root", sample.root, "--output", "json")
 
     assert [finding["rule"] for finding in outcome.content["findings"]] == ["unreadable-input"]
 

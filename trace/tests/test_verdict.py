@@ -22,7 +22,7 @@ def give_outcome(s: Sample, element: str) -> None:
 
 
 def judge(trace: Callable, s: Sample, *ids: str, options: tuple[str, ...] = ()) -> list[str]:
-    outcome = trace("check", "--root", s.root, "--format", "json", *options)
+    outcome = trace("check", "--root", s.root, "--output", "json", *options)
     return [outcome.get_verdict(item) for item in ids]
 
 
@@ -115,7 +115,7 @@ def test_children_that_show_one_side_do_not_verify_a_parent_that_demands_two(sam
 def test_missing_results_are_not_run_when_they_may_be_missing(sample: Sample, trace: Callable) -> None:
     shutil.rmtree(sample.evidence)
 
-    outcome = trace("check", "--root", sample.root, "--format", "json", "--allow-missing")
+    outcome = trace("check", "--root", sample.root, "--output", "json", "--allow-missing")
 
     assert (outcome.status, outcome.rules) == (0, set())
     assert outcome.content["summary"]["verdicts"] == {"not run": 8}
@@ -129,7 +129,7 @@ def test_failing_and_skipped_results_count_also_when_others_may_be_missing(sampl
     content["cases"][1]["verdict"] = "fail"
     path.write_text(json.dumps(content))
 
-    outcome = trace("check", "--root", sample.root, "--format", "json", "--allow-missing")
+    outcome = trace("check", "--root", sample.root, "--output", "json", "--allow-missing")
 
     assert (outcome.status, outcome.rules) == (1, {"result-failed"})
     assert [outcome.get_verdict(item) for item in ("SWR-SUP-001", "SYS-002")] == ["failed", "failed"]
@@ -140,6 +140,6 @@ def test_a_test_that_was_never_written_is_no_missing_result(sample: Sample, trac
     sample.replace("safety/tests/alive_test.cpp", '    verifies("SWR-SUP-002");\n', "")
     shutil.rmtree(sample.evidence)
 
-    outcome = trace("check", "--root", sample.root, "--format", "json", "--allow-missing")
+    outcome = trace("check", "--root", sample.root, "--output", "json", "--allow-missing")
 
     assert (outcome.status, outcome.rules, outcome.get_verdict("SWR-SUP-002")) == (1, {"test-missing"}, "incomplete")

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mamori.trace.command import review_links
+from mamori.trace.actions.review import review_links
 from mamori.trace.readers.lock import write_lock
 from mamori.trace.readers.project import read_requirements
 

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`mamori trace check`."""
+
+from __future__ import annotations
+
+import argparse
+
+from mamori.trace.actions.common import add_input, add_output, get_status, print_outcome, read_input
+
+HELP = "report every finding, with rule, file and line"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_input(parser)
+    add_output(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from mamori.trace.checks import run_checks
+
+    project = read_input(arguments)
+    findings = run_checks(project)
+    print_outcome(arguments, project, findings)
+    return get_status(findings)

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What several actions share: the arguments that choose the input, the exit status, the printing of an outcome."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from mamori.trace.checks import unreadable_input
+from mamori.trace.model.finding import ERROR, Finding
+from mamori.trace.model.item import Item
+from mamori.trace.model.project import Project
+from mamori.trace.model.verdict import calc_verdicts
+from mamori.trace.readers.files import InputError
+from mamori.trace.readers.project import read_project
+from mamori.trace.reports.json_report import format_json
+from mamori.trace.reports.text import Paint, format_findings, format_summary
+
+EXIT_CLEAN = 0
+EXIT_FINDINGS = 1
+EXIT_INPUT = 2
+
+
+def add_root(parser: argparse.ArgumentParser) -> None:
+    """`--root`, which every action has."""
+    parser.add_argument("--root", type=Path, default=Path("."), metavar="DIR", help="project folder (default: here)")
+
+
+def add_input(parser: argparse.ArgumentParser) -> None:
+    """What to read: project and evidence."""
+    add_root(parser)
+    parser.add_argument("--evidence", type=Path, metavar="DIR", help="default: build/host-release/evidence, or the only one")
+    parser.add_argument("--allow-missing", action="store_true", help="results that are missing (not failing) are no errors")
+
+
+def add_output(parser: argparse.ArgumentParser) -> None:
+    """How to print."""
+    parser.add_argument("--output", choices=("text", "json"), default="text", help="how to print (default: text)")
+
+
+def read_input(arguments: argparse.Namespace) -> Project:
+    """The project that `add_input` chose. Raises InputError."""
+    return read_project(arguments.root, arguments.evidence, arguments.allow_missing)
+
+
+def find_item(project: Project, name: str) -> Item:
+    """The item of that id. Raises InputError, which names the nearest ids."""
+    item = project.items.get(name)
+    if item is None:
+        near = ", ".join(project.suggest(name))
+        raise InputError(f"no item has the id {name}" + (f"; nearest: {near}" if near else ""))
+    return item
+
+
+def print_outcome(arguments: argparse.Namespace, project: Project, findings: list[Finding]) -> None:
+    """Findings and summary in the form that `add_output` chose."""
+    verdicts = calc_verdicts(project)
+    if arguments.output == "json":
+        print(format_json(project, findings, verdicts), end="")
+        return
+    paint = Paint(sys.stdout)
+    print(format_findings(findings, paint) + format_summary(project, findings, verdicts, paint), end="")
+
+
+def get_status(findings: list[Finding]) -> int:
+    """Exit status that the findings ask for."""
+    if any(finding.rule == unreadable_input.RULE.id for finding in findings):
+        return EXIT_INPUT
+    return EXIT_FINDINGS if any(finding.severity == ERROR for finding in findings) else EXIT_CLEAN

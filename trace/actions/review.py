@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`mamori trace review ID ... | --all`."""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+
+from mamori.trace.actions.common import EXIT_CLEAN, add_root, find_item
+from mamori.trace.model.lock import ReviewLock
+from mamori.trace.model.project import Project
+from mamori.trace.readers.files import InputError
+from mamori.trace.readers.git import read_user
+from mamori.trace.readers.lock import LOCK_PATH, write_lock
+from mamori.trace.readers.project import read_requirements
+
+HELP = f"record in {LOCK_PATH} that links were looked at"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_root(parser)
+    parser.add_argument("items", nargs="*", metavar="ID", help="items whose links, up and down, were looked at")
+    parser.add_argument("--all", action="store_true", help="every link was looked at")
+    parser.add_argument("--by", default="", metavar="NAME", help="who looked (default: the user name that git knows)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    if arguments.all == bool(arguments.items):
+        raise InputError("review: name the items that were looked at, or --all")
+    project = read_requirements(arguments.root)
+    if project.problems:
+        first = project.problems[0]
+        raise InputError(f"{first.place}: {first.message}; mend it before reviewing")
+    reviewer = arguments.by.strip() or read_user(arguments.root)
+    if not reviewer:
+        raise InputError("review: nobody is named; add --by NAME")
+    chosen = set(project.items) if arguments.all else {find_item(project, name).id for name in arguments.items}
+    count = review_links(project, chosen, datetime.date.today().isoformat(), reviewer)
+    write_lock(arguments.root, project.lock or ReviewLock())
+    print(f"{count} links recorded as reviewed by {reviewer} in {LOCK_PATH}")
+    return EXIT_CLEAN
+
+
+def review_links(project: Project, chosen: set[str], date: str, reviewer: str) -> int:
+    """Records a look at each suspect link with an end in `chosen`; forgets links that are no more.
+
+    A link that is as it was keeps its date and its reviewer. @return how many were recorded.
+    """
+    lock = project.lock = project.lock or ReviewLock()
+    live = {
+        (child.id, parent): (child, project.items[parent])
+        for child in project.live_items
+        for parent in child.parents
+        if parent in project.items
+    }
+    lock.reviews = {key: review for key, review in lock.reviews.items() if key in live}
+    count = 0
+    for key, (child, parent) in live.items():
+        if chosen & set(key) and lock.describe_suspicion(child, parent):
+            lock.record(child, parent, date, reviewer)
+            count += 1
+    return count
