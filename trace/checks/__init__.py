@@ -31,6 +31,7 @@ from mamori.trace.checks import (
     unknown_id,
     unknown_word,
     unreadable_input,
+    untraced_function,
 )
 from mamori.trace.model.finding import Finding, Rule
 from mamori.trace.model.project import Project
@@ -51,6 +52,7 @@ RULES = (
     unfinished_text,
     design_link,
     code_missing,
+    untraced_function,
     test_missing,
     polarity_missing,
     campaign_missing,

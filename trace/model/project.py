@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from mamori.trace.model.code import CodeSchema, Function
 from mamori.trace.model.evidence import CAMPAIGN, CampaignCase, CodeTag, Evidence, SourceTest, TestResult
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.item import Item, Schema
@@ -25,6 +26,8 @@ class Project:
     all_items: list[Item] = field(default_factory=list)
     tags: list[CodeTag] = field(default_factory=list)
     tests: list[SourceTest] = field(default_factory=list)
+    functions: list[Function] = field(default_factory=list)
+    code_schema: CodeSchema = CodeSchema()
     evidence: Evidence = field(default_factory=Evidence)
     lock: ReviewLock | None = None
     head: str = ""
@@ -54,6 +57,19 @@ class Project:
     @cached_property
     def tags_of(self) -> dict[str, list[CodeTag]]:
         return _group(self.tags)
+
+    @cached_property
+    def traced_functions(self) -> list[Function]:
+        """Functions of the layers that the project declares as traced."""
+        return [function for function in self.functions if self.code_schema.is_traced(function.file)]
+
+    @cached_property
+    def functions_of(self) -> dict[str, list[Function]]:
+        owned: dict[str, list[Function]] = defaultdict(list)
+        for function in self.functions:
+            for requirement in function.requirements:
+                owned[requirement].append(function)
+        return owned
 
     @cached_property
     def tests_of(self) -> dict[str, list[SourceTest]]:

@@ -6,96 +6,114 @@
 
 from __future__ import annotations
 
-import re
+from dataclasses import dataclass
 from pathlib import Path
 
 import tree_sitter
 import tree_sitter_cpp
 
+from mamori.trace.model.code import CodeBase, Scope
 from mamori.trace.model.evidence import CodeTag
 from mamori.trace.model.finding import Place, Problem
+from mamori.trace.readers.cpp_functions import FileFunctions, add_own_headers, find_name, list_functions
 from mamori.trace.readers.files import is_test_file, read_text, walk_sources
+from mamori.trace.readers.tag_text import FILE_SYMBOL, ID_PATTERN, has_mark, make_tags
 
 SUFFIXES = (".hpp", ".h", ".cpp", ".cc", ".ipp")
-TAG = re.compile(r"@satisfies[ \t]+([A-Z]+-[\w-]+(?:[ \t]*,[ \t]*[A-Z]+-[\w-]+)*)")
-BARE_TAG = re.compile(r"^[\s/*#'\"]*@satisfies\b(?![ \t]+[A-Z]+-[\w-])")
-FILE_SYMBOL = "file"
 
 _LANGUAGE = tree_sitter.Language(tree_sitter_cpp.language())
 _COMMENTS = tree_sitter.Query(_LANGUAGE, "(comment) @comment")
-_NAME_TYPES = ("identifier", "type_identifier", "field_identifier", "qualified_identifier", "operator_name",
-               "destructor_name", "namespace_identifier")  # fmt: skip
 
 
-def read_cpp_tags(root: Path, problems: list[Problem]) -> list[CodeTag]:
-    """Tags of all C++ files below `root` that are no tests."""
+@dataclass(frozen=True, slots=True)
+class _Target:
+    """What the tags of one comment block speak for."""
+
+    symbol: str
+    first: int
+    last: int
+
+
+_WHOLE_FILE = _Target(FILE_SYMBOL, 0, 0)
+
+
+def read_cpp_tags(
+    root: Path, problems: list[Problem], code: CodeBase | None = None, id_pattern: str = ID_PATTERN
+) -> list[CodeTag]:
+    """Tags of all C++ files below `root` that are no tests. @param code takes in the functions of these files, too."""
     parser = tree_sitter.Parser(_LANGUAGE)
     tags: list[CodeTag] = []
+    texts: dict[str, str] = {}
     for path, shown in walk_sources(root, SUFFIXES):
         if not is_test_file(shown):
             text = read_text(path, shown, problems)
-            if "@satisfies" in text:
-                tags.extend(parse_cpp_tags(text, shown, parser, problems))
+            if code is not None:
+                texts[shown] = text
+            if code is not None or has_mark(text):
+                tags.extend(parse_cpp_tags(text, shown, parser, problems, code, id_pattern))
+    if code is not None:
+        add_own_headers(texts, code)
     return tags
 
 
-def parse_cpp_tags(text: str, shown: str, parser: tree_sitter.Parser, problems: list[Problem]) -> list[CodeTag]:
-    """Tags of one file."""
+def parse_cpp_tags(
+    text: str, shown: str, parser: tree_sitter.Parser, problems: list[Problem],
+    code: CodeBase | None = None, id_pattern: str = ID_PATTERN,
+) -> list[CodeTag]:  # fmt: skip
+    """Tags of one file, and its functions into `code`."""
     tree = parser.parse(text.encode())
-    captures = tree_sitter.QueryCursor(_COMMENTS).captures(tree.root_node)
-    comments = sorted(captures.get("comment", []), key=lambda node: node.start_byte)
+    found = list_functions(tree.root_node, shown)
+    if code is not None:
+        code.functions.extend(found.functions)
+        code.classes[shown] = frozenset(one.name for one in found.classes)
     tags: list[CodeTag] = []
-    for block in _group_blocks(comments):
-        if not any(b"@satisfies" in node.text for node in block):
-            continue
-        symbol = _get_symbol(block)
+    for block in _list_blocks(tree.root_node) if has_mark(text) else ():
+        target = _find_target(block, found)
+        of_block: list[CodeTag] = []
         for node in block:
-            for offset, line in enumerate(node.text.decode().splitlines()):
+            for offset, line in enumerate(node.text.decode(errors="replace").splitlines()):
                 place = Place(shown, node.start_point.row + offset + 1)
-                tags.extend(make_tags(line, place, symbol, problems))
+                of_block.extend(make_tags(line, place, target.symbol, problems, id_pattern))
+        tags.extend(of_block)
+        if code is not None:
+            code.scopes.extend(_make_scopes(of_block, target, shown, found))
     return tags
 
 
-def make_tags(line: str, place: Place, symbol: str, problems: list[Problem]) -> list[CodeTag]:
-    """Tags of one line of a comment. A tag that names nothing is a problem."""
-    if BARE_TAG.search(line):
-        problems.append(Problem("unknown-id", place, "@satisfies names no requirement id"))
-    found = (word.strip() for match in TAG.finditer(line) for word in match[1].split(","))
-    return [CodeTag(requirement, place, symbol) for requirement in found]
+def _make_scopes(tags: list[CodeTag], target: _Target, shown: str, found: FileFunctions) -> list[Scope]:
+    """One scope for the tags that speak for the file, one for those that speak for the declaration."""
+    scopes = []
+    for chosen in (_WHOLE_FILE, target) if target != _WHOLE_FILE else (_WHOLE_FILE,):
+        words = tuple(tag.requirement for tag in tags if tag.symbol == chosen.symbol)
+        if words:
+            name = "" if chosen is _WHOLE_FILE else found.qualify(chosen.symbol, chosen.first)
+            scopes.append(Scope(shown, name, chosen.first, chosen.last, words))
+    return scopes
 
 
-def _group_blocks(comments: list[tree_sitter.Node]) -> list[list[tree_sitter.Node]]:
-    """Comments on neighbouring lines form one block."""
+def _list_blocks(root: tree_sitter.Node) -> list[list[tree_sitter.Node]]:
+    """Blocks of comments (those on neighbouring lines form one) in which a tag may stand."""
+    captures = tree_sitter.QueryCursor(_COMMENTS).captures(root)
     blocks: list[list[tree_sitter.Node]] = []
-    for node in comments:
-        if blocks and node.start_point.row == blocks[-1][-1].end_point.row + 1:
+    end = -1
+    for node in sorted(captures.get("comment", []), key=lambda node: node.start_byte):
+        if blocks and node.start_point.row == end + 1:
             blocks[-1].append(node)
         else:
             blocks.append([node])
-    return blocks
+        end = node.end_point.row
+    return [block for block in blocks if any(has_mark(node.text.decode(errors="replace")) for node in block)]
 
 
-def _get_symbol(block: list[tree_sitter.Node]) -> str:
-    """Name of the declaration below the block; the file when the block is the file's own or nothing follows."""
+def _find_target(block: list[tree_sitter.Node], found: FileFunctions) -> _Target:
+    """The function around the block, or the declaration below it; the file when the block is the file's own or nothing follows."""
     if any(b"@file" in node.text for node in block):
-        return FILE_SYMBOL
+        return _WHOLE_FILE
+    around = found.find_around(block[0].start_point.row + 1)
+    if around is not None:
+        return _Target(around.name.rpartition("::")[2], around.first, around.last)
     node = block[-1].next_named_sibling
     while node is not None and node.type == "comment":
         node = node.next_named_sibling
-    return (_find_name(node) if node is not None else "") or FILE_SYMBOL
-
-
-def _find_name(node: tree_sitter.Node) -> str:
-    """Name that a declaration declares: follows the declarator, or takes the `name` of a class, enum or namespace."""
-    for _ in range(16):  # deeper declarators do not occur in code that people read
-        if node.type in _NAME_TYPES:
-            return node.text.decode()
-        inner = node.child_by_field_name("declarator") or node.child_by_field_name("name")
-        if inner is None and node.type in ("template_declaration", "reference_declarator", "linkage_specification"):
-            inner = node.named_children[-1] if node.named_children else None
-        if inner is None:
-            inner = node.child_by_field_name("type")
-        if inner is None:
-            return ""
-        node = inner
-    return ""
+    name = find_name(node) if node is not None else ""
+    return _Target(name, node.start_point.row + 1, node.end_point.row + 1) if node is not None and name else _WHOLE_FILE

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from mamori.trace.model.code import CodeBase
 from mamori.trace.model.evidence import INTEGRATION, UNIT, Evidence
 from mamori.trace.model.project import Project, attach_sources
 from mamori.trace.readers.campaign import read_campaign, read_environment
+from mamori.trace.readers.code_schema import read_code_schema
 from mamori.trace.readers.cost import read_cost
 from mamori.trace.readers.cpp_tags import read_cpp_tags
 from mamori.trace.readers.cpp_tests import read_cpp_tests
@@ -51,12 +53,15 @@ def read_project(root: Path, evidence: Path | None, allow_missing: bool = False)
     project = read_requirements(root)
     project.allow_missing = allow_missing
     project.head = read_head(root)
-    project.tags = read_cpp_tags(root, project.problems)
+    project.code_schema = read_code_schema(root)
+    code = CodeBase()
+    project.tags = read_cpp_tags(root, project.problems, code)
     project.tags += read_script_tags(root, project.problems)
     project.tests = read_cpp_tests(root, project.problems)
-    tags, tests = read_python(root, project.problems)
+    tags, tests = read_python(root, project.problems, code)
     project.tags += tags
     project.tests += tests
+    project.functions = code.bind()
     folder = _choose_evidence(root, evidence, allow_missing)
     if folder is not None:
         project.evidence = _read_evidence(folder, project)

@@ -13,22 +13,24 @@ import io
 import tokenize
 from pathlib import Path
 
+from mamori.trace.model.code import CodeBase, Scope
 from mamori.trace.model.evidence import CodeTag, SourceTest
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.cpp_tags import FILE_SYMBOL, make_tags
 from mamori.trace.readers.files import UNREADABLE, is_test_file, read_text, walk_sources
+from mamori.trace.readers.python_functions import Definition, list_definitions, make_functions
+from mamori.trace.readers.tag_text import FILE_SYMBOL, ID_PATTERN, has_mark, make_tags
 
-_Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 
-
-def read_python(root: Path, problems: list[Problem]) -> tuple[list[CodeTag], list[SourceTest]]:
-    """Tags of all Python files that are no tests, and marks of those that are."""
+def read_python(
+    root: Path, problems: list[Problem], code: CodeBase | None = None, id_pattern: str = ID_PATTERN
+) -> tuple[list[CodeTag], list[SourceTest]]:
+    """Tags of all Python files that are no tests, and marks of those that are. @param code takes in the functions of the former."""
     tags: list[CodeTag] = []
     tests: list[SourceTest] = []
     for path, shown in walk_sources(root, (".py",)):
         in_test = is_test_file(shown)
         text = read_text(path, shown, problems)
-        if ("verifies" if in_test else "@satisfies") not in text:
+        if "verifies" not in text if in_test else code is None and not has_mark(text):
             continue
         try:
             tree = ast.parse(text)
@@ -38,34 +40,46 @@ def read_python(root: Path, problems: list[Problem]) -> tuple[list[CodeTag], lis
             continue
         if in_test:
             tests.extend(_find_marks(tree, shown))
-        else:
-            tags.extend(_find_tags(tree, text, shown, problems))
+            continue
+        definitions = list_definitions(tree) if code is not None or has_mark(text) else []
+        if code is not None:
+            code.functions.extend(make_functions(definitions, shown))
+        if has_mark(text):
+            tags.extend(_find_tags(tree, definitions, text, shown, problems, code, id_pattern))
     return tags, tests
 
 
-def _find_tags(tree: ast.Module, text: str, shown: str, problems: list[Problem]) -> list[CodeTag]:
-    definitions = [node for node in ast.walk(tree) if isinstance(node, _Definition)]
+def _find_tags(
+    tree: ast.Module, definitions: list[Definition], text: str, shown: str, problems: list[Problem],
+    code: CodeBase | None, id_pattern: str,
+) -> list[CodeTag]:  # fmt: skip
+    lines = text.splitlines()
     tags: list[CodeTag] = []
-    for node in [tree, *definitions]:
-        first = node.body[0] if node.body else None
+    whole = Definition(tree, "", 0, 0)
+    for one in [whole, *definitions]:
+        first = one.node.body[0] if one.node.body else None
         if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
-            symbol = FILE_SYMBOL if isinstance(node, ast.Module) else node.name
-            source = text.splitlines()[first.lineno - 1 : first.end_lineno]
-            for offset, line in enumerate(source):
-                tags.extend(make_tags(line, Place(shown, first.lineno + offset), symbol, problems))
-    starts = {_get_first_line(node): node.name for node in definitions}
+            for number in range(first.lineno, first.end_lineno + 1):
+                tags += _add_tags(lines[number - 1], Place(shown, number), one, problems, code, id_pattern)
+    starts = {one.first: one for one in definitions}
     comments = _list_comments(text)
     for number, comment in comments.items():
-        if "@satisfies" in comment:
+        if has_mark(comment):
             below = number + 1
             while below in comments:
                 below += 1
-            tags.extend(make_tags(comment, Place(shown, number), starts.get(below, FILE_SYMBOL), problems))
+            tags += _add_tags(comment, Place(shown, number), starts.get(below, whole), problems, code, id_pattern)
     return sorted(tags, key=lambda tag: (tag.place, tag.requirement))
 
 
-def _get_first_line(node: _Definition) -> int:
-    return min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+def _add_tags(
+    line: str, place: Place, owner: Definition, problems: list[Problem], code: CodeBase | None, id_pattern: str
+) -> list[CodeTag]:
+    """Tags of one line, and their scope into `code`."""
+    tags = make_tags(line, place, owner.name.rpartition("::")[2] or FILE_SYMBOL, problems, id_pattern)
+    if tags and code is not None:
+        code.scopes.append(Scope(place.file, owner.name, owner.first, owner.last, tuple(tag.requirement for tag in tags)))
+    return tags
 
 
 def _list_comments(text: str) -> dict[int, str]:

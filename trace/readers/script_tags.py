@@ -10,8 +10,8 @@ from pathlib import Path
 
 from mamori.trace.model.evidence import CodeTag
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.cpp_tags import FILE_SYMBOL, make_tags
 from mamori.trace.readers.files import is_test_file, read_text, walk_sources
+from mamori.trace.readers.tag_text import FILE_SYMBOL, has_mark, make_tags
 
 _SUFFIXES = (".sh", ".cmake", "CMakeLists.txt")
 
@@ -24,7 +24,7 @@ def read_script_tags(root: Path, problems: list[Problem]) -> list[CodeTag]:
         if is_test_file(shown):
             continue
         for number, line in enumerate(read_text(path, shown, problems).splitlines(), start=1):
-            if "@satisfies" in line and line.lstrip().startswith("#"):
+            if has_mark(line) and line.lstrip().startswith("#"):
                 tags.extend(make_tags(line, Place(shown, number), FILE_SYMBOL, problems))
     return tags
 
