@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+from mamori.trace.model.coverage import CoverageRun
 from mamori.trace.model.finding import Place
 
 PASSED = "passed"
@@ -132,6 +133,7 @@ class Evidence:
     has_campaign: bool = False
     timing_runs: list[TimingRun] = field(default_factory=list)
     cost_runs: list[CostRun] = field(default_factory=list)
+    coverage_runs: list[CoverageRun] = field(default_factory=list)
     environment: dict[str, Any] = field(default_factory=dict)
     environment_place: Place = Place("environment.json", 1)
     campaign_environment: dict[str, Any] = field(default_factory=dict)

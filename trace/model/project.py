@@ -11,6 +11,7 @@ from functools import cached_property
 from pathlib import Path
 
 from mamori.trace.model.code import CodeSchema, Function
+from mamori.trace.model.coverage import Coverage, CoverageRun, Reached
 from mamori.trace.model.evidence import CAMPAIGN, CampaignCase, CodeTag, Evidence, SourceTest, TestResult
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.item import Item, Schema
@@ -62,6 +63,41 @@ class Project:
     def traced_functions(self) -> list[Function]:
         """Functions of the layers that the project declares as traced."""
         return [function for function in self.functions if self.code_schema.is_traced(function.file)]
+
+    @cached_property
+    def coverage(self) -> Coverage:
+        """What all tests together reached."""
+        return Coverage(self.evidence.coverage_runs)
+
+    def find_coverage(self, requirements: Iterable[str]) -> Coverage:
+        """What the tests that verify these reached, where the evidence holds that test by test; else what all tests did."""
+        titles = {one.title for name in requirements for one in (*self.results_of.get(name, ()), *self.tests_of.get(name, ()))}
+        chosen = frozenset(titles & self._runs_by_test.keys())
+        if not chosen:
+            return self.coverage
+        if chosen not in self._coverage_by_tests:
+            self._coverage_by_tests[chosen] = Coverage(run for title in sorted(chosen) for run in self._runs_by_test[title])
+        return self._coverage_by_tests[chosen]
+
+    def measure(self, requirement: str) -> Reached:
+        """What was reached of all functions that the requirement owns."""
+        total = Reached()
+        coverage = self.find_coverage([requirement])
+        for function in self.functions_of.get(requirement, ()):
+            total.add(coverage.measure(function))
+        return total
+
+    @cached_property
+    def _runs_by_test(self) -> dict[str, list[CoverageRun]]:
+        runs: dict[str, list[CoverageRun]] = defaultdict(list)
+        for run in self.evidence.coverage_runs:
+            if run.test:
+                runs[run.test].append(run)
+        return runs
+
+    @cached_property
+    def _coverage_by_tests(self) -> dict[frozenset[str], Coverage]:
+        return {}
 
     @cached_property
     def functions_of(self) -> dict[str, list[Function]]:

@@ -11,6 +11,7 @@ from mamori.trace.model.project import Project, attach_sources
 from mamori.trace.readers.campaign import read_campaign, read_environment
 from mamori.trace.readers.code_schema import read_code_schema
 from mamori.trace.readers.cost import read_cost
+from mamori.trace.readers.coverage import read_coverage
 from mamori.trace.readers.cpp_tags import read_cpp_tags
 from mamori.trace.readers.cpp_tests import read_cpp_tests
 from mamori.trace.readers.files import InputError, get_shown_path
@@ -21,6 +22,7 @@ from mamori.trace.readers.markdown_items import read_items
 from mamori.trace.readers.python_sources import read_python
 from mamori.trace.readers.schema import read_schema
 from mamori.trace.readers.script_tags import read_script_tags
+from mamori.trace.readers.source_names import SourceNames
 from mamori.trace.readers.timing import read_timing
 
 
@@ -89,4 +91,6 @@ def _read_evidence(folder: Path, project: Project) -> Evidence:
     read_campaign(folder, project.root, evidence, project.problems)
     read_timing(folder, project.root, evidence, project.problems)
     read_cost(folder, project.root, evidence, project.problems)
+    names = SourceNames(project.root, {function.file for function in project.functions})
+    read_coverage(folder, project.root, names, evidence, project.problems)
     return evidence

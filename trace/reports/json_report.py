@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from dataclasses import asdict
 from typing import Any
 
 from mamori.trace.checks import list_rules
@@ -68,4 +69,16 @@ def make_item(project: Project, item: Item, verdicts: dict[str, Verdict]) -> dic
             for result in project.results_of.get(item.id, [])
         ],
         "cases": [{"case": case.id, "passed": case.passed} for case in project.cases_of.get(item.id, [])],
+        "coverage": _make_coverage(project, item),
     }
+
+
+def _make_coverage(project: Project, item: Item) -> dict[str, Any] | None:
+    """What was reached of the functions that the item owns; null where nothing was measured."""
+    reached = project.measure(item.id)
+    if not reached.functions_measured:
+        return None
+    content = asdict(reached)
+    del content["accepted"], content["gaps"]
+    gaps = [{"file": gap.place.file, "line": gap.place.line, "text": gap.text, "reason": gap.reason} for gap in reached.gaps]
+    return {**content, "gaps": gaps}

@@ -74,7 +74,22 @@ def format_item(project: Project, item: Item, verdicts: dict[str, Verdict], pain
     lines += _section("tests without result", [f"{test.title} ({test.place})" for test in unexecuted])
     cases = project.cases_of.get(item.id, [])
     lines += _section("campaign", [f"{'passed' if case.passed else 'failed'}  {case.id} ({case.get_polarity(item.id)})" for case in cases])
+    lines += _section("coverage of its functions", _describe_coverage(project, item))
     return "\n".join(lines) + "\n"
+
+
+def _describe_coverage(project: Project, item: Item) -> list[str]:
+    """Shares of what was reached; nothing where nothing was measured."""
+    reached = project.measure(item.id)
+    if not reached.functions_measured:
+        return []
+    rows = [
+        f"functions executed {reached.functions_executed}/{reached.functions}",
+        f"lines {reached.lines_reached}/{reached.lines}",
+        f"branch outcomes {reached.branches_reached}/{reached.branches}",
+        f"MC/DC {reached.conditions_shown}/{reached.conditions}",
+    ]
+    return [", ".join(rows)] + [f"{gap.place}: {gap.text} ({gap.reason or 'no reason'})" for gap in reached.gaps]
 
 
 def _describe_result(result: TestResult) -> str:

@@ -16,11 +16,13 @@ import argparse
 import os
 import sys
 from pathlib import Path
+from typing import Any
 
 from mamori.verification.command.project import ROOT, Project
 from mamori.verification.coverage.gaps import LIST, ListError, Verdict, find_gaps, judge, read_list
 from mamori.verification.coverage.measure import CoverageError, measure
 from mamori.verification.coverage.reached import Function, read_functions
+from mamori.verification.coverage.record import make_rows
 from mamori.verification.coverage.report import Figures, count, make_table, write_evidence
 
 
@@ -29,13 +31,15 @@ def check_layers(project: Project, jobs: int) -> tuple[Verdict, str]:
     rows = read_list()
     functions: list[Function] = []
     files: list[Figures] = []
+    record: list[dict[str, Any]] = []
     for exported in measure(project.root, jobs):
         reached = read_functions(exported, project.root)
         functions += reached
         files += count(exported, reached, project.root)
+        record += make_rows(exported, reached, project.root)
     verdict = judge(find_gaps(functions), rows)
     table = make_table(files, verdict)
-    write_evidence(project.evidence / "coverage", files, verdict, table)
+    write_evidence(project.evidence / "coverage", files, verdict, table, record)
     return verdict, table
 
 

@@ -56,6 +56,7 @@ class Function:
     line: int
     name: str
     count: int = 0
+    last_line: int = 0
     conditions: dict[tuple[object, ...], Condition] = field(default_factory=dict)
 
 
@@ -74,6 +75,7 @@ def read_functions(exported: dict[str, Any], root: Path) -> list[Function]:
         line, column = entry["regions"][0][:2]
         function = functions.setdefault((file, line, column), Function(file, line, name))
         function.count += entry["count"]
+        function.last_line = max(function.last_line, entry["regions"][0][2])
         for key, condition in _read_conditions(entry, source):
             if key in function.conditions:
                 function.conditions[key].merge(condition)

@@ -87,13 +87,16 @@ def _share(part: int, whole: int) -> str:
     return f"{f'{part}/{whole}':>9} {f'{100.0 * part / whole:.1f} %' if whole else '-':>7}"
 
 
-def write_evidence(folder: Path, files: Sequence[Figures], verdict: Verdict, table: str) -> None:
-    """Writes coverage.json and coverage.txt, each whole or not at all."""
+def write_evidence(
+    folder: Path, files: Sequence[Figures], verdict: Verdict, table: str, functions: Sequence[dict[str, Any]]
+) -> None:
+    """Writes coverage.json and coverage.txt, each whole or not at all. @param functions the rows of record.make_rows."""
     content = {
         "schema": SCHEMA,
         "passed": verdict.passed,
         "total": asdict(add_up(files)),
         "files": [asdict(one) for one in files],
+        "functions": list(functions),
         "gaps": [{**asdict(gap), "reason": row.reason} for gap, row in verdict.accepted]
         + [{**asdict(gap), "reason": None} for gap in verdict.unlisted],
         "unused_rows": [asdict(row) for row in verdict.unused],

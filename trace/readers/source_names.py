@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finds the file of this project that evidence means by a path of the machine it was made on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path, PurePosixPath
+
+
+class SourceNames:
+    """The project's files. Evidence of another checkout names them by other folders, so the longest known end of a path counts."""
+
+    def __init__(self, root: Path, known: Iterable[str]) -> None:
+        self._root = root.resolve().as_posix()
+        self._known = frozenset(known)
+        self._found: dict[str, str] = {}
+
+    def find(self, path: str) -> str:
+        """The file's name as findings show it, or nothing for a file that is none of the project."""
+        if path not in self._found:
+            self._found[path] = self._search(path.replace("\\", "/"))
+        return self._found[path]
+
+    def _search(self, path: str) -> str:
+        if path.startswith(f"{self._root}/"):
+            inner = path[len(self._root) + 1 :]
+            return inner if inner in self._known else ""
+        parts = [part for part in PurePosixPath(path).parts if part not in ("/", ".")]
+        ends = ("/".join(parts[start:]) for start in range(len(parts)))
+        return next((end for end in ends if end in self._known), "")

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Feeds an XML file to expat piece by piece, so that its size does not matter, and refuses what could fill the memory.
+
+@satisfies SWR-TRC-009      Design: docs/design/trace.md#evidence-in
+"""
+
+from __future__ import annotations
+
+import xml.parsers.expat
+from collections.abc import Callable
+from pathlib import Path
+from typing import BinaryIO
+
+from mamori.trace.model.finding import Place, Problem
+from mamori.trace.readers.files import UNREADABLE
+
+CHUNK_BYTES = 1 << 18
+DEPTH_MAX = 200
+"""Elements within elements. No writer of evidence comes near; the parser keeps each open one in memory."""
+
+Parser = xml.parsers.expat.XMLParserType
+Start = Callable[[str, dict[str, str]], None]
+End = Callable[[str], None]
+
+
+class Refused(Exception):
+    """The document holds what a file of its kind never needs."""
+
+
+def make_parser(start: Start, end: End, text: Callable[[str], None], doctype: bool = False) -> Parser:
+    """A parser that calls these. @param doctype whether a plain document type is let through; it is never loaded, and may define nothing."""
+    parser = xml.parsers.expat.ParserCreate()
+    depth = 0
+
+    def open_element(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal depth
+        depth += 1
+        if depth > DEPTH_MAX:
+            raise Refused(f"nests more than {DEPTH_MAX} elements, which no tool writes; refused unread")
+        start(tag, attributes)
+
+    def close_element(tag: str) -> None:
+        nonlocal depth
+        depth -= 1
+        end(tag)
+
+    def meet_doctype(_name: str, _system: str | None, _public: str | None, defines: int) -> None:
+        if defines or not doctype:
+            raise Refused("holds a document type definition (DTD, entities), which no test writes; refused unread")
+
+    parser.StartElementHandler = open_element
+    parser.EndElementHandler = close_element
+    parser.CharacterDataHandler = text
+    parser.StartDoctypeDeclHandler = meet_doctype
+    return parser
+
+
+def feed_file(parser: Parser, path: Path, shown: str, remedy: str, problems: list[Problem]) -> bool:
+    """@return whether all of the file was read; if not, that is a problem, one, which ends with `remedy`."""
+    try:
+        with path.open("rb") as file:
+            return feed(parser, file, shown, remedy, problems)
+    except OSError as error:
+        problems.append(Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {error.strerror or error}"))
+        return False
+
+
+def feed(parser: Parser, file: BinaryIO, shown: str, remedy: str, problems: list[Problem]) -> bool:
+    """The same for an open file. Raises OSError."""
+    try:
+        while chunk := file.read(CHUNK_BYTES):
+            parser.Parse(chunk, False)
+        parser.Parse(b"", True)
+        return True
+    except Refused as error:
+        problems.append(Problem(UNREADABLE, Place(shown, parser.CurrentLineNumber), str(error)))
+    except xml.parsers.expat.ExpatError as error:
+        reason = xml.parsers.expat.ErrorString(error.code)
+        problems.append(Problem(UNREADABLE, Place(shown, error.lineno), f"is not whole XML ({reason}); {remedy}"))
+    except (ValueError, LookupError) as error:  # an encoding that Python does not have
+        problems.append(Problem(UNREADABLE, Place(shown, 1), f"is not whole XML ({error}); {remedy}"))
+    return False
