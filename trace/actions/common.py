@@ -14,8 +14,9 @@ from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import calc_verdicts
 from mamori.trace.readers.files import InputError
 from mamori.trace.readers.project import read_project
+from mamori.trace.readers.toml_rows import is_date
 from mamori.trace.reports.json_report import format_json
-from mamori.trace.reports.text import Paint, format_findings, format_summary
+from mamori.trace.reports.text import Paint, format_findings, format_summary, format_waived
 
 EXIT_CLEAN = 0
 EXIT_FINDINGS = 1
@@ -32,6 +33,8 @@ def add_input(parser: argparse.ArgumentParser) -> None:
     add_root(parser)
     parser.add_argument("--evidence", type=Path, metavar="DIR", help="default: build/host-release/evidence, or the only one")
     parser.add_argument("--allow-missing", action="store_true", help="results that are missing (not failing) are no errors")
+    parser.add_argument("--date", type=_parse_date, metavar="DAY",
+                        help="day by which waivers expire, as 2026-11-30 (default: of the commit, or else of the evidence)")  # fmt: skip
 
 
 def add_output(parser: argparse.ArgumentParser) -> None:
@@ -41,7 +44,7 @@ def add_output(parser: argparse.ArgumentParser) -> None:
 
 def read_input(arguments: argparse.Namespace) -> Project:
     """The project that `add_input` chose. Raises InputError."""
-    return read_project(arguments.root, arguments.evidence, arguments.allow_missing)
+    return read_project(arguments.root, arguments.evidence, arguments.allow_missing, arguments.date or "")
 
 
 def find_item(project: Project, name: str) -> Item:
@@ -60,7 +63,14 @@ def print_outcome(arguments: argparse.Namespace, project: Project, findings: lis
         print(format_json(project, findings, verdicts), end="")
         return
     paint = Paint(sys.stdout)
-    print(format_findings(findings, paint) + format_summary(project, findings, verdicts, paint), end="")
+    listed = format_findings(findings, paint) + format_waived(project.waived, paint)
+    print(listed + format_summary(project, findings, verdicts, paint), end="")
+
+
+def _parse_date(text: str) -> str:
+    if not is_date(text):
+        raise argparse.ArgumentTypeError(f"'{text}' is no day of the form 2026-11-30")
+    return text
 
 
 def get_status(findings: list[Finding]) -> int:

@@ -6,9 +6,13 @@
 
 from __future__ import annotations
 
+from types import ModuleType
+
 from mamori.trace.checks import (
     code_missing,
     cycle,
+    decomposition_unsound,
+    decomposition_unused,
     design_link,
     duplicate_id,
     evidence_stale,
@@ -34,9 +38,13 @@ from mamori.trace.checks import (
     unknown_word,
     unreadable_input,
     untraced_function,
+    waiver_expired,
+    waiver_unused,
+    waiver_without_reason,
 )
-from mamori.trace.model.finding import Finding, Rule
+from mamori.trace.model.finding import OFF, Finding, Rule
 from mamori.trace.model.project import Project
+from mamori.trace.model.waiver import split_waived
 
 RULES = (
     unreadable_input,
@@ -50,6 +58,8 @@ RULES = (
     level_order,
     cycle,
     sil_lower,
+    decomposition_unused,
+    decomposition_unsound,
     shall_count,
     unfinished_text,
     design_link,
@@ -69,16 +79,28 @@ RULES = (
 )
 
 
+# They judge the waivers by what these waived, so they run when everything else has spoken.
+LATE_RULES = (waiver_without_reason, waiver_expired, waiver_unused)
+
+
 def list_rules() -> list[Rule]:
     """All rules in the order in which a reader meets their subjects."""
-    return [module.RULE for module in RULES]
+    return [module.RULE for module in RULES + LATE_RULES]
 
 
 def run_checks(project: Project) -> list[Finding]:
-    """All findings of all rules, in order of file and line."""
-    findings = [
-        Finding(module.RULE.id, module.RULE.severity, place, message, item)
-        for module in RULES
-        for place, message, item in module.check(project)
-    ]
-    return sorted(findings, key=Finding.sort_key)
+    """All findings of all rules that count, in order of file and line; those that are waived go to `project.waived`."""
+    findings, waived = split_waived(_run(RULES, project), project.waivers, project.date)
+    project.waived = sorted(waived, key=lambda each: each.finding.sort_key())
+    return sorted(findings + _run(LATE_RULES, project), key=Finding.sort_key)
+
+
+def _run(modules: tuple[ModuleType, ...], project: Project) -> list[Finding]:
+    """Findings with the severity that the rule pack gives them for the SIL of their item."""
+    findings = []
+    for module in modules:
+        for place, message, item in module.check(project):
+            severity = project.pack.get_severity(module.RULE, project.items.get(item))
+            if severity != OFF:
+                findings.append(Finding(module.RULE.id, severity, place, message, item))
+    return findings

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 ERROR = "error"
 WARNING = "warning"
+OFF = "off"
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -32,7 +33,10 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A rule: `id` never changes its meaning; `about` says in one sentence what it demands."""
+    """A rule: `id` never changes its meaning; `about` says in one sentence what it demands.
+
+    `severity` holds where no rule pack says another; OFF is a rule that only speaks where a pack demands it.
+    """
 
     id: str
     severity: str

@@ -12,15 +12,21 @@ from pathlib import Path
 
 from mamori.trace.model.code import CodeSchema, Function
 from mamori.trace.model.coverage import Coverage, CoverageRun, Reached
+from mamori.trace.model.decomposition import Decomposition
 from mamori.trace.model.evidence import CAMPAIGN, CampaignCase, CodeTag, Evidence, SourceTest, TestResult
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.item import Item, Schema
 from mamori.trace.model.lock import ReviewLock
+from mamori.trace.model.rule_pack import RulePack
+from mamori.trace.model.waiver import Waived, Waiver
 
 
 @dataclass
 class Project:
-    """All that was read. `all_items` keeps every definition in file order; `items` the first one of each id."""
+    """All that was read. `all_items` keeps every definition in file order; `items` the first one of each id.
+
+    `date` is the day of the state that is judged (ISO 8601), or empty where nothing needs or tells it. `run_checks` sets `waived`.
+    """
 
     root: Path
     schema: Schema
@@ -34,6 +40,11 @@ class Project:
     head: str = ""
     problems: list[Problem] = field(default_factory=list)
     allow_missing: bool = False
+    pack: RulePack = field(default_factory=RulePack)
+    waivers: list[Waiver] = field(default_factory=list)
+    waived: list[Waived] = field(default_factory=list)
+    decomposition: list[Decomposition] = field(default_factory=list)
+    date: str = ""
 
     @cached_property
     def items(self) -> dict[str, Item]:

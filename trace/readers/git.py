@@ -12,6 +12,11 @@ def read_head(root: Path) -> str:
     return _ask(root, "rev-parse", "HEAD")
 
 
+def read_commit_date(root: Path) -> str:
+    """Day of the checked-out commit as its committer wrote it (ISO 8601), or an empty text where there is no git repository."""
+    return _ask(root, "show", "--no-patch", "--format=%cs", "HEAD")
+
+
 def read_user(root: Path) -> str:
     """Name of the person at work as git knows it, or an empty text."""
     return _ask(root, "config", "user.name")

@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from mamori.trace.model.code import CodeBase
+from mamori.trace.checks import list_rules
 from mamori.trace.model.evidence import INTEGRATION, UNIT, Evidence
 from mamori.trace.model.project import Project, attach_sources
 from mamori.trace.readers.campaign import read_campaign, read_environment
@@ -14,16 +15,20 @@ from mamori.trace.readers.cost import read_cost
 from mamori.trace.readers.coverage import read_coverage
 from mamori.trace.readers.cpp_tags import read_cpp_tags
 from mamori.trace.readers.cpp_tests import read_cpp_tests
+from mamori.trace.readers.decomposition import read_decomposition
 from mamori.trace.readers.files import InputError, get_shown_path
-from mamori.trace.readers.git import read_head
+from mamori.trace.readers.git import read_commit_date, read_head
 from mamori.trace.readers.junit import read_junit
 from mamori.trace.readers.lock import read_lock
 from mamori.trace.readers.markdown_items import read_items
 from mamori.trace.readers.python_sources import read_python
+from mamori.trace.readers.rule_pack import read_rule_pack
 from mamori.trace.readers.schema import read_schema
 from mamori.trace.readers.script_tags import read_script_tags
 from mamori.trace.readers.source_names import SourceNames
 from mamori.trace.readers.timing import read_timing
+from mamori.trace.readers.toml_rows import is_date
+from mamori.trace.readers.waivers import read_waivers
 
 
 def find_evidence(root: Path) -> Path:
@@ -50,7 +55,23 @@ def read_requirements(root: Path) -> Project:
     return project
 
 
-def read_project(root: Path, evidence: Path | None, allow_missing: bool = False) -> Project:
+def read_judgement(project: Project, date: str = "") -> None:
+    """What the project says about its rules: pack, waivers, decomposition, and the day to judge by. Raises InputError.
+
+    `date` empty: the day of the checked-out commit, or else that of the evidence; never the clock, which would make the
+    outcome change by itself.
+    """
+    rules = [rule.id for rule in list_rules()]
+    project.pack = read_rule_pack(project.root, project.schema, rules)
+    project.waivers = read_waivers(project.root, rules, project.problems)
+    project.decomposition = read_decomposition(project.root, project.problems)
+    project.date = date
+    if not date and any(waiver.expires for waiver in project.waivers):
+        made = str(project.evidence.environment.get("date_utc") or "")[:10]
+        project.date = read_commit_date(project.root) or (made if is_date(made) else "")
+
+
+def read_project(root: Path, evidence: Path | None, allow_missing: bool = False, date: str = "") -> Project:
     """Everything. `evidence` None looks for the folder; no folder at all is an InputError unless results may be missing."""
     project = read_requirements(root)
     project.allow_missing = allow_missing
@@ -71,6 +92,7 @@ def read_project(root: Path, evidence: Path | None, allow_missing: bool = False)
         for result in project.evidence.results:
             if result.kind == UNIT and result.source is not None and result.source.file.startswith("verification/"):
                 result.kind = INTEGRATION
+    read_judgement(project, date)
     return project
 
 

@@ -25,24 +25,32 @@ def format_json(project: Project, findings: list[Finding], verdicts: dict[str, V
             "items": len(verdicts),
             "verdicts": dict(sorted(Counter(verdict.word for verdict in verdicts.values()).items())),
             "severities": dict(sorted(Counter(finding.severity for finding in findings).items())),
+            "waived": len(project.waived),
             "results": len(project.results),
             "cases": len(project.evidence.cases),
         },
         "rules": [{"id": rule.id, "severity": rule.severity, "about": rule.about} for rule in list_rules()],
-        "findings": [
-            {
-                "rule": finding.rule,
-                "severity": finding.severity,
-                "file": finding.place.file,
-                "line": finding.place.line,
-                "item": finding.item,
-                "message": finding.message,
-            }
-            for finding in findings
-        ],
+        "findings": [make_finding(finding) for finding in findings],
+        "waived": [
+            {**make_finding(each.finding), "reason": each.waiver.reason, "by": each.waiver.by, "expires": each.waiver.expires,
+             "waiver": str(each.waiver.place)}
+            for each in project.waived
+        ],  # fmt: skip
         "items": [make_item(project, project.items[key], verdicts) for key in sorted(verdicts)],
     }
     return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def make_finding(finding: Finding) -> dict[str, Any]:
+    """One finding as plain values."""
+    return {
+        "rule": finding.rule,
+        "severity": finding.severity,
+        "file": finding.place.file,
+        "line": finding.place.line,
+        "item": finding.item,
+        "message": finding.message,
+    }
 
 
 def make_item(project: Project, item: Item, verdicts: dict[str, Verdict]) -> dict[str, Any]:

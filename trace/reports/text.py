@@ -16,6 +16,7 @@ from mamori.trace.model.finding import ERROR, Finding
 from mamori.trace.model.item import Item
 from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import FAILED, INCOMPLETE, VERIFIED, WORST_FIRST, Verdict
+from mamori.trace.model.waiver import Waived
 
 _CODES = {"red": "31", "yellow": "33", "green": "32", "dim": "2", "bold": "1"}
 _VERDICT_COLOURS = {VERIFIED: "green", FAILED: "red", INCOMPLETE: "yellow"}
@@ -44,6 +45,16 @@ def format_findings(findings: list[Finding], paint: Paint) -> str:
     return "".join(lines)
 
 
+def format_waived(waived: list[Waived], paint: Paint) -> str:
+    """`file:line: waived: [rule] message (reason, place of the waiver)`, one line each."""
+    lines = []
+    for each in waived:
+        finding, waiver = each.finding, each.waiver
+        why = f"{waiver.reason} ({waiver.by}, {waiver.place})"
+        lines.append(f"{paint(str(finding.place), 'bold')}: {paint('waived', 'dim')}: [{finding.rule}] {finding.message}; {why}\n")
+    return "".join(lines)
+
+
 def format_summary(project: Project, findings: list[Finding], verdicts: dict[str, Verdict], paint: Paint) -> str:
     words = Counter(verdict.word for verdict in verdicts.values())
     counts = ", ".join(f"{words[word]} {paint.verdict(word)}" for word in reversed(WORST_FIRST) if words[word])
@@ -53,7 +64,8 @@ def format_summary(project: Project, findings: list[Finding], verdicts: dict[str
     lines = (
         f"{len(verdicts)} items: {counts or 'none'}",
         f"{len(project.tags)} code tags, {tests} test results, {cases} campaign cases",
-        f"{severities[ERROR]} errors, {len(findings) - severities[ERROR]} warnings",
+        f"{severities[ERROR]} errors, {len(findings) - severities[ERROR]} warnings"
+        + (f", {len(project.waived)} waived" if project.waived else ""),
     )
     return "\n".join(lines) + "\n"
 

@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable
 
 import pytest
-from trace_sample import COMMIT, Sample, format_gtest_case, format_item
+from trace_sample import COMMIT, Sample, format_gtest_case, format_item, format_record, format_waiver
 
 from mamori.trace.checks import list_rules
 
@@ -15,6 +15,8 @@ SYSTEM = "requirements/system/system.md"
 HEADER = "safety/include/alive.hpp"
 CPP_TEST = "safety/tests/alive_test.cpp"
 EVIDENCE = "build/host-release/evidence"
+DECOMPOSITION = "requirements/decomposition.toml"
+WAIVERS = "requirements/waivers.toml"
 GTEST = f"{EVIDENCE}/junit/safety.xml"
 CAMPAIGN = f"{EVIDENCE}/campaign/campaign.json"
 SILENT = '<testcase name="SilenceIsReported"'
@@ -215,6 +217,36 @@ def no_environment(s: Sample) -> Seed:
     return "missing", f"{EVIDENCE}/environment.json", 1
 
 
+def decomposition_idle(s: Sample) -> Seed:
+    return "no lower", DECOMPOSITION, s.write(DECOMPOSITION, format_record("SWR-SUP-002", "SYS-001", "SWR-SUP-001"))
+
+
+def decomposition_of_nothing(s: Sample) -> Seed:
+    return "no parent SYS-003", DECOMPOSITION, s.write(DECOMPOSITION, format_record("SWR-SUP-002", "SYS-003", "SWR-TLS-001"))
+
+
+def carrier_elsewhere(s: Sample) -> Seed:
+    s.replace(SOFTWARE, "- Parents: SYS-001\n- SIL: 2", "- Parents: SYS-001\n- SIL: 1")
+    return "does not refine SYS-001", DECOMPOSITION, s.write(DECOMPOSITION, format_record("SWR-SUP-002", "SYS-001", "SWR-TLS-001"))
+
+
+def carrier_unknown(s: Sample) -> Seed:
+    s.replace(SOFTWARE, "- Parents: SYS-001\n- SIL: 2", "- Parents: SYS-001\n- SIL: 1")
+    return "SWR-SUP-009", DECOMPOSITION, s.write(DECOMPOSITION, format_record("SWR-SUP-002", "SYS-001", "SWR-SUP-009"))
+
+
+def waiver_idle(s: Sample) -> Seed:
+    return "SWR-SUP-002", WAIVERS, s.write(WAIVERS, format_waiver("sil-lower", item="SWR-SUP-002"))
+
+
+def waiver_over(s: Sample) -> Seed:
+    return "2026-11-20", WAIVERS, s.write(WAIVERS, format_waiver("sil-lower", item="SWR-SUP-002", expires="2026-11-20"))
+
+
+def waiver_silent(s: Sample) -> Seed:
+    return "no reason", WAIVERS, s.write(WAIVERS, format_waiver("sil-lower", item="SWR-SUP-002", reason=""))
+
+
 # (seed, rule, whether the links are reviewed again afterwards)
 SEEDS = (
     (parent_unknown, "unknown-id", True),
@@ -231,6 +263,13 @@ SEEDS = (
     (level_skipped, "level-order", True),
     (level_sideways, "level-order", True),
     (sil_lower, "sil-lower", True),
+    (decomposition_idle, "decomposition-unused", True),
+    (decomposition_of_nothing, "decomposition-unused", True),
+    (carrier_elsewhere, "decomposition-unsound", True),
+    (carrier_unknown, "decomposition-unsound", True),
+    (waiver_idle, "waiver-unused", True),
+    (waiver_over, "waiver-expired", True),
+    (waiver_silent, "waiver-without-reason", True),
     (no_code, "code-missing", True),
     (no_test, "test-missing", True),
     (result_failed, "result-failed", True),

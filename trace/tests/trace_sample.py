@@ -59,6 +59,20 @@ def format_item(item_id: str, title: str, statement: str, **attributes: str) -> 
     return f"## {item_id} {title}\n\n{statement}\n\n{lines}\n\n"
 
 
+def format_record(child: str, parent: str, carrier: str) -> str:
+    """A decomposition file with one record."""
+    texts = {"child": child, "parent": parent, "reason": "It is so.", "independence": "They share nothing.", "by": "Sample Reviewer"}
+    rows = "".join(f'{key} = "{value}"\n' for key, value in texts.items())
+    return f'schema = "mamori.decomposition/1"\n\n[[record]]\n{rows}carried_by = ["{carrier}"]\n'
+
+
+def format_waiver(rule: str, **columns: str) -> str:
+    """A file of waivers with one row; reason and name are given unless they are among `columns`."""
+    texts = {"rule": rule, "reason": "It is so.", "by": "Sample Reviewer", **columns}
+    rows = "".join(f'{key} = "{value}"\n' for key, value in texts.items())
+    return f'schema = "mamori.waivers/1"\n\n[[waiver]]\n{rows}'
+
+
 @dataclass
 class Sample:
     """A project in `root`. Its files are changed in place; `review` renews the lock afterwards."""
@@ -83,6 +97,11 @@ class Sample:
         old = path.read_text(encoding="utf-8")
         path.write_text(old + text, encoding="utf-8")
         return old.count("\n") + 1
+
+    def write(self, file: str, text: str) -> int:
+        """Writes a new file. @return the line of its first row."""
+        (self.root / file).write_text(text, encoding="utf-8")
+        return text[: text.index("[[")].count("\n") + 1
 
     def review(self) -> None:
         project = read_requirements(self.root)
