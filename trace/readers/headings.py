@@ -27,10 +27,15 @@ def read_anchors(root: Path, file: str) -> list[str] | None:
 
 def list_anchors(text: str) -> list[str]:
     """`## Verdict: who decides?` -> `verdict-who-decides`; a repeated heading gets `-1`, `-2`, ... as on the forges."""
-    anchors: list[str] = []
+    return [anchor for anchor, _, _ in list_headings(text)]
+
+
+def list_headings(text: str) -> list[tuple[str, int, int]]:
+    """(anchor, depth, line) of each heading; depth counts its hash signs, lines count from 1."""
+    headings: list[tuple[str, int, int]] = []
     counts: dict[str, int] = {}
     fence = ""
-    for line in text.splitlines():
+    for number, line in enumerate(text.splitlines(), start=1):
         mark = _FENCE.match(line)
         if mark and (not fence or mark[1].startswith(fence)):
             fence = "" if fence else mark[1]
@@ -39,8 +44,9 @@ def list_anchors(text: str) -> list[str]:
             slug = _make_slug(heading[1])
             count = counts.get(slug, 0)
             counts[slug] = count + 1
-            anchors.append(f"{slug}-{count}" if count else slug)
-    return anchors
+            depth = len(line.lstrip()) - len(line.lstrip().lstrip("#"))
+            headings.append((f"{slug}-{count}" if count else slug, depth, number))
+    return headings
 
 
 def _make_slug(heading: str) -> str:
