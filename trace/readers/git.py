@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Asks git which commit is checked out and who reviews."""
+"""Asks git which commit is checked out, whether the files are as it has them, and who reviews."""
 
 from __future__ import annotations
 
 import subprocess
 from pathlib import Path
+
+from mamori.trace.readers.git_changes import ask_git
 
 
 def read_head(root: Path) -> str:
@@ -20,6 +22,12 @@ def read_commit_date(root: Path) -> str:
 def read_user(root: Path) -> str:
     """Name of the person at work as git knows it, or an empty text."""
     return _ask(root, "config", "user.name")
+
+
+def read_worktree(root: Path) -> str:
+    """`clean` or `changed` since the commit; `unknown` where there is no git repository."""
+    answer = ask_git(root, ["status", "--porcelain"])
+    return "unknown" if answer is None else "changed" if answer else "clean"
 
 
 def _ask(root: Path, *arguments: str) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -38,6 +39,8 @@ class FileChange:
 
 def resolve_revision(root: Path, revision: str) -> str:
     """Hash of the commit that `revision` names. Raises InputError where there is no git, no repository, or no such commit."""
+    if shutil.which("git") is None:
+        raise InputError("git is missing; install the package git")
     if _ask(root, ["rev-parse", "--git-dir"]) is None:
         raise InputError(f"{root}: not in a git repository; only git knows what changed")
     if revision and not revision.startswith("-"):

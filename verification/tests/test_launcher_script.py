@@ -18,7 +18,7 @@ from mamori.verification.command.main import make_parser
 from mamori.verification.command.project import ROOT
 
 PACKAGES_OF_DEMO = ("python3 python3-venv g++ cmake ninja-build libsimbody-dev liborocos-kdl-dev libeigen3-dev "
-                    "libyaml-cpp-dev libgtest-dev relacy-dev libcli11-dev nlohmann-json3-dev graphviz").split()  # fmt: skip
+                    "libyaml-cpp-dev libgtest-dev relacy-dev libcli11-dev nlohmann-json3-dev graphviz git openssh-client").split()  # fmt: skip
 
 TOOLS = {
     "id": 'echo "${FAKE_UID:-0}"',
@@ -103,15 +103,17 @@ def test_second_run_installs_nothing(box: Box) -> None:
 @pytest.mark.verifies("SWR-CLI-001", technique="equivalence_classes")
 @pytest.mark.parametrize(
     ("words", "wanted", "unwanted"),
-    [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("e2e",), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "git"),
+    [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("e2e",), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "strace"),
      (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
-     (("prove", "safe-state"), "spin", "cppcheck"), (("test",), "z3", "git"), (("demo",), "cmake", "spin"),
+     (("prove", "safe-state"), "spin", "cppcheck"), (("test",), "z3", "strace"), (("demo",), "cmake", "spin"),
      (("demo",), "graphviz", "cppcheck"), (("verify",), "graphviz", "cppcheck"),
      (("timing", "x", "--load"), "stress-ng", "valgrind"), (("timing", "x"), "cmake", "stress-ng"),
      (("timing", "x", "--", "--load"), "cmake", "stress-ng"),
      (("cost", "x"), "valgrind", "stress-ng"), (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev"),
-     (("table", "t.json", "--text"), "python3-venv", "graphviz"), (("table", "t.json", "--out", "d"), "graphviz", "cmake")],
+     (("table", "t.json", "--text"), "python3-venv", "graphviz"), (("table", "t.json", "--out", "d"), "graphviz", "cmake"),
+     (("trace", "check"), "python3-venv", "git"), (("trace", "impact", "HEAD"), "git", "cmake"),
+     (("trace", "verify", "b.tar"), "openssh-client", "cmake"), (("test",), "openssh-client", "strace")],
 )  # fmt: skip
 def test_each_command_needs_its_groups_only(box: Box, words: tuple[str, ...], wanted: str, unwanted: str) -> None:
     box.run(*words)

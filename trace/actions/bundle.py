@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`mamori trace bundle`."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.metadata
+import sys
+import tempfile
+from pathlib import Path
+
+from mamori.trace.actions.common import add_input, add_output, get_status, print_outcome, read_input
+from mamori.trace.readers.files import InputError
+
+HELP = "pack report, evidence and requirements with a manifest of hashes, signed on demand"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_input(parser)
+    add_output(parser)
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR|FILE.tar", help="where to write the bundle; a folder must not be there yet")
+    parser.add_argument("--key", type=Path, metavar="FILE", help="private SSH key that signs the manifest")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from mamori.trace.model.bundle import Manifest
+    from mamori.trace.model.verdict import calc_verdicts
+    from mamori.trace.readers.git import read_worktree
+    from mamori.trace.reports.bundle import add_text, check_out, finish, stage
+    from mamori.trace.reports.html import write_report
+    from mamori.trace.reports.json_report import format_json
+    from mamori.trace.signature import demand_key
+
+    if arguments.key is not None:
+        demand_key(arguments.key)
+    project = read_input(arguments)
+    if not project.evidence.present:
+        raise InputError(f"{arguments.root}: no evidence to bundle; run the tests first, or name the folder with --evidence")
+    sources = [(Path(project.evidence.folder), "evidence"), (arguments.root / "requirements", "requirements")]
+    check_out(arguments.out, [path for path, _ in sources])
+    manifest = Manifest(project.head, read_worktree(arguments.root), importlib.metadata.version("mamori"))
+    manifest.evidence_commit = str(project.evidence.environment.get("commit", ""))
+    with tempfile.TemporaryDirectory(prefix="mamori-bundle-") as name:
+        folder = Path(name)
+        stage(sources, folder, manifest)
+        findings = write_report(project, folder / "report.part")
+        add_text(folder, "report/index.html", (folder / "report.part").read_text(encoding="utf-8"), manifest)
+        (folder / "report.part").unlink()
+        add_text(folder, "trace.json", format_json(project, findings, calc_verdicts(project)), manifest)
+        finish(folder, manifest, arguments.key, arguments.out)
+    print_outcome(arguments, project, findings)
+    signed = "signed" if arguments.key else "not signed"
+    print(f"bundle: {arguments.out}, {len(manifest.files)} files, {signed}", file=sys.stderr if arguments.output == "json" else sys.stdout)
+    return get_status(findings)
