@@ -3,6 +3,13 @@
 
 import sys
 
-from mamori.trace.command import main
+from mamori.trace.cache.outcome import run_kept
 
-sys.exit(main())
+
+def _run() -> int:
+    from mamori.trace.command import main  # all readers and rules, which an unchanged project does not need
+
+    return main()
+
+
+sys.exit(run_kept(sys.argv[1:], _run))

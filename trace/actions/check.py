@@ -13,6 +13,7 @@ HELP = "report every finding, with rule, file and line"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_input(parser)
     add_output(parser)
+    parser.add_argument("--no-cache", action="store_true", help="read everything, also when nothing changed since the last check")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -6,22 +6,23 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
+from mamori.trace.cache.inputs import note_question
 from mamori.trace.readers.git_changes import ask_git
 
 
 def read_head(root: Path) -> str:
     """Hash of the checked-out commit, or an empty text where there is no git repository."""
-    return _ask(root, "rev-parse", "HEAD")
+    return ask(root, "rev-parse", "HEAD")
 
 
 def read_commit_date(root: Path) -> str:
     """Day of the checked-out commit as its committer wrote it (ISO 8601), or an empty text where there is no git repository."""
-    return _ask(root, "show", "--no-patch", "--format=%cs", "HEAD")
+    return ask(root, "show", "--no-patch", "--format=%cs", "HEAD")
 
 
 def read_user(root: Path) -> str:
     """Name of the person at work as git knows it, or an empty text."""
-    return _ask(root, "config", "user.name")
+    return ask(root, "config", "user.name")
 
 
 def read_worktree(root: Path) -> str:
@@ -30,10 +31,13 @@ def read_worktree(root: Path) -> str:
     return "unknown" if answer is None else "changed" if answer else "clean"
 
 
-def _ask(root: Path, *arguments: str) -> str:
+def ask(root: Path | str, *arguments: str) -> str:
+    """What git answers in one line, or an empty text where it does not. The answer counts as an input of the run (trace/cache)."""
     command = ["git", "-C", str(root), *arguments]
     try:
-        answer = subprocess.run(command, capture_output=True, text=True, timeout=10, check=False)
+        result = subprocess.run(command, capture_output=True, text=True, timeout=10, check=False)
+        answer = result.stdout.strip() if result.returncode == 0 else ""
     except (OSError, subprocess.TimeoutExpired):
-        return ""
-    return answer.stdout.strip() if answer.returncode == 0 else ""
+        answer = ""
+    note_question(str(root), arguments, answer)
+    return answer

@@ -3,10 +3,22 @@
 
 import sys
 
-try:
+
+def _run() -> int:
     from mamori.verification.command.main import main
+
+    return main()
+
+
+try:
+    if sys.argv[1:2] == ["trace"]:
+        from mamori.trace.cache.outcome import run_kept
+
+        status = run_kept(sys.argv[2:], _run)
+    else:
+        status = _run()
 except KeyboardInterrupt:  # stopped before it could listen
     print("\nmamori: stopped; no report was written", file=sys.stderr)
-    sys.exit(130)
+    status = 130
 
-sys.exit(main())
+sys.exit(status)

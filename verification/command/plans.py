@@ -160,7 +160,7 @@ def cppcheck_step(project: Project) -> Step:
 def trace_steps(*options: str) -> tuple[Step, ...]:
     """Trace check and report: the end of every plan. The report is written also when something failed before."""
     return (
-        Step(name="trace check", commands=((*COMMAND, "trace", "check", "--root", "{root}", *options),)),
+        Step(name="trace check", commands=((*COMMAND, "trace", "check", "--no-cache", "--root", "{root}", *options),)),
         Step(
             name=REPORT,
             commands=((*COMMAND, "trace", "report", "--root", "{root}", *options),),
