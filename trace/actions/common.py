@@ -7,7 +7,9 @@ import argparse
 import sys
 from pathlib import Path
 
+from mamori.trace.actions.foreign import add_foreign, get_foreign
 from mamori.trace.checks import unreadable_input
+from mamori.trace.formats.in_place import read_in_place
 from mamori.trace.model.finding import ERROR, Finding
 from mamori.trace.model.item import Item
 from mamori.trace.model.project import Project
@@ -32,6 +34,7 @@ def add_input(parser: argparse.ArgumentParser) -> None:
     """What to read: project and evidence."""
     add_root(parser)
     parser.add_argument("--evidence", type=Path, metavar="DIR", help="default: build/host-release/evidence, or the only one")
+    add_foreign(parser)
     parser.add_argument("--allow-missing", action="store_true", help="results that are missing (not failing) are no errors")
     parser.add_argument("--date", type=_parse_date, metavar="DAY",
                         help="day by which waivers expire, as 2026-11-30 (default: of the commit, or else of the evidence)")  # fmt: skip
@@ -44,6 +47,9 @@ def add_output(parser: argparse.ArgumentParser) -> None:
 
 def read_input(arguments: argparse.Namespace) -> Project:
     """The project that `add_input` chose. Raises InputError."""
+    foreign = get_foreign(arguments)
+    if foreign is not None:
+        return read_in_place(foreign)
     return read_project(arguments.root, arguments.evidence, arguments.allow_missing, arguments.date or "")
 
 

@@ -17,11 +17,11 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
         level = project.schema.levels[item.level]
         if item.id in circling or not item.parents:
             continue
-        levels = {parent: parent.partition("-")[0] for parent in item.parents}
+        levels = {parent: key for parent in item.parents if (key := project.find_level_key(parent))}
         wrong = [parent for parent, key in levels.items() if key not in level.parents + level.also]
         for parent in wrong:
             allowed = ", ".join(level.parents + level.also) or "none"
             yield item.find_place("Parents"), f"{item.id} names {parent} as parent; allowed levels: {allowed}", item.id
-        if not wrong and level.parents and not set(levels.values()) & set(level.parents):
+        if not wrong and len(levels) == len(set(item.parents)) and level.parents and not set(levels.values()) & set(level.parents):
             above = " or ".join(level.parents)
             yield item.find_place("Parents"), f"{item.id} skips a level: none of its parents is a {above} item", item.id

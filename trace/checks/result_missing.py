@@ -14,6 +14,7 @@ RULE = Rule("result-missing", ERROR, "Every test that verifies a requirement was
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     if project.allow_missing:
         return
+    shown = project.evidence.results_shown or f"{project.evidence.shown}/junit"
     for test in project.tests_without_result:
-        message = f"test {test.title} ({test.requirement}) has no result in {project.evidence.shown}/junit"
+        message = f"test {test.title} ({test.requirement}) has no result in {shown}"
         yield test.place, message, test.requirement

@@ -14,6 +14,9 @@ LOCK = "requirements/trace.lock"
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
+    for problem in project.problems:  # revisions that stand in the ids of a foreign format
+        if problem.rule == RULE.id:
+            yield problem.place, problem.message, problem.item
     links = [
         (item, project.items[parent])
         for item in project.live_items
@@ -21,7 +24,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
         if parent in project.items and item.whole
     ]
     if project.lock is None:
-        if links:
+        if links and project.review_needed:
             message = f"is missing: none of the {len(links)} links was reviewed; record it with `mamori trace review --all`"
             yield Place(LOCK, 1), message, ""
         return

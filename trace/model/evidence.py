@@ -124,10 +124,14 @@ class CostRun:
 
 @dataclass(slots=True)
 class Evidence:
-    """Everything below one evidence folder. `folder` is its path as given, `shown` as findings name it."""
+    """Everything below one evidence folder. `folder` is its path as given, `shown` as findings name it.
+
+    `results_shown` names result files that were given one by one.
+    """
 
     folder: str = ""
     shown: str = ""
+    results_shown: str = ""
     results: list[TestResult] = field(default_factory=list)
     cases: list[CampaignCase] = field(default_factory=list)
     has_campaign: bool = False

@@ -45,6 +45,7 @@ class Project:
     waived: list[Waived] = field(default_factory=list)
     decomposition: list[Decomposition] = field(default_factory=list)
     date: str = ""
+    review_needed: bool = True
 
     @cached_property
     def items(self) -> dict[str, Item]:
@@ -149,7 +150,7 @@ class Project:
         """Tests that the sources hold and no result tells about."""
         executed: set[tuple[str, str, str]] = set()
         for result in self.results:
-            executed.update(_list_result_keys(result))
+            executed.update(list_result_keys(result))
         return [test for test in self.tests if test.name and (test.suite, test.name, test.requirement) not in executed]
 
     @cached_property
@@ -160,6 +161,12 @@ class Project:
     def cycles(self) -> list[list[str]]:
         """Parent cycles, each from its smallest id on, in order."""
         return _find_cycles({item.id: item.parents for item in self.live_items})
+
+    def find_level_key(self, item_id: str) -> str:
+        """The level of an item, or the one that the shape of an unknown id tells, or an empty text."""
+        item = self.items.get(item_id)
+        level = None if item else self.schema.find_level(item_id)
+        return item.level if item else level.key if level else ""
 
     def suggest(self, unknown: str, count: int = 3) -> list[str]:
         """The nearest known ids, best first. Ids of the same area come first, so typing half an id helps."""
@@ -172,7 +179,7 @@ def attach_sources(project: Project) -> None:
     """Gives each result the place of its test in the sources, which also tells unit tests from integration tests."""
     places = {(test.suite, test.name): test.place for test in project.tests if test.name}
     for result in project.evidence.results:
-        for suite, name, _ in _list_result_keys(result):
+        for suite, name, _ in list_result_keys(result):
             if (suite, name) in places:
                 result.source = places[(suite, name)]
                 break
@@ -190,7 +197,7 @@ def _get_case_id(name: str) -> str:
     return name.partition("[")[0]
 
 
-def _list_result_keys(result: TestResult) -> list[tuple[str, str, str]]:
+def list_result_keys(result: TestResult) -> list[tuple[str, str, str]]:
     """Keys under which a source test may look for this result.
 
     GoogleTest adds instance names and numbers (`Instance/Suite/0`, `Name/3`), pytest adds packages (`a.b.test_c.TestD`)

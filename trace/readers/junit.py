@@ -14,6 +14,7 @@ from pathlib import Path
 from mamori.trace.model.evidence import CAMPAIGN, ERRORED, FAILED, PASSED, SKIPPED, UNIT, TestResult
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import UNREADABLE, get_shown_path
+from mamori.trace.readers.tag_aliases import RESULT_PROPERTIES
 
 _WORST_FIRST = (ERRORED, FAILED, SKIPPED, PASSED)
 _OUTCOMES = {"failure": FAILED, "error": ERRORED, "skipped": SKIPPED}
@@ -129,5 +130,6 @@ class _Collector:
         return Place(get_shown_path(Path(attributes["file"]), self._root), int(line) if line.isdigit() else 1)
 
     def _set_property(self, name: str, value: str) -> None:
+        name = RESULT_PROPERTIES.get(name, name)
         if self._case is not None and name in ("requirement", "technique", "polarity"):
             setattr(self._case, name, value)

@@ -18,9 +18,9 @@ _HEAD = "# mamori.lock/1: child, fingerprint, parent, fingerprint, date, reviewe
 _COLUMNS = 6
 
 
-def read_lock(root: Path, problems: list[Problem]) -> ReviewLock | None:
-    """The lock, or None where the project has none."""
-    path = root / LOCK_PATH
+def read_lock(root: Path, problems: list[Problem], path: Path | None = None) -> ReviewLock | None:
+    """The lock, or None where the project has none. `path`: where it is not at its usual place."""
+    path = path or root / LOCK_PATH
     if not path.exists():
         return None
     shown = get_shown_path(path, root)
@@ -39,10 +39,10 @@ def read_lock(root: Path, problems: list[Problem]) -> ReviewLock | None:
     return lock
 
 
-def write_lock(root: Path, lock: ReviewLock) -> None:
+def write_lock(root: Path, lock: ReviewLock, path: Path | None = None) -> None:
     """Writes the lock whole or not at all."""
     rows = [
         f"{each.child} {each.child_fingerprint} {each.parent} {each.parent_fingerprint} {each.date} {each.reviewer}\n"
         for _, each in sorted(lock.reviews.items())
     ]
-    write_whole(root / LOCK_PATH, _HEAD + "".join(rows))
+    write_whole(path or root / LOCK_PATH, _HEAD + "".join(rows))

@@ -87,7 +87,7 @@ def read_project(root: Path, evidence: Path | None, allow_missing: bool = False,
     project.functions = code.bind()
     folder = _choose_evidence(root, evidence, allow_missing)
     if folder is not None:
-        project.evidence = _read_evidence(folder, project)
+        project.evidence = read_evidence(folder, project)
         attach_sources(project)
         for result in project.evidence.results:
             if result.kind == UNIT and result.source is not None and result.source.file.startswith("verification/"):
@@ -106,7 +106,8 @@ def _choose_evidence(root: Path, evidence: Path | None, allow_missing: bool) -> 
     return find_evidence(root)
 
 
-def _read_evidence(folder: Path, project: Project) -> Evidence:
+def read_evidence(folder: Path, project: Project) -> Evidence:
+    """Everything below one evidence folder."""
     evidence = Evidence(folder=folder.as_posix(), shown=get_shown_path(folder, project.root))
     evidence.results = read_junit(folder / "junit", project.root, project.problems)
     read_environment(folder, project.root, evidence, project.problems)

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads a project that is kept in another tool's format into the model of the rules, without moving it.
+
+@satisfies SWR-TRC-045, SWR-TRC-046, SWR-TRC-047      Design: docs/design/trace_formats.md#in-place
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from mamori.trace.formats.items import Converted, convert
+from mamori.trace.formats.mapping import read_mapping
+from mamori.trace.formats.registry import read_format
+from mamori.trace.formats.sources import read_sources
+from mamori.trace.model.evidence import UNIT, CodeTag, Evidence, SourceTest, TestResult
+from mamori.trace.model.finding import Place, Problem
+from mamori.trace.model.project import Project, attach_sources, list_result_keys
+from mamori.trace.readers.files import UNREADABLE, InputError, get_shown_path
+from mamori.trace.readers.git import read_head
+from mamori.trace.readers.junit import parse_junit
+from mamori.trace.readers.lock import read_lock
+from mamori.trace.readers.project import read_evidence
+
+LOCK_NAME = "trace.lock"
+_REVISION = re.compile(r"~\d+$")
+
+
+@dataclass(slots=True)
+class ForeignInput:
+    """What to read. `sources` None: the folder of `path`. `results` are JUnit files or folders of them."""
+
+    format: str
+    path: Path
+    root: Path = Path(".")
+    results: list[Path] = field(default_factory=list)
+    sources: Path | None = None
+    schema: Path | None = None
+    evidence: Path | None = None
+    allow_missing: bool = False
+
+
+def read_in_place(given: ForeignInput) -> Project:
+    """The project with all its evidence. Raises InputError where nothing can be judged."""
+    mapping = read_mapping(given.format, given.schema)
+    folder = given.path if given.path.is_dir() else given.path.parent
+    root = given.root if folder.resolve().is_relative_to(given.root.resolve()) else folder
+    problems: list[Problem] = []
+    foreign = read_format(given.format, given.path, root, problems)
+    converted = convert(foreign, mapping, problems)
+    project = Project(root, converted.schema, converted.items, problems=problems, allow_missing=given.allow_missing)
+    project.lock = read_lock(root, problems, folder / LOCK_NAME)
+    project.review_needed = project.lock is not None
+    project.head = read_head(folder)
+    tags, tests = read_sources(given.sources or folder, root, problems)
+    code = [CodeTag(target, item.place, item.id) for item in converted.code_items for target in converted.stands_for[item.id]]
+    project.tags = [replace(tag, requirement=each) for tag in tags for each in _resolve(tag.requirement, tag.place, converted, problems)] + code
+    project.tests = [replace(test, requirement=each) for test in tests for each in _resolve(test.requirement, test.place, converted, problems)]
+    project.evidence = _read_evidence(given, project)
+    project.evidence.results = _link_results(project.evidence.results, project.tests, converted, problems)
+    attach_sources(project)
+    _follow_polarity(project, converted)
+    return project
+
+
+def _resolve(named: str, place: Place, converted: Converted, problems: list[Problem]) -> Iterable[str]:
+    """The requirements that an id stands for: itself, those of a test or code item, or the current revision of an outdated one."""
+    if named in converted.stands_for:
+        return converted.stands_for[named]
+    current = converted.revisions.get(_REVISION.sub("", named), named)
+    if current != named:
+        message = f"names {named}, and the item is at {current}; look again and name the new revision"
+        problems.append(Problem("suspect-link", place, message, current))
+    return (current,)
+
+
+def _read_evidence(given: ForeignInput, project: Project) -> Evidence:
+    """Results of the files that were named, and a whole evidence folder where there is one."""
+    if given.evidence is not None and not given.evidence.is_dir():
+        raise InputError(f"{given.evidence}: no such evidence folder; run the tests first")
+    evidence = read_evidence(given.evidence, project) if given.evidence else Evidence()
+    evidence.results_shown = ", ".join(get_shown_path(path, project.root) for path in given.results) or "--results, which names no file"
+    for path in given.results:
+        if not path.exists():
+            raise InputError(f"{path}: no such result file; run the tests first")
+        for file in sorted(path.glob("*.xml")) if path.is_dir() else [path]:
+            shown = get_shown_path(file, project.root)
+            try:
+                data = file.read_bytes()
+            except OSError as error:
+                project.problems.append(Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {error.strerror or error}"))
+                continue
+            evidence.results += parse_junit(data, shown, UNIT, project.root, project.problems)
+    return evidence
+
+
+def _link_results(results: list[TestResult], tests: list[SourceTest], converted: Converted, problems: list[Problem]) -> list[TestResult]:
+    """One result for each requirement that it names, or that its test in the sources names."""
+    known: dict[tuple[str, str], list[SourceTest]] = {}
+    for test in tests:
+        known.setdefault((test.suite, test.name), []).append(test)
+    linked = []
+    for result in results:
+        own = [word.strip() for word in result.requirement.split(",") if word.strip()]
+        targets = [(each, result.polarity) for word in own for each in _resolve(word, result.place, converted, problems)]
+        if not targets:
+            sources = [test for suite, name, _ in list_result_keys(result) for test in known.get((suite, name), ())]
+            targets = [(test.requirement, result.polarity or test.polarity) for test in sources]
+        for requirement, polarity in dict.fromkeys(targets or [("", "")]):
+            linked.append(replace(result, requirement=requirement, polarity=polarity))
+    return linked
+
+
+def _follow_polarity(project: Project, converted: Converted) -> None:
+    """An item that cannot state a polarity demands the one that its tests show."""
+    for item in project.all_items:
+        shown = {test.polarity for test in project.tests_of.get(item.id, [])} | {
+            result.polarity or "nominal" for result in project.results_of.get(item.id, [])
+        }
+        if item.id not in converted.polar and shown == {"violation"}:
+            item.polarity = ("violation",)

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The formats by name, and which of them a file looks like."""
+
+from __future__ import annotations
+
+from itertools import islice
+from pathlib import Path
+from types import ModuleType
+
+from mamori.trace.formats import needs, oft, sdoc
+from mamori.trace.formats.files import list_files
+from mamori.trace.formats.model import ForeignProject
+from mamori.trace.model.finding import Problem
+from mamori.trace.readers.files import InputError
+
+FORMATS: dict[str, ModuleType] = {module.NAME: module for module in (sdoc, needs, oft)}
+_PEEK_BYTES = 65536
+_PEEK_FILES = 200
+
+
+def read_format(name: str, path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
+    """All items. Raises InputError where there is nothing to judge: no such path, no file of the format, no item in them."""
+    module = FORMATS[name]
+    if not path.exists():
+        raise InputError(f"{path}: no such file or folder")
+    before = len(problems)
+    project = module.read(path, root, problems)
+    unread = len(problems) > before
+    if not project.items and (not unread or _guess_others(name, path)):
+        raise InputError(_describe_nothing(name, module, path))
+    return project
+
+
+def _describe_nothing(name: str, module: ModuleType, path: Path) -> str:
+    others = _guess_others(name, path)
+    if others:
+        return f"{path}: holds no item of {module.TITLE}; it looks like {FORMATS[others[0]].TITLE}: use --format {others[0]}"
+    wanted = " or ".join(f"*{suffix}" if suffix.startswith(".") else suffix for suffix in module.SUFFIXES)
+    return f"{path}: holds no item of {module.TITLE} (looked for {wanted}); name the file or folder of the requirements"
+
+
+def _guess_others(name: str, path: Path) -> list[str]:
+    """Formats other than `name` that files below `path` look like, the most frequent first."""
+    counts: dict[str, int] = {}
+    for file in islice(list_files(path, ("",)), _PEEK_FILES):
+        try:
+            with file.open("rb") as stream:
+                text = stream.read(_PEEK_BYTES).decode("utf-8-sig", errors="replace")
+        except OSError:
+            continue
+        for other, module in FORMATS.items():
+            if other != name and module.looks_alike(file.name, text):
+                counts[other] = counts.get(other, 0) + 1
+    return sorted(counts, key=lambda other: (-counts[other], other))

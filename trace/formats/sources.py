@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads tags of code and tests of a foreign project, whatever the shape of its ids, and binds them to functions and tests.
+
+@satisfies SWR-TRC-047      Design: docs/design/trace_formats.md#tags-of-other-tools
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import tokenize
+from bisect import bisect_left, bisect_right
+from pathlib import Path
+
+import tree_sitter
+import tree_sitter_cpp
+
+from mamori.trace.formats.files import read_whole
+from mamori.trace.model.evidence import CodeTag, SourceTest
+from mamori.trace.model.finding import Place, Problem
+from mamori.trace.readers.cpp_tags import FILE_SYMBOL, parse_cpp_tags
+from mamori.trace.readers.files import get_shown_path, is_test_file, walk_sources
+from mamori.trace.readers.tag_aliases import TEST, Alias, find_aliases, has_aliases
+
+_CPP = (".c", ".h", ".hpp", ".hh", ".hxx", ".cpp", ".cc", ".cxx", ".ipp")
+_PYTHON = (".py",)
+_OTHERS = (".rs", ".java", ".kt", ".go", ".js", ".ts", ".cs", ".swift", ".sh", ".cmake", "CMakeLists.txt", ".lua", ".sql")
+_LEADER = re.compile(r"^\s*(?://|/\*|\*|#|--|;|%)|//|/\*")
+_CPP_TEST = re.compile(r"^[ \t]*(?:TYPED_)?TEST(?:_F|_P)?\s*\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
+_CPP_CALL = re.compile(r"""\b(?:verifies\(\s*|RecordProperty\(\s*"(?:requirement|\w*[Vv]erifies)"\s*,\s*)"([^"]+)"([^;]*);""")
+_PYTHON_TEST = re.compile(r"^(?P<indent>[ \t]*)(?:async[ \t]+)?def[ \t]+(?P<name>test\w*)|^class[ \t]+(?P<group>\w+)", re.MULTILINE)
+_PYTHON_MARK = re.compile(r"""^[ \t]*@pytest\.mark\.verifies\(\s*["']([^"']+)["']""", re.MULTILINE)
+_POLARITY = re.compile(r"k?(Violation|violation)\b")
+
+
+def read_sources(folder: Path, root: Path, problems: list[Problem]) -> tuple[list[CodeTag], list[SourceTest]]:
+    """Tags and tests of all source files below `folder`."""
+    parser = tree_sitter.Parser(tree_sitter.Language(tree_sitter_cpp.language()))
+    tags: list[CodeTag] = []
+    tests: list[SourceTest] = []
+    for path, relative in walk_sources(folder, (*_CPP, *_PYTHON, *_OTHERS)):
+        shown = get_shown_path(path, root)
+        text = read_whole(path, shown, problems)
+        if text is None or not (has_aliases(text) or "verifies" in text.lower()):
+            continue
+        aliases = [alias for alias in find_aliases(text)]
+        in_test = is_test_file(relative)
+        found = [alias for alias in aliases if in_test or alias.kind == TEST]
+        tests += _read_tests(text, shown, found)
+        tags += _read_tags(text, shown, [alias for alias in aliases if alias not in found], parser)
+    return tags, tests
+
+
+def _read_tags(text: str, shown: str, aliases: list[Alias], parser: tree_sitter.Parser) -> list[CodeTag]:
+    if not aliases:
+        return []
+    if shown.endswith(_CPP):
+        return _read_cpp_tags(text, shown, aliases, parser)
+    symbols = _name_python_lines(text) if shown.endswith(_PYTHON) else _list_comment_lines(text)
+    return [CodeTag(each, Place(shown, alias.line), symbols[alias.line])
+            for alias in aliases if alias.line in symbols for each in alias.ids]  # fmt: skip
+
+
+def _read_cpp_tags(text: str, shown: str, aliases: list[Alias], parser: tree_sitter.Parser) -> list[CodeTag]:
+    """Each tag is written over by one of the project's own shape, whose number leads back to the foreign ids; lines stay."""
+    lines = text.splitlines()
+    for number, alias in sorted(enumerate(aliases), key=lambda pair: (pair[1].line, -pair[1].start)):
+        line = lines[alias.line - 1]
+        lines[alias.line - 1] = f"{line[: alias.start]}@satisfies ALIAS-{number} .{line[alias.end :]}"
+    found = parse_cpp_tags("\n".join(lines), shown, parser, [])
+    return [CodeTag(each, tag.place, tag.symbol) for tag in found if tag.requirement.startswith("ALIAS-")
+            for each in aliases[int(tag.requirement[6:])].ids]  # fmt: skip
+
+
+def _list_comment_lines(text: str) -> dict[int, str]:
+    return {number: FILE_SYMBOL for number, line in enumerate(text.splitlines(), start=1) if _LEADER.search(line)}
+
+
+def _name_python_lines(text: str) -> dict[int, str]:
+    """The symbol of each line that is a comment or docstring: the definition around it, or the one right below."""
+    try:
+        tree = ast.parse(text)
+        tokens = list(tokenize.generate_tokens(io.StringIO(text).readline))
+    except (SyntaxError, ValueError, RecursionError, tokenize.TokenError):
+        return _list_comment_lines(text)
+    comments = {token.start[0] for token in tokens if token.type == tokenize.COMMENT}
+    symbols = {}
+    definitions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)]
+    starts = {min([node.lineno, *(each.lineno for each in node.decorator_list)]): node.name for node in definitions}
+    for number in comments:
+        below = number + 1
+        while below in comments:
+            below += 1
+        around = [node for node in definitions if node.lineno <= number <= (node.end_lineno or node.lineno)]
+        inner = max(around, key=lambda node: node.lineno).name if around else FILE_SYMBOL
+        symbols[number] = starts.get(below, inner)
+    for node in [tree, *definitions]:
+        first = node.body[0] if node.body else None
+        if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
+            name = getattr(node, "name", FILE_SYMBOL)
+            symbols.update({number: name for number in range(first.lineno, (first.end_lineno or first.lineno) + 1)})
+    return symbols
+
+
+def _read_tests(text: str, shown: str, aliases: list[Alias]) -> list[SourceTest]:
+    """A tag belongs to the test whose head stands below its comment, or around it. Without a test it keeps an empty name."""
+    heads = _list_python_heads(text, shown) if shown.endswith(_PYTHON) else _list_cpp_heads(text)
+    named = [(alias.line, each, "nominal") for alias in aliases for each in alias.ids]
+    pattern = _PYTHON_MARK if shown.endswith(_PYTHON) else _CPP_CALL
+    for match in pattern.finditer(text):
+        line = text.count("\n", 0, match.start()) + 1
+        polarity = "violation" if match.lastindex == 2 and _POLARITY.search(match[2]) else "nominal"
+        named += [(line, word.strip(), polarity) for word in match[1].split(",")]
+    lines = text.splitlines()
+    starts = [line for line, _, _ in heads]
+    tests = []
+    for line, requirement, polarity in sorted(set(named)):
+        suite, name = _find_head(line, lines, heads, starts) or (shown, "")
+        tests.append(SourceTest(requirement, suite, name, "requirements_based", polarity, Place(shown, line)))
+    return tests
+
+
+def _list_cpp_heads(text: str) -> list[tuple[int, str, str]]:
+    return [(text.count("\n", 0, match.start(1)) + 1, match[1], match[2]) for match in _CPP_TEST.finditer(text)]
+
+
+def _list_python_heads(text: str, shown: str) -> list[tuple[int, str, str]]:
+    module = shown.rpartition("/")[2].removesuffix(".py")
+    heads, group = [], ""
+    for match in _PYTHON_TEST.finditer(text):
+        if match["group"]:
+            group = match["group"]
+        else:
+            suite = f"{module}.{group}" if group and match["indent"] else module
+            heads.append((text.count("\n", 0, match.start("name")) + 1, suite, match["name"]))
+    return heads
+
+
+def _find_head(line: int, lines: list[str], heads: list[tuple[int, str, str]], starts: list[int]) -> tuple[str, str] | None:
+    above = bisect_left(starts, line)
+    if above < len(heads) and all(_is_lead(each) for each in lines[line - 1 : starts[above] - 1]):
+        return heads[above][1:]
+    index = bisect_right(starts, line) - 1
+    return heads[index][1:] if index >= 0 else None
+
+
+def _is_lead(line: str) -> bool:
+    """Whether a line may stand between a tag and the test below: a comment or a decorator."""
+    return line.lstrip().startswith(("//", "/*", "*", "#", "@", '"""')) if line.strip() else False

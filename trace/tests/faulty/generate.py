@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes a project of one format with one fault, and says what must be found."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+from pathlib import Path
+
+from faulty.faults import FAULTS
+from faulty.page import Pages
+from faulty.plan import COMMIT, Plan, make_plan
+from faulty.writers import WRITERS, add_native_schema
+from mamori.trace.actions.review import review_links
+from mamori.trace.formats.in_place import LOCK_NAME, ForeignInput, read_in_place
+from mamori.trace.model.lock import ReviewLock
+from mamori.trace.readers.lock import write_lock
+from mamori.trace.readers.project import read_requirements
+
+REVIEWER = "the maintainers"
+DATE = "2026-11-21"
+
+
+@dataclass(frozen=True)
+class Seeded:
+    """A finding that must come: it names `word` and stands at `file:line`."""
+
+    word: str
+    file: str
+    line: int
+
+
+@dataclass(frozen=True)
+class Generated:
+    """`arguments` follow `mamori trace check`."""
+
+    arguments: list[str]
+    seeded: list[Seeded]
+
+
+def generate(format_name: str, fault: str, root: Path, count: int = 100, seed: int = 1) -> Generated:
+    """Writes below `root`, which is empty. An empty `fault` gives the clean project."""
+    writer = WRITERS[format_name]
+    plan = make_plan(writer.make_id, count)
+    row = FAULTS[fault] if fault else None
+    native = format_name == "native"
+    if native:
+        add_native_schema(root)
+    if row and row.reviewed and format_name != "oft":
+        _write(plan, writer, root)
+        _review(format_name, root)
+    seeds = row.spoil(plan, random.Random(seed)) if row else []
+    pages = _write(plan, writer, root)
+    if native and not (row and row.reviewed):
+        _review(format_name, root)
+    arguments = [word.replace("ROOT", str(root)) for word in writer.arguments]
+    if row and row.evidence:
+        _write_head(root)
+        if not native:
+            arguments += ["--evidence", str(root / "results")]
+    return Generated(arguments, [Seeded(word, *pages.find(key, *parts)) for word, key, parts in seeds])
+
+
+def _write(plan: Plan, writer, root: Path) -> Pages:
+    pages = Pages()
+    writer.write(plan, pages)
+    pages.write(root)
+    return pages
+
+
+def _review(format_name: str, root: Path) -> None:
+    native = format_name == "native"
+    project = read_requirements(root) if native else read_in_place(ForeignInput(format_name, root, root, allow_missing=True))
+    review_links(project, set(project.items), DATE, REVIEWER)
+    write_lock(root, project.lock or ReviewLock(), None if native else root / LOCK_NAME)
+
+
+def _write_head(root: Path) -> None:
+    """As much of a git repository as tells which commit is checked out."""
+    for folder in ("objects", "refs"):
+        (root / ".git" / folder).mkdir(parents=True)
+    (root / ".git" / "HEAD").write_text(COMMIT + "\n", encoding="utf-8")

@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: foreign files are read with the place of every part; what cannot be read is told once, with its place, and never skipped.
+# Method: small projects written by hand, whole and broken, given to the command.
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from faulty.generate import generate
+
+_SDOC = """[DOCUMENT]
+TITLE: Arm
+
+[[SECTION]]
+TITLE: One
+
+[REQUIREMENT]
+UID: SYS-1
+TITLE: First
+STATEMENT: >>>
+The arm shall stop.
+
+It shall stay.
+<<<
+RATIONALE: Persons.
+
+[[/SECTION]]
+
+[REQUIREMENT]
+UID: SWR-1
+STATEMENT: The software shall stop the arm.
+RELATIONS:
+- TYPE: Parent
+  VALUE: SYS-1
+  ROLE: Refines
+"""
+_OFT = """# Arm
+## Stop
+`req~stop~1`
+
+The arm shall stop.
+
+Needs: impl, utest
+"""
+_NEEDS = '{"current_version": "1", "versions": {"1": {"needs": {\n"R_1": {"id": "R_1", "title": "Stop", "type": "req", "content": "It shall stop."}\n}}}}\n'
+_WHOLE = {"strictdoc": ("a.sdoc", _SDOC), "oft": ("a.md", _OFT), "needs": ("needs.json", _NEEDS)}
+
+
+def _write(folder: Path, name: str, text: str | bytes) -> Path:
+    path = folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(text.encode() if isinstance(text, str) else text)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("name", "file", "text", "place", "word"),
+    [
+        ("strictdoc", "a.sdoc", _SDOC.partition("<<<")[0], "a.sdoc:10", "cut off"),
+        ("strictdoc", "a.sdoc", "UID: X\n", "a.sdoc:1", "[DOCUMENT]"),
+        ("strictdoc", "a.sdoc", _SDOC + "what is this\n", "a.sdoc:26", "what is this"),
+        ("strictdoc", "a.sdoc", _SDOC.encode() + b"\n[TEXT]\nSTATEMENT: \xff\n", "a.sdoc:28", "UTF-8"),
+        ("needs", "needs.json", _NEEDS[:60], "needs.json:2", "JSON"),
+        ("needs", "needs.json", "[" * 100000, "needs.json:1", "nested"),
+        ("needs", "needs.json", '{"current_version": "1"}', "needs.json:1", "versions"),
+        ("needs", "needs.json", '{"versions": {"1": {"needs": {\n"R_1": 7}}}}', "needs.json:2", "R_1"),
+        ("needs", "needs.json", b'{"versions": {\n"\xfe": 1}}', "needs.json:2", "UTF-8"),
+        ("oft", "a.md", _OFT + "```\nopen\n", "a.md:9", "cut off"),
+        ("oft", "a.md", _OFT + "`req~stop~one`\n", "a.md:8", "req~stop~one"),
+        ("oft", "a.md", _OFT + "\0", "a.md:8", "zero byte"),
+    ],
+)
+@pytest.mark.verifies("SWR-TRC-048", technique="fault_injection", polarity="violation")
+def test_a_broken_file_is_one_finding_with_its_line(
+    name: str, file: str, text: str | bytes, place: str, word: str, trace: Callable, tmp_path: Path
+) -> None:
+    _write(tmp_path, file, text)
+
+    outcome = trace("check", "--format", name, tmp_path, "--output", "json", "--allow-missing")
+
+    broken = [row for row in outcome.content["findings"] if row["rule"] == "unreadable-input"]
+    assert (outcome.status, len(broken)) == (2, 1)
+    assert f"{broken[0]['file']}:{broken[0]['line']}" == place
+    assert word in broken[0]["message"]
+
+
+@pytest.mark.parametrize("name", _WHOLE)
+@pytest.mark.verifies("SWR-TRC-048", technique="error_guessing", polarity="violation")
+def test_the_wrong_format_an_empty_folder_and_no_folder_are_named_in_one_line(name: str, trace: Callable, tmp_path: Path) -> None:
+    other = "oft" if name != "oft" else "needs"
+    _write(tmp_path / "full", *_WHOLE[name])
+    (tmp_path / "empty").mkdir()
+
+    wrong = trace("check", "--format", other, tmp_path / "full")
+    empty = trace("check", "--format", name, tmp_path / "empty")
+    gone = trace("check", "--format", name, tmp_path / "gone")
+
+    assert [(each.status, each.out, each.err.count("\n")) for each in (wrong, empty, gone)] == [(2, "", 1)] * 3
+    assert f"--format {name}" in wrong.err
+    assert "empty" in empty.err
+    assert "no such" in gone.err
+
+
+@pytest.mark.parametrize("name", _WHOLE)
+@pytest.mark.verifies("SWR-TRC-048", technique="fault_injection", polarity="nominal")
+def test_a_ring_of_links_to_folders_is_read_once(name: str, trace: Callable, tmp_path: Path) -> None:
+    _write(tmp_path, *_WHOLE[name])
+    (tmp_path / "round").symlink_to(tmp_path, target_is_directory=True)
+
+    outcome = trace("check", "--format", name, tmp_path, "--output", "json", "--allow-missing")
+
+    assert "duplicate-id" not in outcome.rules
+    assert len(outcome.content["items"]) == (2 if name == "strictdoc" else 1)
+
+
+@pytest.mark.parametrize("name", _WHOLE)
+@pytest.mark.verifies("SWR-TRC-048", technique="fault_injection", polarity="violation")
+def test_two_files_that_claim_one_id_are_both_named(name: str, trace: Callable, tmp_path: Path) -> None:
+    file, text = _WHOLE[name]
+    _write(tmp_path / "a", file, text)
+    _write(tmp_path / "b", file, text)
+
+    outcome = trace("check", "--format", name, tmp_path, "--output", "json", "--allow-missing")
+
+    doubles = [row for row in outcome.content["findings"] if row["rule"] == "duplicate-id"]
+    assert {row["file"] for row in doubles} == {f"b/{file}"}
+    assert all(f"a/{file}" in row["message"] for row in doubles)
+
+
+@pytest.mark.parametrize("arguments", [("--format", "word", "."), ("--results", "x.xml"), ("--format", "oft", ".", "--sources", "gone")])
+@pytest.mark.verifies("SWR-TRC-048", technique="error_guessing", polarity="violation")
+def test_wrong_words_of_the_command_are_one_line(arguments: tuple[str, ...], trace: Callable) -> None:
+    outcome = trace("check", *arguments)
+
+    assert (outcome.status, outcome.out, outcome.err.count("\n")) == (2, "", 1)
+
+
+@pytest.mark.verifies("SWR-TRC-046", technique="requirements_based", polarity="nominal")
+def test_a_table_of_the_user_says_what_the_levels_are(trace: Callable, tmp_path: Path) -> None:
+    _write(tmp_path, "a.sdoc", _SDOC)
+    table = _write(tmp_path, "levels.toml", 'schema = "mamori.foreign/1"\n[level.SYS]\nname = "Upper"\n[level.SWR]\nparents = ["SYS"]\n')
+
+    outcome = trace("check", "--format", "strictdoc", tmp_path, "--schema", table, "--output", "json")
+    shown = trace("show", "SWR-1", "--format", "strictdoc", tmp_path, "--schema", table)
+
+    assert (outcome.rules, "SYS-1 First" in shown.out) == ({"test-missing"}, True)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["schema = ", 'schema = "other/1"', 'schema = "mamori.foreign/1"\ncolour = 1', 'schema = "mamori.foreign/1"\ngroup_by = "x"',
+     'schema = "mamori.foreign/1"\nsil = 3', 'schema = "mamori.foreign/1"\n[level.SYS]\nid = "("'],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-TRC-046", technique="error_guessing", polarity="violation")
+def test_a_bad_table_is_one_line(text: str, trace: Callable, tmp_path: Path) -> None:
+    _write(tmp_path, "a.sdoc", _SDOC)
+    table = _write(tmp_path, "levels.toml", text)
+
+    outcome = trace("check", "--format", "strictdoc", tmp_path, "--schema", table)
+
+    assert (outcome.status, outcome.out, outcome.err.count("\n")) == (2, "", 1)
+    assert "levels.toml" in outcome.err
+
+
+@pytest.mark.verifies("SWR-TRC-046", technique="requirements_based", polarity="violation")
+def test_items_of_no_level_of_the_table_are_told(trace: Callable, tmp_path: Path) -> None:
+    _write(tmp_path, "a.sdoc", _SDOC)
+    table = _write(tmp_path, "levels.toml", 'schema = "mamori.foreign/1"\n[level.SYS]\n')
+
+    outcome = trace("check", "--format", "strictdoc", tmp_path, "--schema", table, "--output", "json", "--allow-missing")
+
+    assert [row["item"] for row in outcome.content["findings"] if row["rule"] == "malformed-item"] == ["SWR-1"]
+
+
+@pytest.mark.parametrize(
+    ("tag", "file", "symbol"),
+    [
+        ("/// @relation(SWR-1, scope=function)", "src/a.cpp", "stop"),
+        ("// @satisfies SWR-1", "src/a.cpp", "stop"),
+        ("// lobster-trace: SWR-1", "src/a.hpp", "stop"),
+        ("// @need-ids: SWR-1", "src/a.c", "stop"),
+        ("// @relation(SWR-1)", "src/a.rs", "file"),
+    ],
+)
+@pytest.mark.verifies("SWR-TRC-047", technique="equivalence_classes", polarity="nominal")
+def test_a_tag_of_another_tool_belongs_to_the_function_below(tag: str, file: str, symbol: str, trace: Callable, tmp_path: Path) -> None:
+    _write(tmp_path, "a.sdoc", _SDOC)
+    _write(tmp_path, file, f"{tag}\nint stop(void) {{ return 0; }}\n")
+
+    outcome = trace("show", "SWR-1", "--format", "strictdoc", tmp_path, "--allow-missing")
+
+    assert f"{file}:1 ({symbol})" in outcome.out
+
+
+@pytest.mark.verifies("SWR-TRC-047", technique="equivalence_classes", polarity="nominal")
+def test_python_tags_and_tests_are_read_too(trace: Callable, tmp_path: Path) -> None:
+    _write(tmp_path, "a.sdoc", _SDOC)
+    _write(tmp_path, "stop.py", 'def stop():\n    """Stops.\n\n    @relation(SWR-1, scope=function)\n    """\n')
+    _write(tmp_path, "tests/test_stop.py", "class TestStop:\n    # @verifies SWR-1\n    def test_it_stops(self):\n        pass\n")
+    case = '<testsuite><testcase classname="tests.test_stop.TestStop" name="test_it_stops"/></testsuite>'
+    results = _write(tmp_path, "junit.xml", case)
+
+    outcome = trace("check", "--format", "strictdoc", tmp_path, "--results", results)
+    shown = trace("show", "SWR-1", "--format", "strictdoc", tmp_path, "--results", results)
+
+    assert outcome.status == 0, outcome.out
+    assert "stop.py:4 (stop)" in shown.out
+    assert "passed  tests.test_stop.TestStop.test_it_stops" in shown.out
+
+
+@pytest.mark.verifies("SWR-TRC-047", technique="error_guessing", polarity="violation")
+def test_words_in_code_that_are_no_comments_are_no_tags(trace: Callable, tmp_path: Path) -> None:
+    _write(tmp_path, "a.sdoc", _SDOC)
+    _write(tmp_path, "src/a.cpp", 'const char* text = "@relation(SWR-9, scope=function)";\nint f(A* a) { return a->b[x->y]; }\n')
+    _write(tmp_path, "src/b.py", 'TEXT = "@satisfies SWR-9"\n')
+
+    outcome = trace("check", "--format", "strictdoc", tmp_path, "--output", "json", "--allow-missing")
+
+    assert "unknown-id" not in outcome.rules
+
+
+@pytest.mark.verifies("SWR-TRC-045", technique="interface", polarity="nominal")
+def test_the_report_shows_a_foreign_project(trace: Callable, tmp_path: Path) -> None:
+    project = generate("oft", "", tmp_path / "project")
+
+    outcome = trace("report", *project.arguments, "--out", tmp_path / "page.html")
+
+    assert (outcome.status, "dsn~item-007~1" in (tmp_path / "page.html").read_text()) == (0, True)
