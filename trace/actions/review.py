@@ -7,10 +7,13 @@ import argparse
 import datetime
 
 from mamori.trace.actions.common import EXIT_CLEAN, add_root, find_item
+from mamori.trace.model.finding import Place
+from mamori.trace.model.ids import FormerId
 from mamori.trace.model.lock import ReviewLock
 from mamori.trace.model.project import Project
 from mamori.trace.readers.files import InputError
-from mamori.trace.readers.git import read_user
+from mamori.trace.readers.git import read_title, read_user
+from mamori.trace.readers.ids import IDS_PATH, write_ids
 from mamori.trace.readers.lock import LOCK_PATH, write_lock
 from mamori.trace.readers.project import read_requirements
 
@@ -19,7 +22,7 @@ HELP = f"record in {LOCK_PATH} that links were looked at"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_root(parser)
-    parser.add_argument("items", nargs="*", metavar="ID", help="items whose links, up and down, were looked at")
+    parser.add_argument("items", nargs="*", metavar="ID", help="items whose links, up and down, were looked at, or that are no more")
     parser.add_argument("--all", action="store_true", help="every link was looked at")
     parser.add_argument("--by", default="", metavar="NAME", help="who looked (default: the user name that git knows)")
 
@@ -34,11 +37,35 @@ def run(arguments: argparse.Namespace) -> int:
     reviewer = arguments.by.strip() or read_user(arguments.root)
     if not reviewer:
         raise InputError("review: nobody is named; add --by NAME")
-    chosen = set(project.items) if arguments.all else {find_item(project, name).id for name in arguments.items}
-    count = review_links(project, chosen, datetime.date.today().isoformat(), reviewer)
+    gone = list_gone(project)
+    named = [name for name in arguments.items if name not in gone]
+    chosen = set(project.items) if arguments.all else {find_item(project, name).id for name in named}
+    date = datetime.date.today().isoformat()
+    give_up_ids(project, gone, date)
+    count = review_links(project, chosen, date, reviewer)
+    write_ids(arguments.root, project.former_ids)  # first: the lock forgets these ids
     write_lock(arguments.root, project.lock or ReviewLock())
     print(f"{count} links recorded as reviewed by {reviewer} in {LOCK_PATH}")
+    if gone:
+        print(f"ids given up for good, in {IDS_PATH}: {', '.join(sorted(gone))}")
     return EXIT_CLEAN
+
+
+def list_gone(project: Project) -> dict[str, str]:
+    """Ids that reviewed links name and no item has, with the fingerprint of their last review."""
+    gone: dict[str, str] = {}
+    for each in project.lock.reviews.values() if project.lock is not None else ():
+        for name, fingerprint in ((each.child, each.child_fingerprint), (each.parent, each.parent_fingerprint)):
+            if name not in project.items:
+                gone[name] = fingerprint
+    return gone
+
+
+def give_up_ids(project: Project, gone: dict[str, str], date: str) -> None:
+    """Enters ids into the ledger. One that is in it already, and was taken again, keeps its first entry."""
+    for name, fingerprint in gone.items():
+        former = FormerId(name, fingerprint, date, read_title(project.root, name), Place(IDS_PATH, 1))
+        project.former_ids.setdefault(name, former)
 
 
 def review_links(project: Project, chosen: set[str], date: str, reviewer: str) -> int:

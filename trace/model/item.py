@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass, field
 
 from mamori.trace.model.finding import Place
+from mamori.trace.model.words import WEAK_WORDS
 
 DRAFT = "draft"
 APPROVED = "approved"
@@ -28,6 +29,7 @@ class Level:
     needs_code: bool
     from_children: bool
     through_children: bool
+    hazard: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +44,8 @@ class Schema:
     technique: tuple[str, ...]
     unfinished_words: tuple[str, ...]
     levels: dict[str, Level]
+    weak_words: tuple[str, ...] = WEAK_WORDS
+    weak_word_exceptions: tuple[str, ...] = ()
 
     def find_level(self, item_id: str) -> Level | None:
         """The level whose id pattern `item_id` matches in full."""

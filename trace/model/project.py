@@ -15,8 +15,10 @@ from mamori.trace.model.coverage import Coverage, CoverageRun, Reached
 from mamori.trace.model.decomposition import Decomposition
 from mamori.trace.model.evidence import CAMPAIGN, CampaignCase, CodeTag, Evidence, SourceTest, TestResult
 from mamori.trace.model.finding import Problem
+from mamori.trace.model.ids import FormerId
 from mamori.trace.model.item import Item, Schema
 from mamori.trace.model.lock import ReviewLock
+from mamori.trace.model.review_record import ReviewRecord
 from mamori.trace.model.rule_pack import RulePack
 from mamori.trace.model.waiver import Waived, Waiver
 
@@ -44,6 +46,8 @@ class Project:
     waivers: list[Waiver] = field(default_factory=list)
     waived: list[Waived] = field(default_factory=list)
     decomposition: list[Decomposition] = field(default_factory=list)
+    reviews: list[ReviewRecord] = field(default_factory=list)
+    former_ids: dict[str, FormerId] = field(default_factory=dict)
     date: str = ""
     review_needed: bool = True
 

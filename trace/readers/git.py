@@ -20,6 +20,12 @@ def read_commit_date(root: Path) -> str:
     return ask(root, "show", "--no-patch", "--format=%cs", "HEAD")
 
 
+def read_title(root: Path, item_id: str) -> str:
+    """Title of an item as it stands in the checked-out commit, or an empty text where it is not there."""
+    line = _ask(root, "grep", "-h", "--fixed-strings", "--max-count=1", f"## {item_id} ", "HEAD", "--", "requirements")
+    return line.partition("\n")[0].removeprefix(f"## {item_id}").strip() if line.startswith(f"## {item_id} ") else ""
+
+
 def read_user(root: Path) -> str:
     """Name of the person at work as git knows it, or an empty text."""
     return ask(root, "config", "user.name")

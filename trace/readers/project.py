@@ -18,10 +18,12 @@ from mamori.trace.readers.cpp_tests import read_cpp_tests
 from mamori.trace.readers.decomposition import read_decomposition
 from mamori.trace.readers.files import InputError, get_shown_path
 from mamori.trace.readers.git import read_commit_date, read_head
+from mamori.trace.readers.ids import read_ids
 from mamori.trace.readers.junit import read_junit
 from mamori.trace.readers.lock import read_lock
 from mamori.trace.readers.markdown_items import read_items
 from mamori.trace.readers.python_sources import read_python
+from mamori.trace.readers.reviews import read_reviews
 from mamori.trace.readers.rule_pack import read_rule_pack
 from mamori.trace.readers.schema import read_schema
 from mamori.trace.readers.script_tags import read_script_tags
@@ -52,6 +54,7 @@ def read_requirements(root: Path) -> Project:
     project = Project(root, read_schema(root))
     project.all_items = read_items(root, project.schema, project.problems)
     project.lock = read_lock(root, project.problems)
+    project.former_ids = read_ids(root, project.problems)
     return project
 
 
@@ -65,6 +68,7 @@ def read_judgement(project: Project, date: str = "") -> None:
     project.pack = read_rule_pack(project.root, project.schema, rules)
     project.waivers = read_waivers(project.root, rules, project.problems)
     project.decomposition = read_decomposition(project.root, project.problems)
+    project.reviews = read_reviews(project.root, project.schema, project.problems)
     project.date = date
     if not date and any(waiver.expires for waiver in project.waivers):
         made = str(project.evidence.environment.get("date_utc") or "")[:10]

@@ -11,6 +11,7 @@ from mamori.trace.model.item import Level, Schema
 from mamori.trace.readers.files import InputError
 
 _LISTS = ("attributes", "sil", "verify", "polarity", "status", "technique", "unfinished_words")
+_MAYBE_LISTS = ("weak_words", "weak_word_exceptions")
 
 
 def read_schema(root: Path) -> Schema:
@@ -23,6 +24,7 @@ def read_schema(root: Path) -> Schema:
             raise InputError(f"{path}: schema is {table.get('schema')!r}; this tool reads 'mamori.items/1'")
         levels = {key: _read_level(key, row) for key, row in table["level"].items()}
         lists = {name: tuple(str(word) for word in table[name]) for name in _LISTS}
+        lists |= {name: tuple(str(word) for word in table[name]) for name in _MAYBE_LISTS if name in table}
         return Schema(levels=levels, **lists)
     except FileNotFoundError:
         raise InputError(f"{path}: missing; a project keeps the words and levels of its items there") from None
@@ -46,4 +48,5 @@ def _read_level(key: str, row: dict) -> Level:
         needs_code=bool(row["needs_code"]),
         from_children=bool(row["from_children"]),
         through_children=bool(row["through_children"]),
+        hazard=bool(row.get("hazard", False)),
     )

@@ -73,6 +73,14 @@ def format_waiver(rule: str, **columns: str) -> str:
     return f'schema = "mamori.waivers/1"\n\n[[waiver]]\n{rows}'
 
 
+def format_review(item: str, fingerprint: str, **columns: str) -> str:
+    """A file of reviews with one row: an analysis by somebody else than the author."""
+    texts = {"item": item, "method": "analysis", "fingerprint": fingerprint, "looked_at": "docs/design/arm.md#hazards",
+             "author": "Somebody Else", "by": "Sample Reviewer", "date": "2026-11-21", **columns}  # fmt: skip
+    rows = "".join(f'{key} = "{value}"\n' for key, value in texts.items())
+    return f'schema = "mamori.reviews/1"\n\n[[review]]\n{rows}'
+
+
 @dataclass
 class Sample:
     """A project in `root`. Its files are changed in place; `review` renews the lock afterwards."""
