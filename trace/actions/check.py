@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import argparse
 
-from mamori.trace.actions.common import add_input, add_output, get_status, print_outcome, read_input
+from mamori.trace.actions.common import SARIF, add_input, add_output, get_status, print_outcome, read_input
 
 HELP = "report every finding, with rule, file and line"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_input(parser)
-    add_output(parser)
+    add_output(parser, SARIF)
     parser.add_argument("--no-cache", action="store_true", help="read everything, also when nothing changed since the last check")
 
 

@@ -18,11 +18,14 @@ from mamori.trace.readers.files import InputError
 from mamori.trace.readers.project import read_project
 from mamori.trace.readers.toml_rows import is_date
 from mamori.trace.reports.json_report import format_json
+from mamori.trace.reports.sarif import format_sarif
 from mamori.trace.reports.text import Paint, format_findings, format_summary, format_waived
 
 EXIT_CLEAN = 0
 EXIT_FINDINGS = 1
 EXIT_INPUT = 2
+
+SARIF = "sarif"
 
 
 def add_root(parser: argparse.ArgumentParser) -> None:
@@ -40,9 +43,9 @@ def add_input(parser: argparse.ArgumentParser) -> None:
                         help="day by which waivers expire, as 2026-11-30 (default: of the commit, or else of the evidence)")  # fmt: skip
 
 
-def add_output(parser: argparse.ArgumentParser) -> None:
-    """How to print."""
-    parser.add_argument("--output", choices=("text", "json"), default="text", help="how to print (default: text)")
+def add_output(parser: argparse.ArgumentParser, *more: str) -> None:
+    """How to print: as text, JSON, or one of `more`."""
+    parser.add_argument("--output", choices=("text", "json", *more), default="text", help="how to print (default: text)")
 
 
 def read_input(arguments: argparse.Namespace) -> Project:
@@ -67,6 +70,9 @@ def print_outcome(arguments: argparse.Namespace, project: Project, findings: lis
     verdicts = calc_verdicts(project)
     if arguments.output == "json":
         print(format_json(project, findings, verdicts), end="")
+        return
+    if arguments.output == SARIF:
+        print(format_sarif(project, findings), end="")
         return
     paint = Paint(sys.stdout)
     listed = format_findings(findings, paint) + format_waived(project.waived, paint)

@@ -104,6 +104,11 @@ def list_rules() -> list[Rule]:
     return [module.RULE for module in RULES + LATE_RULES]
 
 
+def describe_rules() -> dict[str, str]:
+    """What each rule is after, in the first sentence of its module."""
+    return {module.RULE.id: (module.__doc__ or "").strip().partition("\n")[0] for module in RULES + LATE_RULES}
+
+
 def run_checks(project: Project) -> list[Finding]:
     """All findings of all rules that count, in order of file and line; those that are waived go to `project.waived`."""
     findings, waived = split_waived(_run(RULES, project), project.waivers, project.date)
