@@ -16,6 +16,7 @@ from mamori.trace.checks import (
     design_link,
     design_missing,
     duplicate_id,
+    evidence_altered,
     evidence_stale,
     campaign_missing,
     child_missing,
@@ -92,6 +93,7 @@ RULES = (
     mcdc_gap,
     test_unlinked,
     evidence_stale,
+    evidence_altered,
 )
 
 

@@ -7,11 +7,12 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
+from mamori.trace.model.evidence import get_sources
 from mamori.trace.model.finding import ERROR, Place, Rule
 from mamori.trace.model.project import Project
 
 RULE = Rule(
-    "evidence-stale", ERROR, "The evidence says where it comes from, and comes from the commit that is checked out."
+    "evidence-stale", ERROR, "The evidence says where it comes from, and comes from the sources that are checked out."
 )
 
 _SHORT = 12
@@ -29,11 +30,21 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
         yield from _compare(project, evidence.environment, evidence.environment_place)
     if evidence.has_campaign and evidence.campaign_environment:
         yield from _compare(project, evidence.campaign_environment, evidence.campaign_place)
+    told = get_sources(evidence.environment)
+    for record in evidence.records.values():
+        if project.sources and record.sources not in ("", told, project.sources):
+            yield Place(record.shown, 1), "was made from other sources than those that are here; run the tests again", ""
 
 
 def _compare(project: Project, environment: dict[str, Any], place: Place) -> Iterator[tuple[Place, str, str]]:
+    """Sources decide where their hash is known: they tell of a change that nobody committed. Else the commit does."""
     made = str(environment.get("commit") or "")
-    if project.head and not _HASH.fullmatch(made):
+    sources = get_sources(environment)
+    if project.sources and sources:
+        if sources != project.sources:
+            at = f" (commit {made[:_SHORT]})" if made else ""
+            yield place, f"evidence was made from other sources{at} than those that are here; run the tests again", ""
+    elif project.head and not _HASH.fullmatch(made):
         yield place, f"commit is '{made}', which is no commit: nothing tells what the evidence was made of", ""
     elif project.head and not project.head.startswith(made) and not made.startswith(project.head):
         made_at, now_at = made[:_SHORT], project.head[:_SHORT]

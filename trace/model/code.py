@@ -15,9 +15,11 @@ from mamori.trace.model.finding import Place
 
 @dataclass(frozen=True, slots=True)
 class CodeSchema:
-    """What requirements/schema/code.toml demands: `traced` are the folders and files whose functions need an owner."""
+    """What requirements/schema/code.toml says: `traced` are the folders and files whose functions need an owner; `no_evidence` those
+    whose change leaves the evidence valid."""
 
     traced: tuple[str, ...] = ()
+    no_evidence: tuple[str, ...] = ()
 
     def is_traced(self, file: str) -> bool:
         return any(file == one or file.startswith(f"{one}/") for one in self.traced)

@@ -122,6 +122,14 @@ class CostRun:
     place: Place
 
 
+@dataclass(frozen=True, slots=True)
+class FileRecord:
+    """What `records.json` says of one evidence file. `sources` is the hash of the sources that it was made from, or empty."""
+
+    shown: str
+    sources: str
+
+
 @dataclass(slots=True)
 class Evidence:
     """Everything below one evidence folder. `folder` is its path as given, `shown` as findings name it.
@@ -140,9 +148,23 @@ class Evidence:
     coverage_runs: list[CoverageRun] = field(default_factory=list)
     environment: dict[str, Any] = field(default_factory=dict)
     environment_place: Place = Place("environment.json", 1)
+    records: dict[str, FileRecord] = field(default_factory=dict)
     campaign_environment: dict[str, Any] = field(default_factory=dict)
     campaign_place: Place = Place("campaign/campaign.json", 1)
 
     @property
     def present(self) -> bool:
         return bool(self.folder)
+
+    @property
+    def tells_sources(self) -> bool:
+        """Whether the sources that it was made from are known by their hash, not by their commit alone."""
+        environments = (self.environment, self.campaign_environment)
+        return any(get_sources(one) for one in environments) or any(one.sources for one in self.records.values())
+
+
+def get_sources(environment: dict[str, Any]) -> str:
+    """Hash of the sources that an environment names, or nothing."""
+    inputs = environment.get("inputs")
+    made = inputs.get("sources") if isinstance(inputs, dict) else None
+    return made if isinstance(made, str) else ""

@@ -27,7 +27,7 @@ from mamori.trace.model.waiver import Waived, Waiver
 class Project:
     """All that was read. `all_items` keeps every definition in file order; `items` the first one of each id.
 
-    `date` is the day of the state that is judged (ISO 8601), or empty where nothing needs or tells it. `run_checks` sets `waived`.
+    `sources` is the hash of the sources where the evidence tells one, too. `date` is the day of the state that is judged (ISO 8601), or empty where nothing needs or tells it. `run_checks` sets `waived`.
     """
 
     root: Path
@@ -40,6 +40,7 @@ class Project:
     evidence: Evidence = field(default_factory=Evidence)
     lock: ReviewLock | None = None
     head: str = ""
+    sources: str = ""
     problems: list[Problem] = field(default_factory=list)
     allow_missing: bool = False
     pack: RulePack = field(default_factory=RulePack)

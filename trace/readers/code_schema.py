@@ -12,7 +12,7 @@ from pathlib import Path
 from mamori.trace.model.code import CodeSchema
 from mamori.trace.readers.files import InputError
 
-_LISTS = ("traced",)
+_LISTS = ("traced", "no_evidence")
 
 
 def read_code_schema(root: Path) -> CodeSchema:

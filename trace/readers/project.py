@@ -16,6 +16,7 @@ from mamori.trace.readers.coverage import read_coverage
 from mamori.trace.readers.cpp_tags import read_cpp_tags
 from mamori.trace.readers.cpp_tests import read_cpp_tests
 from mamori.trace.readers.decomposition import read_decomposition
+from mamori.trace.readers.evidence_records import read_evidence_records
 from mamori.trace.readers.files import InputError, get_shown_path
 from mamori.trace.readers.git import read_commit_date, read_head
 from mamori.trace.readers.ids import read_ids
@@ -28,6 +29,7 @@ from mamori.trace.readers.rule_pack import read_rule_pack
 from mamori.trace.readers.schema import read_schema
 from mamori.trace.readers.script_tags import read_script_tags
 from mamori.trace.readers.source_names import SourceNames
+from mamori.trace.readers.sources import calc_sources
 from mamori.trace.readers.timing import read_timing
 from mamori.trace.readers.toml_rows import is_date
 from mamori.trace.readers.waivers import read_waivers
@@ -93,6 +95,8 @@ def read_project(root: Path, evidence: Path | None, allow_missing: bool = False,
     if folder is not None:
         project.evidence = read_evidence(folder, project)
         attach_sources(project)
+        if project.evidence.tells_sources:
+            project.sources = calc_sources(root, project.code_schema.no_evidence)
         for result in project.evidence.results:
             if result.kind == UNIT and result.source is not None and result.source.file.startswith("verification/"):
                 result.kind = INTEGRATION
@@ -118,6 +122,7 @@ def read_evidence(folder: Path, project: Project) -> Evidence:
     read_campaign(folder, project.root, evidence, project.problems)
     read_timing(folder, project.root, evidence, project.problems)
     read_cost(folder, project.root, evidence, project.problems)
+    read_evidence_records(folder, project.root, evidence, project.problems)
     names = SourceNames(project.root, {function.file for function in project.functions})
     read_coverage(folder, project.root, names, evidence, project.problems)
     return evidence

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from mamori.profiles.text_file import write_text
 from mamori.verification.command.project import Project
+from mamori.verification.command.records import collect_inputs
 
 COMPILERS = ("g++", "clang++-19", "arm-none-eabi-g++")
 
@@ -32,6 +33,7 @@ def write_environment(project: Project, command: Sequence[str]) -> Path:
 def collect_environment(project: Project, command: Sequence[str]) -> dict[str, object]:
     """The record as a dictionary. What the machine cannot tell is "unknown" or left out."""
     names = os.environ.get("MAMORI_PACKAGES", "").split()
+    compilers = {name: line for name in COMPILERS if (line := _ask([name, "--version"]).partition("\n")[0])}
     return {
         "schema": "mamori.environment/1",
         "commit": _ask(["git", "rev-parse", "HEAD"], project.root) or "unknown",
@@ -41,9 +43,10 @@ def collect_environment(project: Project, command: Sequence[str]) -> dict[str, o
         "os": _get_os(),
         "cpu": _get_cpu(),
         "cores": os.cpu_count() or 1,
-        "compilers": {name: line for name in COMPILERS if (line := _ask([name, "--version"]).partition("\n")[0])},
+        "compilers": compilers,
         "packages": _get_packages(names),
         "python": platform.python_version(),
+        "inputs": collect_inputs(project, compilers, platform.python_version()),
     }
 
 

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 from mamori.verification.command.project import CHECKED_LAYERS, RELEASE, ROOT, SANITIZED, Project
+from mamori.verification.command.records import record_evidence
 from mamori.verification.command.steps import Action, Step
 
 PYTHON = ("{python}", "-P", "-m")
@@ -158,8 +159,9 @@ def cppcheck_step(project: Project) -> Step:
 
 
 def trace_steps(*options: str) -> tuple[Step, ...]:
-    """Trace check and report: the end of every plan. The report is written also when something failed before."""
+    """Records, trace check and report: the end of every plan. The report is written also when something failed before."""
     return (
+        Step(name="evidence records", function=record_evidence),
         Step(name="trace check", commands=((*COMMAND, "trace", "check", "--no-cache", "--root", "{root}", *options),)),
         Step(
             name=REPORT,

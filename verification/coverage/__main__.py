@@ -18,9 +18,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from mamori.verification.command.environment import collect_environment
 from mamori.verification.command.project import ROOT, Project
+from mamori.verification.command.records import renew_records
 from mamori.verification.coverage.gaps import LIST, ListError, Verdict, find_gaps, judge, read_list
-from mamori.verification.coverage.measure import CoverageError, measure
+from mamori.verification.coverage.measure import PRESET, CoverageError, measure
 from mamori.verification.coverage.reached import Function, read_functions
 from mamori.verification.coverage.record import make_rows
 from mamori.verification.coverage.report import Figures, count, make_table, write_evidence
@@ -39,7 +41,10 @@ def check_layers(project: Project, jobs: int) -> tuple[Verdict, str]:
         record += make_rows(exported, reached, project.root)
     verdict = judge(find_gaps(functions), rows)
     table = make_table(files, verdict)
-    write_evidence(project.evidence / "coverage", files, verdict, table, record)
+    folder = project.evidence / "coverage"
+    write_evidence(folder, files, verdict, table, record)
+    environment = collect_environment(Project(project.root, PRESET), ())
+    renew_records(project, sorted(folder.glob("coverage.*")), environment["inputs"])
     return verdict, table
 
 

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads `records.json` and holds each evidence file against what it says (docs/design/evidence.md).
+
+@satisfies SWR-TRC-036      Design: docs/design/trace_cover.md#records
+"""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from mamori.trace.model.evidence import Evidence, FileRecord
+from mamori.trace.model.finding import Place, Problem
+from mamori.trace.readers.files import UNREADABLE, get_shown_path
+from mamori.trace.readers.json_file import Each, Maybe, find_misfit, read_json
+
+NAME = "records.json"
+SCHEMA = "mamori.records/1"
+RECORDED = ("environment.json", "junit/*.xml", "campaign/campaign.json", "coverage/*", "coverage/by_test/*", "static/*")
+"""What decides about requirements, and therefore has a record. Times hold for one machine and one run, and decide nothing."""
+
+ALTERED = "evidence-altered"
+_FILE = {"sha256": str, "sources": str, "tool_chain": str, "configuration": str, "binary": Maybe(str)}
+_REMEDY = "run the tests again"
+
+
+def list_recorded(folder: Path) -> list[Path]:
+    """The files below an evidence folder that have, or should have, a record."""
+    return sorted(path for pattern in RECORDED for path in folder.glob(pattern) if path.is_file() and not path.name.startswith("."))
+
+
+def hash_file(path: Path) -> str:
+    """SHA-256 of a file's bytes. Raises OSError."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def read_evidence_records(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
+    """Fills in the records; where there are any, each file that differs, that is gone or that has none is a problem."""
+    path = folder / NAME
+    if not path.exists():
+        return
+    table = read_json(path, SCHEMA, root, problems)
+    if table is None:
+        return
+    place = Place(get_shown_path(path, root), 1)
+    misfit = find_misfit(table[0], {"files": Each(_FILE)}, "")
+    if misfit:
+        problems.append(Problem(UNREADABLE, place, f"{misfit}; {_REMEDY}"))
+        return
+    rows = table[0]["files"]
+    for name in sorted(rows):
+        row = rows[name]
+        evidence.records[name] = FileRecord(get_shown_path(folder / name, root), row["sources"])
+    _compare(folder, root, {name: row["sha256"] for name, row in rows.items()}, place, problems)
+
+
+def _compare(folder: Path, root: Path, recorded: dict[str, str], place: Place, problems: list[Problem]) -> None:
+    present = {path.relative_to(folder).as_posix(): path for path in list_recorded(folder)}
+    for name in sorted(recorded.keys() - present.keys()):
+        problems.append(Problem(ALTERED, place, f"{name} was recorded and is gone; {_REMEDY}"))
+    for name, path in present.items():
+        shown = Place(get_shown_path(path, root), 1)
+        if name not in recorded:
+            problems.append(Problem(ALTERED, shown, f"is in no record of {place.file}: nothing tells what made it; {_REMEDY}"))
+            continue
+        try:
+            if hash_file(path) != recorded[name]:
+                problems.append(Problem(ALTERED, shown, f"differs from what was recorded when it was made; {_REMEDY}"))
+        except OSError as error:
+            problems.append(Problem(UNREADABLE, shown, f"cannot be read: {error.strerror or error}"))

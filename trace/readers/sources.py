@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One hash over all sources as they are now, so that evidence can say what it was made of.
+
+@satisfies SWR-TRC-035      Design: docs/design/trace_cover.md#records
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import subprocess
+from pathlib import Path
+
+_SHA1_DIGITS = 40
+_TIMEOUT_S = 60
+
+
+def calc_sources(root: Path, without: tuple[str, ...] = ()) -> str:
+    """Hash over names and contents of all files below `root` that git does not ignore, whether committed or not; empty without git.
+
+    Contents count, not commits: git knows those of unchanged files already, so only what was changed is read. A commit of what was
+    tested leaves the hash as it is. @param without paths and folders that are left out.
+    """
+    listed = _ask(root, "ls-files", "-s", "-z")
+    changed = _ask(root, "ls-files", "-m", "-o", "--exclude-standard", "-z")
+    if listed is None or changed is None:
+        return ""
+    contents: dict[str, str] = {}
+    for row in filter(None, listed.split("\0")):
+        about, _, name = row.partition("\t")
+        contents[name] = about.split(" ")[1]
+    digits = len(next(iter(contents.values()), "")) or _SHA1_DIGITS
+    for name in sorted(set(filter(None, changed.split("\0")))):
+        content = _hash_file(root / name, digits)
+        if content:
+            contents[name] = content
+        else:
+            contents.pop(name, None)
+    kept = (name for name in sorted(contents) if not any(name == one or name.startswith(f"{one}/") for one in without))
+    text = "".join(f"{contents[name]} {name}\n" for name in kept)
+    return hashlib.sha256(text.encode(errors="surrogateescape")).hexdigest()
+
+
+def _hash_file(path: Path, digits: int) -> str:
+    """As git names the content; nothing for what is gone, or is no file."""
+    try:
+        if path.is_symlink():
+            data = os.fsencode(os.readlink(path))
+        elif path.is_file():
+            data = path.read_bytes()
+        else:
+            return ""
+    except OSError:
+        return "unreadable"
+    maker = hashlib.sha1 if digits == _SHA1_DIGITS else hashlib.sha256
+    return maker(b"blob %d\0" % len(data) + data).hexdigest()
+
+
+def _ask(root: Path, *arguments: str) -> str | None:
+    command = ["git", "-C", str(root), *arguments]
+    try:
+        answer = subprocess.run(command, capture_output=True, timeout=_TIMEOUT_S, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return os.fsdecode(answer.stdout) if answer.returncode == 0 else None

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes evidence/records.json: the hash of each evidence file and of what it was made from (docs/design/evidence.md).
+
+@satisfies SWR-TRC-036      Design: docs/design/trace_cover.md#records
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TextIO
+
+from mamori.profiles.text_file import write_text
+from mamori.trace.readers.code_schema import read_code_schema
+from mamori.trace.readers.evidence_records import NAME, SCHEMA, hash_file, list_recorded
+from mamori.trace.readers.files import InputError
+from mamori.trace.readers.sources import calc_sources
+from mamori.verification.command.errors import StepError
+from mamori.verification.command.process import Tick
+from mamori.verification.command.project import Project
+from mamori.verification.command.steps import Context
+
+_SKIPPED = ("CMakeFiles", "_deps", "evidence")
+
+
+def collect_inputs(project: Project, compilers: dict[str, str], python: str) -> dict[str, str]:
+    """Hashes of what results depend on, as they are now. Sources without git have none."""
+    try:
+        sources = calc_sources(project.root, read_code_schema(project.root).no_evidence)
+    except InputError:  # the trace check tells what is wrong there
+        sources = ""
+    presets = project.root / "CMakePresets.json"
+    preset = presets.read_text(encoding="utf-8") if presets.is_file() else ""
+    tools = json.dumps({**compilers, "python": python}, sort_keys=True)
+    return {"sources": sources, "tool_chain": _hash(tools), "configuration": _hash(f"{project.preset}\n{preset}")}
+
+
+def record_evidence(context: Context, _tick: Tick, log: TextIO) -> None:
+    """The step of a run that makes the records of all its files. @raise StepError when the environment is not recorded."""
+    count = write_records(context.project)
+    print(f"{count} files recorded", file=log)
+
+
+def write_records(project: Project) -> int:
+    """Records every evidence file, as made from what environment.json names. @return how many. @raise StepError without that."""
+    rows = _make_rows(project, list_recorded(project.evidence), _read_inputs(project))
+    _write(project, rows)
+    return len(rows)
+
+
+def renew_records(project: Project, files: Iterable[Path], inputs: dict[str, str]) -> None:
+    """Records `files`, which one command has made anew from `inputs`. Evidence without any record stays so."""
+    path = project.evidence / NAME
+    if path.is_file():
+        rows = json.loads(path.read_text(encoding="utf-8"))["files"]
+        rows.update(_make_rows(project, files, inputs))
+        _write(project, rows)
+
+
+def _read_inputs(project: Project) -> dict[str, str]:
+    path = project.evidence / "environment.json"
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))["inputs"]
+    except (OSError, ValueError, KeyError) as error:
+        raise StepError(f"{path}: no record of what the evidence is made from ({error}); run the command again") from error
+
+
+def _make_rows(project: Project, files: Iterable[Path], inputs: dict[str, str]) -> dict[str, dict[str, str | None]]:
+    programs = _find_programs(project.build)
+    rows: dict[str, dict[str, str | None]] = {}
+    for path in files:
+        program = programs.get(path.stem) if path.parent == project.junit else None
+        binary = hash_file(program) if program is not None else None
+        rows[path.relative_to(project.evidence).as_posix()] = {"sha256": hash_file(path), **inputs, "binary": binary}
+    return rows
+
+
+def _find_programs(build: Path) -> dict[str, Path]:
+    """Test programs by name: a JUnit file is named after the one that wrote it."""
+    programs: dict[str, Path] = {}
+    for folder, folders, files in os.walk(build):
+        folders[:] = sorted(name for name in folders if name not in _SKIPPED)
+        for name in sorted(files):
+            path = Path(folder) / name
+            if "." not in name and name not in programs and os.access(path, os.X_OK):
+                programs[name] = path
+    return programs
+
+
+def _write(project: Project, rows: dict[str, dict[str, str | None]]) -> None:
+    content = {"schema": SCHEMA, "files": {name: rows[name] for name in sorted(rows)}}
+    write_text(project.evidence / NAME, json.dumps(content, indent=1) + "\n")
+
+
+def _hash(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
