@@ -12,12 +12,22 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from mamori.trace.actions import bundle, check, impact, report, review, show, verify
+from mamori.trace.actions import bundle, check, impact, new, query, report, review, show, verify
 from mamori.trace.actions.common import EXIT_INPUT
 from mamori.trace.readers.files import InputError
 
 _ABOUT = "Judge requirements by executed results, and show the chain from hazard to result."
-_ACTIONS = {"check": check, "report": report, "show": show, "review": review, "impact": impact, "bundle": bundle, "verify": verify}
+_ACTIONS = {
+    "check": check,
+    "report": report,
+    "show": show,
+    "review": review,
+    "impact": impact,
+    "new": new,
+    "query": query,
+    "bundle": bundle,
+    "verify": verify,
+}
 
 
 def add_arguments(subparsers: argparse._SubParsersAction) -> None:

@@ -10,6 +10,7 @@ import tempfile
 from pathlib import Path
 
 from mamori.trace.actions.common import add_input, add_output, get_status, print_outcome, read_input
+from mamori.trace.actions.foreign import get_foreign
 from mamori.trace.readers.files import InputError
 
 HELP = "pack report, evidence and requirements with a manifest of hashes, signed on demand"
@@ -31,6 +32,8 @@ def run(arguments: argparse.Namespace) -> int:
     from mamori.trace.reports.json_report import format_json
     from mamori.trace.signature import demand_key
 
+    if get_foreign(arguments) is not None:
+        raise InputError("bundle: packs a project of Mamori's own format; leave --format out")
     if arguments.key is not None:
         demand_key(arguments.key)
     project = read_input(arguments)

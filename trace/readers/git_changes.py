@@ -75,7 +75,7 @@ def write_tree(root: Path, commit: str, folder: Path, wanted: Callable[[str], bo
         path = os.fsdecode(name)
         if len(parts) == 3 and parts[0] in _REGULAR and _is_inside(path) and wanted(path):
             entries.append((path, parts[2]))
-    for path, data in _read_blobs(root, entries):
+    for path, data in read_blobs(root, entries):
         target = folder / path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(data)
@@ -153,10 +153,13 @@ def _list_hunks(patch: bytes) -> Iterator[tuple[list[tuple[int, int]], list[tupl
         yield current
 
 
-def _read_blobs(root: Path, entries: list[tuple[str, bytes]]) -> Iterator[tuple[str, bytes]]:
+def read_blobs(root: Path, entries: list[tuple[str, bytes]]) -> Iterator[tuple[str, bytes]]:
     """Contents one after the other from one process, so that memory holds one file at a time."""
+    if not entries:
+        return
     command = ["git", "-C", str(root), "cat-file", "--batch"]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=_environment()) as process:
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=_environment()) as process:
         for path, name in entries:
             process.stdin.write(name + b"\n")
             process.stdin.flush()
