@@ -9,10 +9,15 @@ from pathlib import Path
 
 def write_whole(path: Path, text: str) -> None:
     """Writes `text` beside `path` and renames it. Raises OSError; then the old file is untouched."""
+    write_whole_bytes(path, text.encode("utf-8"))
+
+
+def write_whole_bytes(path: Path, data: bytes) -> None:
+    """Writes `data` beside `path` and renames it. Raises OSError; then the old file is untouched."""
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
+        temporary.write_bytes(data)
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)

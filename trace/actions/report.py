@@ -8,22 +8,34 @@ import sys
 from pathlib import Path
 
 from mamori.trace.actions.common import SARIF, add_input, add_output, get_status, print_outcome, read_input
+from mamori.trace.readers.files import InputError
 
-HELP = "write one offline HTML file"
+HELP = "write one offline HTML file, and a PDF"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_input(parser)
     add_output(parser, SARIF)
     parser.add_argument("--out", type=Path, default=None, metavar="FILE", help="default: report/index.html in the project")
+    parser.add_argument("--pdf", type=Path, default=None, metavar="FILE", help="print to this file, too (needs chromium)")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from mamori.trace.reports.html import write_report  # plots load matplotlib, which the other actions do not need
+    from mamori.trace.reports.chromium import BrowserError, find_chromium  # only this action needs them
+    from mamori.trace.reports.html import write_report
+    from mamori.trace.reports.pdf import print_page
 
-    project = read_input(arguments)
     out = arguments.out or arguments.root / "report" / "index.html"
-    findings = write_report(project, out)
+    pdf: Path | None = arguments.pdf
+    try:
+        if pdf is not None:
+            find_chromium()  # before a long reading
+        project = read_input(arguments)
+        findings = write_report(project, out, None if pdf is None else lambda page: print_page(page, pdf))
+    except BrowserError as error:
+        raise InputError(f"{pdf}: not written: {error}") from error
     print_outcome(arguments, project, findings)
-    print(f"report: {out}", file=sys.stdout if arguments.output == "text" else sys.stderr)
+    stream = sys.stdout if arguments.output == "text" else sys.stderr
+    for file in filter(None, (out, pdf)):
+        print(f"report: {file}", file=stream)
     return get_status(findings)

@@ -11,14 +11,16 @@ import re
 from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mamori.trace.model.evidence import CampaignCase
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.project import Project
 from mamori.trace.readers.files import UNREADABLE, get_shown_path
 from mamori.trace.readers.series import JOINTS, SeriesError, read_series
-from mamori.trace.reports.plots import Marks, draw_case
+
+if TYPE_CHECKING:
+    from mamori.trace.reports.plots import Marks
 
 ABSENT = "–"
 _ORIGIN = (("trace hash", "trace_hash"), ("seed", "seed"), ("motion", "motion"), ("model", "model"), ("built by", "compiler"))
@@ -63,6 +65,10 @@ class ScenarioView:
 
 def make_scenario_views(project: Project, problems: list[Problem]) -> list[ScenarioView]:
     """Scenarios and cases in the order of the campaign. A series that cannot be drawn becomes a problem."""
+    if not project.evidence.cases:
+        return []
+    from mamori.trace.reports.plots import draw_case  # loads matplotlib, which takes longer than a small report
+
     groups: dict[str, list[CaseView]] = defaultdict(list)
     base = Path(project.evidence.folder) / "campaign"
     for index, case in enumerate(project.evidence.cases):
@@ -88,6 +94,8 @@ def find_slowest(scenarios: list[ScenarioView]) -> CaseView | None:
 
 def _find_marks(case: CampaignCase) -> Marks:
     """Raises SeriesError where the run does not tell its speed limits."""
+    from mamori.trace.reports.plots import Marks
+
     limits = _get_numbers(_get_table(case.run, "physics"), "speed_limit_rad_s")
     if len(limits) != JOINTS or min(limits) <= 0:
         raise SeriesError(f"the run of {case.id} tells no speed limits of {JOINTS} joints")

@@ -1,29 +1,46 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the report: one HTML file without network, the same bytes for the same inputs.
 
-@satisfies SWR-TRC-011, SWR-TRC-013      Design: docs/design/trace.md#report
+@satisfies SWR-TRC-011, SWR-TRC-013, SWR-TRC-061, SWR-TRC-062, SWR-TRC-066, SWR-TRC-067, SWR-TRC-068      Design: docs/design/trace_report.md
 """
 
 from __future__ import annotations
 
-from collections import Counter
+import base64
+import hashlib
+from collections import Counter, defaultdict
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import jinja2
+from markupsafe import Markup, escape
 
 from mamori.trace.checks import list_rules, run_checks
 from mamori.trace.model.finding import ERROR, Finding, Rule
-from mamori.trace.model.item import Level
 from mamori.trace.model.project import Project
-from mamori.trace.model.verdict import VERIFIED, WORST_FIRST, Verdict, calc_verdicts
-from mamori.trace.reports import v_overview
+from mamori.trace.model.verdict import VERIFIED, Verdict, calc_verdicts
+from mamori.trace.readers.item_history import read_item_history
+from mamori.trace.reports import dashboard, v_overview
 from mamori.trace.reports.campaign_view import find_slowest, make_scenario_views
 from mamori.trace.reports.cost_view import make_cost_views
+from mamori.trace.reports.inline_json import format_inline
+from mamori.trace.reports.page_data import make_page_data, order_items
+from mamori.trace.reports.static_view import StaticView
+from mamori.trace.reports.technique_view import list_techniques
 from mamori.trace.reports.timing_view import make_timing_views
-from mamori.trace.reports.view import describe_environment, group_tags, make_item_views, make_suite_views
+from mamori.trace.reports.view import describe_environment, group_tags, make_suite_views
 from mamori.trace.write import write_whole
 
+PAPER_ITEMS_MAX = 2000
 _TEMPLATES = Path(__file__).parent / "templates"
+_STYLES = ("base.css", "frame.css", "cards.css", "matrix.css", "item.css", "campaign.css", "print.css")
+_SCRIPTS = ("data.js", "parts.js", "matrix.js", "item.js", "lists.js", "search.js", "frame.js")
+# Before anything is drawn: views stand alone where there is a script, and the chosen colours apply.
+_FIRST_SCRIPT = """
+document.documentElement.classList.add("js");
+try { document.documentElement.dataset.theme = localStorage.getItem("mamori-theme") || ""; } catch (error) { /* the file's own choice */ }
+"""
 
 GLOSSARY = (
     ("verified", "Every demanded test and campaign case was executed and passed, from each demanded side."),
@@ -38,39 +55,65 @@ GLOSSARY = (
 )  # fmt: skip
 
 
-def write_report(project: Project, out: Path) -> list[Finding]:
-    """Checks, judges, draws and writes. @return the findings, including those about series and pictures that cannot be shown."""
+def write_report(project: Project, out: Path, make_pdf: Callable[[str], None] | None = None) -> list[Finding]:
+    """Checks, judges, draws and writes. `make_pdf` gets the page as it stands on paper, before anything is written.
+
+    @return the findings, including those about series and pictures that cannot be shown.
+    """
+    context = _make_context(project)
+    page = _render(context)
+    if make_pdf is not None:
+        make_pdf(_render(context | {"paper": True, "listed": context["ordered"][:PAPER_ITEMS_MAX]}))
+    write_whole(out, page)
+    return context["findings"]
+
+
+def _render(context: dict[str, Any]) -> str:
+    page = _make_environment().get_template("report.html.j2").render(context)
+    # A lone surrogate can come out of foreign JSON; no file can hold it.
+    return page.encode("utf-8", errors="replace").decode("utf-8")
+
+
+def _make_context(project: Project) -> dict[str, Any]:
+    """Everything that the templates name."""
     scenarios = make_scenario_views(project, project.problems)
     timing = make_timing_views(project, project.problems)
     findings = run_checks(project)
     verdicts = calc_verdicts(project)
     words = Counter(verdict.word for verdict in verdicts.values())
-    page = _make_environment().get_template("report.html.j2").render(
-        project=project,
-        environment=describe_environment(project.evidence.environment),
-        findings=findings,
-        findings_of_rule=_group_by_rule(findings),
-        errors=sum(finding.severity == ERROR for finding in findings),
-        rules=list_rules(),
-        words=words,
-        verdict_words=[word for word in reversed(WORST_FIRST) if words[word]],
-        requirements=_count_requirements(project, verdicts),
-        results=Counter("failed" if result.failing else result.status for result in project.results),
-        items=make_item_views(project, verdicts, findings),
-        levels=_list_levels(project),
-        suites=make_suite_views(project.results),
-        files=group_tags(project.tags),
-        scenarios=scenarios,
-        anchors={view.case.id: view.anchor for scenario in scenarios for view in scenario.cases},
-        slowest=find_slowest(scenarios),
-        timing=timing,
-        costs=make_cost_views(project),
-        drawings=[(layout, v_overview.make_boxes(project, verdicts, layout)) for layout in v_overview.LAYOUTS],
-        v=v_overview,
-        glossary=GLOSSARY,
-    )
-    write_whole(out, page)
-    return findings
+    anchors = {view.case.id: view.anchor for scenario in scenarios for view in scenario.cases}
+    history = read_item_history(project.root)
+    ordered = order_items(project, verdicts)
+    return {
+        "paper": False,
+        "project": project,
+        "environment": describe_environment(project.evidence.environment),
+        "findings": findings,
+        "findings_of_rule": _group_by_rule(findings),
+        "errors": sum(finding.severity == ERROR for finding in findings),
+        "rules": list_rules(),
+        "words": words,
+        "requirements": _count_requirements(project, verdicts),
+        "results": Counter("failed" if result.failing else result.status for result in project.results),
+        "level_bars": dashboard.list_level_bars(project, verdicts),
+        "finding_bars": dashboard.list_finding_bars(findings),
+        "result_bars": dashboard.list_result_bars(project),
+        "data": Markup(format_inline(make_page_data(project, verdicts, findings, anchors, history))),
+        "static": StaticView(project, verdicts, _group_by_item(findings), anchors, history),
+        "ordered": ordered,
+        "listed": ordered,
+        "suites": make_suite_views(project.results),
+        "files": group_tags(project.tags),
+        "scenarios": scenarios,
+        "anchors": anchors,
+        "slowest": find_slowest(scenarios),
+        "timing": timing,
+        "costs": make_cost_views(project),
+        "techniques": list_techniques(project),
+        "drawings": [(layout, v_overview.make_boxes(project, verdicts, layout)) for layout in v_overview.LAYOUTS],
+        "v": v_overview,
+        "glossary": GLOSSARY,
+    }
 
 
 def _make_environment() -> jinja2.Environment:
@@ -81,22 +124,42 @@ def _make_environment() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    script = f'\n(() => {{\n"use strict";\n{_read_templates(_SCRIPTS)}}})();\n'
     environment.filters["css"] = lambda word: word.replace(" ", "-")
-    environment.globals["style"] = (_TEMPLATES / "style.css").read_text(encoding="utf-8")
-    environment.globals["script"] = (_TEMPLATES / "script.js").read_text(encoding="utf-8")
+    environment.filters["to"] = _make_link
+    environment.globals["style"] = Markup(_read_templates(_STYLES))
+    environment.globals["first_script"] = Markup(_FIRST_SCRIPT)
+    environment.globals["script"] = Markup(script)
+    # The two scripts of the page, and no other: text that got through the escaping could still not run.
+    environment.globals["script_hashes"] = Markup(" ".join(map(_calc_script_hash, (_FIRST_SCRIPT, script))))
     return environment
 
 
-def _list_levels(project: Project) -> list[Level]:
-    """Levels that have items."""
-    present = {item.level for item in project.live_items}
-    return [level for level in project.schema.levels.values() if level.key in present]
+def _read_templates(names: tuple[str, ...]) -> str:
+    return "".join((_TEMPLATES / name).read_text(encoding="utf-8") for name in names)
+
+
+def _calc_script_hash(script: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"
+
+
+def _make_link(target: str) -> Markup:
+    """`#view?filters` as attributes: the script joins the two; without it the link leads to the view."""
+    view, _, query = target.partition("?")
+    return Markup(f'href="{escape(view)}"') + (Markup(f' data-query="{escape(query)}"') if query else Markup(""))
 
 
 def _group_by_rule(findings: list[Finding]) -> list[tuple[Rule, list[Finding]]]:
     """Rules with findings, errors first, in the order of the rules."""
     groups = [(rule, [finding for finding in findings if finding.rule == rule.id]) for rule in list_rules()]
     return sorted((group for group in groups if group[1]), key=lambda group: group[0].severity != ERROR)
+
+
+def _group_by_item(findings: list[Finding]) -> dict[str, list[Finding]]:
+    groups: dict[str, list[Finding]] = defaultdict(list)
+    for finding in findings:
+        groups[finding.item].append(finding)
+    return groups
 
 
 def _count_requirements(project: Project, verdicts: dict[str, Verdict]) -> tuple[int, int]:

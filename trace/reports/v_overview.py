@@ -48,7 +48,7 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """One station of the V. `levels` are the item levels that a click filters the matrix by, empty for other targets."""
+    """One station of the V. `target` is where a click leads to, with the filters that belong to it."""
 
     name: str
     count: str
@@ -56,7 +56,6 @@ class Box:
     x: int
     y: int
     target: str
-    levels: str
     segments: tuple[Segment, ...]
 
 
@@ -68,8 +67,8 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
     cases = cases or [result.status for result in project.results if result.kind == CAMPAIGN]
     files = len({tag.place.file for tag in project.tags})
     left = (("Needs and hazards", ("STK", "HAZ")), ("System requirements", ("SYS", "AOU")), ("Software requirements", ("SWR",)))
-    right = (("Fault campaign", cases, "cases", "#campaign"), ("Integration tests", results[INTEGRATION], "tests", "#tests"),
-             ("Unit tests", results[UNIT], "tests", "#tests"))  # fmt: skip
+    right = (("Fault campaign", cases, "cases", "#campaign"), ("Integration tests", results[INTEGRATION], "tests", "#tests?kind=integration"),
+             ("Unit tests", results[UNIT], "tests", "#tests?kind=unit"))  # fmt: skip
     boxes: list[Box] = []
     for row, ((name, levels), (test_name, statuses, noun, target)) in enumerate(zip(left, right)):
         y = _TOP + row * _STEP_Y
@@ -77,14 +76,14 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
         words = [verdict.word for key, verdict in verdicts.items() if project.items[key].level in levels]
         bar = _make_segments(words, reversed(WORST_FIRST), x, layout)
         detail = _describe(words, WORST_FIRST, "verified")
-        boxes.append(Box(name, str(len(words)), detail, x, y, "#matrix", " ".join(levels), bar))
+        boxes.append(Box(name, str(len(words)), detail, x, y, "#matrix?" + "&".join(f"level={level}" for level in levels), bar))
         x = layout.width - layout.box_width - x
         words = [FAILED if status not in (PASSED, SKIPPED) else status for status in statuses]
         bar = _make_segments(words, (PASSED, SKIPPED, FAILED), x, layout)
         detail = _describe(words, (FAILED, SKIPPED), "passed") if words else f"no {noun} run"
-        boxes.append(Box(test_name, str(len(words)), detail, x, y, target, "", bar))
+        boxes.append(Box(test_name, str(len(words)), detail, x, y, target, bar))
     detail = f"tags in {files} file{'' if files == 1 else 's'}"
-    boxes.append(Box("Code", str(len(project.tags)), detail, (layout.width - layout.box_width) // 2, _TOP + 3 * _STEP_Y, "#code", "", ()))
+    boxes.append(Box("Code", str(len(project.tags)), detail, (layout.width - layout.box_width) // 2, _TOP + 3 * _STEP_Y, "#code", ()))
     return boxes
 
 

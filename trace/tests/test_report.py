@@ -61,12 +61,12 @@ def test_every_link_of_the_page_leads_to_one_place_in_the_page(write: Callable[[
 @pytest.mark.verifies("SWR-TRC-011", technique="requirements_based", polarity="nominal")
 def test_the_page_leads_from_hazard_to_result_and_back(write: Callable[[], Page]) -> None:
     text = write().text
-    item = text[text.index('id="SWR-SUP-001"') : text.index('id="SWR-SUP-002"')]
-    hazard = text[text.index('id="HAZ-001"') : text.index('id="SYS-001"')]
+    item = text[text.index('id="item/SWR-SUP-001"') : text.index('id="item/SWR-SUP-002"')]
+    hazard = text[text.index('id="item/HAZ-001"') : text.index('id="item/SYS-001"')]
 
-    for part in ('href="#HAZ-001"', 'href="#SYS-001"', "safety/include/alive.hpp:5", "AliveTest.SilenceIsReported", "passed"):
+    for part in ('href="#item/HAZ-001"', 'href="#item/SYS-001"', "safety/include/alive.hpp:5", "AliveTest.SilenceIsReported", "passed"):
         assert part in item
-    for part in ('href="#SYS-001"', 'href="#SWR-SUP-001"'):
+    for part in ('href="#item/SYS-001"', 'href="#item/SWR-SUP-001"'):
         assert part in hazard
 
 

@@ -112,6 +112,7 @@ def safe_state_step() -> Step:
 
 
 HOST_TOOLS = Step(name="tests of the host tools", commands=(PYTEST,), result="python-tools.xml")
+REPORT_IN_BROWSER = Step(name="report in a browser", commands=((*PYTEST, "trace/tests/browser"),), result="report-browser.xml")
 LAYERS = Step(name="layer check", commands=((*PYTHON, "mamori.verification.tools.check_layers"),))
 
 
@@ -230,6 +231,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         build_step(RELEASE),
         ctest_step(RELEASE),
         HOST_TOOLS,
+        REPORT_IN_BROWSER,
         LAYERS,
         format_step(project),
         tidy_step(),

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Asks git which commits changed which item: one call, read as it comes, with a bound on commits, bytes and time.
+
+@satisfies SWR-TRC-063      Design: docs/design/trace_report.md#history
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import tempfile
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+COMMITS_MAX = 2000
+CHANGES_MAX = 20
+_SECONDS_MAX = 20
+_LINES_MAX = 2_000_000
+_COMMIT = "\x1e"
+_HUNK = re.compile(r"@@ -\S+ \+\S+ @@ ?(.*)")
+_HEADING = re.compile(r" {0,3}## +(\S+)")
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One commit that touched an item's block. `commit` is abbreviated, `date` is ISO 8601."""
+
+    commit: str
+    date: str
+    subject: str
+
+
+def read_item_history(root: Path) -> dict[str, list[Change]]:
+    """Changes of each item, the newest first, at most CHANGES_MAX of each. Empty where git cannot tell."""
+    if not (root / "requirements").is_dir():
+        return {}
+    with tempfile.NamedTemporaryFile("w", suffix=".attributes") as attributes:
+        # git then names the heading above each hunk, which is the item that the hunk lies in.
+        attributes.write("*.md diff=markdown\n")
+        attributes.flush()
+        command = [
+            "git", "-C", str(root), "-c", f"core.attributesFile={attributes.name}", "-c", "core.quotePath=false", "log",
+            f"--max-count={COMMITS_MAX}", "--no-color", "--no-ext-diff", "--no-textconv", "--no-renames", "--unified=0",
+            f"--format={_COMMIT}%h%x1f%cs%x1f%s", "--abbrev=12", "--patch", "--", "requirements",
+        ]  # fmt: skip
+        try:
+            answer = subprocess.run(command, capture_output=True, timeout=_SECONDS_MAX, check=False)
+        except (OSError, subprocess.TimeoutExpired):
+            return {}
+    if answer.returncode != 0:
+        return {}
+    return find_changes(answer.stdout.decode("utf-8", errors="replace").split("\n"))
+
+
+def find_changes(lines: Iterable[str]) -> dict[str, list[Change]]:
+    """Changes by item, from the lines of `git log --patch --unified=0`."""
+    changes: dict[str, list[Change]] = defaultdict(list)
+    commit = Change("", "", "")
+    item = ""
+    in_hunk = False
+    for number, line in enumerate(lines):
+        if number >= _LINES_MAX:
+            break
+        if line.startswith(_COMMIT):
+            commit = Change(*(line[1:].split("\x1f", 2) + ["", ""])[:3])
+            in_hunk = False
+        elif hunk := _HUNK.match(line):
+            heading = _HEADING.match(hunk[1])
+            item = heading[1] if heading else ""
+            in_hunk = True
+        elif line.startswith("diff --git "):
+            in_hunk = False
+        elif in_hunk and line[:1] in ("+", "-") and line[1:].strip():
+            heading = _HEADING.match(line[1:])
+            item = heading[1] if heading else item
+            known = changes[item] if item else []
+            if item and len(known) < CHANGES_MAX and (not known or known[-1] is not commit):
+                known.append(commit)
+    return dict(changes)

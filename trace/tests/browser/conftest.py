@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A page in Chromium, and a small project and one of 10,000 items as pages. Without Chromium every test here fails."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from large_project import make_large_project
+from trace_sample import make_sample
+
+from mamori.trace.readers.project import read_project
+from mamori.trace.reports.chromium import Chromium
+from mamori.trace.reports.html import write_report
+
+_COMPLAINTS = ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entryAdded")
+
+
+class Page:
+    """One page in the browser: what a user does with it, and what the browser told meanwhile."""
+
+    def __init__(self, browser: Chromium) -> None:
+        self._browser = browser
+        self._start = 0
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            browser.call(f"{domain}.enable")
+
+    def open(self, file: Path, fragment: str = "", width: int = 1280, scheme: str = "light") -> None:
+        """Opens the file anew."""
+        self._browser.call("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+        self._browser.call("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+        self._browser.open("about:blank")
+        self._start = len(self._browser.events)
+        self._browser.open(file.as_uri() + fragment)
+
+    def ask(self, expression: str) -> Any:
+        """Value of a JavaScript expression."""
+        return self._browser.evaluate(expression)
+
+    def go(self, fragment: str) -> None:
+        """Follows a link inside the page."""
+        self.ask(f"new Promise(done => {{ addEventListener('hashchange', () => setTimeout(done), {{once: true}}); location.hash = {json.dumps(fragment)} }})")
+
+    def press(self, key: str, modifiers: int = 0) -> None:
+        """One key, as a keyboard sends it."""
+        text = {"Enter": "\r"}.get(key, key if len(key) == 1 else "")
+        codes = {"Tab": 9, "Enter": 13, "Escape": 27, "ArrowUp": 38, "ArrowDown": 40}
+        event = {"key": key, "modifiers": modifiers, "windowsVirtualKeyCode": codes.get(key, ord(key[0]))}
+        self._browser.call("Input.dispatchKeyEvent", {"type": "keyDown", "text": text, **event})
+        self._browser.call("Input.dispatchKeyEvent", {"type": "keyUp", **event})
+        self.ask("new Promise(done => setTimeout(done))")
+
+    def type(self, text: str) -> None:
+        """Text into the field that has the focus."""
+        self._browser.call("Input.insertText", {"text": text})
+
+    def list_complaints(self) -> list[str]:
+        """Messages on the console since the page was opened."""
+        return [json.dumps(event["params"])[:500] for event in self._browser.events[self._start :] if event.get("method") in _COMPLAINTS]
+
+    def list_requests(self) -> list[str]:
+        """Addresses that were asked for since then, without those that carry their data."""
+        events = (event for event in self._browser.events[self._start :] if event.get("method") == "Network.requestWillBeSent")
+        return [url for event in events if not (url := event["params"]["request"]["url"]).startswith("data:")]
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Chromium]:
+    with Chromium() as running:
+        yield running
+
+
+@pytest.fixture
+def page(browser: Chromium) -> Iterator[Page]:
+    """A page on which nothing may complain, whatever the test does."""
+    fresh = Page(browser)
+    yield fresh
+    assert fresh.list_complaints() == []
+
+
+@pytest.fixture(scope="session")
+def small_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report of the sample project, with hostile words in it, a draft and a failed test."""
+    sample = make_sample(tmp_path_factory.mktemp("small") / "project")
+    sample.replace("requirements/system/system.md", "## SYS-003 Tool", "## SYS-003 <img src=x onerror=alert(1)></script>")
+    sample.replace("build/host-release/evidence/junit/tools.xml", 'name="test_no_connection[b]" time="0.001">',
+                   'name="test_no_connection[b]" time="0.001"><failure message="&lt;b&gt;no&lt;/b&gt;"/>')  # fmt: skip
+    out = sample.root / "report" / "index.html"
+    write_report(read_project(sample.root, None), out)
+    return out
+
+
+@pytest.fixture(scope="session")
+def large_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report of 10,000 items and 6,000 results."""
+    out = tmp_path_factory.mktemp("large") / "index.html"
+    write_report(make_large_project(out.parent), out)
+    return out

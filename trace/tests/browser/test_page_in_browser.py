@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: the page does in a browser what it promises: filters, links, keys, colours, small widths; quietly and without a request.
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+VIEWS = ("#overview", "#matrix", "#findings", "#tests", "#campaign", "#timing", "#code", "#techniques", "#glossary", "#item/SWR-SUP-001",
+         "#item/SYS-003", "#case-1-encoder_freeze-1")  # fmt: skip
+ROWS = "[...document.querySelectorAll('#matrix .rows tbody a.id')].filter(a => a.closest('td').className === 'title').map(a => a.textContent)"
+SHOWN = "[...document.querySelectorAll('section.view')].filter(s => getComputedStyle(s).display !== 'none').map(s => s.id)"
+
+
+@pytest.mark.parametrize("fragment", VIEWS)
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_each_view_opens_by_its_address_alone_and_fetches_nothing(page: Any, small_file: Path, fragment: str) -> None:
+    page.open(small_file, fragment)
+
+    expected = "items" if "item/" in fragment else "campaign" if "case-" in fragment else fragment[1:]
+    assert page.ask(SHOWN) == [expected]
+    assert page.ask(f"document.getElementById('{expected}').innerText.length") > 40
+    assert page.list_requests() == [small_file.as_uri() + fragment] or page.list_requests() == [small_file.as_uri()]
+
+
+@pytest.mark.parametrize("width", [1280, 768, 400])
+@pytest.mark.parametrize("fragment", VIEWS)
+@pytest.mark.verifies("SWR-TRC-068", technique="boundary_values", polarity="nominal")
+def test_no_view_makes_the_page_scroll_sideways(page: Any, small_file: Path, fragment: str, width: int) -> None:
+    page.open(small_file, fragment, width=width)
+
+    assert page.ask("document.documentElement.scrollWidth") <= width
+    small = page.ask("[...document.querySelectorAll('button, select, input, nav a, summary, .chip, a.step')].filter(e => e.checkVisibility())"
+                     ".filter(e => !e.matches('.bare') && !e.closest('.chip') && e.getBoundingClientRect().height < 40).map(e => e.outerHTML.slice(0, 120))")  # fmt: skip
+    assert small == []
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_filters_narrow_the_matrix_stand_in_the_address_and_come_back_from_it(page: Any, small_file: Path) -> None:
+    page.open(small_file, "#matrix")
+    assert len(page.ask(ROWS)) == 8
+
+    page.ask("document.querySelector('#matrix input[name=level][value=SWR]').click()")
+    page.ask("document.querySelector('#matrix input[name=verdict][value=verified]').click()")
+
+    assert page.ask(ROWS) == ["SWR-SUP-001", "SWR-SUP-002"]
+    assert page.ask("location.hash") == "#matrix?level=SWR&verdict=verified"
+    assert page.ask("document.querySelector('#matrix output').textContent") == "2 of 8"
+    page.open(small_file, "#matrix?level=SWR&verdict=verified&q=late")
+    assert page.ask(ROWS) == ["SWR-SUP-002"]
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_typing_into_the_filter_keeps_the_field_and_finds(page: Any, small_file: Path) -> None:
+    page.open(small_file, "#matrix")
+    page.ask("document.querySelector('#matrix input[type=search]').focus()")
+
+    for letter in "freeze":
+        page.type(letter)
+
+    assert page.ask("document.activeElement.value") == "freeze"
+    assert page.ask(ROWS) == ["SYS-002"]
+
+
+@pytest.mark.parametrize(
+    ("box", "rows"),
+    [("Needs and hazards", ["STK-001", "HAZ-001"]), ("System requirements", ["SYS-001", "SYS-002", "SYS-003"]),
+     ("Software requirements", ["SWR-SUP-001", "SWR-SUP-002", "SWR-TLS-001"])],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_a_box_of_the_v_leads_to_its_rows(page: Any, small_file: Path, box: str, rows: list[str]) -> None:
+    page.open(small_file)
+
+    link = f"[...document.querySelectorAll('svg.v.wide a')].find(a => a.textContent.includes('{box}')).getAttribute('href')"
+    page.go(page.ask(link))
+
+    assert page.ask(ROWS) == rows
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_links_lead_from_the_hazard_to_a_result_and_back(page: Any, small_file: Path) -> None:
+    page.open(small_file, "#item/HAZ-001")
+    for name in ("SYS-001", "SWR-SUP-001", "HAZ-001"):
+        page.go(page.ask(f"[...document.querySelectorAll('#items .chain a')].find(a => a.textContent.startsWith('{name}')).getAttribute('href')"))
+        assert page.ask("document.querySelector('#items h1').textContent").startswith(name)
+
+    results = page.ask("[...document.querySelectorAll('#items .chain .column:last-child a')].map(a => a.innerText)")
+    assert any("SilenceIsReported" in result for result in results)
+    assert any("encoder_freeze-1" in result for result in results)
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_findings_and_results_are_filtered_too(page: Any, small_file: Path) -> None:
+    page.open(small_file, "#findings?rule=result-failed")
+    assert page.ask("document.querySelectorAll('#findings .findings li').length") == 1
+
+    page.go("#tests?status=failed")
+    assert page.ask("document.querySelector('#tests output').textContent").startswith("1 of ")
+    assert "<b>no</b>" in page.ask("document.querySelector('#tests').innerText")
+
+
+@pytest.mark.verifies("SWR-TRC-062", technique="error_guessing", polarity="violation")
+def test_hostile_titles_are_letters_on_every_view(page: Any, small_file: Path) -> None:
+    for fragment in ("#matrix", "#item/SYS-003", "#item/SWR-TLS-001", "#findings"):
+        page.open(small_file, fragment)
+        assert page.ask("document.querySelectorAll('main img[src=x]').length") == 0
+
+    page.open(small_file, "#item/SYS-003")
+    assert "<img src=x onerror=alert(1)></script>" in page.ask("document.querySelector('#items h1').innerText")
+
+
+@pytest.mark.verifies("SWR-TRC-066", technique="requirements_based", polarity="nominal")
+def test_the_search_is_worked_by_keys_alone(page: Any, small_file: Path) -> None:
+    page.open(small_file)
+    page.press("/")
+    page.type("sup")
+
+    assert page.ask("[...document.querySelectorAll('#hits .id')].map(e => e.textContent)") == ["SWR-SUP-001", "SWR-SUP-002", "SYS-001"]
+    page.press("ArrowDown")
+    assert page.ask("document.querySelector('#hits [aria-selected=true] .id').textContent") == "SWR-SUP-002"
+    page.press("Enter")
+
+    assert page.ask("location.hash") == "#item/SWR-SUP-002"
+    assert page.ask("document.activeElement.id") == "items"
+    page.press("/")
+    page.type("zzz")
+    assert page.ask("document.getElementById('hit-count').textContent") == "0 items"
+    page.press("Escape")
+    assert page.ask("document.getElementById('answer').hidden") is True
+
+
+@pytest.mark.verifies("SWR-TRC-068", technique="requirements_based", polarity="nominal")
+def test_the_first_tab_offers_the_way_past_the_bar_and_focus_is_visible(page: Any, small_file: Path) -> None:
+    page.open(small_file)
+    page.press("Tab")
+
+    assert page.ask("document.activeElement.className") == "skip"
+    assert page.ask("document.activeElement.getBoundingClientRect().left") >= 0
+    page.press("Enter")
+    assert page.ask("document.activeElement.id") == "content"
+    page.press("Tab")
+    assert page.ask("getComputedStyle(document.activeElement).outlineStyle") == "solid"
+
+
+@pytest.mark.verifies("SWR-TRC-068", technique="requirements_based", polarity="nominal")
+def test_brackets_lead_to_the_items_before_and_after(page: Any, small_file: Path) -> None:
+    page.open(small_file, "#item/SYS-002")
+    page.press("]")
+    assert page.ask("location.hash") == "#item/SYS-003"
+    page.press("[")
+    page.press("[")
+    assert page.ask("location.hash") == "#item/SYS-001"
+
+
+@pytest.mark.verifies("SWR-TRC-068", technique="requirements_based", polarity="nominal")
+def test_colours_follow_the_system_until_the_button_chooses(page: Any, small_file: Path) -> None:
+    colour = "getComputedStyle(document.body).backgroundColor"
+    page.open(small_file, scheme="light")
+    light = page.ask(colour)
+    page.open(small_file, scheme="dark")
+    dark = page.ask(colour)
+
+    assert light != dark
+    for expected in (light, dark, dark):  # light, dark, as the system
+        page.ask("document.getElementById('theme').click()")
+        assert page.ask(colour) == expected
+
+
+@pytest.mark.verifies("SWR-TRC-066", technique="boundary_values", polarity="nominal")
+def test_searching_ten_thousand_items_takes_at_most_a_tenth_of_a_second(page: Any, large_file: Path, record_property: Any) -> None:
+    page.open(large_file)
+    page.ask("document.getElementById('search').focus()")
+    queries = ["s", "sw", "swr", "swr-sup", "SWR-SUP-00420", "overspeed of joint", "latch corrupted cycles", "4242", "keep what it decided", "nowhere at all"]
+
+    times = page.ask(f"""(() => {{
+        const field = document.getElementById('search');
+        return {queries}.map((text) => {{
+            field.value = text;
+            const start = performance.now();
+            field.dispatchEvent(new Event('input', {{bubbles: true}}));
+            document.body.getBoundingClientRect();  // what was drawn is laid out, too
+            return performance.now() - start;
+        }});
+    }})()""")
+
+    middle = sorted(times)[len(times) // 2]
+    record_property("search_ms_median", round(middle, 1))
+    record_property("search_ms_slowest", round(max(times), 1))
+    print(f"search at 10,000 items: median {middle:.1f} ms, slowest {max(times):.1f} ms ({queries[times.index(max(times))]!r})")
+    assert middle <= 100
+
+
+@pytest.mark.verifies("SWR-TRC-066", technique="requirements_based", polarity="nominal")
+def test_the_search_draws_the_best_fifty_and_counts_all(page: Any, large_file: Path) -> None:
+    page.open(large_file)
+    page.press("/")
+    page.type("overspeed")
+
+    assert page.ask("document.querySelectorAll('#hits li').length") == 50
+    assert page.ask("document.getElementById('hit-count').textContent") == "The best 50 of 1,666 items"
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="boundary_values", polarity="nominal")
+def test_ten_thousand_rows_are_drawn_a_hundred_at_a_time(page: Any, large_file: Path) -> None:
+    page.open(large_file, "#matrix", width=400)
+    assert len(page.ask(ROWS)) == 100
+    assert page.ask("document.documentElement.scrollWidth") <= 400
+
+    page.ask("document.querySelector('#matrix .more button').click()")
+
+    assert len(page.ask(ROWS)) == 200

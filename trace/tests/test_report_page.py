@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: the data of the page is complete, safe and small; without a script everything is there as plain rows; git tells the history.
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from large_project import make_large_project
+from trace_sample import Sample
+
+from mamori.trace.model.finding import Place
+from mamori.trace.readers.item_history import CHANGES_MAX, find_changes, read_item_history
+from mamori.trace.readers.project import read_project
+from mamori.trace.reports.chromium import BrowserError
+from mamori.trace.reports.coverage_view import FunctionCoverage
+from mamori.trace.reports.html import write_report
+from mamori.trace.reports.inline_json import format_inline
+from mamori.trace.reports.technique_view import TechniqueRow
+
+SIZE_BYTES_MAX = 30_000_000
+HOSTILE = ("</script><script>alert(1)</script>", "</noscript><img src=x onerror=alert(1)>", "<!--<script>", "]]>\u2028\u2029", '" onload="x', "&lt;b&gt;")
+DATA = re.compile(r'<script type="application/json" id="data">(.*?)</script>', re.DOTALL)
+
+
+@pytest.fixture
+def page(trace: Callable, sample: Sample) -> Callable[[], str]:
+    def run() -> str:
+        trace("report", "--root", sample.root)
+        return (sample.root / "report" / "index.html").read_text(encoding="utf-8")
+
+    return run
+
+
+def read_data(text: str) -> dict[str, Any]:
+    match = DATA.search(text)
+    assert match
+    return json.loads(match[1])
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_the_data_names_items_with_their_links_results_code_cases_and_findings(sample: Sample, page: Callable[[], str]) -> None:
+    sample.replace("requirements/software/software.md", "Parents: SYS-001, HAZ-001", "Parents: SYS-001, HAZ-009")
+
+    data = read_data(page())
+
+    number = data["items"]["id"].index("SWR-SUP-001")
+    assert data["items"]["parents"][number] == [data["items"]["id"].index("SYS-001"), "HAZ-009"]
+    assert [data["results"]["name"][row] for row, item in enumerate(data["results"]["item"]) if item == number] == [
+        "SilenceIsNotHealedByOneReport", "SilenceIsReported"]  # fmt: skip
+    assert [data["files"][data["tags"]["file"][row]] for row, item in enumerate(data["tags"]["item"]) if item == number] == ["safety/include/alive.hpp"]
+    assert [case[0] for case in data["cases"]] == ["encoder_freeze-1", "no_fault-1"]
+    assert "unknown-id" in data["findings"]["rule"]
+    assert {row[0] for row in data["rules"]} >= set(data["findings"]["rule"])
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_boxes_of_the_v_and_bars_of_the_dashboard_lead_to_their_rows(page: Callable[[], str]) -> None:
+    text = page()
+
+    for part in ('href="#matrix" data-query="level=STK&amp;level=HAZ"', 'href="#tests" data-query="kind=unit"',
+                 'href="#matrix" data-query="level=SYS&amp;verdict=verified"', 'href="#tests" data-query="kind=unit&amp;status=passed"'):  # fmt: skip
+        assert part in text, part
+
+
+@pytest.mark.verifies("SWR-TRC-061", technique="requirements_based", polarity="nominal")
+def test_everything_stands_in_plain_rows_for_those_without_scripts(sample: Sample, page: Callable[[], str]) -> None:
+    sample.replace("build/host-release/evidence/junit/safety.xml", 'result="completed" time="0.001" classname="Limits/LateTest">',
+                   'result="completed" time="0.001" classname="Limits/LateTest"><failure message="too late"/>')  # fmt: skip
+    text = re.sub(r"<script.*?</script>", "", page(), flags=re.DOTALL)
+
+    for part in ("The supervision shall report a late entity.", "too late", "SWR-TLS-001", "tools/offline.py", "test_no_connection",
+                 "result-failed", 'href="#case-1-encoder_freeze-1"'):  # fmt: skip
+        assert part in text, part
+    assert text.count("<noscript>") == text.count("</noscript>") >= 4
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+@pytest.mark.verifies("SWR-TRC-062", technique="error_guessing", polarity="violation")
+def test_no_text_gets_out_of_the_data(text: str) -> None:
+    inline = format_inline({"title": text})
+
+    assert not set("<>&\u2028\u2029") & set(inline)
+    assert json.loads(inline) == {"title": text}
+
+
+@pytest.mark.parametrize("title", HOSTILE)
+@pytest.mark.verifies("SWR-TRC-062", technique="error_guessing", polarity="violation")
+def test_hostile_titles_stay_titles(sample: Sample, page: Callable[[], str], title: str) -> None:
+    sample.replace("requirements/system/system.md", "## SYS-003 Tool", "## SYS-003 Plain title")
+    plain = page()
+    sample.replace("requirements/system/system.md", "## SYS-003 Plain title", f"## SYS-003 {title}")
+
+    text = page()
+
+    assert title.split("\u2028")[0] in read_data(text)["items"]["title"][4]
+    for tag in ("<script", "</script", "<noscript", "</noscript", "<img", "<!--", '" onload="x'):
+        assert text.count(tag) == plain.count(tag), tag
+
+
+@pytest.mark.verifies("SWR-TRC-062", technique="error_guessing", polarity="nominal")
+def test_a_lone_surrogate_in_foreign_json_spoils_nothing(sample: Sample, page: Callable[[], str]) -> None:
+    path = sample.evidence / "campaign" / "campaign.json"
+    path.write_text(path.read_text().replace('"title": "Fault-free motion"', '"title": "half \\ud800 a pair"'))
+
+    assert "half ? a pair" in page()
+
+
+@pytest.mark.verifies("SWR-TRC-062", technique="requirements_based", polarity="nominal")
+def test_the_policy_allows_the_scripts_of_the_page_and_no_connection(page: Callable[[], str]) -> None:
+    text = page()
+    policy = re.search(r'Content-Security-Policy" content="([^"]*)"', text)
+    scripts = re.findall(r"<script>(.*?)</script>", text, re.DOTALL)
+
+    assert policy
+    assert policy[1].startswith("default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-")
+    assert len(scripts) == 2
+    for script in scripts:
+        assert f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'" in policy[1]
+    assert not re.search(r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|eval\(|fetch\(|XMLHttp", "".join(scripts))
+
+
+def commit(root: Path, subject: str, date: str) -> None:
+    names = {f"GIT_{role}_{part}": value for role in ("AUTHOR", "COMMITTER")
+             for part, value in (("NAME", "The maintainers"), ("EMAIL", "m@example.org"), ("DATE", date))}  # fmt: skip
+    for arguments in (("add", "requirements"), ("commit", "-q", "-m", subject)):
+        subprocess.run(["git", "-C", str(root), "-c", "commit.gpgsign=false", *arguments], check=True, env={"PATH": "/usr/bin:/bin", **names})
+
+
+@pytest.mark.verifies("SWR-TRC-063", technique="requirements_based", polarity="nominal")
+def test_each_item_tells_the_commits_that_changed_it_the_newest_first(sample: Sample, page: Callable[[], str]) -> None:
+    subprocess.run(["git", "init", "-q", str(sample.root)], check=True)
+    commit(sample.root, "Write all", "2026-01-02T03:04:05+00:00")
+    sample.replace("requirements/software/software.md", "shall report a late entity", "shall report each late entity")
+    commit(sample.root, "Say <each>", "2026-02-03T04:05:06+00:00")
+
+    data = read_data(page())
+
+    history = {data["items"]["id"][int(number)]: [data["commits"][at][1:] for at in rows] for number, rows in data["history"].items()}
+    assert history["SWR-SUP-002"] == [["2026-02-03", "Say <each>"], ["2026-01-02", "Write all"]]
+    assert history["SWR-SUP-001"] == history["SWR-TLS-001"] == history["STK-001"] == [["2026-01-02", "Write all"]]
+
+
+@pytest.mark.verifies("SWR-TRC-063", technique="error_guessing", polarity="nominal")
+def test_without_git_there_is_no_history_and_no_complaint(sample: Sample, page: Callable[[], str]) -> None:
+    assert read_item_history(sample.root / "absent") == {}
+    assert read_data(page())["history"] == {}
+
+
+@pytest.mark.verifies("SWR-TRC-063", technique="boundary_values", polarity="nominal")
+def test_the_history_of_an_item_is_bounded_and_odd_lines_do_no_harm() -> None:
+    lines = ["noise", "+## SYS-001 before any commit", "\x1eonly a hash", "@@ -1 +1 @@", "+text above every item"]
+    for number in range(CHANGES_MAX + 5):
+        lines += [f"\x1e{number}\x1f2026-01-01\x1fsubject", "diff --git a/x b/x", "--- a/x", "+++ b/x", "@@ -1 +1 @@ ## SYS-001 Title", "-a", "+b", "+", "+## SYS-002 X"]
+
+    changes = find_changes(lines)
+
+    assert list(changes) == ["SYS-001", "SYS-002"]
+    assert [change.commit for change in changes["SYS-001"]] == [str(number) for number in range(CHANGES_MAX)]
+
+
+@pytest.mark.verifies("SWR-TRC-064", technique="interface", polarity="nominal")
+def test_coverage_and_techniques_stand_on_the_page_where_the_project_offers_them(sample: Sample) -> None:
+    project = read_project(sample.root, None)
+    project.coverage_views = {"SWR-SUP-001": [FunctionCoverage("step", Place("safety/src/alive.cpp", 7), True, (9, 10), (3, 4), (0, 0))],
+                              "SWR-OLD-001": []}  # fmt: skip
+    project.techniques = [TechniqueRow("boundary values", "SIL 2", "12 results", "passed")]
+
+    write_report(project, sample.root / "page.html")
+
+    text = (sample.root / "page.html").read_text()
+    data = read_data(text)
+    number = data["items"]["id"].index("SWR-SUP-001")
+    assert data["coverage"] == {str(number): [["step", data["files"].index("safety/src/alive.cpp"), 7, True, [9, 10], [3, 4], [0, 0]]]}
+    assert "<td>boundary values</td><td>SIL 2</td><td>12 results</td>" in text
+
+
+@pytest.mark.verifies("SWR-TRC-064", technique="equivalence_classes", polarity="nominal")
+def test_techniques_are_counted_from_results_where_the_project_offers_none(page: Callable[[], str]) -> None:
+    text = page()
+
+    assert "<td>requirements based</td><td>3 passed results</td>" in text
+    assert "<td>interface</td><td>2 passed results</td>" in text
+
+
+@pytest.mark.verifies("SWR-TRC-065", technique="fault_injection", polarity="violation")
+def test_without_a_browser_one_line_says_so_and_nothing_is_written(sample: Sample, trace: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "/nowhere")
+
+    outcome = trace("report", "--root", sample.root, "--pdf", sample.root / "paper.pdf")
+
+    assert (outcome.status, outcome.out, outcome.err.count("\n")) == (2, "", 1)
+    assert "install the Debian package chromium" in outcome.err
+    assert not (sample.root / "report").exists()
+    assert not (sample.root / "paper.pdf").exists()
+
+
+@pytest.mark.verifies("SWR-TRC-065", technique="fault_injection", polarity="violation")
+def test_a_browser_that_fails_leaves_the_old_report(sample: Sample, page: Callable[[], str]) -> None:
+    before = page()
+    sample.replace("requirements/system/system.md", "## SYS-003 Tool", "## SYS-003 Other")
+
+    def fail(_: str) -> None:
+        raise BrowserError("chromium ended by itself")
+
+    with pytest.raises(BrowserError):
+        write_report(read_project(sample.root, None), sample.root / "report" / "index.html", fail)
+
+    assert (sample.root / "report" / "index.html").read_text() == before
+
+
+@pytest.mark.verifies("SWR-TRC-065", technique="requirements_based", polarity="nominal")
+def test_paper_has_overview_findings_matrix_and_items_and_no_script(sample: Sample) -> None:
+    papers: list[str] = []
+
+    write_report(read_project(sample.root, None), sample.root / "page.html", papers.append)
+
+    (paper,) = papers
+    assert re.findall(r'<section id="(\w+)"', paper) == ["overview", "findings", "matrix", "items", "techniques", "glossary"]
+    assert "<script" not in paper
+    assert "noscript" not in paper
+    assert 'id="item/SWR-SUP-001"' in paper
+
+
+@pytest.mark.verifies("SWR-TRC-067", technique="boundary_values", polarity="nominal")
+def test_ten_thousand_items_and_six_thousand_results_fit_in_thirty_megabytes(tmp_path: Path) -> None:
+    write_report(make_large_project(tmp_path), tmp_path / "page.html")
+
+    assert 5_000_000 < (tmp_path / "page.html").stat().st_size <= SIZE_BYTES_MAX
