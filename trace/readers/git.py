@@ -22,7 +22,7 @@ def read_commit_date(root: Path) -> str:
 
 def read_title(root: Path, item_id: str) -> str:
     """Title of an item as it stands in the checked-out commit, or an empty text where it is not there."""
-    line = _ask(root, "grep", "-h", "--fixed-strings", "--max-count=1", f"## {item_id} ", "HEAD", "--", "requirements")
+    line = ask(root, "grep", "-h", "--fixed-strings", "--max-count=1", f"## {item_id} ", "HEAD", "--", "requirements")
     return line.partition("\n")[0].removeprefix(f"## {item_id}").strip() if line.startswith(f"## {item_id} ") else ""
 
 

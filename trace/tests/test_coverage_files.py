@@ -110,7 +110,8 @@ def covered(sample: Sample) -> Sample:
     (sample.root / "safety/src/alive.cpp").write_text(SOURCE, encoding="utf-8")
     (sample.root / "requirements/schema/code.toml").write_text('schema = "mamori.code/1"\ntraced = ["safety/src"]\n')
     text = (sample.root / "requirements/software/software.md").read_text()
-    (sample.root / "requirements/software/software.md").write_text(text.replace("- SIL: 2", "- SIL: 3"))
+    text = text.replace("- SIL: 2", "- SIL: 3").replace("- Design: -", "- Design: docs/design/arm.md#hazards")
+    (sample.root / "requirements/software/software.md").write_text(text)
     sample.review()
     return sample
 
