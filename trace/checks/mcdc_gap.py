@@ -8,22 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mamori.trace.model.finding import ERROR, Place, Rule
+from mamori.trace.model.finding import ERROR, OFF, Place, Rule
 from mamori.trace.model.project import Project
 
 RULE = Rule("mcdc-gap", ERROR, "Tests show each condition in a function of a SIL 3 item to decide alone, or the gap has a reason.")
-
-SIL = "3"
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     if not project.evidence.coverage_runs:
         return
-    demanding = {item.id for item in project.live_items if item.sil == SIL}
+    demanding = {item.id for item in project.live_items if item.sil and project.pack.get_severity(RULE, item) != OFF}
     for function in project.functions:
         owners = [name for name in function.requirements if name in demanding]
         if not owners:
             continue
         for gap in project.find_coverage(owners).measure(function).gaps:
             if not gap.reason:
-                yield gap.place, f"{function.name} ({owners[0]}, SIL {SIL}): not shown: {gap.text}", owners[0]
+                yield gap.place, f"{function.name} ({owners[0]}, SIL {project.items[owners[0]].sil}): not shown: {gap.text}", owners[0]

@@ -23,6 +23,7 @@ from mamori.trace.readers.git import read_head
 from mamori.trace.readers.junit import parse_junit
 from mamori.trace.readers.lock import read_lock
 from mamori.trace.readers.project import read_evidence
+from mamori.trace.readers.rule_pack import read_shipped_pack
 
 LOCK_NAME = "trace.lock"
 _REVISION = re.compile(r"~\d+$")
@@ -51,6 +52,7 @@ def read_in_place(given: ForeignInput) -> Project:
     foreign = read_format(given.format, given.path, root, problems)
     converted = convert(foreign, mapping, problems)
     project = Project(root, converted.schema, converted.items, problems=problems, allow_missing=given.allow_missing)
+    project.pack = read_shipped_pack(converted.schema)
     project.lock = read_lock(root, problems, folder / LOCK_NAME)
     project.review_needed = project.lock is not None
     project.head = read_head(folder)

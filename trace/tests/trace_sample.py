@@ -130,8 +130,9 @@ def make_sample(root: Path) -> Sample:
     )  # fmt: skip
     software = (
         format_item("SWR-SUP-001", "Silent", "The supervision shall report a silent entity.", Parents="SYS-001, HAZ-001",
-                    Polarity="nominal, violation")
-        + format_item("SWR-SUP-002", "Late", "The supervision shall report a late entity.", Parents="SYS-001")
+                    Polarity="nominal, violation", Design="docs/design/arm.md#hazards")
+        + format_item("SWR-SUP-002", "Late", "The supervision shall report a late entity.", Parents="SYS-001",
+                      Design="docs/design/arm.md#hazards")
         + format_item("SWR-TLS-001", "Offline", "The tool shall open no connection.", Parents="SYS-003", SIL="QM")
     )  # fmt: skip
     files = {
