@@ -8,35 +8,15 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
+from faulty.fault import Fault, Seed, pick
+from faulty.judgement_faults import JUDGEMENT_FAULTS
 from faulty.plan import BOTTOM, MIDDLE, TOP, Code, Plan, Requirement, Test
-
-Seed = tuple[str, str, tuple[str, ...]]
-"""(word that the finding must name, key of the place, parts of which the first that is written is the place)."""
 
 _OTHER_COMMIT = "fedcba9876543210fedcba9876543210fedcba98"
 _NO_SIL = "the format has no word for a safety level"
 _NO_ATTRIBUTE = "the format has no attributes of one's own"
 _NO_DESIGN = "the format has no link to a heading of a design document"
-
-
-@dataclass(frozen=True)
-class Fault:
-    """`unstated`: formats that cannot hold the fault, with the reason. `reviewed`: the links are reviewed before the fault."""
-
-    rule: str
-    spoil: Callable[[Plan, random.Random], list[Seed]]
-    unstated: dict[str, str] = field(default_factory=dict)
-    reviewed: bool = False
-    evidence: bool = False
-
-
-def _pick(plan: Plan, chance: random.Random, level: int = BOTTOM) -> list[Requirement]:
-    """Two requirements that have no parent in common."""
-    members = plan.list_level(level)
-    first = chance.randrange(len(members))
-    return [members[first], members[(first + 1) % len(members)]]
 
 
 def _tests_of(plan: Plan, requirements: list[Requirement]) -> list[Test]:
@@ -45,13 +25,13 @@ def _tests_of(plan: Plan, requirements: list[Requirement]) -> list[Test]:
 
 
 def duplicate_id(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     plan.requirements += [Requirement(**vars(each)) for each in chosen]
     return [(each.id, each.id, ("item",)) for each in chosen]
 
 
 def unknown_parent(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for number, each in enumerate(chosen):
         each.parents.insert(0, plan.make_id(MIDDLE, 901 + number))
     return [(each.parents[0], each.id, ("Parents",)) for each in chosen]
@@ -76,21 +56,21 @@ def unknown_in_result(plan: Plan, chance: random.Random) -> list[Seed]:
 
 
 def bad_word(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.sil = "high"
     return [(each.id, each.id, ("SIL",)) for each in chosen]
 
 
 def empty_statement(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.statement = ""
     return [(each.id, each.id, ("item",)) for each in chosen]
 
 
 def retired_parent(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     old = Requirement(plan.make_id(MIDDLE, 801), MIDDLE, "Old", "The system shall stay old.", [plan.make_id(TOP, 1)], status="retired")
     plan.requirements.append(old)
     for each in chosen:
@@ -99,7 +79,7 @@ def retired_parent(plan: Plan, chance: random.Random) -> list[Seed]:
 
 
 def orphan(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.parents = []
     return [(each.id, each.id, ("Parents", "item")) for each in chosen]
@@ -119,70 +99,70 @@ def childless_middle(plan: Plan, chance: random.Random) -> list[Seed]:
 
 
 def level_skipped(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.parents = [plan.make_id(TOP, 1)]
     return [(each.id, each.id, ("Parents",)) for each in chosen]
 
 
 def cycle(plan: Plan, chance: random.Random) -> list[Seed]:
-    first, second = _pick(plan, chance, MIDDLE)
+    first, second = pick(plan, chance, MIDDLE)
     first.parents.append(second.id)
     second.parents.append(first.id)
     return [(each.id, each.id, ("Parents",)) for each in (first, second)]
 
 
 def sil_lower(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.sil = "1"
     return [(each.id, each.id, ("SIL",)) for each in chosen]
 
 
 def no_shall(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.statement = each.statement.replace("shall report", "reports")
     return [(each.id, each.id, ("statement",)) for each in chosen]
 
 
 def unfinished(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.statement = each.statement.replace("its range", "the range TBD")
     return [(each.id, each.id, ("statement",)) for each in chosen]
 
 
 def design_gone(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.design = "docs/design/generated.md#gone"
     return [(each.id, each.id, ("Design",)) for each in chosen]
 
 
 def no_code(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     gone = {each.id for each in chosen}
     plan.code = [code for code in plan.code if not gone & set(code.requirements)]
     return [(each.id, each.id, ("item",)) for each in chosen]
 
 
 def no_test(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     gone = {each.id for each in chosen}
     plan.tests = [test for test in plan.tests if test.requirement not in gone]
     return [(each.id, each.id, ("Verify", "item")) for each in chosen]
 
 
 def no_violation_test(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.polarity = "nominal, violation"
     return [(each.id, each.id, ("Polarity",)) for each in chosen]
 
 
 def no_campaign(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         each.verify = "campaign"
     return [(each.id, each.id, ("Verify",)) for each in chosen]
@@ -190,7 +170,7 @@ def no_campaign(plan: Plan, chance: random.Random) -> list[Seed]:
 
 def suspect_link(plan: Plan, chance: random.Random) -> list[Seed]:
     """A text that changed after its review; in OpenFastTrace the revision in the id says so, and its tests and code name the old one."""
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for each in chosen:
         if "~" in each.id:
             plan.revisions[each.id] = each.id.removesuffix("1") + "2"
@@ -202,7 +182,7 @@ def suspect_link(plan: Plan, chance: random.Random) -> list[Seed]:
 
 def _set_outcome(outcome: str) -> Callable[[Plan, random.Random], list[Seed]]:
     def spoil(plan: Plan, chance: random.Random) -> list[Seed]:
-        chosen = _pick(plan, chance)
+        chosen = pick(plan, chance)
         for test in _tests_of(plan, chosen):
             test.outcome = outcome
         return [(each.id, each.id, ("test",)) for each in chosen]
@@ -219,7 +199,7 @@ test_unlinked.__test__ = False
 
 
 def unknown_technique(plan: Plan, chance: random.Random) -> list[Seed]:
-    chosen = _pick(plan, chance)
+    chosen = pick(plan, chance)
     for test in _tests_of(plan, chosen):
         test.technique = "guesswork"
     return [("guesswork", each.id, ("result",)) for each in chosen]
@@ -267,6 +247,13 @@ FAULTS = {
     "unknown-technique": Fault("unknown-word", unknown_technique),
     "stale": Fault("evidence-stale", stale, evidence=True),
     "results-cut-off": Fault("unreadable-input", results_cut_off),
+    **JUDGEMENT_FAULTS,
 }
-WITHOUT_FAULT: dict[str, str] = {}
+WITHOUT_FAULT = {
+    "id-unrecorded": "its place is a line of the review lock, which the tool writes and sorts; seeded in test_rules.py",
+    "untraced-function": "seeded in test_functions.py",
+    "function-unexecuted": "seeded in test_coverage_files.py",
+    "mcdc-gap": "seeded in test_coverage_files.py",
+    "evidence-altered": "seeded in test_evidence_records.py",
+}
 """Rules that no class can seed, with the reason."""

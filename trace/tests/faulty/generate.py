@@ -64,6 +64,9 @@ def generate(format_name: str, fault: str, root: Path, count: int = 100, seed: i
 def _write(plan: Plan, writer, root: Path) -> Pages:
     pages = Pages()
     writer.write(plan, pages)
+    for file, lines in plan.beside.items():
+        for line, key in lines:
+            pages.add(file, line, *([(key, "row")] if key else []))
     pages.write(root)
     return pages
 

@@ -50,7 +50,7 @@ class Test:
 
 @dataclass
 class Plan:
-    """`reviewed` asks for a review lock of the project as it is before the fault; `later` are changes after that review."""
+    """`beside` are further files by name: lines, each with the key that finds it, or an empty one."""
 
     make_id: object
     requirements: list[Requirement] = field(default_factory=list)
@@ -59,6 +59,7 @@ class Plan:
     broken_results: int = 0
     commit: str = COMMIT
     revisions: dict[str, str] = field(default_factory=dict)
+    beside: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
 
     def find(self, requirement_id: str) -> Requirement:
         return next(each for each in self.requirements if each.id == requirement_id)

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a fault class is made of."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from faulty.plan import BOTTOM, Plan, Requirement
+
+Seed = tuple[str, str, tuple[str, ...]]
+"""(word that the finding must name, key of the place, parts of which the first that is written is the place)."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """`unstated`: formats that cannot hold the fault, with the reason. `reviewed`: the links are reviewed before the fault."""
+
+    rule: str
+    spoil: Callable[[Plan, random.Random], list[Seed]]
+    unstated: dict[str, str] = field(default_factory=dict)
+    reviewed: bool = False
+    evidence: bool = False
+
+
+def pick(plan: Plan, chance: random.Random, level: int = BOTTOM) -> list[Requirement]:
+    """Two requirements that have no parent in common."""
+    members = plan.list_level(level)
+    first = chance.randrange(len(members))
+    return [members[first], members[(first + 1) % len(members)]]
