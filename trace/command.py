@@ -12,7 +12,19 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from mamori.trace.actions import bundle, check, impact, new, query, report, review, show, verify
+from mamori.trace.actions import (
+    bundle,
+    check,
+    export_items,
+    impact,
+    import_items,
+    new,
+    query,
+    report,
+    review,
+    show,
+    verify,
+)
 from mamori.trace.actions.common import EXIT_INPUT
 from mamori.trace.readers.files import InputError
 
@@ -27,6 +39,8 @@ _ACTIONS = {
     "query": query,
     "bundle": bundle,
     "verify": verify,
+    "import": import_items,
+    "export": export_items,
 }
 
 

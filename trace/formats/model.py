@@ -10,11 +10,16 @@ from mamori.trace.model.finding import Place
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """A link to `target`. `role` is the word of the format; `line` is where the link stands."""
+    """A link to `target`. `role` is the word of the format; `line` is where the link stands.
+
+    `name` is what people called the relation beside its role; `review` is the last look at the link, as trace.lock words it.
+    """
 
     role: str
     target: str
     line: int
+    name: str = ""
+    review: str = ""
 
 
 @dataclass(slots=True)
@@ -49,8 +54,9 @@ class Loss:
 
 @dataclass(slots=True)
 class ForeignProject:
-    """All items of a project in file order. Two definitions of one id are both kept."""
+    """All items of a project in file order. Two definitions of one id are both kept. `headers`: text at the head of each document."""
 
     format: str
     items: list[ForeignItem] = field(default_factory=list)
     losses: list[Loss] = field(default_factory=list)
+    headers: dict[str, str] = field(default_factory=dict)

@@ -148,7 +148,5 @@ class _Document:
             if kind == "File":
                 self._project.losses.append(Loss(Place(place.file, line), f"{item.id}: relation to the file {target}"))
             else:
-                item.relations.append(Relation(kind, target, line))
-                if "ROLE" in each:
-                    item.attributes[f"ROLE {target}"] = each["ROLE"][0]
+                item.relations.append(Relation(kind, target, line, each.get("ROLE", ("", 0))[0]))
         return item
