@@ -30,7 +30,8 @@ class CodeTag:
 
 @dataclass(frozen=True, slots=True)
 class SourceTest:
-    """A test as its source states it; `suite` and `name` find its results."""
+    """A test as its source states it; `suite` and `name` find its results. `by_comment`: the running test knows nothing of its
+    requirement, so its results cannot tell it."""
 
     requirement: str
     suite: str
@@ -38,6 +39,7 @@ class SourceTest:
     technique: str
     polarity: str
     place: Place
+    by_comment: bool = False
 
     @property
     def title(self) -> str:
@@ -46,7 +48,7 @@ class SourceTest:
 
 @dataclass(slots=True)
 class TestResult:
-    """One executed test case. `requirement` is empty when the test names none."""
+    """One executed test case. `requirement` is empty when the test names none; `flaky`: it passed, but not at the first try."""
 
     __test__: ClassVar[bool] = False  # pytest would take the class for a group of tests
 
@@ -61,6 +63,7 @@ class TestResult:
     place: Place
     source: Place | None = None
     kind: str = UNIT
+    flaky: bool = False
 
     @property
     def title(self) -> str:

@@ -6,14 +6,14 @@ from __future__ import annotations
 import difflib
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
 from mamori.trace.model.code import CodeSchema, Function
 from mamori.trace.model.coverage import Coverage, CoverageRun, Reached
 from mamori.trace.model.decomposition import Decomposition
-from mamori.trace.model.evidence import CAMPAIGN, CampaignCase, CodeTag, Evidence, SourceTest, TestResult
+from mamori.trace.model.evidence import CAMPAIGN, PASSED, CampaignCase, CodeTag, Evidence, SourceTest, TestResult
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.ids import FormerId
 from mamori.trace.model.item import Item, Schema
@@ -181,13 +181,43 @@ class Project:
 
 
 def attach_sources(project: Project) -> None:
-    """Gives each result the place of its test in the sources, which also tells unit tests from integration tests."""
-    places = {(test.suite, test.name): test.place for test in project.tests if test.name}
+    """Gives each result the place of its test in the sources, which also tells unit tests from integration tests.
+
+    A result that did not pass and names no requirement takes that of its source: the test ended before it could name one. What the
+    source says in a comment, which no running test knows, holds for each result.
+    """
+    tests: dict[tuple[str, str], list[SourceTest]] = defaultdict(list)
+    for test in project.tests:
+        if test.name:
+            tests[(test.suite, test.name)].append(test)
+    results: list[TestResult] = []
     for result in project.evidence.results:
-        for suite, name, _ in list_result_keys(result):
-            if (suite, name) in places:
-                result.source = places[(suite, name)]
-                break
+        keys = ((suite, name) for suite, name, _ in list_result_keys(result))
+        found = next((tests[key] for key in keys if key in tests), [])
+        results.append(result)
+        if found:
+            result.source = found[0].place
+            results.extend(_name_requirements(result, found))
+    project.evidence.results = results
+
+
+def _name_requirements(result: TestResult, tests: list[SourceTest]) -> list[TestResult]:
+    """Fills in the first requirement, where there is none. @return a copy of the result for each other one."""
+    wanted: dict[str, SourceTest] = {}
+    for test in tests:
+        if test.by_comment or (not result.requirement and result.status != PASSED):
+            wanted.setdefault(test.requirement, test)
+    copies = []
+    for test in wanted.values():
+        if test.requirement == result.requirement:
+            continue
+        target = replace(result) if result.requirement else result
+        target.requirement = test.requirement
+        target.technique = target.technique or test.technique
+        target.polarity = target.polarity or test.polarity
+        if target is not result:
+            copies.append(target)
+    return copies
 
 
 def _group(parts: Iterable) -> dict[str, list]:

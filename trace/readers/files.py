@@ -21,6 +21,8 @@ def get_shown_path(path: Path, root: Path) -> str:
     """`path` relative to the project root, or whole where it lies outside."""
     try:
         return path.resolve().relative_to(root.resolve()).as_posix()
+    except (OSError, RuntimeError):  # a loop of links, or a name that is too long
+        return os.path.relpath(path, root).replace(os.sep, "/")
     except ValueError:
         return path.as_posix()
 
@@ -28,6 +30,8 @@ def get_shown_path(path: Path, root: Path) -> str:
 def read_text(path: Path, shown: str, problems: list[Problem]) -> str:
     """Text of a UTF-8 file. Wrong bytes and an unreadable file become problems; wrong bytes are read as U+FFFD."""
     try:
+        if path.exists() and not path.is_file():  # a pipe would never end
+            raise OSError("it is no file")
         data = path.read_bytes()
     except OSError as error:
         problems.append(Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {error.strerror or error}"))
@@ -58,6 +62,8 @@ def walk_sources(root: Path, suffixes: tuple[str, ...]) -> Iterator[tuple[Path, 
 
 
 def is_test_file(shown: str) -> bool:
-    """Whether a source file holds tests: it lies in a `tests` folder or is named like a test."""
+    """Whether a source file holds tests: it lies in a folder of tests or is named like a test."""
     *folders, name = shown.split("/")
-    return "tests" in folders or name.startswith("test_") or name.rpartition(".")[0].endswith("_test")
+    if "tests" in folders or "test" in folders or name.startswith("test_"):
+        return True
+    return name.rpartition(".")[0].endswith(("_test", "_tests", "Test", "Tests"))

@@ -1,121 +1,129 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads JUnit XML as GoogleTest and pytest write it, with the line of every case.
+"""Reads JUnit XML as GoogleTest, pytest, CTest and Surefire write it, with the line of every case.
 
 A document type definition is refused before any entity could be expanded; a file that is cut off keeps nothing of it.
 
-@satisfies SWR-TRC-004, SWR-TRC-009      Design: docs/design/trace.md#tests-and-results
+@satisfies SWR-TRC-004, SWR-TRC-009, SWR-TRC-041, SWR-TRC-042      Design: docs/design/trace_cover.md#results-as-others-write-them
 """
 
 from __future__ import annotations
 
-import xml.parsers.expat
+import io
+import math
+from dataclasses import replace
 from pathlib import Path
 
 from mamori.trace.model.evidence import CAMPAIGN, ERRORED, FAILED, PASSED, SKIPPED, UNIT, TestResult
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE, get_shown_path
+from mamori.trace.readers.files import get_shown_path
 from mamori.trace.readers.tag_aliases import RESULT_PROPERTIES
+from mamori.trace.readers.xml_file import Refused, feed, feed_file, make_parser
 
 _WORST_FIRST = (ERRORED, FAILED, SKIPPED, PASSED)
 _OUTCOMES = {"failure": FAILED, "error": ERRORED, "skipped": SKIPPED}
+_RETRIES = ("flakyFailure", "flakyError", "rerunFailure", "rerunError")
+_STATUS_WORDS = {"fail": FAILED, "failed": FAILED, "failure": FAILED, "error": ERRORED, "notrun": SKIPPED, "disabled": SKIPPED,
+                 "skipped": SKIPPED, "ignored": SKIPPED, "suppressed": SKIPPED}  # fmt: skip
+"""Of the attributes `status` (CTest, GoogleTest) and `result` (GoogleTest); any other word says nothing against the case."""
+_ROOTS = ("testsuites", "testsuite")
 _MESSAGE_CHARACTERS_MAX = 2000
-
-
-class _Refused(Exception):
-    """The document holds what a result file never needs."""
+_REMEDY = "run the tests again"
 
 
 def read_junit(folder: Path, root: Path, problems: list[Problem]) -> list[TestResult]:
     """Results of all XML files in `folder`, in order of file and line."""
     results: list[TestResult] = []
     for path in sorted(folder.glob("*.xml")):
-        shown = get_shown_path(path, root)
-        try:
-            data = path.read_bytes()
-        except OSError as error:
-            problems.append(Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {error.strerror or error}"))
-            continue
         kind = CAMPAIGN if path.name == "campaign.xml" else UNIT
-        results.extend(parse_junit(data, shown, kind, root, problems))
+        collector = _Collector(get_shown_path(path, root), kind, root)
+        if feed_file(collector.parser, path, collector.shown, _REMEDY, problems):
+            results.extend(collector.results)
     return results
 
 
 def parse_junit(data: bytes, shown: str, kind: str, root: Path, problems: list[Problem]) -> list[TestResult]:
-    """Results of one file, or none and one problem."""
+    """Results of one file that is in memory already, or none and one problem."""
     collector = _Collector(shown, kind, root)
-    try:
-        collector.parser.Parse(data, True)
-    except _Refused as error:
-        problems.append(Problem(UNREADABLE, Place(shown, collector.parser.CurrentLineNumber), str(error)))
-        return []
-    except xml.parsers.expat.ExpatError as error:
-        reason = xml.parsers.expat.ErrorString(error.code)
-        problems.append(Problem(UNREADABLE, Place(shown, error.lineno), f"is not whole XML ({reason}); run the tests again"))
-        return []
-    return collector.results
+    return collector.results if feed(collector.parser, io.BytesIO(data), shown, _REMEDY, problems) else []
 
 
 class _Collector:
-    """Gathers test cases while expat walks through the file."""
+    """Gathers test cases while expat walks through the file. Of texts no more is kept than a message may be long."""
 
     def __init__(self, shown: str, kind: str, root: Path) -> None:
         self.results: list[TestResult] = []
-        self._shown = shown
+        self.shown = shown
+        self.parser = make_parser(self._start, self._end, self._take_text)
+        self.parser.buffer_text = True
         self._kind = kind
         self._root = root
         self._case: TestResult | None = None
-        self._in_outcome = False
-        self.parser = xml.parsers.expat.ParserCreate()
-        self.parser.buffer_text = True
-        self.parser.StartDoctypeDeclHandler = self._refuse_doctype
-        self.parser.StartElementHandler = self._start
-        self.parser.EndElementHandler = self._end
-        self.parser.CharacterDataHandler = self._take_text
-
-    def _refuse_doctype(self, *_: object) -> None:
-        raise _Refused("holds a document type definition (DTD, entities), which no test writes; refused unread")
+        self._named: list[str] = []
+        self._suites: list[str] = []
+        self._takes_text = False
+        self._sources: dict[str, str] = {}
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
-        if tag == "testcase":
+        if tag in _ROOTS:
+            self._suites.append(attributes.get("name", ""))
+        elif not self._suites:
+            raise Refused(f"begins with <{tag[:40]}>, which is no JUnit; put files of results alone into this folder")
+        elif tag == "testcase":
             self._case = self._open_case(attributes)
-        elif self._case is None:
-            return
         elif tag in _OUTCOMES:
-            self._in_outcome = True
-            self._case.status = min(self._case.status, _OUTCOMES[tag], key=_WORST_FIRST.index)
-            self._case.message = self._case.message or attributes.get("message", "")
-        elif tag == "property":
+            self._take_outcome(tag, attributes)
+        elif self._case is not None and tag in _RETRIES:
+            self._case.flaky = True
+        elif self._case is not None and tag == "property":
             self._set_property(attributes.get("name", ""), attributes.get("value", ""))
+
+    def _take_outcome(self, tag: str, attributes: dict[str, str]) -> None:
+        """An outcome outside of any case is one of its whole suite."""
+        if self._case is None and tag == "skipped":
+            return
+        if self._case is None:
+            self._case = self._open_case({"classname": self._suites[-1], "name": "(whole suite)"})
+        self._case.status = min(self._case.status, _OUTCOMES[tag], key=_WORST_FIRST.index)
+        self._case.message = self._case.message or attributes.get("message", "")[:_MESSAGE_CHARACTERS_MAX]
+        self._takes_text = not self._case.message.strip()
 
     def _end(self, tag: str) -> None:
         if tag in _OUTCOMES:
-            self._in_outcome = False
-        elif tag == "testcase" and self._case is not None:
-            self._case.message = self._case.message.strip()[:_MESSAGE_CHARACTERS_MAX]
-            self.results.append(self._case)
+            self._takes_text = False
+        if self._case is not None and (tag == "testcase" or (tag in _OUTCOMES and self._case.name == "(whole suite)")):
+            self._close_case(self._case)
             self._case = None
+        if tag in _ROOTS:
+            self._suites.pop()
+
+    def _close_case(self, case: TestResult) -> None:
+        """One result for each requirement that the case names; a case that failed in the end is more than flaky."""
+        case.message = case.message.strip()[:_MESSAGE_CHARACTERS_MAX]
+        case.flaky = case.flaky and case.status == PASSED
+        named = list(dict.fromkeys(filter(None, [case.requirement, *self._named])))
+        self._named = []
+        case.requirement = named[0] if named else ""
+        self.results.append(case)
+        self.results.extend(replace(case, requirement=name) for name in named[1:])
 
     def _take_text(self, text: str) -> None:
         """pytest puts the full failure here; it serves where no message attribute stands."""
-        if self._in_outcome and self._case is not None and not self._case.message.strip():
-            self._case.message += text
+        if self._takes_text and self._case is not None and len(self._case.message) < _MESSAGE_CHARACTERS_MAX:
+            self._case.message += text[:_MESSAGE_CHARACTERS_MAX] if self._case.message else text.lstrip()[:_MESSAGE_CHARACTERS_MAX]
 
     def _open_case(self, attributes: dict[str, str]) -> TestResult:
-        not_run = attributes.get("status") == "notrun" or attributes.get("result") == "suppressed"
-        try:
-            time_s = float(attributes.get("time", "0"))
-        except ValueError:
-            time_s = 0.0
+        words = (attributes.get(name, "").lower() for name in ("status", "result"))
+        status = min((_STATUS_WORDS.get(word, PASSED) for word in words), key=_WORST_FIRST.index)
         case = TestResult(
             suite=attributes.get("classname", ""),
             name=attributes.get("name", ""),
-            status=SKIPPED if not_run else PASSED,
+            status=status,
             requirement="",
             technique="",
             polarity="",
-            message="disabled" if not_run else "",
-            time_s=time_s,
-            place=Place(self._shown, self.parser.CurrentLineNumber),
+            message="disabled" if status == SKIPPED and "skipped" not in (attributes.get("status"), attributes.get("result")) else "",
+            time_s=_read_time(attributes.get("time", "0")),
+            place=Place(self.shown, self.parser.CurrentLineNumber),
             source=self._read_source(attributes),
             kind=self._kind,
         )
@@ -124,12 +132,27 @@ class _Collector:
         return case
 
     def _read_source(self, attributes: dict[str, str]) -> Place | None:
-        if not attributes.get("file"):
+        file = attributes.get("file")
+        if not file:
             return None
-        line = attributes.get("line", "1")
-        return Place(get_shown_path(Path(attributes["file"]), self._root), int(line) if line.isdigit() else 1)
+        if file not in self._sources:
+            self._sources[file] = get_shown_path(Path(file), self._root)
+        line = attributes.get("line", "")
+        return Place(self._sources[file], int(line) if line.isascii() and line.isdigit() and len(line) < 10 else 1)
 
     def _set_property(self, name: str, value: str) -> None:
-        name = RESULT_PROPERTIES.get(name, name)
-        if self._case is not None and name in ("requirement", "technique", "polarity"):
+        if self._case is None:
+            return
+        if name in ("requirement", "technique", "polarity"):
             setattr(self._case, name, value)
+        elif name in RESULT_PROPERTIES:
+            self._named += [word.strip() for word in value.split(",")]
+
+
+def _read_time(text: str) -> float:
+    """Seconds; nothing where there is no number that a sum could hold."""
+    try:
+        time_s = float(text)
+    except ValueError:
+        return 0.0
+    return time_s if math.isfinite(time_s) else 0.0

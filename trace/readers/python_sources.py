@@ -18,7 +18,7 @@ from mamori.trace.model.evidence import CodeTag, SourceTest
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import UNREADABLE, is_test_file, read_text, walk_sources
 from mamori.trace.readers.python_functions import Definition, list_definitions, make_functions
-from mamori.trace.readers.tag_text import FILE_SYMBOL, ID_PATTERN, has_mark, make_tags
+from mamori.trace.readers.tag_text import FILE_SYMBOL, ID_PATTERN, find_verified, has_mark, make_tags
 
 
 def read_python(
@@ -30,7 +30,7 @@ def read_python(
     for path, shown in walk_sources(root, (".py",)):
         in_test = is_test_file(shown)
         text = read_text(path, shown, problems)
-        if "verifies" not in text if in_test else code is None and not has_mark(text):
+        if "verifies" not in text and not has_mark(text) if in_test else code is None and not has_mark(text):
             continue
         try:
             tree = ast.parse(text)
@@ -40,6 +40,7 @@ def read_python(
             continue
         if in_test:
             tests.extend(_find_marks(tree, shown))
+            tests.extend(_find_tagged(tree, text, shown, id_pattern) if has_mark(text) else ())
             continue
         definitions = list_definitions(tree) if code is not None or has_mark(text) else []
         if code is not None:
@@ -98,6 +99,30 @@ def _find_marks(tree: ast.Module, shown: str) -> list[SourceTest]:
                 tests.extend(_make_tests(inner, f"{module}.{node.name}", inherited, shown))
         else:
             tests.extend(_make_tests(node, module, [], shown))
+    return tests
+
+
+def _find_tagged(tree: ast.Module, text: str, shown: str, id_pattern: str) -> list[SourceTest]:
+    """Tests that their docstring, or a comment above, names an id for."""
+    module = shown.rpartition("/")[2].removesuffix(".py")
+    lines = text.splitlines()
+    comments = _list_comments(text)
+    tests: list[SourceTest] = []
+    for one in list_definitions(tree):
+        name = one.name.rpartition("::")[2]
+        if one.inner or isinstance(one.node, ast.ClassDef) or not name.startswith("test"):
+            continue
+        suite = ".".join([module, *one.name.split("::")[:-1]])
+        chosen = one.first - 1
+        while chosen in comments and lines[chosen - 1].lstrip().startswith("#"):
+            chosen -= 1
+        last = one.node.body[0].end_lineno if ast.get_docstring(one.node) is not None else one.first - 1
+        body = one.node.body[0].lineno
+        for number in (*range(chosen + 1, one.first), *range(body, last + 1)):
+            tests += [
+                SourceTest(word, suite, name, "requirements_based", "nominal", Place(shown, number), by_comment=True)
+                for _, word in find_verified(lines[number - 1], id_pattern)
+            ]
     return tests
 
 

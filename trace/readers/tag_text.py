@@ -20,6 +20,8 @@ ID_PATTERN = r"[A-Z]+-[\w-]+"
 
 IMPLEMENTS = "implements"
 VERIFIES = "verifies"
+NAMES = "names"
+"""The tag does not tell; where it stands does."""
 
 _MARKS = ("@satisfies", "@verifies", "@relation(", "req-Id:", "lobster-trace:")
 _ARTIFACT = re.compile(r"\[[a-z]+(?:~[^\]\s]*)?[ \t]*->")
@@ -71,17 +73,23 @@ def find_words(line: str, id_pattern: str = ID_PATTERN) -> Iterator[TagWord]:
     if not has_mark(line):
         return
     patterns = _get_patterns(id_pattern)
-    for pattern, role in ((patterns.satisfies, IMPLEMENTS), (patterns.verifies, VERIFIES), (patterns.named, IMPLEMENTS)):
+    for pattern, role in ((patterns.satisfies, IMPLEMENTS), (patterns.verifies, VERIFIES), (patterns.named, NAMES)):
         for match in pattern.finditer(line):
             yield from (TagWord(word, role) for word in _split(match[1]))
     for match in patterns.relation.finditer(line):
         options = dict(re.findall(r"(\w+)[ \t]*=[ \t]*(\w+)", match[2]))
         if options.get("scope") == "range_end":  # its beginning has told it already
             continue
-        role = VERIFIES if options.get("role", "").lower().startswith(("verif", "test")) else IMPLEMENTS
+        role = _get_role(options.get("role", ""))
         yield from (TagWord(word, role, options.get("scope") == "file") for word in _split(match[1]))
     for match in patterns.artifact.finditer(line):
         yield TagWord(match[2], VERIFIES if _TEST_ARTIFACT.fullmatch(match[1]) else IMPLEMENTS)
+
+
+def _get_role(word: str) -> str:
+    if word.lower().startswith(("verif", "test")):
+        return VERIFIES
+    return IMPLEMENTS if word else NAMES
 
 
 def _split(words: str) -> list[str]:
@@ -92,5 +100,11 @@ def make_tags(line: str, place: Place, symbol: str, problems: list[Problem], id_
     """Tags of one line of a comment. A tag that names nothing is a problem. @param id_pattern what an id looks like."""
     if _get_patterns(id_pattern).bare.search(line):
         problems.append(Problem("unknown-id", place, "@satisfies names no requirement id"))
-    words = (word for word in find_words(line, id_pattern) if word.role == IMPLEMENTS)
+    words = (word for word in find_words(line, id_pattern) if word.role != VERIFIES)
     return [CodeTag(word.requirement, place, FILE_SYMBOL if word.of_file else symbol) for word in words]
+
+
+def find_verified(text: str, id_pattern: str = ID_PATTERN) -> Iterator[tuple[int, str]]:
+    """Ids that a comment of a test says to verify, with the number of the line in `text`, from 0."""
+    for number, line in enumerate(text.splitlines()):
+        yield from ((number, word.requirement) for word in find_words(line, id_pattern) if word.role != IMPLEMENTS)

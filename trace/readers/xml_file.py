@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Feeds an XML file to expat piece by piece, so that its size does not matter, and refuses what could fill the memory.
 
-@satisfies SWR-TRC-009      Design: docs/design/trace.md#evidence-in
+@satisfies SWR-TRC-009, SWR-TRC-042      Design: docs/design/trace_cover.md#hostile-files
 """
 
 from __future__ import annotations
@@ -17,6 +17,9 @@ from mamori.trace.readers.files import UNREADABLE
 CHUNK_BYTES = 1 << 18
 DEPTH_MAX = 200
 """Elements within elements. No writer of evidence comes near; the parser keeps each open one in memory."""
+
+TOKEN_BYTES_MAX = 32 << 20
+"""One tag, or one word of markup. The parser keeps it in memory until its end comes."""
 
 Parser = xml.parsers.expat.XMLParserType
 Start = Callable[[str, dict[str, str]], None]
@@ -58,6 +61,8 @@ def make_parser(start: Start, end: End, text: Callable[[str], None], doctype: bo
 def feed_file(parser: Parser, path: Path, shown: str, remedy: str, problems: list[Problem]) -> bool:
     """@return whether all of the file was read; if not, that is a problem, one, which ends with `remedy`."""
     try:
+        if path.exists() and not path.is_file():
+            raise OSError("it is no file")
         with path.open("rb") as file:
             return feed(parser, file, shown, remedy, problems)
     except OSError as error:
@@ -68,8 +73,12 @@ def feed_file(parser: Parser, path: Path, shown: str, remedy: str, problems: lis
 def feed(parser: Parser, file: BinaryIO, shown: str, remedy: str, problems: list[Problem]) -> bool:
     """The same for an open file. Raises OSError."""
     try:
+        given = 0
         while chunk := file.read(CHUNK_BYTES):
             parser.Parse(chunk, False)
+            given += len(chunk)
+            if given - parser.CurrentByteIndex > TOKEN_BYTES_MAX:
+                raise Refused(f"holds a tag of more than {TOKEN_BYTES_MAX >> 20} MB, which no tool writes; refused unread")
         parser.Parse(b"", True)
         return True
     except Refused as error:

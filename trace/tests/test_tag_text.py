@@ -8,7 +8,7 @@ import pytest
 
 from mamori.trace.model.finding import Place
 from mamori.trace.readers.cpp_tags import read_cpp_tags
-from mamori.trace.readers.tag_text import IMPLEMENTS, VERIFIES, find_words, make_tags
+from mamori.trace.readers.tag_text import IMPLEMENTS, NAMES, VERIFIES, find_words, make_tags
 
 OFT = r"[a-z]+~[\w.-]+~\d+"
 
@@ -18,13 +18,14 @@ OFT = r"[a-z]+~[\w.-]+~\d+"
     [
         ("// @satisfies SWR-ABC-001, SWR-ABC-002", [("SWR-ABC-001", IMPLEMENTS), ("SWR-ABC-002", IMPLEMENTS)]),
         ("// @verifies SWR-ABC-001", [("SWR-ABC-001", VERIFIES)]),
-        ("/// @relation(SWR-ABC-001, SWR-ABC-002, scope=function)", [("SWR-ABC-001", IMPLEMENTS), ("SWR-ABC-002", IMPLEMENTS)]),
+        ("/// @relation(SWR-ABC-001, SWR-ABC-002, scope=function)", [("SWR-ABC-001", NAMES), ("SWR-ABC-002", NAMES)]),
         ("/// @relation(SWR-ABC-001, scope=file, role=Verifies)", [("SWR-ABC-001", VERIFIES)]),
+        ("/// @relation(SWR-ABC-001, role=Implementation)", [("SWR-ABC-001", IMPLEMENTS)]),
         ("// @relation(SWR-ABC-001, scope=range_end)", []),
         ("// [impl->SWR-ABC-001]", [("SWR-ABC-001", IMPLEMENTS)]),
         ("// [impl~watch~2->SWR-ABC-001>>utest,itest] [utest->SWR-ABC-002]", [("SWR-ABC-001", IMPLEMENTS), ("SWR-ABC-002", VERIFIES)]),
-        ("// req-Id: SWR-ABC-001", [("SWR-ABC-001", IMPLEMENTS)]),
-        ("// lobster-trace: SWR-ABC-001,SWR-ABC-002", [("SWR-ABC-001", IMPLEMENTS), ("SWR-ABC-002", IMPLEMENTS)]),
+        ("// req-Id: SWR-ABC-001", [("SWR-ABC-001", NAMES)]),
+        ("// lobster-trace: SWR-ABC-001,SWR-ABC-002", [("SWR-ABC-001", NAMES), ("SWR-ABC-002", NAMES)]),
         ("auto f = [impl]() -> int { return table[i->SWR]; };", []),
         ("// @relation(see below)", []),
     ],
