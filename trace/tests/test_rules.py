@@ -326,6 +326,12 @@ def waiver_silent(s: Sample) -> Seed:
 
 
 # (seed, rule, whether the links are reviewed again afterwards)
+def document_id(s: Sample) -> Seed:
+    (s.root / "docs" / "manual" / "safety").mkdir(parents=True)
+    (s.root / "docs" / "manual" / "safety" / "limits.md").write_text("# Limits\n\nSYS-001 and SWR-SUP-909 hold.\n")
+    return "SWR-SUP-909", "docs/manual/safety/limits.md", 3
+
+
 SEEDS = (
     (parent_unknown, "unknown-id", True),
     (code_unknown, "unknown-id", True),
@@ -376,6 +382,7 @@ SEEDS = (
     (shall_twice, "shall-count", True),
     (design_file, "design-link", True),
     (design_heading, "design-link", True),
+    (document_id, "document-link", True),
     (retired, "retired-id", True),
     (technique_unknown, "unknown-word", True),
     (suspect, "suspect-link", False),
