@@ -7,13 +7,13 @@ from itertools import islice
 from pathlib import Path
 from types import ModuleType
 
-from mamori.trace.formats import csv_file, needs, oft, reqif, sdoc
+from mamori.trace.formats import csv_file, doorstop, needs, oft, reqif, sdoc, trlc
 from mamori.trace.formats.files import list_files
 from mamori.trace.formats.model import ForeignProject
 from mamori.trace.model.finding import Problem
 from mamori.trace.readers.files import InputError
 
-FORMATS: dict[str, ModuleType] = {module.NAME: module for module in (sdoc, needs, oft, reqif, csv_file)}
+FORMATS: dict[str, ModuleType] = {module.NAME: module for module in (sdoc, needs, oft, doorstop, trlc, reqif, csv_file)}
 _PEEK_BYTES = 65536
 _PEEK_FILES = 200
 

@@ -44,7 +44,37 @@ The arm shall stop.
 Needs: impl, utest
 """
 _NEEDS = '{"current_version": "1", "versions": {"1": {"needs": {\n"R_1": {"id": "R_1", "title": "Stop", "type": "req", "content": "It shall stop."}\n}}}}\n'
-_WHOLE = {"strictdoc": ("a.sdoc", _SDOC), "oft": ("a.md", _OFT), "needs": ("needs.json", _NEEDS)}
+_TRLC = """package Arm
+import Base
+// A note.
+section "One" {
+  Requirement stop {
+    description = \"\"\"The arm
+      shall stop.\"\"\"
+    sil = Sil.QM
+    sources = [(1, "x"), (2, "y")]
+    parents = [Base.top @ 3, other]
+  }
+}
+"""
+_ITEM = """active: true
+links:
+- SYS001: abc
+- SYS002
+normative: true
+text: |
+  The software shall stop.
+"""
+_MARKDOWN = """---
+active: true
+links: []
+---
+
+# Stop
+
+The software shall stop.
+"""
+_WHOLE = {"strictdoc": ("a.sdoc", _SDOC), "oft": ("a.md", _OFT), "needs": ("needs.json", _NEEDS), "trlc": ("a.trlc", _TRLC)}
 
 
 def _write(folder: Path, name: str, text: str | bytes) -> Path:
@@ -69,6 +99,18 @@ def _write(folder: Path, name: str, text: str | bytes) -> Path:
         ("oft", "a.md", _OFT + "```\nopen\n", "a.md:9", "cut off"),
         ("oft", "a.md", _OFT + "`req~stop~one`\n", "a.md:8", "req~stop~one"),
         ("oft", "a.md", _OFT + "\0", "a.md:8", "zero byte"),
+        ("trlc", "a.trlc", _TRLC.partition("  }")[0], "a.trlc:11", "cut off"),
+        ("trlc", "a.trlc", _TRLC.replace("sil =", "sil ?"), "a.trlc:8", "?"),
+        ("trlc", "a.trlc", "section", "a.trlc:1", "section"),
+        ("trlc", "a.trlc", "package A\nT a { x = " + "[" * 500, "a.trlc:2", "["),
+        ("trlc", "a.trlc", "package A\n" + 'section "s" {' * 500, "a.trlc:2", "section"),
+        ("trlc", "a.trlc", b"package A\n// \xff", "a.trlc:2", "UTF-8"),
+        ("doorstop", "SWR001.yml", "text: [\n", "SWR001.yml:2", "YAML"),
+        ("doorstop", "SWR001.yml", "- a\n", "SWR001.yml:1", "table"),
+        ("doorstop", "SWR001.yml", "a: " + "[" * 5000, "SWR001.yml:2", "YAML"),
+        ("doorstop", "SWR001.yml", b"text: \xff\n", "SWR001.yml:1", "UTF-8"),
+        ("doorstop", "SWR001.md", "text\n", "SWR001.md:1", "head"),
+        ("doorstop", "SWR001.md", "---\na: b: c\n---\n", "SWR001.md:2", "YAML"),
     ],
 )
 @pytest.mark.verifies("SWR-TRC-048", technique="fault_injection", polarity="violation")
@@ -76,6 +118,8 @@ def test_a_broken_file_is_one_finding_with_its_line(
     name: str, file: str, text: str | bytes, place: str, word: str, trace: Callable, tmp_path: Path
 ) -> None:
     _write(tmp_path, file, text)
+    if name == "doorstop":
+        _write(tmp_path, ".doorstop.yml", "settings:\n  prefix: SWR\n")
 
     outcome = trace("check", "--format", name, tmp_path, "--output", "json", "--allow-missing")
 
@@ -126,6 +170,37 @@ def test_two_files_that_claim_one_id_are_both_named(name: str, trace: Callable, 
     doubles = [row for row in outcome.content["findings"] if row["rule"] == "duplicate-id"]
     assert {row["file"] for row in doubles} == {f"b/{file}"}
     assert all(f"a/{file}" in row["message"] for row in doubles)
+
+
+@pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="nominal")
+def test_trlc_values_are_told_apart(trace: Callable, tmp_path: Path) -> None:
+    _write(tmp_path, "a.trlc", _TRLC)
+    _write(tmp_path, "a.rsl", "package Arm\nenum Sil { QM }\n")
+
+    outcome = trace("check", "--format", "trlc", tmp_path, "--output", "json", "--allow-missing")
+
+    (item,) = outcome.content["items"]
+    unknown = [row["item"] for row in outcome.content["findings"] if row["rule"] == "unknown-id"]
+    assert (item["id"], item["statement"].split(), item["sil"]) == ("Arm.stop", ["The", "arm", "shall", "stop."], "QM")
+    assert unknown == ["Arm.other", "Base.top"]
+
+
+@pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="nominal")
+def test_doorstop_items_may_be_yaml_or_markdown(trace: Callable, tmp_path: Path) -> None:
+    for prefix in ("SYS", "SWR"):
+        _write(tmp_path, f"{prefix}/.doorstop.yml", f"settings:\n  prefix: {prefix}\n")
+    _write(tmp_path, "SYS/SYS001.md", _MARKDOWN)
+    _write(tmp_path, "SYS/SYS003.yml", "normative: false\ntext: A heading\n")
+    _write(tmp_path, "SWR/SWR001.yml", _ITEM)
+    _write(tmp_path, "loose.yml", "text: No item\n")
+
+    outcome = trace("check", "--format", "doorstop", tmp_path, "--output", "json", "--allow-missing")
+
+    items = {row["id"]: row for row in outcome.content["items"]}
+    assert {key: (row["title"], row["statement"]) for key, row in items.items()} == {
+        "SYS001": ("Stop", "The software shall stop."), "SWR001": ("SWR001", "The software shall stop.")}  # fmt: skip
+    unknown = [(row["item"], row["line"]) for row in outcome.content["findings"] if row["rule"] == "unknown-id"]
+    assert unknown == [("SYS002", 3)]
 
 
 @pytest.mark.parametrize("arguments", [("--format", "word", "."), ("--results", "x.xml"), ("--format", "oft", ".", "--sources", "gone")])

@@ -16,6 +16,8 @@ from faulty.plan import BOTTOM, MIDDLE, TOP, Code, Plan, Requirement, Test
 _OTHER_COMMIT = "fedcba9876543210fedcba9876543210fedcba98"
 _NO_SIL = "the format has no word for a safety level"
 _NO_ATTRIBUTE = "the format has no attributes of one's own"
+_FOREIGN = ("strictdoc", "oft", "needs", "doorstop", "trlc")
+_ONE_FILE = "one file per id: a second one takes its place"
 _NO_DESIGN = "the format has no link to a heading of a design document"
 
 
@@ -216,7 +218,7 @@ def results_cut_off(plan: Plan, chance: random.Random) -> list[Seed]:
 
 
 FAULTS = {
-    "duplicate-id": Fault("duplicate-id", duplicate_id),
+    "duplicate-id": Fault("duplicate-id", duplicate_id, {"doorstop": _ONE_FILE}),
     "unknown-parent": Fault("unknown-id", unknown_parent),
     "unknown-id-in-code": Fault("unknown-id", unknown_in_code),
     "unknown-id-in-test": Fault("unknown-id", unknown_in_test),
@@ -232,7 +234,7 @@ FAULTS = {
     "sil-lower": Fault("sil-lower", sil_lower, {"oft": _NO_SIL}),
     "no-shall": Fault("shall-count", no_shall),
     "unfinished": Fault("unfinished-text", unfinished),
-    "design-gone": Fault("design-link", design_gone, dict.fromkeys(("strictdoc", "oft", "needs"), _NO_DESIGN)),
+    "design-gone": Fault("design-link", design_gone, dict.fromkeys(_FOREIGN, _NO_DESIGN)),
     "no-code": Fault("code-missing", no_code),
     "no-test": Fault("test-missing", no_test),
     "no-violation-test": Fault("polarity-missing", no_violation_test, {"oft": _NO_ATTRIBUTE}),

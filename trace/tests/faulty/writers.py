@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from faulty.more_writers import make_doorstop_id, make_trlc_id, write_doorstop, write_trlc
 from faulty.page import Pages
 from faulty.plan import Plan, Requirement
 from faulty.sources import write_environment, write_results, write_sources
@@ -166,6 +167,8 @@ WRITERS = {
     "strictdoc": Writer(_make_sdoc_id, _write_sdoc, ("--format", "strictdoc", "ROOT", "--results", "ROOT/results")),
     "oft": Writer(_make_oft_id, _write_oft, ("--format", "oft", "ROOT", "--results", "ROOT/results")),
     "needs": Writer(_make_needs_id, _write_needs, ("--format", "needs", "ROOT", "--results", "ROOT/results")),
+    "doorstop": Writer(make_doorstop_id, write_doorstop, ("--format", "doorstop", "ROOT", "--results", "ROOT/results")),
+    "trlc": Writer(make_trlc_id, write_trlc, ("--format", "trlc", "ROOT", "--results", "ROOT/results")),
 }
 
 
