@@ -17,9 +17,11 @@ from mamori.trace.model.evidence import CAMPAIGN, PASSED, CampaignCase, CodeTag,
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.ids import FormerId
 from mamori.trace.model.item import Item, Schema
+from mamori.trace.model.kinds import KindSchema
 from mamori.trace.model.lock import ReviewLock
 from mamori.trace.model.review_record import ReviewRecord
 from mamori.trace.model.rule_pack import RulePack
+from mamori.trace.model.technique import Technique
 from mamori.trace.model.waiver import Waived, Waiver
 
 
@@ -49,6 +51,8 @@ class Project:
     decomposition: list[Decomposition] = field(default_factory=list)
     reviews: list[ReviewRecord] = field(default_factory=list)
     former_ids: dict[str, FormerId] = field(default_factory=dict)
+    techniques: list[Technique] | None = None
+    kinds: KindSchema = field(default_factory=KindSchema)
     date: str = ""
     review_needed: bool = True
 

@@ -21,6 +21,7 @@ from mamori.trace.readers.files import InputError, get_shown_path
 from mamori.trace.readers.git import read_commit_date, read_head
 from mamori.trace.readers.ids import read_ids
 from mamori.trace.readers.junit import read_junit
+from mamori.trace.readers.kinds import read_kinds
 from mamori.trace.readers.lock import read_lock
 from mamori.trace.readers.markdown_items import read_items
 from mamori.trace.readers.python_sources import read_python
@@ -30,6 +31,7 @@ from mamori.trace.readers.schema import read_schema
 from mamori.trace.readers.script_tags import read_script_tags
 from mamori.trace.readers.source_names import SourceNames
 from mamori.trace.readers.sources import calc_sources
+from mamori.trace.readers.techniques import read_techniques
 from mamori.trace.readers.timing import read_timing
 from mamori.trace.readers.toml_rows import is_date
 from mamori.trace.readers.waivers import read_waivers
@@ -61,7 +63,7 @@ def read_requirements(root: Path) -> Project:
 
 
 def read_judgement(project: Project, date: str = "") -> None:
-    """What the project says about its rules: pack, waivers, decomposition, and the day to judge by. Raises InputError.
+    """What the project says beside its items: pack, waivers, records, techniques, kinds, and the day to judge by. Raises InputError.
 
     `date` empty: the day of the checked-out commit, or else that of the evidence; never the clock, which would make the
     outcome change by itself.
@@ -71,6 +73,8 @@ def read_judgement(project: Project, date: str = "") -> None:
     project.waivers = read_waivers(project.root, rules, project.problems)
     project.decomposition = read_decomposition(project.root, project.problems)
     project.reviews = read_reviews(project.root, project.schema, project.problems)
+    project.techniques = read_techniques(project.root, project.problems)
+    project.kinds = read_kinds(project.root, project.schema)
     project.date = date
     if not date and any(waiver.expires for waiver in project.waivers):
         made = str(project.evidence.environment.get("date_utc") or "")[:10]

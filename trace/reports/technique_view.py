@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The technique table of the page: which technique is demanded, and what shows that it was used.
 
-@satisfies SWR-TRC-064      Design: docs/design/trace_report.md#techniques
+@satisfies SWR-TRC-064, SWR-TRC-027      Design: docs/design/trace_report.md#techniques
 """
 
 from __future__ import annotations
@@ -10,6 +10,8 @@ from collections import Counter
 from dataclasses import dataclass
 
 from mamori.trace.model.project import Project
+from mamori.trace.model.technique import Technique
+from mamori.trace.model.verdict import FAILED, NOT_RUN, VERIFIED, WORST_FIRST, Verdict, calc_verdicts
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,9 +26,9 @@ class TechniqueRow:
 
 def list_techniques(project: Project) -> list[TechniqueRow]:
     """Rows that the project offers under `techniques`, else the techniques of the schema with the tests that used them."""
-    rows = getattr(project, "techniques", None)
-    if rows is not None:
-        return list(rows)
+    if project.techniques is not None:
+        verdicts = calc_verdicts(project) if any(each.items for each in project.techniques) else {}
+        return [_make_row(project, each, verdicts) for each in project.techniques]
     passed = Counter(result.technique or "requirements_based" for result in project.results if result.status == "passed")
     written = Counter(test.technique for test in project.tests)
     return [
@@ -34,6 +36,22 @@ def list_techniques(project: Project) -> list[TechniqueRow]:
         for name in project.schema.technique
         if passed[name] or written[name]
     ]
+
+
+def _make_row(project: Project, technique: Technique, verdicts: dict[str, Verdict]) -> TechniqueRow:
+    """The state is the worst of its items and tests; a technique that only documents show is described, no more."""
+    words = [verdicts[name].word for name in technique.items if name in verdicts]
+    parts = [", ".join(technique.items)] if technique.items else []
+    for name in technique.tests:
+        results = [result for result in project.results if result.technique == name]
+        passed = sum(result.status == "passed" for result in results)
+        written = sum(test.technique == name for test in project.tests)
+        failing = any(result.failing for result in results)
+        words.append(FAILED if failing else VERIFIED if passed else NOT_RUN)
+        parts.append(f"{name.replace('_', ' ')}: {_describe(passed, written)}")
+    parts += technique.documents
+    word = min(words, key=WORST_FIRST.index) if words else "described"
+    return TechniqueRow(technique.name, f"{technique.clause}; {technique.phase}", "; ".join(parts), word)
 
 
 def _describe(passed: int, written: int) -> str:

@@ -16,13 +16,13 @@ from large_project import make_large_project
 from trace_sample import Sample
 
 from mamori.trace.model.finding import Place
+from mamori.trace.model.technique import Technique
 from mamori.trace.readers.item_history import CHANGES_MAX, find_changes, read_item_history
 from mamori.trace.readers.project import read_project
 from mamori.trace.reports.chromium import BrowserError
 from mamori.trace.reports.coverage_view import FunctionCoverage
 from mamori.trace.reports.html import write_report
 from mamori.trace.reports.inline_json import format_inline
-from mamori.trace.reports.technique_view import TechniqueRow
 
 SIZE_BYTES_MAX = 30_000_000
 HOSTILE = ("</script><script>alert(1)</script>", "</noscript><img src=x onerror=alert(1)>", "<!--<script>", "]]>\u2028\u2029", '" onload="x', "&lt;b&gt;")
@@ -170,7 +170,7 @@ def test_coverage_and_techniques_stand_on_the_page_where_the_project_offers_them
     project = read_project(sample.root, None)
     project.coverage_views = {"SWR-SUP-001": [FunctionCoverage("step", Place("safety/src/alive.cpp", 7), True, (9, 10), (3, 4), (0, 0))],
                               "SWR-OLD-001": []}  # fmt: skip
-    project.techniques = [TechniqueRow("boundary values", "SIL 2", "12 results", "passed")]
+    project.techniques = [Technique("Limits on both sides", "Annex Z", "unit test", (), ("interface",), (), Place("techniques.toml", 1))]
 
     write_report(project, sample.root / "page.html")
 
@@ -178,7 +178,7 @@ def test_coverage_and_techniques_stand_on_the_page_where_the_project_offers_them
     data = read_data(text)
     number = data["items"]["id"].index("SWR-SUP-001")
     assert data["coverage"] == {str(number): [["step", data["files"].index("safety/src/alive.cpp"), 7, True, [9, 10], [3, 4], [0, 0]]]}
-    assert "<td>boundary values</td><td>SIL 2</td><td>12 results</td>" in text
+    assert "<td>Limits on both sides</td><td>Annex Z; unit test</td><td>interface: 2 passed results</td>" in text
 
 
 @pytest.mark.verifies("SWR-TRC-064", technique="equivalence_classes", polarity="nominal")

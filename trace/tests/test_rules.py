@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
-from trace_sample import COMMIT, Sample, format_gtest_case, format_item, format_record, format_review, format_waiver
+from trace_sample import COMMIT, Sample, format_gtest_case, format_item, format_record, format_review, format_technique, format_waiver
 
 from mamori.trace.checks import list_rules
 from mamori.trace.readers.project import read_requirements
@@ -18,9 +20,11 @@ CPP_TEST = "safety/tests/alive_test.cpp"
 EVIDENCE = "build/host-release/evidence"
 DECOMPOSITION = "requirements/decomposition.toml"
 IDS = "requirements/ids.lock"
+LINKS = "requirements/schema/links.toml"
 LOCK = "requirements/trace.lock"
 PACK = "requirements/schema/rules.toml"
 REVIEWS = "requirements/reviews.toml"
+TECHNIQUES = "requirements/schema/techniques.toml"
 WAIVERS = "requirements/waivers.toml"
 GTEST = f"{EVIDENCE}/junit/safety.xml"
 CAMPAIGN = f"{EVIDENCE}/campaign/campaign.json"
@@ -313,6 +317,37 @@ def no_design(s: Sample) -> Seed:
     return "SWR-SUP-001", SOFTWARE, find_line(s, SOFTWARE, "- Design: -")
 
 
+def technique_without_proof(s: Sample) -> Seed:
+    return "neither items nor tests", TECHNIQUES, s.write(TECHNIQUES, format_technique())
+
+
+def technique_without_item(s: Sample) -> Seed:
+    return "SWR-SUP-009 is defined nowhere", TECHNIQUES, s.write(TECHNIQUES, format_technique(items=["SWR-SUP-009"]))
+
+
+def technique_without_test(s: Sample) -> Seed:
+    return "no test uses back_to_back", TECHNIQUES, s.write(TECHNIQUES, format_technique(tests=["back_to_back"]))
+
+
+def technique_without_heading(s: Sample) -> Seed:
+    return "no heading #gone", TECHNIQUES, s.write(TECHNIQUES, format_technique(documents=["docs/design/arm.md#gone"]))
+
+
+def code_for_a_need(s: Sample) -> Seed:
+    copy_links(s)
+    return "STK-001, which is of the kind need", HEADER, s.replace(HEADER, "SWR-SUP-002", "SWR-SUP-002, STK-001")
+
+
+def hazard_without_design(s: Sample) -> Seed:
+    copy_links(s)
+    file = "requirements/safety/hazards.md"
+    return "HAZ-001 says no Design", file, s.replace(file, "- Design: docs/design/arm.md#hazards", "- Design: -")
+
+
+def copy_links(s: Sample) -> None:
+    shutil.copy(Path(__file__).parents[2] / LINKS, s.root / LINKS)
+
+
 def waiver_idle(s: Sample) -> Seed:
     return "SWR-SUP-002", WAIVERS, s.write(WAIVERS, format_waiver("sil-lower", item="SWR-SUP-002"))
 
@@ -362,6 +397,12 @@ SEEDS = (
     (review_without_author, "independence-missing", True),
     (violation_not_demanded, "violation-not-demanded", True),
     (no_design, "design-missing", True),
+    (technique_without_proof, "technique-unshown", True),
+    (technique_without_item, "technique-unshown", True),
+    (technique_without_test, "technique-unshown", True),
+    (technique_without_heading, "technique-unshown", True),
+    (code_for_a_need, "link-kind", True),
+    (hazard_without_design, "link-kind", True),
     (waiver_idle, "waiver-unused", True),
     (waiver_over, "waiver-expired", True),
     (waiver_silent, "waiver-without-reason", True),
