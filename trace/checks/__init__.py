@@ -9,6 +9,7 @@ from __future__ import annotations
 from types import ModuleType
 
 from mamori.trace.checks import (
+    analysis_finding,
     code_missing,
     cycle,
     decomposition_unsound,
@@ -99,6 +100,7 @@ RULES = (
     result_flaky,
     function_unexecuted,
     mcdc_gap,
+    analysis_finding,
     test_unlinked,
     evidence_stale,
     evidence_altered,

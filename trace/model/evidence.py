@@ -125,6 +125,15 @@ class CostRun:
     place: Place
 
 
+@dataclass(frozen=True, slots=True, order=True)
+class AnalysisFinding:
+    """Something that a static analysis found; `rule` is the name that its tool gives it."""
+
+    place: Place
+    rule: str
+    message: str
+
+
 @dataclass(frozen=True, slots=True)
 class FileRecord:
     """What `records.json` says of one evidence file. `sources` is the hash of the sources that it was made from, or empty."""
@@ -151,6 +160,7 @@ class Evidence:
     coverage_runs: list[CoverageRun] = field(default_factory=list)
     environment: dict[str, Any] = field(default_factory=dict)
     environment_place: Place = Place("environment.json", 1)
+    analysis: list[AnalysisFinding] = field(default_factory=list)
     records: dict[str, FileRecord] = field(default_factory=dict)
     campaign_environment: dict[str, Any] = field(default_factory=dict)
     campaign_place: Place = Place("campaign/campaign.json", 1)

@@ -9,6 +9,7 @@ from mamori.trace.model.code import CodeBase
 from mamori.trace.checks import list_rules
 from mamori.trace.model.evidence import INTEGRATION, UNIT, Evidence
 from mamori.trace.model.project import Project, attach_sources
+from mamori.trace.readers.analysis import read_analysis
 from mamori.trace.readers.campaign import read_campaign, read_environment
 from mamori.trace.readers.code_schema import read_code_schema
 from mamori.trace.readers.cost import read_cost
@@ -129,4 +130,5 @@ def read_evidence(folder: Path, project: Project) -> Evidence:
     read_evidence_records(folder, project.root, evidence, project.problems)
     names = SourceNames(project.root, {function.file for function in project.functions})
     read_coverage(folder, project.root, names, evidence, project.problems)
+    read_analysis(folder, names, project.root, evidence, project.problems)
     return evidence

@@ -28,3 +28,16 @@ class SourceNames:
         parts = [part for part in PurePosixPath(path).parts if part not in ("/", ".")]
         ends = ("/".join(parts[start:]) for start in range(len(parts)))
         return next((end for end in ends if end in self._known), "")
+
+    def find_any(self, path: str) -> str:
+        """The same for every file that exists, also one without code: at least its folder must be the same."""
+        found = self.find(path)
+        if found or not path:
+            return found
+        plain = path.replace("\\", "/")
+        inner = plain.removeprefix(f"{self._root}/")
+        parts = [part for part in PurePosixPath(inner).parts if part not in ("/", ".")]
+        if ".." in parts:
+            return ""
+        ends = ["/".join(parts[start:]) for start in range(max(1, len(parts) - 1))]
+        return next((end for end in ends if (Path(self._root) / end).is_file()), "")
