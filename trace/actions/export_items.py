@@ -10,8 +10,9 @@ import argparse
 from pathlib import Path
 
 from mamori.trace.actions.common import EXIT_CLEAN, add_root
+from mamori.trace.actions.foreign import check_format
 from mamori.trace.formats.own import make_neutral
-from mamori.trace.formats.registry import FORMATS, read_format
+from mamori.trace.formats.registry import read_format
 from mamori.trace.formats.writers import WRITERS
 from mamori.trace.model.finding import Problem
 from mamori.trace.readers.files import InputError
@@ -32,8 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
     problems: list[Problem] = []
     if arguments.format:
         name, path = arguments.format
-        if name not in FORMATS:
-            raise InputError(f"--format {name}: unknown; known are {', '.join(FORMATS)}")
+        check_format(name)
         neutral = read_format(name, Path(path), arguments.root, problems)
     else:
         project = read_requirements(arguments.root)

@@ -31,10 +31,15 @@ def get_foreign(arguments: argparse.Namespace) -> ForeignInput | None:
                 raise InputError(f"--{name} belongs to --format FORMAT PATH, which is missing")
         return None
     name, path = arguments.format
-    if name not in FORMATS:
-        raise InputError(f"--format {name}: unknown; known are {', '.join(FORMATS)}")
+    check_format(name)
     sources = arguments.sources
     if sources is not None and not sources.is_dir():
         raise InputError(f"{sources}: no such folder of sources")
     return ForeignInput(name, Path(path), arguments.root, arguments.results or [], sources, arguments.schema, arguments.evidence,
-                        arguments.allow_missing)  # fmt: skip
+                        arguments.allow_missing, getattr(arguments, "date", None) or "")  # fmt: skip
+
+
+def check_format(name: str) -> None:
+    """Raises InputError for a word that names no format."""
+    if name not in FORMATS:
+        raise InputError(f"--format {name}: unknown; known are {', '.join(FORMATS)}")

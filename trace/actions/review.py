@@ -5,8 +5,11 @@ from __future__ import annotations
 
 import argparse
 import datetime
+from pathlib import Path
 
 from mamori.trace.actions.common import EXIT_CLEAN, add_root, find_item
+from mamori.trace.actions.foreign import check_format
+from mamori.trace.formats.in_place import LOCK_NAME, ForeignInput, read_in_place
 from mamori.trace.model.finding import Place
 from mamori.trace.model.ids import FormerId
 from mamori.trace.model.lock import ReviewLock
@@ -24,13 +27,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_root(parser)
     parser.add_argument("items", nargs="*", metavar="ID", help="items whose links, up and down, were looked at, or that are no more")
     parser.add_argument("--all", action="store_true", help="every link was looked at")
+    parser.add_argument("--format", nargs=2, metavar=("FORMAT", "PATH"), help=f"a project of another tool; its record is {LOCK_NAME} beside PATH")
+    parser.add_argument("--schema", type=Path, metavar="FILE", help="what the words and levels of that project mean")
     parser.add_argument("--by", default="", metavar="NAME", help="who looked (default: the user name that git knows)")
 
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.all == bool(arguments.items):
         raise InputError("review: name the items that were looked at, or --all")
-    project = read_requirements(arguments.root)
+    project, lock_path = _read(arguments)
     if project.problems:
         first = project.problems[0]
         raise InputError(f"{first.place}: {first.message}; mend it before reviewing")
@@ -43,12 +48,22 @@ def run(arguments: argparse.Namespace) -> int:
     date = datetime.date.today().isoformat()
     give_up_ids(project, gone, date)
     count = review_links(project, chosen, date, reviewer)
-    write_ids(arguments.root, project.former_ids)  # first: the lock forgets these ids
-    write_lock(arguments.root, project.lock or ReviewLock())
-    print(f"{count} links recorded as reviewed by {reviewer} in {LOCK_PATH}")
+    write_ids(project.root, project.former_ids)  # first: the lock forgets these ids
+    write_lock(arguments.root, project.lock or ReviewLock(), lock_path)
+    print(f"{count} links recorded as reviewed by {reviewer} in {lock_path or LOCK_PATH}")
     if gone:
         print(f"ids given up for good, in {IDS_PATH}: {', '.join(sorted(gone))}")
     return EXIT_CLEAN
+
+
+def _read(arguments: argparse.Namespace) -> tuple[Project, Path | None]:
+    """The project, and where its record is kept if not at the usual place."""
+    if not arguments.format:
+        return read_requirements(arguments.root), None
+    name, path = arguments.format
+    check_format(name)
+    given = ForeignInput(name, Path(path), arguments.root, schema=arguments.schema, allow_missing=True)
+    return read_in_place(given), given.folder / LOCK_NAME
 
 
 def list_gone(project: Project) -> dict[str, str]:

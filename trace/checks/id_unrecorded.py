@@ -10,8 +10,6 @@ from mamori.trace.model.project import Project
 
 RULE = Rule("id-unrecorded", ERROR, "An id that is given up is recorded, so that it is never used again.")
 
-LOCK = "requirements/trace.lock"
-
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     """Reviewed links tell which ids there were. One that something still names is told as unknown, and not here."""
@@ -24,4 +22,4 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
         for name in key:
             if name not in told:
                 told.add(name)
-                yield Place(LOCK, line), f"{name} is defined no more; record that its id is given up: `mamori trace review {name}`", name
+                yield Place(project.lock.file, line), f"{name} is defined no more; record that its id is given up: `mamori trace review {name}`", name

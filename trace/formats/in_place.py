@@ -15,15 +15,18 @@ from mamori.trace.formats.items import Converted, convert
 from mamori.trace.formats.mapping import read_mapping
 from mamori.trace.formats.registry import read_format
 from mamori.trace.formats.sources import read_sources
+from mamori.trace.model.code import CodeBase
 from mamori.trace.model.evidence import UNIT, CodeTag, Evidence, SourceTest, TestResult
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.project import Project, attach_sources, list_result_keys
+from mamori.trace.model.rule_pack import Grades
+from mamori.trace.readers.code_schema import read_code_schema
 from mamori.trace.readers.files import UNREADABLE, InputError, get_shown_path
 from mamori.trace.readers.git import read_head
+from mamori.trace.readers.ids import read_ids
 from mamori.trace.readers.junit import parse_junit
 from mamori.trace.readers.lock import read_lock
-from mamori.trace.readers.project import read_evidence
-from mamori.trace.readers.rule_pack import read_shipped_pack
+from mamori.trace.readers.project import read_evidence, read_judgement
 
 LOCK_NAME = "trace.lock"
 _REVISION = re.compile(r"~\d+$")
@@ -41,22 +44,32 @@ class ForeignInput:
     schema: Path | None = None
     evidence: Path | None = None
     allow_missing: bool = False
+    date: str = ""
+
+    @property
+    def folder(self) -> Path:
+        """The folder of `path`, or `path` where it is one."""
+        return self.path if self.path.is_dir() else self.path.parent
 
 
 def read_in_place(given: ForeignInput) -> Project:
     """The project with all its evidence. Raises InputError where nothing can be judged."""
     mapping = read_mapping(given.format, given.schema)
-    folder = given.path if given.path.is_dir() else given.path.parent
+    folder = given.folder
     root = given.root if folder.resolve().is_relative_to(given.root.resolve()) else folder
     problems: list[Problem] = []
     foreign = read_format(given.format, given.path, root, problems)
     converted = convert(foreign, mapping, problems)
     project = Project(root, converted.schema, converted.items, problems=problems, allow_missing=given.allow_missing)
-    project.pack = read_shipped_pack(converted.schema)
     project.lock = read_lock(root, problems, folder / LOCK_NAME)
+    project.former_ids = read_ids(root, problems)
     project.review_needed = project.lock is not None
     project.head = read_head(folder)
-    tags, tests = read_sources(given.sources or folder, root, problems)
+    project.code_schema = read_code_schema(root)
+    base = CodeBase()
+    tags, tests = read_sources(given.sources or folder, root, problems, base if project.code_schema.traced or given.evidence else None)
+    base.scopes = [replace(scope, requirements=_resolve_all(scope.requirements, converted)) for scope in base.scopes]
+    project.functions = base.bind()
     code = [CodeTag(target, item.place, item.id) for item in converted.code_items for target in converted.stands_for[item.id]]
     project.tags = [replace(tag, requirement=each) for tag in tags for each in _resolve(tag.requirement, tag.place, converted, problems)] + code
     project.tests = [replace(test, requirement=each) for test in tests for each in _resolve(test.requirement, test.place, converted, problems)]
@@ -64,7 +77,13 @@ def read_in_place(given: ForeignInput) -> Project:
     project.evidence.results = _link_results(project.evidence.results, project.tests, converted, problems)
     attach_sources(project)
     _follow_polarity(project, converted)
+    read_judgement(project, given.date)
+    project.pack.grades["design-missing"] = Grades()  # the rule keeps its own severity, which is none: no format has such links
     return project
+
+
+def _resolve_all(named: tuple[str, ...], converted: Converted) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(each for word in named for each in converted.stands_for.get(word, (word,))))
 
 
 def _resolve(named: str, place: Place, converted: Converted, problems: list[Problem]) -> Iterable[str]:

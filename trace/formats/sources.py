@@ -11,12 +11,14 @@ import io
 import re
 import tokenize
 from bisect import bisect_left, bisect_right
+from dataclasses import replace
 from pathlib import Path
 
 import tree_sitter
 import tree_sitter_cpp
 
 from mamori.trace.formats.files import read_whole
+from mamori.trace.model.code import CodeBase
 from mamori.trace.model.evidence import CodeTag, SourceTest
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.cpp_tags import FILE_SYMBOL, parse_cpp_tags
@@ -34,43 +36,53 @@ _PYTHON_MARK = re.compile(r"""^[ \t]*@pytest\.mark\.verifies\(\s*["']([^"']+)["'
 _POLARITY = re.compile(r"k?(Violation|violation)\b")
 
 
-def read_sources(folder: Path, root: Path, problems: list[Problem]) -> tuple[list[CodeTag], list[SourceTest]]:
-    """Tags and tests of all source files below `folder`."""
+def read_sources(
+    folder: Path, root: Path, problems: list[Problem], code: CodeBase | None = None
+) -> tuple[list[CodeTag], list[SourceTest]]:
+    """Tags and tests of all source files below `folder`, and the functions of C and C++ files into `code`."""
     parser = tree_sitter.Parser(tree_sitter.Language(tree_sitter_cpp.language()))
     tags: list[CodeTag] = []
     tests: list[SourceTest] = []
     for path, relative in walk_sources(folder, (*_CPP, *_PYTHON, *_OTHERS)):
         shown = get_shown_path(path, root)
         text = read_whole(path, shown, problems)
-        if text is None or not (has_aliases(text) or "verifies" in text.lower()):
-            continue
-        aliases = [alias for alias in find_aliases(text)]
         in_test = is_test_file(relative)
+        listed = code is not None and not in_test and relative.endswith(_CPP)
+        if text is None or not (listed or has_aliases(text) or "verifies" in text.lower()):
+            continue
+        aliases = list(find_aliases(text))
         found = [alias for alias in aliases if in_test or alias.kind == TEST]
         tests += _read_tests(text, shown, found)
-        tags += _read_tags(text, shown, [alias for alias in aliases if alias not in found], parser)
+        tags += _read_tags(text, shown, [alias for alias in aliases if alias not in found], parser, code if listed else None)
     return tags, tests
 
 
-def _read_tags(text: str, shown: str, aliases: list[Alias], parser: tree_sitter.Parser) -> list[CodeTag]:
-    if not aliases:
+def _read_tags(text: str, shown: str, aliases: list[Alias], parser: tree_sitter.Parser, code: CodeBase | None) -> list[CodeTag]:
+    if not aliases and code is None:
         return []
     if shown.endswith(_CPP):
-        return _read_cpp_tags(text, shown, aliases, parser)
+        return _read_cpp_tags(text, shown, aliases, parser, code)
     symbols = _name_python_lines(text) if shown.endswith(_PYTHON) else _list_comment_lines(text)
     return [CodeTag(each, Place(shown, alias.line), symbols[alias.line])
             for alias in aliases if alias.line in symbols for each in alias.ids]  # fmt: skip
 
 
-def _read_cpp_tags(text: str, shown: str, aliases: list[Alias], parser: tree_sitter.Parser) -> list[CodeTag]:
+def _read_cpp_tags(text: str, shown: str, aliases: list[Alias], parser: tree_sitter.Parser, code: CodeBase | None) -> list[CodeTag]:
     """Each tag is written over by one of the project's own shape, whose number leads back to the foreign ids; lines stay."""
     lines = text.splitlines()
     for number, alias in sorted(enumerate(aliases), key=lambda pair: (pair[1].line, -pair[1].start)):
         line = lines[alias.line - 1]
         lines[alias.line - 1] = f"{line[: alias.start]}@satisfies ALIAS-{number} .{line[alias.end :]}"
-    found = parse_cpp_tags("\n".join(lines), shown, parser, [])
+    known = len(code.scopes) if code is not None else 0
+    found = parse_cpp_tags("\n".join(lines), shown, parser, [], code)
+    if code is not None:
+        code.scopes[known:] = [replace(scope, requirements=_name_ids(scope.requirements, aliases)) for scope in code.scopes[known:]]
     return [CodeTag(each, tag.place, tag.symbol) for tag in found if tag.requirement.startswith("ALIAS-")
             for each in aliases[int(tag.requirement[6:])].ids]  # fmt: skip
+
+
+def _name_ids(numbered: tuple[str, ...], aliases: list[Alias]) -> tuple[str, ...]:
+    return tuple(each for word in numbered if word.startswith("ALIAS-") for each in aliases[int(word[6:])].ids)
 
 
 def _list_comment_lines(text: str) -> dict[int, str]:

@@ -25,10 +25,11 @@ class Review:
 
 @dataclass(slots=True)
 class ReviewLock:
-    """Reviews by (child, parent). `lines` gives the line of each in the file it was read from."""
+    """Reviews by (child, parent). `lines` gives the line of each in `file`, which it was read from."""
 
     reviews: dict[tuple[str, str], Review] = field(default_factory=dict)
     lines: dict[tuple[str, str], int] = field(default_factory=dict)
+    file: str = "requirements/trace.lock"
 
     def describe_suspicion(self, child: Item, parent: Item) -> str:
         """Why the link is suspect, or an empty text when both ends are as they were at the last review."""

@@ -24,7 +24,7 @@ def read_lock(root: Path, problems: list[Problem], path: Path | None = None) -> 
     if not path.exists():
         return None
     shown = get_shown_path(path, root)
-    lock = ReviewLock()
+    lock = ReviewLock(file=shown)
     for number, line in enumerate(read_text(path, shown, problems).splitlines(), start=1):
         if not line.strip() or line.startswith("#"):
             continue

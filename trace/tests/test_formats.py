@@ -296,6 +296,22 @@ def test_words_in_code_that_are_no_comments_are_no_tags(trace: Callable, tmp_pat
 
 
 @pytest.mark.verifies("SWR-TRC-045", technique="interface", polarity="nominal")
+def test_links_of_a_foreign_project_are_reviewed_beside_it(trace: Callable, tmp_path: Path) -> None:
+    generate("strictdoc", "", tmp_path)
+    chosen = ("--format", "strictdoc", tmp_path)
+    before = trace("review", *chosen, "--all", "--by", "the maintainers")
+    file = tmp_path / "docs" / "stk.sdoc"
+    file.write_text(file.read_text().replace("control of unit 3.", "control of unit 33."))
+
+    changed = trace("check", *chosen, "--results", tmp_path / "results", "--output", "json")
+    again = trace("review", *chosen, "STK-003", "--by", "the maintainers")
+    after = trace("check", *chosen, "--results", tmp_path / "results")
+
+    assert (before.status, changed.rules, again.status, after.status) == (0, {"suspect-link"}, 0, 0)
+    assert (tmp_path / "trace.lock").is_file()
+
+
+@pytest.mark.verifies("SWR-TRC-045", technique="interface", polarity="nominal")
 def test_the_report_shows_a_foreign_project(trace: Callable, tmp_path: Path) -> None:
     project = generate("oft", "", tmp_path / "project")
 

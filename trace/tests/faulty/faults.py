@@ -9,6 +9,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 
+from faulty.code_faults import CODE_FAULTS
 from faulty.fault import Fault, Seed, pick
 from faulty.judgement_faults import JUDGEMENT_FAULTS
 from faulty.plan import BOTTOM, MIDDLE, TOP, Code, Plan, Requirement, Test
@@ -240,6 +241,7 @@ FAULTS = {
     "no-violation-test": Fault("polarity-missing", no_violation_test, {"oft": _NO_ATTRIBUTE}),
     "no-campaign": Fault("campaign-missing", no_campaign, {"oft": _NO_ATTRIBUTE}),
     "suspect-link": Fault("suspect-link", suspect_link, reviewed=True),
+    "flaky": Fault("result-flaky", _set_outcome("flaky")),
     "failed": Fault("result-failed", _set_outcome("failed")),
     "crashed": Fault("result-failed", _set_outcome("error")),
     "skipped": Fault("result-skipped", _set_outcome("skipped")),
@@ -249,15 +251,13 @@ FAULTS = {
     "unknown-technique": Fault("unknown-word", unknown_technique),
     "stale": Fault("evidence-stale", stale, evidence=True),
     "results-cut-off": Fault("unreadable-input", results_cut_off),
+    **CODE_FAULTS,
     **JUDGEMENT_FAULTS,
 }
 WITHOUT_FAULT = {
     "technique-unshown": "about the project's table of techniques, not about an item; seeded in test_rules.py",
     "link-kind": "the generated projects have no schema of kinds; seeded in test_rules.py",
     "id-unrecorded": "its place is a line of the review lock, which the tool writes and sorts; seeded in test_rules.py",
-    "untraced-function": "seeded in test_functions.py",
-    "function-unexecuted": "seeded in test_coverage_files.py",
-    "mcdc-gap": "seeded in test_coverage_files.py",
     "evidence-altered": "seeded in test_evidence_records.py",
     "document-link": "about documents of the project itself, which no foreign format has",
     "result-flaky": "seeded in test_foreign_results.py",

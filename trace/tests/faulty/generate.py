@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import random
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from faulty.writers import WRITERS, add_native_schema
 from mamori.trace.actions.review import review_links
 from mamori.trace.formats.in_place import LOCK_NAME, ForeignInput, read_in_place
 from mamori.trace.model.lock import ReviewLock
-from mamori.trace.readers.lock import write_lock
+from mamori.trace.readers.lock import LOCK_PATH, write_lock
 from mamori.trace.readers.project import read_requirements
 
 REVIEWER = "the maintainers"
@@ -49,6 +50,7 @@ def generate(format_name: str, fault: str, root: Path, count: int = 100, seed: i
     if row and row.reviewed and format_name != "oft":
         _write(plan, writer, root)
         _review(format_name, root)
+        shutil.rmtree(root / "docs")  # what is dropped afterwards may be a file
     seeds = row.spoil(plan, random.Random(seed)) if row else []
     pages = _write(plan, writer, root)
     if native and not (row and row.reviewed):
@@ -58,7 +60,16 @@ def generate(format_name: str, fault: str, root: Path, count: int = 100, seed: i
         _write_head(root)
         if not native:
             arguments += ["--evidence", str(root / "results")]
-    return Generated(arguments, [Seeded(word, *pages.find(key, *parts)) for word, key, parts in seeds])
+    return Generated(arguments, [Seeded(word, *_find(pages, key, parts, root, native)) for word, key, parts in seeds])
+
+
+def _find(pages: Pages, key: str, parts: tuple[str, ...], root: Path, native: bool) -> tuple[str, int]:
+    """The place in a file that was written, or the first line of the lock that names the id."""
+    if parts != ("lock",):
+        return pages.find(key, *parts)
+    name = LOCK_PATH if native else LOCK_NAME
+    lines = (root / name).read_text(encoding="utf-8").splitlines()
+    return name, next(number for number, line in enumerate(lines, start=1) if key in line.split())
 
 
 def _write(plan: Plan, writer, root: Path) -> Pages:

@@ -14,8 +14,10 @@ _WAIVERS = ("requirements/waivers.toml", "mamori.waivers/1", "waiver")
 _RECORDS = ("requirements/decomposition.toml", "mamori.decomposition/1", "record")
 _REVIEWS = ("requirements/reviews.toml", "mamori.reviews/1", "review")
 _IDS = "requirements/ids.lock"
-_PROJECT_ONLY = dict.fromkeys(("strictdoc", "oft", "needs"), "the file belongs to a native project; foreign ones are judged by the shipped pack alone")
-_NO_WORD = dict.fromkeys(("strictdoc", "oft", "needs"), "the format does not tell a hazard, or has no design links")
+_NO_SIL = {"oft": "the format has no word for a safety level"}
+_NO_ATTRIBUTE = {"oft": "the format has no attributes of one's own"}
+_FOREIGN = ("strictdoc", "oft", "needs", "doorstop", "trlc")
+_NO_WORD = dict.fromkeys(_FOREIGN, "the format does not tell a hazard, or has no design links")
 
 
 def _add_row(plan: Plan, file: tuple[str, str, str], key: str, **columns: str | list[str]) -> None:
@@ -121,15 +123,15 @@ def review_by_author(plan: Plan, chance: random.Random) -> list[Seed]:
 
 JUDGEMENT_FAULTS = {
     "weak-word": Fault("weak-word", weak_word),
-    "id-reused": Fault("id-reused", id_reused, _PROJECT_ONLY),
-    "waiver-unused": Fault("waiver-unused", _waiver(), _PROJECT_ONLY),
-    "waiver-expired": Fault("waiver-expired", _waiver(expires="2026-11-01"), _PROJECT_ONLY),
-    "waiver-without-reason": Fault("waiver-without-reason", _waiver(reason=""), _PROJECT_ONLY),
-    "decomposition-unused": Fault("decomposition-unused", unused_record, _PROJECT_ONLY),
-    "decomposition-unsound": Fault("decomposition-unsound", unsound_record, _PROJECT_ONLY),
+    "id-reused": Fault("id-reused", id_reused),
+    "waiver-unused": Fault("waiver-unused", _waiver()),
+    "waiver-expired": Fault("waiver-expired", _waiver(expires="2026-11-01"), evidence=True),
+    "waiver-without-reason": Fault("waiver-without-reason", _waiver(reason="")),
+    "decomposition-unused": Fault("decomposition-unused", unused_record, _NO_SIL),
+    "decomposition-unsound": Fault("decomposition-unsound", unsound_record, _NO_SIL),
     "violation-not-demanded": Fault("violation-not-demanded", violation_not_demanded, _NO_WORD),
     "design-missing": Fault("design-missing", design_missing, _NO_WORD),
-    "review-missing": Fault("review-missing", review_missing, _PROJECT_ONLY),
-    "review-unused": Fault("review-unused", review_unused, _PROJECT_ONLY),
-    "review-by-author": Fault("independence-missing", review_by_author, _PROJECT_ONLY),
+    "review-missing": Fault("review-missing", review_missing, _NO_ATTRIBUTE),
+    "review-unused": Fault("review-unused", review_unused),
+    "review-by-author": Fault("independence-missing", review_by_author, _NO_ATTRIBUTE),
 }

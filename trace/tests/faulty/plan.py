@@ -35,7 +35,7 @@ class Code:
 
 @dataclass
 class Test:
-    """A test, the requirement it names, and its outcome: passed, failed, error, skipped, disabled, or nothing where it was not run."""
+    """A test, the requirement it names, and its outcome: passed, flaky, failed, error, skipped, disabled, or nothing where it was not run."""
 
     __test__ = False
 
@@ -50,7 +50,10 @@ class Test:
 
 @dataclass
 class Plan:
-    """`beside` are further files by name: lines, each with the key that finds it, or an empty one."""
+    """`revisions` are ids as they are written where they differ; `beside` are further files by name: lines, each with the key that
+    finds it, or an empty one. `traced` demands an owner of each function; `coverage` asks for a coverage file, in which the functions
+    `unexecuted` were never called and those in `gaps` have a condition that was not shown.
+    """
 
     make_id: object
     requirements: list[Requirement] = field(default_factory=list)
@@ -59,6 +62,10 @@ class Plan:
     broken_results: int = 0
     commit: str = COMMIT
     revisions: dict[str, str] = field(default_factory=dict)
+    traced: bool = False
+    coverage: bool = False
+    unexecuted: list[str] = field(default_factory=list)
+    gaps: list[str] = field(default_factory=list)
     beside: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
 
     def find(self, requirement_id: str) -> Requirement:

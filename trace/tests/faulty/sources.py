@@ -11,6 +11,7 @@ from faulty.plan import Plan, Test
 
 _PER_FILE = 10
 _INNER = {
+    "flaky": '<flakyFailure message="late"/>',
     "failed": '<failure message="value is wrong"/>',
     "error": '<error message="crashed"/>',
     "skipped": '<skipped message="no hardware"/>',
@@ -26,7 +27,9 @@ def write_sources(plan: Plan, pages: Pages, code_tag: str, test_tag: str, native
         pages.add(file, "")
         for requirement in code.requirements:
             pages.add(file, code_tag.format(requirement), (requirement, "code"))
-        pages.add(file, f"int {code.function}(int value) {{ return value + {number}; }}")
+        pages.add(file, f"int {code.function}(int value) {{ return value + {number}; }}", (code.function, "function"))
+    if plan.traced:
+        pages.add("requirements/schema/code.toml", 'schema = "mamori.code/1"\ntraced = ["src"]')
     for number, test in enumerate(each for each in plan.tests if not each.result_only):
         file = f"tests/part_{number // _PER_FILE}_test.cpp"
         if file not in pages.files:
@@ -69,4 +72,20 @@ def write_results(plan: Plan, pages: Pages, folder: str, properties: Callable[[T
 
 def write_environment(plan: Plan, pages: Pages, folder: str) -> None:
     content = {"schema": "mamori.environment/1", "commit": plan.commit, "dirty": False, "date_utc": "2026-11-21T10:00:00+00:00"}
+    if plan.coverage:
+        _write_coverage(plan, pages, f"{folder}/coverage/coverage.json")
     pages.add(f"{folder}/environment.json", json.dumps(content), ("environment", "result"))
+
+
+def _write_coverage(plan: Plan, pages: Pages, file: str) -> None:
+    functions, gaps = [], []
+    for code in plan.code:
+        source, line = pages.find(code.function, "function")
+        count = 0 if code.function in plan.unexecuted else 7
+        open_conditions = 1 if code.function in plan.gaps else 0
+        functions.append({"file": source, "name": code.function, "line": line, "last_line": line, "count": count, "lines": [line],
+                          "lines_missed": [] if count else [line], "outcomes": 0, "outcomes_reached": 0,
+                          "conditions": open_conditions, "conditions_shown": 0})  # fmt: skip
+        if open_conditions:
+            gaps.append({"file": source, "line": line, "function": code.function, "condition": "value > 0", "missing": "false", "reason": None})
+    pages.add(file, json.dumps({"schema": "mamori.coverage/1", "functions": functions, "gaps": gaps}))
