@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +14,12 @@ from mamori.trace.formats.files import read_texts
 from mamori.trace.formats.json_places import Lines, Table, parse_json
 from mamori.trace.formats.model import ForeignItem, ForeignProject, Loss, Relation
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE
+from mamori.trace.readers.files import UNREADABLE, get_shown_path
 
 NAME = "needs"
 TITLE = "sphinx-needs"
 SUFFIXES = ("needs.json",)
+_FOLDERS_MAX = 5
 
 _LINK_FIELDS = {"links", "parent_need", "satisfies", "refines", "derives", "derived_from", "implements", "fulfils", "fulfills", "parents",
                 "traces", "covers", "realizes", "verifies", "tests"}  # fmt: skip
@@ -39,11 +41,11 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
     for shown, text in read_texts(path, SUFFIXES, root, problems):
         content = parse_json(text, shown, problems)
         if content is not None:
-            _read_content(content, text, shown, project, problems)
+            _read_content(content, text, shown, root, project, problems)
     return project
 
 
-def _read_content(content: Any, text: str, shown: str, project: ForeignProject, problems: list[Problem]) -> None:
+def _read_content(content: Any, text: str, shown: str, root: Path, project: ForeignProject, problems: list[Problem]) -> None:
     versions = content.get("versions") if isinstance(content, dict) else None
     if not isinstance(versions, Table) or not versions:
         problems.append(Problem(UNREADABLE, Place(shown, 1), "has no 'versions', so it is no needs.json; build it with the builder 'needs'"))
@@ -61,6 +63,8 @@ def _read_content(content: Any, text: str, shown: str, project: ForeignProject, 
         if other != chosen:
             project.losses.append(Loss(Place(shown, lines.get_line(max(lines.find_key(other, 0, opens="{"), 0))), f"version {other}"))
     begin = lines.find_key("needs", max(start, 0), opens="{")
+    found: dict[str, str] = {}
+    dense = text.count("\n") < len(needs.pairs)
     offsets = _find_offsets([key for key, _ in needs.pairs], lines, begin + len('"needs"'))
     for index, (key, value) in enumerate(needs.pairs):
         place = Place(shown, lines.get_line(offsets[index]))
@@ -68,7 +72,9 @@ def _read_content(content: Any, text: str, shown: str, project: ForeignProject, 
             problems.append(Problem(UNREADABLE, place, f"need '{key}' is no table"))
             continue
         end = offsets[index + 1] if index + 1 < len(offsets) else None
-        project.items.append(_make_item(key, value, place, lines, offsets[index], end))
+        item = _make_item(key, value, place, lines, offsets[index], end)
+        source = _place_in_source(value, shown, root, found) if dense else None
+        project.items.append(_move(item, source) if source else item)
 
 
 def _find_offsets(keys: list[str], lines: Lines, cursor: int) -> list[int]:
@@ -91,7 +97,7 @@ def _make_item(key: str, need: dict[str, Any], place: Place, lines: Lines, start
     for name, value in need.items():
         offset = lines.find_key(name, start, end)
         item.lines[name] = lines.get_line(offset) if offset >= 0 else place.line
-        if name in _LINK_FIELDS or _is_link_list(name, value):
+        if name in _LINK_FIELDS or (isinstance(value, list) and f"{name}_back" in need and name not in _DERIVED):
             targets = value if isinstance(value, list) else [value] if value else []
             item.relations += [Relation(name, str(target), item.lines[name]) for target in targets]
         elif name not in _DERIVED and not name.endswith("_back") and value not in (None, "", [], {}):
@@ -100,6 +106,21 @@ def _make_item(key: str, need: dict[str, Any], place: Place, lines: Lines, start
     return item
 
 
-def _is_link_list(name: str, value: Any) -> bool:
-    """Link types have any name; their values look like ids, and sphinx-needs writes the way back as `NAME_back`."""
-    return isinstance(value, list) and bool(value) and name.endswith(("_links", "_by_link"))
+def _move(item: ForeignItem, place: Place) -> ForeignItem:
+    """The item with all its parts at one place."""
+    item.place, item.statement_line = place, place.line
+    item.lines = dict.fromkeys(item.lines, place.line)
+    item.relations = [replace(each, line=place.line) for each in item.relations]
+    return item
+
+
+def _place_in_source(need: dict[str, Any], shown: str, root: Path, found: dict[str, str]) -> Place | None:
+    """Where the author wrote the need. sphinx-needs writes all needs on one line, which is no place to send anybody to."""
+    name, line = f"{need.get('docname') or ''}{need.get('doctype') or '.rst'}", need.get("lineno")
+    if not need.get("docname") or not isinstance(line, int) or isinstance(line, bool) or line < 1:
+        return None
+    if name not in found:
+        above = list((root / shown).resolve().parents)[:_FOLDERS_MAX]
+        folders = [folder / inner for folder in above for inner in ("", "docs", "source", "docs/source")]
+        found[name] = next((get_shown_path(folder / name, root) for folder in folders if (folder / name).is_file()), name)
+    return Place(found[name], line)

@@ -3,6 +3,7 @@
 # Method: small projects written by hand, whole and broken, given to the command.
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -170,6 +171,22 @@ def test_two_files_that_claim_one_id_are_both_named(name: str, trace: Callable, 
     doubles = [row for row in outcome.content["findings"] if row["rule"] == "duplicate-id"]
     assert {row["file"] for row in doubles} == {f"b/{file}"}
     assert all(f"a/{file}" in row["message"] for row in doubles)
+
+
+@pytest.mark.parametrize("folder", ["docs", "."])
+@pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="nominal")
+def test_needs_on_one_line_are_placed_in_their_source(folder: str, trace: Callable, tmp_path: Path) -> None:
+    """As sphinx-needs 9 writes them; a link type of the project's own is known by the way back."""
+    row = {"content": "It shall stop.", "docname": "arm/stop", "doctype": ".rst", "links": [], "links_back": [], "type": "req"}
+    rows = {"R_1": {**row, "id": "R_1", "lineno": 3, "shows": [], "shows_back": []}, "R_2": {**row, "id": "R_2", "lineno": 9, "shows": ["R_9"], "shows_back": []}}
+    _write(tmp_path, "build/needs/needs.json", json.dumps({"current_version": "", "versions": {"": {"needs": rows}}}))
+    _write(tmp_path, f"{folder}/arm/stop.rst", "Stop\n")
+
+    outcome = trace("check", "--format", "needs", tmp_path / "build" / "needs" / "needs.json", "--root", tmp_path, "--output", "json", "--allow-missing")
+
+    source = "arm/stop.rst" if folder == "." else "docs/arm/stop.rst"
+    unknown = [(row["item"], row["file"], row["line"]) for row in outcome.content["findings"] if row["rule"] == "unknown-id"]
+    assert unknown == [("R_9", source, 9)]
 
 
 @pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="nominal")
