@@ -12,6 +12,7 @@ import os
 import select
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 from collections.abc import Mapping
@@ -23,6 +24,8 @@ _OPTIONS = (
     "--disable-background-networking", "--disable-component-update", "--disable-default-apps", "--no-first-run", "--mute-audio",
     "--host-resolver-rules=MAP * ~NOTFOUND",  # a page of ours names no host, and none would be found
 )  # fmt: skip
+# The browser reads from descriptor 3 and writes to 4. A process of its own moves them: before the start, both may be in use.
+_PLACE_DESCRIPTORS = "import os, sys; os.dup2(int(sys.argv[1]), 3); os.dup2(int(sys.argv[2]), 4); os.execv(sys.argv[3], sys.argv[3:])"
 _CHUNK_BYTES = 1 << 20
 _HIGH_DESCRIPTOR = 20
 
@@ -49,20 +52,15 @@ class Chromium:
         self._profile = tempfile.TemporaryDirectory(prefix="mamori-chromium-", ignore_cleanup_errors=True)
         to_read, self._writer = os.pipe()
         self._reader, to_write = os.pipe()
-        # The browser reads from descriptor 3 and writes to 4; copies above both cannot be hit by the other's move.
+        # Copies above both descriptors of the browser, so that moving one does not hit the other.
         high = [fcntl.fcntl(end, fcntl.F_DUPFD, _HIGH_DESCRIPTOR) for end in (to_read, to_write)]
-
-        def place_descriptors() -> None:
-            os.dup2(high[0], 3)
-            os.dup2(high[1], 4)
-
         command = [program, *_OPTIONS, f"--user-data-dir={self._profile.name}", "about:blank"]
         if os.geteuid() == 0:
             command.insert(1, "--no-sandbox")  # it refuses to start for root otherwise
         try:
             self._process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                preexec_fn=place_descriptors, pass_fds=(3, 4, *high), start_new_session=True,
+                [sys.executable, "-I", "-S", "-c", _PLACE_DESCRIPTORS, *map(str, high), *command],
+                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, pass_fds=high, start_new_session=True,
             )  # fmt: skip
         finally:
             for end in (to_read, to_write, *high):

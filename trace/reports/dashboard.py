@@ -32,7 +32,7 @@ class Share:
 
 @dataclass(frozen=True, slots=True)
 class Bar:
-    """One row of a card. `note` stands behind the count."""
+    """One row of a card. `count` is what the row is about, `note` stands behind it."""
 
     name: str
     count: int
@@ -48,7 +48,7 @@ def list_level_bars(project: Project, verdicts: Mapping[str, Verdict]) -> list[B
         words = Counter(verdict.word for key, verdict in verdicts.items() if project.items[key].level == level.key)
         if words:
             shares = _make_shares(words, tuple(reversed(WORST_FIRST)), "matrix", level=level.key)
-            bars.append(Bar(level.name, words.total(), f"{words[VERIFIED]} verified", _address("matrix", level=level.key), shares))
+            bars.append(Bar(level.name, words[VERIFIED], f"of {words.total():,} verified", _address("matrix", level=level.key), shares))
     return bars
 
 
@@ -59,7 +59,7 @@ def list_result_bars(project: Project) -> list[Bar]:
         words = Counter("failed" if result.failing else result.status for result in project.results if result.kind == kind)
         if words:
             shares = _make_shares(words, (PASSED, SKIPPED, "failed"), "tests", kind=kind)
-            bars.append(Bar(name, words.total(), f"{words[PASSED]} passed", _address("tests", kind=kind), shares))
+            bars.append(Bar(name, words[PASSED], f"of {words.total():,} passed", _address("tests", kind=kind), shares))
     missing = len(project.tests_without_result)
     if missing:
         share = Share("not run", missing, 100.0, _address("tests", status="not run"))

@@ -127,6 +127,7 @@ def _make_environment() -> jinja2.Environment:
     script = f'\n(() => {{\n"use strict";\n{_read_templates(_SCRIPTS)}}})();\n'
     environment.filters["css"] = lambda word: word.replace(" ", "-")
     environment.filters["to"] = _make_link
+    environment.filters["n"] = lambda number: f"{number:,}"
     environment.globals["style"] = Markup(_read_templates(_STYLES))
     environment.globals["first_script"] = Markup(_FIRST_SCRIPT)
     environment.globals["script"] = Markup(script)

@@ -25,6 +25,7 @@ def make_large_project(root: Path, item_count: int = ITEM_COUNT, result_count: i
     """`item_count` items: one in a hundred a need, nine a system requirement, ninety a software requirement."""
     schema = _allow_long_ids(read_schema(SCHEMA.parents[2]))
     project = Project(root, schema, allow_missing=True)
+    _write_designs(root, item_count)
     needs, systems = max(1, item_count // 100), max(1, item_count * 9 // 100)
     software = item_count - needs - systems
     project.all_items = [_make_item("STK", number, ()) for number in range(needs)]
@@ -42,6 +43,15 @@ def make_large_project(root: Path, item_count: int = ITEM_COUNT, result_count: i
         for result in project.evidence.results
     ]
     return project
+
+
+def _write_designs(root: Path, item_count: int) -> None:
+    """What the items name as their design."""
+    folder = root / "docs" / "design"
+    folder.mkdir(parents=True, exist_ok=True)
+    for part in range(40):
+        heads = "".join(f"## Decision {number}\n" for number in range(part, item_count, 40))
+        (folder / f"part_{part}.md").write_text(heads, encoding="utf-8")
 
 
 def _allow_long_ids(schema: Schema) -> Schema:

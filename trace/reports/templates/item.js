@@ -24,7 +24,7 @@ function drawItem(number, neighbours) {
 
 function drawTrail(number, [before, after]) {
   const step = (other, label, key) => (other === undefined ? null : make("a", { class: "step", href: itemAddress(items.id[other]), "aria-keyshortcuts": key, title: `${items.id[other]} ${items.title[other]}` }, label));
-  return make("div", { class: "trail" }, make("span", { class: "grow" }, make("a", { class: "step", href: `#matrix${lastMatrix}` }, "Matrix"), " ",
+  return make("div", { class: "trail" }, make("span", { class: "grow" }, make("a", { class: "step", href: `#matrix${lastMatrix}` }, "← Matrix"), " ",
     quiet(levelNames.get(items.level[number]) || items.level[number])), step(before, "← before", "["), step(after, "next →", "]"));
 }
 
@@ -73,11 +73,11 @@ function drawLink(i, number) {
 
 function drawFile(file) {
   const at = file.lastIndexOf("/") + 1;
-  return make("a", { href: viewAddress("code", { q: file }) }, file.slice(at), make("span", { class: "under" }, file.slice(0, at)));
+  return make("a", { href: viewAddress("code", { q: file }) }, breakable(file.slice(at)), make("span", { class: "under" }, breakable(file.slice(0, at))));
 }
 
 function drawShown([word, suite, name, href]) {
-  return make("li", {}, make("a", { class: css(word), href }, name, make("span", { class: "under" }, suite ? `${suite}, ${word}` : word)));
+  return make("li", {}, make("a", { class: css(word), href }, breakable(name), make("span", { class: "under" }, suite ? `${suite}, ${word}` : word)));
 }
 
 // Results and cases of some items, the worst first: word, suite, name, address.
@@ -99,7 +99,7 @@ function drawItemTests(number) {
   ];
   if (!rows.length) return null;
   const draw = ([title, kind, technique, polarity, place, status, message]) => make("tr", {},
-    make("td", { class: "title" }, title, message ? make("div", { class: "quiet pre" }, message.split("\n")[0]) : null),
+    make("td", { class: "title" }, breakable(title), message ? make("div", { class: "quiet pre" }, message.split("\n")[0]) : null),
     make("td", { class: "words-of" }, kind), make("td", { class: "words-of" }, technique.replaceAll("_", " ")), make("td", { class: "words-of" }, polarity),
     make("td", {}, code(place)), make("td", {}, badge(status)));
   const table = make("table", { class: "rows small" }, heads(["Test", "Kind", "Technique", "Polarity", "Source", "Result"]), make("tbody"));

@@ -10,7 +10,7 @@ const findingText = later(() => allFindings().map((f) => {
 
 function drawFinding(row) {
   const item = data.findings.item[row];
-  return make("li", {}, badge(data.findings.severity[row]), " ", data.findings.message[row],
+  return make("li", {}, data.findings.message[row],
     make("div", { class: "under" }, code(placeOf(data.findings, row)), typeof item === "number" ? itemLink(item) : null));
 }
 
@@ -44,7 +44,7 @@ const resultText = (result) => `${result.suite}.${result.name} ${typeof result.i
 
 function drawResultRow(result) {
   return make("tr", {},
-    make("td", { class: "title" }, result.name, result.message ? make("div", { class: "quiet pre" }, result.message) : null),
+    make("td", { class: "title" }, breakable(result.name), result.message ? make("div", { class: "quiet pre" }, result.message) : null),
     make("td", {}, result.item === "" ? "" : itemLink(result.item)),
     make("td", { class: "words-of" }, result.polarity), make("td", { class: "words-of" }, result.technique), make("td", {}, badge(result.status)));
 }

@@ -21,6 +21,9 @@ const viewAddress = (view, filters) => {
   return query.size ? `#${view}?${query}` : `#${view}`;
 };
 
+// Long names may break where a word in them begins.
+const breakable = (name) => name.split(/(?<=[a-z0-9])(?=[A-Z])|(?<=[._:/\[])/).flatMap((part, at) => (at ? [make("wbr"), part] : [part]));
+
 // A link to an item named by its number, or the bare id where the project has no such item.
 function itemLink(item, ...more) {
   if (typeof item !== "number") return make("span", { class: "unknown", title: "no such item" }, item);

@@ -36,6 +36,10 @@ class Page:
         self._start = len(self._browser.events)
         self._browser.open(file.as_uri() + fragment)
 
+    def allow_scripts(self, is_allowed: bool) -> None:
+        """For what is opened from now on."""
+        self._browser.call("Emulation.setScriptExecutionDisabled", {"value": not is_allowed})
+
     def ask(self, expression: str) -> Any:
         """Value of a JavaScript expression."""
         return self._browser.evaluate(expression)
@@ -78,6 +82,7 @@ def page(browser: Chromium) -> Iterator[Page]:
     """A page on which nothing may complain, whatever the test does."""
     fresh = Page(browser)
     yield fresh
+    fresh.allow_scripts(True)
     assert fresh.list_complaints() == []
 
 

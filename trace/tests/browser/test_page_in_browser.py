@@ -36,6 +36,19 @@ def test_no_view_makes_the_page_scroll_sideways(page: Any, small_file: Path, fra
     assert small == []
 
 
+@pytest.mark.parametrize("width", [1280, 400])
+@pytest.mark.verifies("SWR-TRC-061", technique="requirements_based", polarity="nominal")
+def test_without_scripts_all_sections_stand_one_below_the_other(page: Any, small_file: Path, width: int) -> None:
+    page.allow_scripts(False)
+    page.open(small_file, width=width)
+
+    assert page.ask(SHOWN) == ["overview", "findings", "campaign", "timing", "matrix", "items", "tests", "code", "techniques", "glossary"]
+    assert page.ask("document.documentElement.scrollWidth") <= width
+    text = page.ask("document.body.innerText")
+    for part in ("The supervision shall report a late entity.", "AliveTest.SilenceIsReported", "tools/offline.py:3", "result-failed"):
+        assert part in text, part
+
+
 @pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
 def test_filters_narrow_the_matrix_stand_in_the_address_and_come_back_from_it(page: Any, small_file: Path) -> None:
     page.open(small_file, "#matrix")
