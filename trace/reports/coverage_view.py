@@ -6,16 +6,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
+from mamori.trace.model.code import Function
+from mamori.trace.model.coverage import Gap, Reached
 from mamori.trace.model.finding import Place
 from mamori.trace.model.project import Project
 
 
 @dataclass(frozen=True, slots=True)
 class FunctionCoverage:
-    """One function that an item owns. `executed` None: unknown. Each pair is (covered, all); (0, 0): not measured."""
+    """One function that an item owns. `executed` None: no counter tells. Each pair is (reached, all); (0, 0): not measured.
+
+    `accepted` is the reason why the function need not be called, or empty.
+    """
 
     symbol: str
     place: Place
@@ -23,8 +27,31 @@ class FunctionCoverage:
     lines: tuple[int, int] = (0, 0)
     branches: tuple[int, int] = (0, 0)
     conditions: tuple[int, int] = (0, 0)
+    gaps: tuple[Gap, ...] = ()
+    accepted: str = ""
 
 
-def get_coverage(project: Project) -> Mapping[str, list[FunctionCoverage]]:
-    """Functions by item, as the project offers them under `coverage_views`; empty where coverage was not read."""
-    return getattr(project, "coverage_views", None) or {}
+def make_coverage_views(project: Project) -> dict[str, list[FunctionCoverage]]:
+    """Functions by item, what was not executed first; empty where the evidence holds no coverage."""
+    if not project.evidence.coverage_runs:
+        return {}
+    return {key: _list_functions(project, key, functions) for key, functions in project.functions_of.items()}
+
+
+def _list_functions(project: Project, key: str, functions: list[Function]) -> list[FunctionCoverage]:
+    coverage = project.find_coverage([key])
+    views = [_make_view(function, coverage.measure(function)) for function in functions]
+    return sorted(views, key=lambda view: (view.executed is None, view.executed is True, view.place, view.symbol))
+
+
+def _make_view(function: Function, reached: Reached) -> FunctionCoverage:
+    return FunctionCoverage(
+        symbol=function.name,
+        place=function.place,
+        executed=reached.executed if reached.functions_measured else None,
+        lines=(reached.lines_reached, reached.lines),
+        branches=(reached.branches_reached, reached.branches),
+        conditions=(reached.conditions_shown, reached.conditions),
+        gaps=tuple(reached.gaps),
+        accepted=reached.accepted,
+    )

@@ -16,7 +16,7 @@ from mamori.trace.model.item import Item
 from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import WORST_FIRST, Verdict
 from mamori.trace.readers.item_history import Change
-from mamori.trace.reports.coverage_view import get_coverage
+from mamori.trace.reports.coverage_view import FunctionCoverage, make_coverage_views
 
 MESSAGE_MAX = 4000
 
@@ -127,13 +127,15 @@ def _make_case(case: CampaignCase, anchors: Mapping[str, str], numbers: Mapping[
 
 def _make_coverage(project: Project, numbers: Mapping[str, int], files: Words) -> dict[str, list]:
     return {
-        str(numbers[key]): [
-            [row.symbol, *_locate(row.place, files), row.executed, list(row.lines), list(row.branches), list(row.conditions)]
-            for row in functions
-        ]
-        for key, functions in sorted(get_coverage(project).items())
+        str(numbers[key]): [_make_function(row, files) for row in functions]
+        for key, functions in sorted(make_coverage_views(project).items())
         if key in numbers
     }
+
+
+def _make_function(row: FunctionCoverage, files: Words) -> list:
+    gaps = [[gap.place.line, gap.text, gap.reason] for gap in row.gaps]
+    return [row.symbol, *_locate(row.place, files), row.executed, list(row.lines), list(row.branches), list(row.conditions), gaps, row.accepted]
 
 
 def _make_history(history: Mapping[str, list[Change]], numbers: Mapping[str, int]) -> dict[str, Any]:

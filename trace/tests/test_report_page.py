@@ -15,12 +15,13 @@ import pytest
 from large_project import make_large_project
 from trace_sample import Sample
 
+from mamori.trace.model.code import Function
+from mamori.trace.model.coverage import Condition, CoverageRun, FileCoverage
 from mamori.trace.model.finding import Place
 from mamori.trace.model.technique import Technique
 from mamori.trace.readers.item_history import CHANGES_MAX, find_changes, read_item_history
 from mamori.trace.readers.project import read_project
 from mamori.trace.reports.chromium import BrowserError
-from mamori.trace.reports.coverage_view import FunctionCoverage
 from mamori.trace.reports.html import write_report
 from mamori.trace.reports.inline_json import format_inline
 
@@ -165,11 +166,26 @@ def test_the_history_of_an_item_is_bounded_and_odd_lines_do_no_harm() -> None:
     assert [change.commit for change in changes["SYS-001"]] == [str(number) for number in range(CHANGES_MAX)]
 
 
+@pytest.mark.verifies("SWR-TRC-060", technique="interface", polarity="nominal")
+def test_waived_findings_stand_on_the_page_with_their_reasons(sample: Sample, page: Callable[[], str]) -> None:
+    sample.replace("requirements/software/software.md", "Parents: SYS-001, HAZ-001", "Parents: SYS-001, HAZ-009")
+    (sample.root / "requirements" / "waivers.toml").write_text(
+        'schema = "mamori.waivers/1"\n[[waiver]]\nrule = "unknown-id"\nfile = "requirements/software/software.md"\nreason = "the hazard is being <written>"\n'
+        'by = "the maintainers"\n')  # fmt: skip
+
+    text = page()
+
+    assert "the hazard is being &lt;written&gt;, the maintainers" in text
+    assert "unknown-id" not in read_data(text)["findings"]["rule"]
+
+
 @pytest.mark.verifies("SWR-TRC-064", technique="interface", polarity="nominal")
 def test_coverage_and_techniques_stand_on_the_page_where_the_project_offers_them(sample: Sample) -> None:
     project = read_project(sample.root, None)
-    project.coverage_views = {"SWR-SUP-001": [FunctionCoverage("step", Place("safety/src/alive.cpp", 7), True, (9, 10), (3, 4), (0, 0))],
-                              "SWR-OLD-001": []}  # fmt: skip
+    owners = ("SWR-SUP-001", "SWR-OLD-001")
+    project.functions = [Function("safety/src/alive.cpp", "step", 7, 9, 7, owners), Function("safety/src/alive.cpp", "stop", 11, 12, 11, owners)]
+    covered = FileCoverage({7: 1, 8: 0, 9: 1, 11: 0}, branches={8: (3, 4)}, conditions={(8, 1): Condition("late", True), (8, 2): Condition("silent", False)})
+    project.evidence.coverage_runs = [CoverageRun(Place("coverage.json", 1), "", {"safety/src/alive.cpp": covered})]
     project.techniques = [Technique("Limits on both sides", "Annex Z", "unit test", (), ("interface",), (), Place("techniques.toml", 1))]
 
     write_report(project, sample.root / "page.html")
@@ -177,7 +193,9 @@ def test_coverage_and_techniques_stand_on_the_page_where_the_project_offers_them
     text = (sample.root / "page.html").read_text()
     data = read_data(text)
     number = data["items"]["id"].index("SWR-SUP-001")
-    assert data["coverage"] == {str(number): [["step", data["files"].index("safety/src/alive.cpp"), 7, True, [9, 10], [3, 4], [0, 0]]]}
+    file = data["files"].index("safety/src/alive.cpp")
+    assert data["coverage"] == {str(number): [["stop", file, 11, False, [0, 1], [0, 0], [0, 0], [], ""],
+                                              ["step", file, 7, True, [2, 3], [3, 4], [1, 2], [[8, "silent", ""]], ""]]}  # fmt: skip
     assert "<td>Limits on both sides</td><td>Annex Z; unit test</td><td>interface: 2 passed results</td>" in text
 
 

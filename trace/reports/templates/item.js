@@ -124,13 +124,16 @@ function drawCoverage(number) {
   const rows = data.coverage[number];
   if (!rows) return null;
   const part = ([covered, all]) => (all ? [`${covered}/${all}`, make("span", { class: `meter ${covered === all ? "passed" : "incomplete"}` }, make("i", { style: `width:${(100 * covered) / all}%` }))] : quiet("–"));
-  const draw = ([symbol, file, line, executed, lines, branches, conditions]) => make("tr", {},
-    make("td", { class: "title" }, code(symbol, ""), " ", code(`${data.files[file]}:${line}`)),
-    make("td", {}, executed === null ? quiet("not measured") : badge(executed ? "passed" : "failed", executed ? "executed" : "never executed")),
+  const draw = ([symbol, file, line, executed, lines, branches, conditions, gaps, accepted]) => make("tr", {},
+    make("td", { class: "title" }, code(symbol, ""), " ", code(`${data.files[file]}:${line}`), gaps.map((gap) => drawGap(data.files[file], gap))),
+    make("td", {}, executed === null ? quiet("not measured") : badge(executed ? "passed" : accepted ? "draft" : "failed", executed ? "executed" : "never executed"), accepted ? make("div", { class: "quiet" }, accepted) : null),
     [["lines", lines], ["branches", branches], ["MC/DC", conditions]].map(([name, pair]) => make("td", { "data-name": name }, part(pair))));
   const table = make("table", { class: "rows small" }, heads(["Function", "By its tests", "Lines", "Branches", "MC/DC"]), make("tbody"));
   return make("div", {}, make("h2", {}, "Coverage by the tests that verify it"), growing(table, rows, 50, draw, "function"));
 }
+
+// A condition that no test has shown to decide alone.
+const drawGap = (file, [line, text, reason]) => make("div", { class: "quiet" }, "MC/DC not shown: ", code(text, ""), " ", code(`${file}:${line}`), reason ? ` accepted: ${reason}` : "");
 
 function drawItemFindings(number) {
   const rows = rowsOf(getFindings, number);
