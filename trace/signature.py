@@ -52,7 +52,9 @@ def check_signature(data: bytes, signature: bytes, signers: Path | None) -> Opin
         options = ["-n", NAMESPACE, "-s", str(path)]
         if signers is None:
             answer = _ask(["-Y", "check-novalidate", *options], data)
-            return Opinion(fault="" if answer.returncode == 0 else f"the signature does not belong to the manifest: {_get_words(answer)}")
+            if answer.returncode == 0:
+                return Opinion()
+            return Opinion(fault=f"the signature does not belong to the manifest: {_get_words(answer)}")
         names = _ask(["-Y", "find-principals", "-s", str(path), "-f", str(signers)], b"")
         for name in names.stdout.decode(errors="replace").splitlines():
             answer = _ask(["-Y", "verify", *options, "-f", str(signers), "-I", name], data)

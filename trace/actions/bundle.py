@@ -19,7 +19,8 @@ HELP = "pack report, evidence and requirements with a manifest of hashes, signed
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_input(parser)
     add_output(parser)
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR|FILE.tar", help="where to write the bundle; a folder must not be there yet")
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR|FILE.tar",
+                        help="where to write the bundle; a folder must not be there yet")  # fmt: skip
     parser.add_argument("--key", type=Path, metavar="FILE", help="private SSH key that signs the manifest")
 
 
@@ -53,5 +54,6 @@ def run(arguments: argparse.Namespace) -> int:
         finish(folder, manifest, arguments.key, arguments.out)
     print_outcome(arguments, project, findings)
     signed = "signed" if arguments.key else "not signed"
-    print(f"bundle: {arguments.out}, {len(manifest.files)} files, {signed}", file=sys.stderr if arguments.output == "json" else sys.stdout)
+    stream = sys.stderr if arguments.output == "json" else sys.stdout
+    print(f"bundle: {arguments.out}, {len(manifest.files)} files, {signed}", file=stream)
     return get_status(findings)

@@ -16,7 +16,8 @@ HELP = "hold a bundle against its manifest and its signature"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_output(parser)
     parser.add_argument("bundle", type=Path, metavar="BUNDLE", help="folder or .tar file")
-    parser.add_argument("--signers", type=Path, metavar="FILE", help="demand a signature of somebody in this file of allowed signers (ssh-keygen)")
+    parser.add_argument("--signers", type=Path, metavar="FILE",
+                        help="demand a signature of somebody in this file of allowed signers (ssh-keygen)")  # fmt: skip
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -103,12 +103,14 @@ def _demand_parent(project: Project, level: Level, name: str) -> None:
         raise NewItemError(f"parent {name} is retired")
     allowed = (*level.parents, *level.also)
     if parent.level not in allowed:
-        raise NewItemError(f"parent {name} is of level {parent.level}; {level.key} items have parents of level {', '.join(allowed) or 'none'}")
+        levels = ", ".join(allowed) or "none"
+        raise NewItemError(f"parent {name} is of level {parent.level}; {level.key} items have parents of level {levels}")
 
 
 def _get_highest_sil(project: Project, parents: tuple[str, ...]) -> str:
     order = project.schema.sil
-    return max((project.items[name].sil for name in parents), key=lambda sil: order.index(sil) if sil in order else 0, default=order[0]) or order[0]
+    known = [project.items[name].sil for name in parents if project.items[name].sil in order]
+    return max(known, key=order.index, default=order[0])
 
 
 def _hint(word: str, known: Iterable[str]) -> str:

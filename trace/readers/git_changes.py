@@ -190,5 +190,6 @@ def _ask(root: Path, arguments: list[str]) -> bytes | None:
 def _demand(root: Path, arguments: list[str]) -> bytes:
     answer = _ask(root, arguments)
     if answer is None:
-        raise InputError(f"{root}: `git {' '.join(word for word in arguments if not word.startswith('-'))}` failed; is the repository whole?")
+        words = " ".join(word for word in arguments if not word.startswith("-"))
+        raise InputError(f"{root}: `git {words}` failed; is the repository whole?")
     return answer

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import json
 import shlex
+from dataclasses import asdict
 from typing import Any
 
 from mamori.trace.model.evidence import CampaignCase, SourceTest
-from mamori.trace.model.impact import Impact, Part
+from mamori.trace.model.impact import Impact, ItemChange, Part, Redo
 from mamori.trace.model.project import Project
 
 SCHEMA = "mamori.impact/1"
@@ -21,17 +22,18 @@ _BATCH = 100  # names on one command line
 def format_text(impact: Impact, project: Project, shown: str) -> str:
     """One section for each kind of what is touched; a section that is empty says so where silence could be misread."""
     lines = [f"impact of {shown}"]
-    lines += _section("changed items", [f"{each.id} {each.state}" + (f": {', '.join(each.fields)}" if each.fields else "") for each in impact.items])
+    lines += _section("changed items", [_describe_change(each) for each in impact.items])
     lines += _section("changed functions and files", [_describe_part(part) for part in impact.parts if not part.is_test])
     lines += _section("changed tests", [f"{part.file}: {part.name} {part.state}" for part in impact.parts if part.is_test])
     lines += _section("changed design headings", [f"{part.file}#{part.name} {part.state}" + _list_ids(part) for part in impact.headings])
-    lines += _section("touched requirements", [row for key, why in impact.causes.items() for row in _describe_item(project, key, why)])
+    touched = [row for key, why in impact.causes.items() for row in _describe_item(project, key, why)]
+    lines += _section("touched requirements", touched)
     lines += _section("above them", [_name(project, key) for key in impact.above])
     lines += _section("tests to run again", [f"{test.title} ({test.requirement}, {test.place})" for test in impact.tests])
     lines += _section("removed tests", [f"{test.title} ({test.requirement})" for test in impact.removed_tests])
     lines += _section("campaign cases to run again", [f"{case.id} ({', '.join(case.requirements)})" for case in impact.cases])
     lines += _section("run", list_commands(impact))
-    lines += _section("links to review", [f"{each.child} -> {each.parent}: {each.why}" + (" (recorded)" if each.recorded else "") for each in impact.reviews])
+    lines += _section("links to review", [_describe_review(each) for each in impact.reviews])
     lines += _section("changed, and owned by no item that is known", impact.unattributed)
     if not project.evidence.has_campaign:
         lines += ["", "no campaign evidence is at hand, so no campaign case can be named"]
@@ -58,7 +60,7 @@ def format_json(impact: Impact, project: Project, old: str, new: str) -> str:
         "cases": [case.id for case in impact.cases],
         "has_campaign": project.evidence.has_campaign,
         "commands": list_commands(impact),
-        "reviews": [{"child": each.child, "parent": each.parent, "why": each.why, "recorded": each.recorded} for each in impact.reviews],
+        "reviews": [asdict(each) for each in impact.reviews],
         "unattributed": impact.unattributed,
     }
     return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
@@ -93,6 +95,14 @@ def _count_tests(tests: list[SourceTest]) -> int:
 
 def _section(title: str, rows: list[str]) -> list[str]:
     return ["", title, *(f"  {row}" for row in rows)] if rows else []
+
+
+def _describe_change(change: ItemChange) -> str:
+    return f"{change.id} {change.state}" + (f": {', '.join(change.fields)}" if change.fields else "")
+
+
+def _describe_review(redo: Redo) -> str:
+    return f"{redo.child} -> {redo.parent}: {redo.why}" + (" (recorded)" if redo.recorded else "")
 
 
 def _describe_part(part: Part) -> str:
