@@ -19,6 +19,7 @@ from mamori.trace.readers.files import InputError
 _HUNK = re.compile(rb"@@ -(\d+)(?:,(\d+))? \+(\d+)(?:,(\d+))? @@")
 _MAX_FILE = 16 * 1024 * 1024  # larger ones are no sources
 _TIMEOUT_S = 120
+_PATCHES = {"T": 2, "U": 0}  # a change of type is told as a removal and a new file; an unmerged path by a line of its own
 _REGULAR = (b"100644", b"100755")
 
 
@@ -117,7 +118,7 @@ def _parse_diff(data: bytes) -> list[FileChange]:
         position = end + 1
     hunks = _list_hunks(data[position:].lstrip(b"\0"))
     for change in changes:
-        for _ in range(2 if change.status == "T" else 1):  # a change of type is told as a removal and a new file
+        for _ in range(_PATCHES.get(change.status, 1)):
             old, new = next(hunks, ([], []))
             change.old_ranges += old
             change.new_ranges += new

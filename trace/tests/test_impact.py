@@ -107,6 +107,37 @@ def test_text_that_looks_like_a_patch_misleads_nobody(history: Sample, trace: Ca
     assert [row["file"] for row in content["functions"]] == [SOURCE, "tools/offline.py"]
 
 
+@pytest.mark.verifies("SWR-TRC-070", technique="error_guessing", polarity="violation")
+def test_changes_of_type_and_mode_do_not_shift_the_lines_of_other_files(history: Sample, trace: Callable) -> None:
+    (history.root / HEADER).unlink()
+    (history.root / HEADER).symlink_to("elsewhere.hpp")
+    (history.root / "docs/design/arm.md").chmod(0o755)
+    (history.root / "requirements/README.md").unlink()
+    history.replace(SOURCE, "    return a + b;", "    return b + a;")
+
+    content = trace("impact", "HEAD", "--root", history.root, "--output", "json").content
+
+    assert [row["name"] for row in content["functions"] if row["file"] == SOURCE] == ["add"]
+    assert content["headings"] == []
+
+
+@pytest.mark.verifies("SWR-TRC-070", technique="error_guessing", polarity="violation")
+def test_a_half_done_merge_is_read_as_it_lies_there(history: Sample, trace: Callable) -> None:
+    git(history.root, "switch", "-q", "-c", "other")
+    history.replace(SOURCE, "count();", "count(1);")
+    commit(history.root, "Other")
+    git(history.root, "switch", "-q", "main")
+    git(history.root, "rm", "-q", SOURCE)
+    commit(history.root, "Gone")
+    with pytest.raises(subprocess.CalledProcessError):
+        git(history.root, "merge", "-q", "other")
+    history.replace("tools/offline.py", "Works", "Runs")
+
+    content = trace("impact", "HEAD~1", "--root", history.root, "--output", "json").content
+
+    assert ("tools/offline.py", "(file)") in {(row["file"], row["name"]) for row in content["functions"]}
+
+
 @pytest.mark.verifies("SWR-TRC-070", technique="requirements_based", polarity="nominal")
 def test_new_files_count_before_git_knows_them(history: Sample, trace: Callable) -> None:
     (history.root / "tools" / "more.py").write_text('"""More.\n\n@satisfies SWR-TLS-001\n"""\n\n\ndef run():\n    pass\n')
