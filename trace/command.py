@@ -9,63 +9,60 @@ Exit status: 0 clean, 1 findings of severity error, 2 wrong usage or input that 
 from __future__ import annotations
 
 import argparse
+import importlib
 import sys
 from collections.abc import Sequence
+from types import ModuleType
 
-from mamori.trace.actions import (
-    bundle,
-    check,
-    export_items,
-    impact,
-    import_items,
-    new,
-    query,
-    report,
-    review,
-    show,
-    verify,
-)
-from mamori.trace.actions.common import EXIT_INPUT
 from mamori.trace.readers.files import InputError
 
 _ABOUT = "Judge requirements by executed results, and show the chain from hazard to result."
 _ACTIONS = {
-    "check": check,
-    "report": report,
-    "show": show,
-    "review": review,
-    "impact": impact,
-    "new": new,
-    "query": query,
-    "bundle": bundle,
-    "verify": verify,
-    "import": import_items,
-    "export": export_items,
+    "check": "check",
+    "report": "report",
+    "show": "show",
+    "review": "review",
+    "impact": "impact",
+    "new": "new",
+    "query": "query",
+    "bundle": "bundle",
+    "verify": "verify",
+    "import": "import_items",
+    "export": "export_items",
 }
+"""Module of each action, below `actions`."""
+_EXIT_INPUT = 2
 
 
 def add_arguments(subparsers: argparse._SubParsersAction) -> None:
     """Adds the command `trace` to the sub-commands of the main command."""
-    _add_actions(subparsers.add_parser("trace", help=_ABOUT, description=_ABOUT))
+    _add_actions(subparsers.add_parser("trace", help=_ABOUT, description=_ABOUT), list(_ACTIONS))
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Runs what `add_arguments` parsed. @return the exit status."""
     try:
-        return _ACTIONS[arguments.trace_action].run(arguments)
+        return int(_load(arguments.trace_action).run(arguments))
     except (InputError, OSError) as error:
         print(f"mamori trace: {error}", file=sys.stderr)
-        return EXIT_INPUT
+        return _EXIT_INPUT
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """@return the exit status; argparse ends the process with 2 on wrong usage."""
+    words = sys.argv[1:] if argv is None else argv
     parser = argparse.ArgumentParser(prog="mamori trace", description=_ABOUT)
-    _add_actions(parser)
+    # The first word names the action; the modules of the others need not be loaded to understand the rest of the line.
+    _add_actions(parser, [words[0]] if words and words[0] in _ACTIONS else list(_ACTIONS))
     return run(parser.parse_args(argv))
 
 
-def _add_actions(parser: argparse.ArgumentParser) -> None:
+def _add_actions(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
     actions = parser.add_subparsers(dest="trace_action", required=True, metavar="|".join(_ACTIONS))
-    for name, action in _ACTIONS.items():
+    for name in names:
+        action = _load(name)
         action.add_arguments(actions.add_parser(name, help=action.HELP, description=action.HELP.capitalize() + "."))
+
+
+def _load(name: str) -> ModuleType:
+    return importlib.import_module(f"mamori.trace.actions.{_ACTIONS[name]}")

@@ -9,7 +9,6 @@ from pathlib import Path
 
 from mamori.trace.actions.foreign import add_foreign, get_foreign
 from mamori.trace.checks import unreadable_input
-from mamori.trace.formats.in_place import read_in_place
 from mamori.trace.model.finding import ERROR, Finding
 from mamori.trace.model.item import Item
 from mamori.trace.model.project import Project
@@ -18,7 +17,6 @@ from mamori.trace.readers.files import InputError
 from mamori.trace.readers.project import read_project
 from mamori.trace.readers.toml_rows import is_date
 from mamori.trace.reports.json_report import format_json
-from mamori.trace.reports.sarif import format_sarif
 from mamori.trace.reports.text import Paint, format_findings, format_summary, format_waived
 
 EXIT_CLEAN = 0
@@ -52,6 +50,8 @@ def read_input(arguments: argparse.Namespace) -> Project:
     """The project that `add_input` chose. Raises InputError."""
     foreign = get_foreign(arguments)
     if foreign is not None:
+        from mamori.trace.formats.in_place import read_in_place  # loads much that a project of Mamori's own format does not need
+
         return read_in_place(foreign)
     return read_project(arguments.root, arguments.evidence, arguments.allow_missing, arguments.date or "")
 
@@ -72,6 +72,8 @@ def print_outcome(arguments: argparse.Namespace, project: Project, findings: lis
         print(format_json(project, findings, verdicts), end="")
         return
     if arguments.output == SARIF:
+        from mamori.trace.reports.sarif import format_sarif  # asks for the version of the package, which is slow
+
         print(format_sarif(project, findings), end="")
         return
     paint = Paint(sys.stdout)

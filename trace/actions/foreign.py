@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from mamori.trace.formats.in_place import ForeignInput
 from mamori.trace.formats.registry import FORMATS
 from mamori.trace.readers.files import InputError
+
+if TYPE_CHECKING:
+    from mamori.trace.formats.in_place import ForeignInput
 
 
 def add_foreign(parser: argparse.ArgumentParser) -> None:
@@ -35,6 +38,8 @@ def get_foreign(arguments: argparse.Namespace) -> ForeignInput | None:
     sources = arguments.sources
     if sources is not None and not sources.is_dir():
         raise InputError(f"{sources}: no such folder of sources")
+    from mamori.trace.formats.in_place import ForeignInput
+
     return ForeignInput(name, Path(path), arguments.root, arguments.results or [], sources, arguments.schema, arguments.evidence,
                         arguments.allow_missing, getattr(arguments, "date", None) or "")  # fmt: skip
 

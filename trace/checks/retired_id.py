@@ -13,6 +13,8 @@ RULE = Rule("retired-id", ERROR, "Nothing names a retired item.")
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
+    if not any(item.retired for item in project.items.values()):
+        return
     for place, who, named in list_references(project):
         item = project.items.get(named)
         if item is not None and item.retired:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from mamori.trace.checks.words import may_hold
 from mamori.trace.model.finding import ERROR, Place, Rule
 from mamori.trace.model.project import Project
 
@@ -13,6 +14,9 @@ RULE = Rule("unfinished-text", ERROR, "An approved item contains no word of the 
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
+    texts = (part for item in project.live_items for part in (item.title, item.statement, item.rationale))
+    if not may_hold(texts, (*project.schema.unfinished_words, "???")):
+        return
     words = "|".join(re.escape(word) for word in project.schema.unfinished_words)
     pattern = re.compile(rf"\b(?:{words})\b|\?\?\?", re.IGNORECASE)
     for item in project.live_items:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from mamori.trace.checks.words import may_hold
 from mamori.trace.model.finding import WARNING, Place, Rule
 from mamori.trace.model.project import Project
 
@@ -14,7 +15,7 @@ RULE = Rule("weak-word", WARNING, "The statement of an approved requirement cont
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     schema = project.schema
-    if not schema.weak_words:
+    if not schema.weak_words or not may_hold((item.statement for item in project.live_items), schema.weak_words):
         return
     weak = _make_pattern(schema.weak_words)
     fair = _make_pattern(schema.weak_word_exceptions) if schema.weak_word_exceptions else None

@@ -15,14 +15,23 @@ import tree_sitter_cpp
 from mamori.trace.model.code import CodeBase, Scope
 from mamori.trace.model.evidence import CodeTag
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.cpp_functions import FileFunctions, add_own_headers, find_name, list_functions
+from mamori.trace.readers.cpp_functions import Captures, FileFunctions, add_own_headers, capture, find_name, list_functions
 from mamori.trace.readers.files import is_test_file, read_text, walk_sources
 from mamori.trace.readers.tag_text import FILE_SYMBOL, ID_PATTERN, has_mark, make_tags
 
 SUFFIXES = (".hpp", ".h", ".cpp", ".cc", ".ipp")
 
 _LANGUAGE = tree_sitter.Language(tree_sitter_cpp.language())
-_COMMENTS = tree_sitter.Query(_LANGUAGE, "(comment) @comment")
+
+
+@dataclass(slots=True)
+class _Block:
+    """Comments on neighbouring lines: the lines of the file (from 0) that each begins on, their texts, the first and the last node."""
+
+    rows: list[int]
+    texts: list[str]
+    first: tree_sitter.Node
+    last: tree_sitter.Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,18 +71,18 @@ def parse_cpp_tags(
 ) -> list[CodeTag]:  # fmt: skip
     """Tags of one file, and its functions into `code`."""
     tree = parser.parse(text.encode())
-    found = list_functions(tree.root_node, shown)
+    captures = capture(tree.root_node)
+    found = list_functions(captures, shown)
     if code is not None:
         code.functions.extend(found.functions)
         code.classes[shown] = frozenset(one.name for one in found.classes)
     tags: list[CodeTag] = []
-    for block in _list_blocks(tree.root_node) if has_mark(text) else ():
+    for block in _list_blocks(captures) if has_mark(text) else ():
         target = _find_target(block, found)
         of_block: list[CodeTag] = []
-        for node in block:
-            for offset, line in enumerate(node.text.decode(errors="replace").splitlines()):
-                place = Place(shown, node.start_point.row + offset + 1)
-                of_block.extend(make_tags(line, place, target.symbol, problems, id_pattern))
+        for row, comment in zip(block.rows, block.texts):
+            for number, line in enumerate(comment.splitlines(), start=row + 1) if has_mark(comment) else ():
+                of_block.extend(make_tags(line, Place(shown, number), target.symbol, problems, id_pattern))
         tags.extend(of_block)
         if code is not None:
             code.scopes.extend(_make_scopes(of_block, target, shown, found))
@@ -91,28 +100,30 @@ def _make_scopes(tags: list[CodeTag], target: _Target, shown: str, found: FileFu
     return scopes
 
 
-def _list_blocks(root: tree_sitter.Node) -> list[list[tree_sitter.Node]]:
+def _list_blocks(captures: Captures) -> list[_Block]:
     """Blocks of comments (those on neighbouring lines form one) in which a tag may stand."""
-    captures = tree_sitter.QueryCursor(_COMMENTS).captures(root)
-    blocks: list[list[tree_sitter.Node]] = []
-    end = -1
-    for node in sorted(captures.get("comment", []), key=lambda node: node.start_byte):
-        if blocks and node.start_point.row == end + 1:
-            blocks[-1].append(node)
-        else:
-            blocks.append([node])
-        end = node.end_point.row
-    return [block for block in blocks if any(has_mark(node.text.decode(errors="replace")) for node in block)]
+    blocks: list[_Block] = []
+    end = -2
+    for node in sorted(captures.get("comment", ()), key=lambda node: node.start_byte):
+        row = node.start_point[0]
+        if row != end + 1:
+            blocks.append(_Block([], [], node, node))
+        block = blocks[-1]
+        block.rows.append(row)
+        block.texts.append(node.text.decode(errors="replace"))
+        block.last = node
+        end = node.end_point[0]
+    return [block for block in blocks if any(map(has_mark, block.texts))]
 
 
-def _find_target(block: list[tree_sitter.Node], found: FileFunctions) -> _Target:
+def _find_target(block: _Block, found: FileFunctions) -> _Target:
     """The function around the block, or the declaration below it; the file when the block is the file's own or nothing follows."""
-    if any(b"@file" in node.text for node in block):
+    if any("@file" in text for text in block.texts):
         return _WHOLE_FILE
-    around = found.find_around(block[0].start_point.row + 1)
+    around = found.find_around(block.rows[0] + 1)
     if around is not None:
         return _Target(around.name.rpartition("::")[2], around.first, around.last)
-    node = block[-1].next_named_sibling
+    node = block.last.next_named_sibling
     while node is not None and node.type == "comment":
         node = node.next_named_sibling
     name = find_name(node) if node is not None else ""

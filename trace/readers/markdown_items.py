@@ -83,11 +83,12 @@ class _Block:
         return block
 
     def take(self, number: int, line: str) -> None:
-        match = _ATTRIBUTE.fullmatch(line)
+        if not line:
+            self._statement_ended = bool(self._statement)
+            return
+        match = _ATTRIBUTE.fullmatch(line) if line.startswith("- ") else None
         if match:
             self._take_attribute(number, match[1], match[2].strip())
-        elif not line:
-            self._statement_ended = bool(self._statement)
         elif self._last and line.startswith("  "):
             self._extend_attribute(number, line.strip())
         elif self._last:

@@ -30,7 +30,10 @@ _TEST_ARTIFACT = re.compile(r"[a-z]*test")
 
 def has_mark(text: str) -> bool:
     """Whether there is what every tag begins with; a text without it holds none."""
-    return any(mark in text for mark in _MARKS) or _ARTIFACT.search(text) is not None
+    for mark in _MARKS:
+        if mark in text:
+            return True
+    return "->" in text and _ARTIFACT.search(text) is not None
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +101,8 @@ def _split(words: str) -> list[str]:
 
 def make_tags(line: str, place: Place, symbol: str, problems: list[Problem], id_pattern: str = ID_PATTERN) -> list[CodeTag]:
     """Tags of one line of a comment. A tag that names nothing is a problem. @param id_pattern what an id looks like."""
+    if not has_mark(line):
+        return []
     if _get_patterns(id_pattern).bare.search(line):
         problems.append(Problem("unknown-id", place, "@satisfies names no requirement id"))
     words = (word for word in find_words(line, id_pattern) if word.role != VERIFIES)
