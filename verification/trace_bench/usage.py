@@ -3,16 +3,15 @@
 
 from __future__ import annotations
 
-import os
-import signal
+import json
 import subprocess
-import time
+import sys
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-_POLL_S = 0.02
-_KIB = 1024
+_CHILD = Path(__file__).with_name("measured_child.py")
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,26 +25,14 @@ class Usage:
     ended: bool = True
 
 
-def run_measured(command: Sequence[str], log: Path, limit_s: float, folder: Path | None = None) -> Usage:
+def run_measured(command: Sequence[str], log: Path, limit_s: float) -> Usage:
     """Runs `command` with its output in `log`. What is not done after `limit_s` is ended with all its children."""
     log.parent.mkdir(parents=True, exist_ok=True)
-    started = time.monotonic()
-    with log.open("wb") as output:
-        process = subprocess.Popen(
-            list(command), stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, cwd=folder, start_new_session=True
-        )
-        ended = True
-        while True:
-            done, status, used = os.wait4(process.pid, os.WNOHANG)
-            if done:
-                break
-            if ended and time.monotonic() - started > limit_s:
-                ended = False
-                os.killpg(process.pid, signal.SIGKILL)
-            time.sleep(_POLL_S)
-    process.returncode = os.waitstatus_to_exitcode(status)  # already waited for: Popen must not do it again
-    wall_s = time.monotonic() - started
-    return Usage(process.returncode, used.ru_utime + used.ru_stime, wall_s, used.ru_maxrss * _KIB, ended)
+    with tempfile.TemporaryDirectory() as folder, log.open("wb") as output:
+        result = Path(folder) / "usage.json"
+        line = [sys.executable, "-I", "-S", str(_CHILD), str(result), str(limit_s), *command]
+        subprocess.run(line, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, check=True)
+        return Usage(*json.loads(result.read_text(encoding="utf-8")))
 
 
 def take_median(usages: Sequence[Usage]) -> Usage:
