@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
-import subprocess
+import os
 from pathlib import Path
 
 from mamori.trace.cache.inputs import note_question
-from mamori.trace.readers.git_changes import ask_git
+from mamori.trace.readers.git_run import run_git
+
+_TIMEOUT_S = 60
 
 
 def read_head(root: Path) -> str:
@@ -33,17 +35,13 @@ def read_user(root: Path) -> str:
 
 def read_worktree(root: Path) -> str:
     """`clean` or `changed` since the commit; `unknown` where there is no git repository."""
-    answer = ask_git(root, ["status", "--porcelain"])
+    answer = run_git(root, ["status", "--porcelain"])
     return "unknown" if answer is None else "changed" if answer else "clean"
 
 
 def ask(root: Path | str, *arguments: str) -> str:
-    """What git answers in one line, or an empty text where it does not. The answer counts as an input of the run (trace/cache)."""
-    command = ["git", "-C", str(root), *arguments]
-    try:
-        result = subprocess.run(command, capture_output=True, text=True, timeout=10, check=False)
-        answer = result.stdout.strip() if result.returncode == 0 else ""
-    except (OSError, subprocess.TimeoutExpired):
-        answer = ""
-    note_question(str(root), arguments, answer)
-    return answer
+    """What git answers, or an empty text where it does not. The answer counts as an input of the run (trace/cache)."""
+    answer = run_git(root, arguments, _TIMEOUT_S)
+    text = "" if answer is None else os.fsdecode(answer).strip()
+    note_question(str(root), arguments, text)
+    return text

@@ -15,10 +15,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mamori.trace.readers.files import InputError
+from mamori.trace.readers.git_run import get_git_environment, run_git
 
 _HUNK = re.compile(rb"@@ -(\d+)(?:,(\d+))? \+(\d+)(?:,(\d+))? @@")
 _MAX_FILE = 16 * 1024 * 1024  # larger ones are no sources
-_TIMEOUT_S = 120
 _PATCHES = {"T": 2, "U": 0}  # a change of type is told as a removal and a new file; an unmerged path by a line of its own
 _REGULAR = (b"100644", b"100755")
 
@@ -42,13 +42,13 @@ def resolve_revision(root: Path, revision: str) -> str:
     """Hash of the commit that `revision` names. Raises InputError where there is no git, no repository, or no such commit."""
     if shutil.which("git") is None:
         raise InputError("git is missing; install the package git")
-    if _ask(root, ["rev-parse", "--git-dir"]) is None:
+    if run_git(root, ["rev-parse", "--git-dir"]) is None:
         raise InputError(f"{root}: not in a git repository; only git knows what changed")
     if revision and not revision.startswith("-"):
-        answer = _ask(root, ["rev-parse", "--verify", "--quiet", "--end-of-options", revision + "^{commit}"])
+        answer = run_git(root, ["rev-parse", "--verify", "--quiet", "--end-of-options", revision + "^{commit}"])
         if answer:
             return answer.decode().strip()
-    shallow = (_ask(root, ["rev-parse", "--is-shallow-repository"]) or b"").strip() == b"true"
+    shallow = (run_git(root, ["rev-parse", "--is-shallow-repository"]) or b"").strip() == b"true"
     hint = "the clone is shallow; fetch its history with `git fetch --unshallow`" if shallow else "`git log` lists those at hand"
     raise InputError(f"{root}: revision '{revision}' is unknown; {hint}")
 
@@ -85,12 +85,7 @@ def write_tree(root: Path, commit: str, folder: Path, wanted: Callable[[str], bo
 
 def is_shallow(root: Path) -> bool:
     """Whether git has only the newest part of the history."""
-    return (_ask(root, ["rev-parse", "--is-shallow-repository"]) or b"").strip() == b"true"
-
-
-def ask_git(root: Path, arguments: list[str]) -> bytes | None:
-    """What git answers, or None when it refuses or is not there."""
-    return _ask(root, arguments)
+    return (run_git(root, ["rev-parse", "--is-shallow-repository"]) or b"").strip() == b"true"
 
 
 def _is_inside(path: str) -> bool:
@@ -160,7 +155,7 @@ def read_blobs(root: Path, entries: list[tuple[str, bytes]]) -> Iterator[tuple[s
         return
     command = ["git", "-C", str(root), "cat-file", "--batch"]
     pipe = subprocess.PIPE
-    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=_environment()) as process:
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=get_git_environment()) as process:
         for path, name in entries:
             process.stdin.write(name + b"\n")
             process.stdin.flush()
@@ -175,21 +170,8 @@ def read_blobs(root: Path, entries: list[tuple[str, bytes]]) -> Iterator[tuple[s
         process.stdin.close()
 
 
-def _environment() -> dict[str, str]:
-    return {**os.environ, "GIT_OPTIONAL_LOCKS": "0", "LC_ALL": "C"}
-
-
-def _ask(root: Path, arguments: list[str]) -> bytes | None:
-    try:
-        answer = subprocess.run(["git", "-C", str(root), *arguments], capture_output=True, timeout=_TIMEOUT_S, check=False,
-                                env=_environment())  # fmt: skip
-    except (OSError, subprocess.TimeoutExpired):
-        return None
-    return answer.stdout if answer.returncode == 0 else None
-
-
 def _demand(root: Path, arguments: list[str]) -> bytes:
-    answer = _ask(root, arguments)
+    answer = run_git(root, arguments)
     if answer is None:
         words = " ".join(word for word in arguments if not word.startswith("-"))
         raise InputError(f"{root}: `git {words}` failed; is the repository whole?")

@@ -14,7 +14,8 @@ from pathlib import Path
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.impact import compare_items
 from mamori.trace.model.item import Item, Schema
-from mamori.trace.readers.git_changes import ask_git, is_shallow, read_blobs
+from mamori.trace.readers.git_changes import is_shallow, read_blobs
+from mamori.trace.readers.git_run import run_git
 from mamori.trace.readers.markdown_items import parse_items
 
 _FOLDER = "requirements"
@@ -33,7 +34,7 @@ class Event:
 
 def describe_gap(root: Path) -> str:
     """Why the history is not whole, or an empty text."""
-    if ask_git(root, ["rev-parse", "--git-dir"]) is None:
+    if run_git(root, ["rev-parse", "--git-dir"]) is None:
         return "there is no history of git at hand"
     return "the clone is shallow, older history is not at hand" if is_shallow(root) else ""
 
@@ -43,7 +44,7 @@ def read_texts(root: Path) -> Iterator[str]:
     for path in sorted((root / _FOLDER).rglob("*")):
         if path.is_file():
             yield path.read_text(encoding="utf-8", errors="replace")
-    listing = ask_git(root, ["rev-list", "--all", "--objects", "--", _FOLDER]) or b""
+    listing = run_git(root, ["rev-list", "--all", "--objects", "--", _FOLDER]) or b""
     entries = []
     for line in listing.splitlines():
         name, _, path = line.partition(b" ")
@@ -57,7 +58,7 @@ def read_events(root: Path, schema: Schema, item_id: str) -> list[Event]:
     """Commits on the way to the one that is checked out which changed the item, newest first."""
     form = "--format=%x01%H%x1f%as%x1f%an%x1f%s"
     options = ["--first-parent", "--diff-merges=first-parent", "--raw", "-z", "--no-renames", "--abbrev=40", "--reverse", "--relative"]
-    steps = _parse_log(ask_git(root, ["log", *options, form, "--", _FOLDER]) or b"")
+    steps = _parse_log(run_git(root, ["log", *options, form, "--", _FOLDER]) or b"")
     names = {blob for _, changes in steps for _, blob in changes if blob}
     versions = _read_versions(root, schema, item_id, names)
     places: dict[str, Item] = {}

@@ -7,12 +7,13 @@
 from __future__ import annotations
 
 import re
-import subprocess
 import tempfile
 from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+
+from mamori.trace.readers.git_run import run_git
 
 COMMITS_MAX = 2000
 CHANGES_MAX = 20
@@ -41,17 +42,12 @@ def read_item_history(root: Path) -> dict[str, list[Change]]:
         attributes.write("*.md diff=markdown\n")
         attributes.flush()
         command = [
-            "git", "-C", str(root), "-c", f"core.attributesFile={attributes.name}", "-c", "core.quotePath=false", "log",
+            "-c", f"core.attributesFile={attributes.name}", "-c", "core.quotePath=false", "log",
             f"--max-count={COMMITS_MAX}", "--no-color", "--no-ext-diff", "--no-textconv", "--no-renames", "--unified=0",
             f"--format={_COMMIT}%h%x1f%cs%x1f%s", "--abbrev=12", "--patch", "--", "requirements",
         ]  # fmt: skip
-        try:
-            answer = subprocess.run(command, capture_output=True, timeout=_SECONDS_MAX, check=False)
-        except (OSError, subprocess.TimeoutExpired):
-            return {}
-    if answer.returncode != 0:
-        return {}
-    return find_changes(answer.stdout.decode("utf-8", errors="replace").split("\n"))
+        answer = run_git(root, command, _SECONDS_MAX)
+    return {} if answer is None else find_changes(answer.decode("utf-8", errors="replace").split("\n"))
 
 
 def find_changes(lines: Iterable[str]) -> dict[str, list[Change]]:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import hashlib
 import os
-import subprocess
 from pathlib import Path
 
+from mamori.trace.readers.git import ask
+
 _SHA1_DIGITS = 40
-_TIMEOUT_S = 60
 
 
 def calc_sources(root: Path, without: tuple[str, ...] = ()) -> str:
@@ -21,9 +21,9 @@ def calc_sources(root: Path, without: tuple[str, ...] = ()) -> str:
     Contents count, not commits: git knows those of unchanged files already, so only what was changed is read. A commit of what was
     tested leaves the hash as it is. @param without paths and folders that are left out.
     """
-    listed = _ask(root, "ls-files", "-s", "-z")
-    changed = _ask(root, "ls-files", "-m", "-o", "--exclude-standard", "-z")
-    if listed is None or changed is None:
+    listed = ask(root, "ls-files", "-s", "-z")
+    changed = ask(root, "ls-files", "-m", "-o", "--exclude-standard", "-z")
+    if not listed:
         return ""
     contents: dict[str, str] = {}
     for row in filter(None, listed.split("\0")):
@@ -54,12 +54,3 @@ def _hash_file(path: Path, digits: int) -> str:
         return "unreadable"
     maker = hashlib.sha1 if digits == _SHA1_DIGITS else hashlib.sha256
     return maker(b"blob %d\0" % len(data) + data).hexdigest()
-
-
-def _ask(root: Path, *arguments: str) -> str | None:
-    command = ["git", "-C", str(root), *arguments]
-    try:
-        answer = subprocess.run(command, capture_output=True, timeout=_TIMEOUT_S, check=False)
-    except (OSError, subprocess.TimeoutExpired):
-        return None
-    return os.fsdecode(answer.stdout) if answer.returncode == 0 else None
