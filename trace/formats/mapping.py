@@ -7,13 +7,13 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from mamori.trace.model.item import Level
 from mamori.trace.readers.files import InputError
+from mamori.trace.readers.toml_file import load_toml
 
 _FOLDER = Path(__file__).parent / "schemas"
 _SCHEMA = "mamori.foreign/1"
@@ -58,12 +58,9 @@ def read_mapping(name: str, own: Path | None) -> Mapping:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        with path.open("rb") as file:
-            table = tomllib.load(file)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: {error}") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
+        table = load_toml(path)
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file") from None
     if table.pop("schema", None) != _SCHEMA:
         raise InputError(f"{path}: has no line schema = '{_SCHEMA}'")
     known = {"group_by", "share", "words", "level", *_LISTS}

@@ -6,11 +6,11 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 
 from mamori.trace.model.code import CodeSchema
 from mamori.trace.readers.files import InputError
+from mamori.trace.readers.toml_file import load_toml
 
 _LISTS = ("traced", "no_evidence")
 
@@ -19,14 +19,9 @@ def read_code_schema(root: Path) -> CodeSchema:
     """The file's demands; none without the file. Raises InputError for a file that says something else."""
     path = root / "requirements" / "schema" / "code.toml"
     try:
-        with path.open("rb") as file:
-            table = tomllib.load(file)
+        table = load_toml(path)
     except FileNotFoundError:
         return CodeSchema()
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: {error}") from None
     if table.pop("schema", None) != "mamori.code/1":
         raise InputError(f"{path}: the schema is not 'mamori.code/1', which this tool reads")
     lists = {name: _take_list(path, name, value) for name, value in table.items()}

@@ -6,13 +6,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Any
 
 from mamori.trace.model.item import Schema
 from mamori.trace.model.kinds import Kind, KindSchema, LinkKind
 from mamori.trace.readers.files import InputError
+from mamori.trace.readers.toml_file import load_toml
 from mamori.trace.readers.toml_rows import suggest
 
 KINDS_PATH = "requirements/schema/links.toml"
@@ -24,14 +24,10 @@ _LINK_KEYS = ("from", "to", "written")
 def read_kinds(root: Path, schema: Schema) -> KindSchema:
     """The kinds and links; an empty schema where the project has none. Raises InputError: links could not be judged then."""
     path = root / KINDS_PATH
-    if not path.exists():
-        return KindSchema()
     try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: {error}") from None
+        table = load_toml(path)
+    except FileNotFoundError:
+        return KindSchema()
     try:
         return _make(table, schema)
     except InputError as error:

@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-import tomllib
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ from typing import Any
 from mamori.trace.model.item import Schema
 from mamori.trace.model.rule_pack import SEVERITIES, Grades, RulePack
 from mamori.trace.readers.files import UNREADABLE, InputError
+from mamori.trace.readers.toml_file import load_toml
 from mamori.trace.readers.toml_rows import suggest
 
 PACK_PATH = "requirements/schema/rules.toml"
@@ -27,7 +28,7 @@ def read_rule_pack(root: Path, schema: Schema, rules: Iterable[str]) -> RulePack
     known = tuple(rules)
     pack = read_shipped_pack(schema)
     path = root / PACK_PATH
-    if not path.exists():
+    if not os.path.lexists(path):
         return pack
     for rule, row in _read_table(path).items():
         if rule not in known:
@@ -50,12 +51,7 @@ def read_shipped_pack(schema: Schema) -> RulePack:
 
 def _read_table(path: Path) -> dict[str, Any]:
     """The rows by rule. Raises InputError."""
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: {error}") from None
+    table = load_toml(path)
     if table.pop("schema", None) != _SCHEMA:
         raise InputError(f"{path}: schema is not '{_SCHEMA}', which this tool reads")
     rows = table.pop("rule", {})

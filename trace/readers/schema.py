@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from pathlib import Path
 
 from mamori.trace.model.item import Level, Schema
 from mamori.trace.readers.files import InputError
+from mamori.trace.readers.toml_file import load_toml
 
 _LISTS = ("attributes", "sil", "verify", "polarity", "status", "technique", "unfinished_words")
 _MAYBE_LISTS = ("weak_words", "weak_word_exceptions")
@@ -18,8 +18,7 @@ def read_schema(root: Path) -> Schema:
     """The schema of the project. Raises InputError when it is missing or wrong, as no item can be judged then."""
     path = root / "requirements" / "schema" / "items.toml"
     try:
-        with path.open("rb") as file:
-            table = tomllib.load(file)
+        table = load_toml(path)
         if table.get("schema") != "mamori.items/1":
             raise InputError(f"{path}: schema is {table.get('schema')!r}; this tool reads 'mamori.items/1'")
         levels = {key: _read_level(key, row) for key, row in table["level"].items()}
@@ -28,11 +27,9 @@ def read_schema(root: Path) -> Schema:
         return Schema(levels=levels, **lists)
     except FileNotFoundError:
         raise InputError(f"{path}: missing; a project keeps the words and levels of its items there") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
     except KeyError as error:
         raise InputError(f"{path}: entry {error} is missing") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, re.error, TypeError, AttributeError) as error:
+    except (re.error, TypeError, AttributeError) as error:
         raise InputError(f"{path}: {error}") from None
 
 

@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from mamori.trace.model.finding import Problem
@@ -20,7 +21,7 @@ _COLUMNS = Columns(texts=("name", "clause", "phase"), lists=("items", "tests", "
 def read_techniques(root: Path, problems: list[Problem]) -> list[Technique] | None:
     """Techniques in file order, or None where the project lists none. A broken row is a problem and left out."""
     path = root / TECHNIQUES_PATH
-    if not path.exists():
+    if not os.path.lexists(path):
         return None
     techniques: list[Technique] = []
     for row, place in read_rows(path, "mamori.techniques/1", "technique", _COLUMNS, root, problems):

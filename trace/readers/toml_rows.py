@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import datetime
 import difflib
+import os
 import re
-import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +17,7 @@ from typing import Any
 
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import UNREADABLE, get_shown_path, read_text
+from mamori.trace.readers.toml_file import TomlError, parse_toml
 
 _LINE = re.compile(r"\(at line (\d+)")
 
@@ -35,7 +36,7 @@ def read_rows(path: Path, schema: str, name: str, columns: Columns, root: Path, 
 
     Every column is there in the rows given back: an empty text or tuple where the row does not say it.
     """
-    if not path.exists():
+    if not os.path.lexists(path):  # a link that leads nowhere is there, and cannot be read
         return []
     shown = get_shown_path(path, root)
     before = len(problems)
@@ -43,8 +44,8 @@ def read_rows(path: Path, schema: str, name: str, columns: Columns, root: Path, 
     if len(problems) > before:
         return []
     try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+        table = parse_toml(text)
+    except TomlError as error:
         line = _LINE.search(str(error))
         problems.append(Problem(UNREADABLE, Place(shown, int(line[1]) if line else text.count("\n") + 1), f"is not TOML: {error}"))
         return []
