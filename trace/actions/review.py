@@ -42,6 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
     reviewer = arguments.by.strip() or read_user(arguments.root)
     if not reviewer:
         raise InputError("review: nobody is named; add --by NAME")
+    if not reviewer.isprintable():
+        raise InputError(f"review: {reviewer!r} is no name; the record has one line for each link, with tabs between its columns")
     gone = list_gone(project)
     named = [name for name in arguments.items if name not in gone]
     chosen = set(project.items) if arguments.all else {find_item(project, name).id for name in named}

@@ -108,3 +108,14 @@ def test_a_review_of_nothing_or_of_the_unknown_changes_nothing(sample: Sample, t
 
     assert (outcome.status, outcome.err.count("\n")) == (2, 1)
     assert (sample.root / "requirements" / "trace.lock").read_bytes() == lock
+
+
+@pytest.mark.parametrize("name", ["a\nb", "a\tb", "a\u2028b", "a\udcffb"], ids=["line end", "tab", "line separator", "no text"])
+@pytest.mark.verifies("SWR-TRC-008", technique="error_guessing", polarity="violation")
+def test_a_reviewer_whose_name_would_break_the_record_is_refused(sample: Sample, trace: Callable, name: str) -> None:
+    (sample.root / "requirements" / "trace.lock").unlink()
+
+    outcome = trace("review", "--all", "--by", name, "--root", sample.root)
+
+    assert (outcome.status, outcome.err.count("\n")) == (2, 1)
+    assert not (sample.root / "requirements" / "trace.lock").exists()
