@@ -46,6 +46,10 @@ def run(arguments: argparse.Namespace) -> int:
     except (InputError, OSError) as error:
         print(f"mamori trace: {error}", file=sys.stderr)
         return _EXIT_INPUT
+    except UnicodeEncodeError as error:  # half of a letter, from a word, a file name or a JSON escape; no file can hold it
+        near = error.object[max(0, error.start - 20) : error.end]
+        print(f"mamori trace: nothing was written: {near!a} ends with what is no letter, so UTF-8 cannot hold it", file=sys.stderr)
+        return _EXIT_INPUT
 
 
 def main(argv: Sequence[str] | None = None) -> int:

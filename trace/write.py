@@ -14,6 +14,8 @@ def write_whole(path: Path, text: str) -> None:
 
 def write_whole_bytes(path: Path, data: bytes) -> None:
     """Writes `data` beside `path` and renames it. Raises OSError; then the old file is untouched."""
+    if not path.name:
+        raise IsADirectoryError(f"'{path}' names no file")
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:

@@ -164,7 +164,7 @@ def write_takeover(outcome: Takeover, folder: Path, map_name: str) -> list[Path]
             written.append(path)
             with path.open("x", encoding="utf-8", newline="\n") as stream:
                 stream.write(text)
-    except OSError:
+    except (OSError, UnicodeEncodeError):
         for path in written:
             path.unlink(missing_ok=True)
         raise

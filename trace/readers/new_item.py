@@ -18,7 +18,10 @@ from mamori.trace.write import write_whole
 def check_file(root: Path, file: Path) -> None:
     """Raises InputError when items of `file` would not be read."""
     base = (root / "requirements").resolve()
-    path = file.resolve()
+    try:
+        path = file.resolve()
+    except RuntimeError:
+        raise InputError(f"{file}: is a loop of links") from None
     if not path.is_relative_to(base) or path.suffix != ".md" or path.name == "README.md" or "schema" in path.relative_to(base).parts:
         raise InputError(f"{file}: items are read from Markdown files below {root / 'requirements'} only")
     if not path.parent.is_dir():

@@ -230,3 +230,29 @@ def test_broken_csv_is_one_finding(text: str | bytes, line: int, word: str, trac
     found = [(row["rule"], row["line"], word in row["message"]) for row in outcome.content["findings"]]
     assert (outcome.status, found) == (2, [("unreadable-input", line, True)])
 
+
+
+_HALF = '{"versions": {"1": {"needs": {"A_1": {"id": "A_1", "title": "\\ud800", "content": "It shall.", "type": "req"}}}}}'
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (("import", "needs", "needs.json", "--into", "requirements/taken"), "UTF-8"),
+        (("new", "SYS", "--parents", "STK-001", "--title", "\udcff", "--file", "requirements/system/system.md"), "UTF-8"),
+        (("export", "csv", "--out", ""), "names no file"),
+    ],
+)
+@pytest.mark.verifies("SWR-TRC-009", technique="error_guessing", polarity="violation")
+def test_what_no_file_can_hold_is_told_and_leaves_nothing_behind(
+    arguments: tuple[str, ...], word: str, sample: Sample, trace: Callable, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(sample.root)
+    (sample.root / "needs.json").write_text(_HALF, encoding="utf-8")
+    before = {path: path.read_bytes() for path in sample.root.rglob("*") if path.is_file()}
+
+    outcome = trace(*arguments)
+
+    assert (outcome.status, outcome.out) == (2, "")
+    assert word in outcome.err
+    assert {path: path.read_bytes() for path in sample.root.rglob("*") if path.is_file()} == before

@@ -83,6 +83,7 @@ def test_an_id_that_only_the_lock_knows_is_not_used_again(sample: Sample, trace:
         ((*NEW, "--statement", "# x"), "statement"),
         ((*NEW, "--file", "/etc/passwd"), "below"),
         ((*NEW, "--file", "requirements/README.md"), "below"),
+        ((*NEW, "--file", "requirements/loop.md"), "loop of links"),
     ],
 )
 @pytest.mark.verifies("SWR-TRC-078", technique="error_guessing", polarity="violation")
@@ -90,6 +91,8 @@ def test_what_cannot_be_is_one_error_and_changes_nothing(
     sample: Sample, trace: Callable, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], word: str
 ) -> None:
     monkeypatch.chdir(sample.root)
+    if "requirements/loop.md" in arguments:
+        (sample.root / "requirements" / "loop.md").symlink_to("loop.md")
     before = {path: path.read_bytes() for path in sample.root.rglob("*") if path.is_file()}
 
     outcome = trace(*arguments)
