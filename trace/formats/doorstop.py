@@ -17,6 +17,7 @@ from mamori.trace.formats.files import list_files, read_whole
 from mamori.trace.formats.model import ForeignItem, ForeignProject, Loss, Relation
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import UNREADABLE, get_shown_path
+from mamori.trace.readers.yaml_depth import demand_shallow
 
 NAME = "doorstop"
 TITLE = "Doorstop"
@@ -66,6 +67,7 @@ def _read_prefix(folder: Path, root: Path, problems: list[Problem]) -> str | Non
 def _compose(text: str, shown: str, offset: int, problems: list[Problem]) -> dict[str, yaml.Node]:
     """Members of the one mapping in `text`, or nothing and one problem."""
     try:
+        demand_shallow(text, _LOADER)
         node = yaml.compose(text, Loader=_LOADER)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)

@@ -18,6 +18,7 @@ from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import UNREADABLE, get_shown_path, read_text
 from mamori.trace.readers.source_names import SourceNames
 from mamori.trace.readers.xml_file import Refused, feed_file, make_parser
+from mamori.trace.readers.yaml_depth import demand_shallow
 
 _REMEDY = "run the analysis again"
 _QUIET = ("note", "none", "information", "debug", "remark")
@@ -111,7 +112,9 @@ def _read_tidy_yaml(path: Path, shown: str, problems: list[Problem]) -> list[Row
     import yaml  # loads slowly, and hardly any project has such a file
 
     try:
-        content = yaml.load(read_text(path, shown, problems), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        text, loader = read_text(path, shown, problems), getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+        demand_shallow(text, loader)
+        content = yaml.load(text, loader)
     except yaml.YAMLError as error:
         raise ValueError(str(error)) from None
     return list(_take_diagnostics(content))

@@ -122,6 +122,7 @@ def test_what_is_no_open_finding_is_not_told(sample: Sample, trace: Callable, na
         ("a.xml", '<!DOCTYPE results [<!ENTITY a "b">]><results/>'),
         ("a.yaml", "Diagnostics: [\n"),
         ("a.yaml", "3\n"),
+        ("a.yaml", "Diagnostics: " + "[" * 100_000),
         ("a.yaml", "!!python/object/apply:os.getcwd []\n"),
     ],
 )
