@@ -40,6 +40,8 @@ def read_bundle(path: Path) -> Content:
 
 def _read_folder(root: Path) -> Content:
     content = Content()
+    if not os.path.lexists(root / MANIFEST):
+        return content  # no bundle, and perhaps a whole disk
     for count, (name, entry) in enumerate(_walk(root)):
         if count >= MAX_MEMBERS:
             raise InputError(f"{root}: refused: more than {MAX_MEMBERS} files")

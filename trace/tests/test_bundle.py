@@ -321,3 +321,16 @@ def test_without_ssh_keygen_the_package_is_named(sample: Sample, trace: Callable
     outcome = trace("bundle", "--root", sample.root, "--out", tmp_path / "b.tar", "--key", tmp_path / "gone")
 
     assert (outcome.status, "openssh-client" in outcome.err) == (2, True)
+
+
+@pytest.mark.verifies("SWR-TRC-075", technique="error_guessing", polarity="violation")
+def test_a_folder_that_is_no_bundle_is_refused_without_reading_all_of_it(
+    trace: Callable, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "large").write_bytes(b"")
+    monkeypatch.setattr("mamori.trace.readers.bundle._take_file", lambda *_: pytest.fail("a file was read"))
+
+    outcome = trace("verify", tmp_path)
+
+    assert (outcome.status, outcome.err.count("\n")) == (2, 1)
+    assert "no bundle" in outcome.err
