@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -241,6 +242,8 @@ _HALF = '{"versions": {"1": {"needs": {"A_1": {"id": "A_1", "title": "\\ud800", 
         (("import", "needs", "needs.json", "--into", "requirements/taken"), "UTF-8"),
         (("new", "SYS", "--parents", "STK-001", "--title", "\udcff", "--file", "requirements/system/system.md"), "UTF-8"),
         (("export", "csv", "--out", ""), "names no file"),
+        (("export", "csv", "--out", "pipe"), "is a folder or a device"),
+        (("report", "--out", "requirements"), "is a folder or a device"),
     ],
 )
 @pytest.mark.verifies("SWR-TRC-009", technique="error_guessing", polarity="violation")
@@ -249,10 +252,12 @@ def test_what_no_file_can_hold_is_told_and_leaves_nothing_behind(
 ) -> None:
     monkeypatch.chdir(sample.root)
     (sample.root / "needs.json").write_text(_HALF, encoding="utf-8")
+    os.mkfifo("pipe")
     before = {path: path.read_bytes() for path in sample.root.rglob("*") if path.is_file()}
 
     outcome = trace(*arguments)
 
     assert (outcome.status, outcome.out) == (2, "")
     assert word in outcome.err
+    assert Path("pipe").is_fifo()
     assert {path: path.read_bytes() for path in sample.root.rglob("*") if path.is_file()} == before
