@@ -16,6 +16,7 @@ from mamori.trace.readers.files import InputError
 
 NAMESPACE = "mamori-evidence"
 _TIMEOUT_S = 120
+_SIGNER_WORDS_MIN = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +45,8 @@ def sign(data: bytes, key: Path) -> bytes:
 def check_signature(data: bytes, signature: bytes, signers: Path | None) -> Opinion:
     """Whether `signature` belongs to `data`, and to whom of the file `signers`, when that is given. Raises InputError."""
     _demand_tool()
-    if signers is not None and not signers.is_file():
-        raise InputError(f"{signers}: no such file of allowed signers")
+    if signers is not None:
+        _check_signers(signers)
     with tempfile.TemporaryDirectory(prefix="mamori-verify-") as folder:
         path = Path(folder, "signature")
         path.write_bytes(signature)
@@ -62,6 +63,20 @@ def check_signature(data: bytes, signature: bytes, signers: Path | None) -> Opin
                 return Opinion(signer=name)
             return Opinion(fault=f"the signature of {name} is not valid: {_get_words(answer)}")
     return Opinion(fault=f"nobody of {signers} made the signature")
+
+
+def _check_signers(signers: Path) -> None:
+    """ssh-keygen takes a file that it cannot read for one in which nobody stands. Raises InputError."""
+    form = "write lines of the form `NAME ssh-ed25519 KEY`"
+    if not signers.is_file():
+        raise InputError(f"{signers}: no such file of allowed signers")
+    try:
+        lines = signers.read_text(encoding="utf-8").splitlines()
+    except UnicodeDecodeError:
+        raise InputError(f"{signers}: is no text in UTF-8; {form}") from None
+    for number, line in enumerate(lines, 1):
+        if line.strip() and not line.startswith("#") and len(line.split()) < _SIGNER_WORDS_MIN:
+            raise InputError(f"{signers}:{number}: names no signer with a key; {form}")
 
 
 def _demand_tool() -> None:

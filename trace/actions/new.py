@@ -16,7 +16,7 @@ _WORDS = ("title", "statement", "rationale", "sil", "verify", "polarity", "desig
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_root(parser)
-    parser.add_argument("kind", metavar="KIND", help="level of the item: STK, HAZ, AOU, SYS or SWR")
+    parser.add_argument("kind", metavar="KIND", help="level of the item, as requirements/schema/items.toml names it, for example SWR")
     parser.add_argument("--area", default="", metavar="AREA", help="area of a software requirement, for example SUP")
     parser.add_argument("--new-area", action="store_true", help="the area begins with this item")
     parser.add_argument("--parents", default="", metavar="ID,...", help="ids, comma separated")

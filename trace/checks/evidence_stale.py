@@ -24,7 +24,8 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     if not evidence.present:
         return
     if not evidence.environment:
-        if not project.allow_missing:
+        told = any(problem.place.file == evidence.environment_place.file for problem in project.problems)
+        if not project.allow_missing and not told:
             yield evidence.environment_place, "is missing: nothing tells on which commit the evidence was made", ""
     else:
         yield from _compare(project, evidence.environment, evidence.environment_place)

@@ -296,6 +296,21 @@ def test_a_signature_of_somebody_else_or_of_other_bytes_fails(bundle: Path, trac
 
 
 @needs_ssh
+@pytest.mark.parametrize(("content", "told"), [(b"\xff\xfe", "is no text in UTF-8"), (b"# who may\nsomebody\n", ":2: names no signer")])
+@pytest.mark.verifies("SWR-TRC-077", technique="error_guessing", polarity="violation")
+def test_a_broken_list_of_signers_is_an_input_that_cannot_be_read(
+    bundle: Path, trace: Callable, tmp_path: Path, key: Path, content: bytes, told: str
+) -> None:
+    signers = tmp_path / "signers"
+    signers.write_bytes(content)
+
+    outcome = trace("verify", sign(bundle, key), "--signers", signers)
+
+    assert (outcome.status, outcome.err.count("\n")) == (2, 1)
+    assert told in outcome.err
+
+
+@needs_ssh
 @pytest.mark.verifies("SWR-TRC-077", technique="error_guessing", polarity="violation")
 def test_a_signature_for_another_purpose_fails(bundle: Path, trace: Callable, key: Path) -> None:
     assert len(list_faults(trace, sign(bundle, key, "file"), "--signers", write_signers(key))) == 1

@@ -94,6 +94,15 @@ def test_an_input_that_cannot_be_read_is_named_and_ends_with_status_2(
     assert (outcome.status, [(f["file"], f["line"]) for f in found]) == (2, [(file, line)])
 
 
+@pytest.mark.verifies("SWR-TRC-009", technique="error_guessing", polarity="violation")
+def test_an_environment_that_cannot_be_read_is_not_told_as_missing(sample: Sample, trace: Callable) -> None:
+    (sample.evidence / "environment.json").write_text("[")
+
+    outcome = trace("check", "--root", sample.root, "--output", "json")
+
+    assert outcome.rules == {"unreadable-input"}
+
+
 @pytest.mark.verifies("SWR-TRC-009", technique="requirements_based", polarity="nominal")
 def test_whole_inputs_are_not_refused(sample: Sample, trace: Callable) -> None:
     outcome = trace("check", "--root", sample.root, "--output", "json")

@@ -101,5 +101,12 @@ TEST(HostContractTest, AHangThatIsCountedIsReportedByTheClockToo) {
     EXPECT_NE(report.findings[0].find("cannot have returned"), std::string::npos) << report.to_text();
 }
 
+TEST(HostContractTest, AStepThatRunsTwiceIsReportedByTheClockToo) {
+    verifies("SWR-CNF-002", Technique::kFaultInjection, Polarity::kViolation);
+    const Report report = run_in_order(make_threaded(ThreadFlaw::kRunsStepTwice));
+    ASSERT_FALSE(report.is_kept());
+    EXPECT_NE(report.findings[0].find("ran twice"), std::string::npos) << report.to_text();
+}
+
 }  // namespace
 }  // namespace mamori::ports::conformance

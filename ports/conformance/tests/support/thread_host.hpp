@@ -14,7 +14,7 @@
 
 namespace mamori::ports::conformance {
 
-enum class ThreadFlaw { kNone, kSaysReturnedTooEarly, kCutsTooEarly, kCountsWhatHangs };
+enum class ThreadFlaw { kNone, kSaysReturnedTooEarly, kCutsTooEarly, kCountsWhatHangs, kRunsStepTwice };
 
 class ThreadHost final : public WindowHost {
   public:
@@ -67,6 +67,9 @@ class ThreadHost final : public WindowHost {
     void serve(Window& window, const Work& work, Instant deadline) noexcept {
         for (std::size_t i = 0U; i < work.count; ++i) {
             work.run(work.argument, work.first + i, work.first + i + 1U);
+            if (flaw_ == ThreadFlaw::kRunsStepTwice && i == 0U) {
+                work.run(work.argument, work.first, work.first + 1U);
+            }
             if (get_now() > deadline) {
                 break;
             }
