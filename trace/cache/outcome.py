@@ -93,7 +93,7 @@ def _is_unchanged(kept: dict[str, Any]) -> bool:
         return False
     if any(state.read_listing(path) != was for path, was in kept["folders"].items()):
         return False
-    from mamori.trace.readers.git import ask  # it loads the module for processes, which takes as long as all the rest here
+    from mamori.trace.cache.questions import ask  # it loads the module for processes, which takes as long as all the rest here
 
     return all(ask(root, *words) == answer for root, words, answer in kept["questions"])
 

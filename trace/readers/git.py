@@ -3,13 +3,10 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
-from mamori.trace.cache.inputs import note_question
-from mamori.trace.readers.git_run import run_git
-
-_TIMEOUT_S = 60
+from mamori.trace.cache.questions import ask
+from mamori.trace.git_run import run_git
 
 
 def read_head(root: Path) -> str:
@@ -37,11 +34,3 @@ def read_worktree(root: Path) -> str:
     """`clean` or `changed` since the commit; `unknown` where there is no git repository."""
     answer = run_git(root, ["status", "--porcelain"])
     return "unknown" if answer is None else "changed" if answer else "clean"
-
-
-def ask(root: Path | str, *arguments: str) -> str:
-    """What git answers, or an empty text where it does not. The answer counts as an input of the run (trace/cache)."""
-    answer = run_git(root, arguments, _TIMEOUT_S)
-    text = "" if answer is None else os.fsdecode(answer).strip()
-    note_question(str(root), arguments, text)
-    return text

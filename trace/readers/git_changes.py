@@ -14,8 +14,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from mamori.trace.git_run import get_git_environment, run_git
 from mamori.trace.readers.files import InputError
-from mamori.trace.readers.git_run import get_git_environment, run_git
 
 _HUNK = re.compile(rb"@@ -(\d+)(?:,(\d+))? \+(\d+)(?:,(\d+))? @@")
 _MAX_FILE = 16 * 1024 * 1024  # larger ones are no sources

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from mamori.trace.git_run import run_git
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.impact import compare_items
 from mamori.trace.model.item import Item, Schema
 from mamori.trace.readers.git_changes import is_shallow, read_blobs
-from mamori.trace.readers.git_run import run_git
 from mamori.trace.readers.markdown_items import parse_items
 
 _FOLDER = "requirements"

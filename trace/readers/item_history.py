@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.trace.readers.git_run import run_git
+from mamori.trace.git_run import run_git
 
 COMMITS_MAX = 2000
 CHANGES_MAX = 20

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mamori.trace.model.code import CodeBase
 from mamori.trace.checks import list_rules
+from mamori.trace.model.code import CodeBase
 from mamori.trace.model.evidence import INTEGRATION, UNIT, Evidence
 from mamori.trace.model.project import Project, attach_sources
 from mamori.trace.readers.analysis import read_analysis

@@ -10,7 +10,7 @@ import hashlib
 import os
 from pathlib import Path
 
-from mamori.trace.readers.git import ask
+from mamori.trace.cache.questions import ask
 
 _SHA1_DIGITS = 40
 
