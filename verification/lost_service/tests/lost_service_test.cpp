@@ -16,14 +16,28 @@ using verification::Polarity;
 using verification::Technique;
 using verification::verifies;
 
+/// Whether the host alone keeps the run from being judged: what was injected was answered rightly, but it is
+/// too little.
+bool took_trials(const LossVerdict& verdict) {
+    return !verdict.is_well() && verdict.by_host != 0U && verdict.answered == verdict.injected &&
+           verdict.unanswered + verdict.late + verdict.early + verdict.invented == 0U;
+}
+
 TEST(LostServiceTest, OutputsAreClosedInTimeAfterEachLossAndNotBefore) {
     verifies("SWR-PRT-022", Technique::kFaultInjection, Polarity::kViolation);
-    constexpr LossRequest kRequest{70U, 20261122U};
+    // A host that stalls takes trials away, which is no fault of the watchdog; what it leaves is judged in
+    // each round.
+    constexpr std::uint32_t kRoundsMax = 5U;
+    LossRequest request{70U, 20261122U};
+    LossRun run = run_losses(request);
+    for (std::uint32_t round = 1U; round < kRoundsMax && run.has_priority && took_trials(run.verdict);
+         ++round) {
+        ++request.seed;
+        run = run_losses(request);
+    }
 
-    const LossRun run = run_losses(kRequest);
-
-    const std::string facts = to_json(kRequest, run);
-    RecordProperty("seed", static_cast<int>(kRequest.seed));
+    const std::string facts = to_json(request, run);
+    RecordProperty("seed", static_cast<int>(request.seed));
     EXPECT_EQ(run.verdict.requested, 60U);
     if (!run.has_priority) {
         GTEST_SKIP()
