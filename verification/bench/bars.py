@@ -33,12 +33,13 @@ class RatioBar:
 
 @dataclass(frozen=True)
 class GrowthBar:
-    """`ours` may cost at `to` at most `limit` times what it costs at `from`, per component."""
+    """`ours` may cost at `to` at most `limit` times what it costs at `from`, per component. `floor` is shown beside it."""
 
     id: str
     title: str
     metric: str
     ours: str
+    floor: str
     from_size: int
     to_size: int
     limit: float
@@ -94,8 +95,8 @@ def _make_ratio(entry: dict[str, Any]) -> RatioBar:
 
 
 def _make_growth(entry: dict[str, Any]) -> GrowthBar:
-    return GrowthBar(entry["id"], entry["title"], entry["metric"], entry["ours"], int(entry["from"]), int(entry["to"]),
-                     _check_limit(entry["limit"]), _check_kind(entry["kind"]))  # fmt: skip
+    return GrowthBar(entry["id"], entry["title"], entry["metric"], entry["ours"], entry["floor"], int(entry["from"]),
+                     int(entry["to"]), _check_limit(entry["limit"]), _check_kind(entry["kind"]))  # fmt: skip
 
 
 def _make_count(entry: dict[str, Any]) -> CountBar:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from mamori.verification.bench.bars import Bars
+from mamori.verification.bench.bars import Bars, GrowthBar
 from mamori.verification.bench.samples import Samples, Series
 
 ROUNDS_MIN = 5
@@ -62,13 +62,27 @@ def judge(samples: Samples, bars: Bars, floors: Sequence[str] = FLOORS) -> list[
             ours = _find(samples, growth.metric, growth.to_size, growth.ours)
             before = _find(samples, growth.metric, growth.from_size, growth.ours)
             base = RatioResult(growth.id, growth.title, growth.metric, growth.to_size, growth.ours,
-                               f"itself at {growth.from_size}", growth.limit, growth.kind, ABSENT)  # fmt: skip
+                               f"itself at {growth.from_size}", growth.limit, growth.kind, ABSENT,
+                               note=_describe_floor(samples, growth))  # fmt: skip
             results.append(_compare(base, ours, before, samples, missing_fails=True))
     return results
 
 
 def list_failed_gates(results: Sequence[RatioResult]) -> list[RatioResult]:
     return [result for result in results if result.kind == "gate" and result.verdict == FAILED]
+
+
+def _describe_floor(samples: Samples, growth: GrowthBar) -> str:
+    """How the floor grows in the same run: what no one who makes the same calls can stay under on this machine."""
+    floor = _find(samples, growth.metric, growth.to_size, growth.floor)
+    before = _find(samples, growth.metric, growth.from_size, growth.floor)
+    if floor is None or before is None:
+        return ""
+    return f"{growth.floor} itself: {median(_form_ratios(floor, before)):.2f}"
+
+
+def _form_ratios(ours: Series, against: Series) -> list[float]:
+    return [mine / theirs for mine, theirs in zip(ours.rounds_ns, against.rounds_ns, strict=True)]
 
 
 def _find(samples: Samples, metric: str, size: int, name: str) -> Series | None:
@@ -84,7 +98,7 @@ def _compare(base: RatioResult, ours: Series | None, against: Series | None, sam
         fields["note"] = samples.absent.get(name, "was not measured")
         fields["verdict"] = FAILED if missing_fails else ABSENT
         return RatioResult(**fields)
-    ratios = [mine / theirs for mine, theirs in zip(ours.rounds_ns, against.rounds_ns, strict=True)]
+    ratios = _form_ratios(ours, against)
     ratio = median(ratios)
     fields.update(ratio=ratio, lowest=min(ratios), highest=max(ratios), ours_ns=ours.p50_ns, against_ns=against.p50_ns,
                   verdict=PASSED if ratio <= base.limit else FAILED)  # fmt: skip

@@ -39,7 +39,7 @@ RECORDED: dict[str, Any] = {
     "cases": [make_case(8, {"mamori port": [2.0, 2.0, 8.0, 2.0, 2.0], "seqlock": [1.0, 1.0, 4.0, 1.0, 0.1]}),
               make_case(64, {"mamori port": [4.0, 4.0, 5.0, 4.0, 4.0], "seqlock": [2.0] * 5})],
 }  # fmt: skip
-GROWTH = GrowthBar("P5", "cost", "port", "mamori port", 8, 64, 1.5, "gate")
+GROWTH = GrowthBar("P5", "cost", "port", "mamori port", "seqlock", 8, 64, 1.5, "gate")
 
 
 def make_bars(limit: float, kind: str = "gate", against: str = "seqlock") -> Bars:
@@ -91,6 +91,18 @@ def test_growth_is_judged_round_by_round() -> None:
 
     assert (result.ratio, result.size, result.against) == (2.0, 64, "itself at 8")
     assert result.verdict == FAILED
+
+
+@pytest.mark.verifies("SWR-BEN-003")
+def test_growth_of_the_floor_stands_beside_that_of_ours() -> None:
+    cases = [make_case(8, {"mamori port": [2.0] * 5, "seqlock": [1.0, 1.0, 4.0, 1.0, 0.1]}),
+             make_case(64, {"mamori port": [4.0] * 5, "seqlock": [3.0] * 5})]  # fmt: skip
+
+    shown = judge_recorded(Bars((), (GROWTH,), ()), cases=cases)[0]
+    alone = judge_recorded(Bars((), (replace(GROWTH, floor="no such subject"),), ()), cases=cases)[0]
+
+    assert shown.note == "seqlock itself: 3.00"
+    assert (alone.note, alone.ratio) == ("", 2.0)
 
 
 @pytest.mark.verifies("SWR-BEN-003")
@@ -247,7 +259,7 @@ def test_samples_of_another_form_are_refused(tmp_path: Path, change: dict[str, A
     [
         ("ratio = 1 2", "is no TOML"),
         ("growth = []\ncount = []", "a bar lacks its 'ratio'"),
-        ("ratio = []\ncount = []\n[[growth]]\nid='P5'\ntitle='t'\nmetric='m'\nours='o'\nfrom=1\nto=2\nlimit=0\nkind='gate'",
+        ("ratio = []\ncount = []\n[[growth]]\nid='P5'\ntitle='t'\nmetric='m'\nours='o'\nfloor='f'\nfrom=1\nto=2\nlimit=0\nkind='gate'",
          "must be greater than 0"),
         ("ratio = []\ngrowth = []\n[[count]]\nid='P8'\nname='n'\ntitle='t'\noperations=[]", "not one or two"),
     ],
