@@ -23,7 +23,6 @@ std::vector<Case> make_catalogue() {
     }
     add_mamori_port(ports);
     add_port_floors(ports);
-    add_peers(ports);
 
     std::vector<Case> e2e;
     for (const std::size_t size : kE2eSizes) {
@@ -44,6 +43,7 @@ std::vector<Case> make_catalogue() {
         {"wake-up", 64U, "ns per wake-up, same processor", 2U, &calc_sum_of_words, {}}};
     add_mamori_wake_up(wake_ups);
     add_wake_up_floor(wake_ups);
+    add_peers({ports, wake_ups});
 
     std::vector<Case> all = std::move(ports);
     all.insert(all.end(), e2e.begin(), e2e.end());

@@ -11,6 +11,12 @@
 
 namespace mamori::verification::bench {
 
+/// The cases in which peers take part, each in those that it can do.
+struct PeerCases {
+    std::vector<Case>& ports;
+    std::vector<Case>& wake_ups;
+};
+
 /// @return all cases: port write and read, the same with a protected message, scheduler, wake-up.
 std::vector<Case> make_catalogue();
 
@@ -28,7 +34,7 @@ void add_mamori_wake_up(std::vector<Case>& wake_ups);
 
 /// @name Written by CMake
 /// @{
-void add_peers(std::vector<Case>& ports);
+void add_peers(PeerCases cases);
 std::vector<AbsentPeer> get_absent_peers();
 /// @}
 

@@ -33,8 +33,8 @@ class BoostSpsc final : public Subject {
 
 }  // namespace
 
-void add_boost(std::vector<Case>& ports) {
-    add_to_ports<BoostSpsc>(ports, "Boost SPSC");
+void add_boost(PeerCases cases) {
+    add_to_ports<BoostSpsc>(cases.ports, "Boost SPSC");
 }
 
 }  // namespace mamori::verification::bench

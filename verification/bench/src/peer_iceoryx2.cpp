@@ -53,8 +53,8 @@ class Iceoryx2 final : public Subject {
 
 }  // namespace
 
-void add_iceoryx2(std::vector<Case>& ports) {
-    add_to_ports<Iceoryx2>(ports, "iceoryx2 local");
+void add_iceoryx2(PeerCases cases) {
+    add_to_ports<Iceoryx2>(cases.ports, "iceoryx2 local");
 }
 
 }  // namespace mamori::verification::bench

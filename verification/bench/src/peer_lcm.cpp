@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "catalogue.hpp"
+#include "wake_up_pair.hpp"
 
 namespace mamori::verification::bench {
 namespace {
@@ -46,10 +47,42 @@ class LcmMemq final : public Subject {
     lcm_t* lcm_;
 };
 
+/// A channel of its own; the reader sleeps in lcm_handle().
+class LcmMailbox final {
+  public:
+    explicit LcmMailbox(const char* name) : lcm_(lcm_create("memq://")), name_(name) {
+        if (lcm_ == nullptr) {
+            throw std::runtime_error("lcm_create(\"memq://\") failed");
+        }
+        lcm_subscribe(lcm_, name, &LcmMailbox::take, this);
+    }
+    ~LcmMailbox() { lcm_destroy(lcm_); }
+    LcmMailbox(const LcmMailbox&) = delete;
+    LcmMailbox& operator=(const LcmMailbox&) = delete;
+
+    void post(const Message<64U>& message) { lcm_publish(lcm_, name_, message.data(), sizeof message); }
+    Message<64U> await() {
+        if (lcm_handle(lcm_) != 0) {
+            throw std::runtime_error("lcm_handle() failed");
+        }
+        return read_;
+    }
+
+  private:
+    static void take(const lcm_recv_buf_t* buffer, const char*, void* user) {
+        std::memcpy(static_cast<LcmMailbox*>(user)->read_.data(), buffer->data, sizeof(Message<64U>));
+    }
+
+    lcm_t* lcm_;
+    const char* name_;
+    Message<64U> read_{};
+};
+
 }  // namespace
 
-void add_lcm(std::vector<Case>& ports) {
-    add_to_ports<LcmMemq>(ports, "LCM memq");
+void add_lcm(PeerCases cases) {
+    add_to_ports<LcmMemq>(cases.ports, "LCM memq");
+    cases.wake_ups[0].candidates.push_back({"LCM memq", &make_subject<WakeUpPair<LcmMailbox>>});
 }
 
 }  // namespace mamori::verification::bench

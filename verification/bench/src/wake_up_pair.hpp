@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The wake-up case: two threads on one processor hand a message to and fro, and each sleeps until the
+/// other's message is there. An operation is one round trip: two wake-ups.
+///
+/// @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
+#ifndef MAMORI_VERIFICATION_BENCH_WAKE_UP_PAIR_HPP
+#define MAMORI_VERIFICATION_BENCH_WAKE_UP_PAIR_HPP
+
+#include <pthread.h>
+#include <sched.h>
+
+#include <stdexcept>
+#include <thread>
+
+#include "subject.hpp"
+
+namespace mamori::verification::bench {
+
+/// A wake-up on one processor is a switch and no journey: both threads of the pair stay where the caller is.
+inline void pin(pthread_t thread, int processor) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(static_cast<unsigned>(processor), &set);
+    if (pthread_setaffinity_np(thread, sizeof set, &set) != 0) {
+        throw std::runtime_error("a thread could not be kept on one processor");
+    }
+}
+
+/// @tparam Mailbox made with a name that no other one has; post(message) from one thread, and await() in
+///                 another one, which sleeps until a message is there.
+template <typename Mailbox>
+class WakeUpPair final : public Subject {
+  public:
+    WakeUpPair() : echo_([this] { echo(); }) {}
+    ~WakeUpPair() override {
+        there_.post(Message<64U>{kStop});
+        echo_.join();
+    }
+    WakeUpPair(const WakeUpPair&) = delete;
+    WakeUpPair& operator=(const WakeUpPair&) = delete;
+
+    std::uint64_t run(std::uint64_t count) override {
+        cpu_set_t own;
+        sched_getaffinity(0, sizeof own, &own);
+        const int processor = sched_getcpu();
+        pin(pthread_self(), processor);
+        pin(echo_.native_handle(), processor);
+        std::uint64_t sum = 0U;
+        for (std::uint64_t i = 0U; i < count; ++i) {
+            there_.post(values_[i]);
+            sum += back_.await()[0];
+        }
+        sched_setaffinity(0, sizeof own, &own);
+        return sum;
+    }
+
+  private:
+    static constexpr std::uint64_t kStop = 2U;  ///< a first word that no value has
+
+    void echo() {
+        for (Message<64U> message = there_.await(); message[0] != kStop; message = there_.await()) {
+            back_.post(message);
+        }
+    }
+
+    WrittenValues<64U> values_;
+    Mailbox there_{"bench_there"};
+    Mailbox back_{"bench_back"};
+    std::thread echo_;
+};
+
+}  // namespace mamori::verification::bench
+
+#endif  // MAMORI_VERIFICATION_BENCH_WAKE_UP_PAIR_HPP
