@@ -112,6 +112,18 @@ TEST_F(AliveSupervisorTest, RefusesLimitsAndSlotsOutOfRange) {
     EXPECT_EQ(sut_.step(), AliveVerdict::kExpired) << "a refused watch() must not change the limits in use";
 }
 
+TEST_F(AliveSupervisorTest, LimitsThatNobodySetAreRefusedAndStorageIsFree) {
+    verifies("SWR-SUP-001", Technique::kInterface, Polarity::kViolation);
+    constexpr AliveSlot kFresh{};
+
+    EXPECT_EQ(kFresh.limits.late_cycles, 0U);
+    EXPECT_EQ(kFresh.limits.expired_cycles, 0U);
+    EXPECT_EQ(kFresh.silent_cycles, 0U);
+    EXPECT_FALSE(kFresh.has_reported);
+    EXPECT_EQ(kFresh.state, AliveSlot::State::kFree);
+    EXPECT_EQ(sut_.watch(0U, AliveLimits{}), Status::kBadParameter);
+}
+
 TEST_F(AliveSupervisorTest, StorageOutsideItsSizesGoesToTheAssertionHandler) {
     verifies("SWR-SUP-001", Technique::kErrorGuessing, Polarity::kViolation);
 

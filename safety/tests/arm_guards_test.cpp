@@ -141,6 +141,8 @@ TEST(ArmGuardsTest, LimitTablesThatCannotProtectAreFound) {
     verifies("SWR-ARM-002", Technique::kErrorGuessing, Polarity::kViolation);
 
     EXPECT_FALSE(are_valid(kZero)) << "a limit of zero trips always";
+    EXPECT_TRUE(are_valid(with(kLimits, 3U, std::numeric_limits<double>::max()))) << "finite";
+    EXPECT_TRUE(are_valid(with(kLimits, 3U, std::numeric_limits<double>::denorm_min())));
     EXPECT_FALSE(are_valid(with(kLimits, 6U, -1.0)));
     EXPECT_FALSE(are_valid(JointRanges{})) << "an empty range";
     for (const double value : kNotFinite) {

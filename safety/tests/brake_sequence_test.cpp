@@ -172,6 +172,13 @@ TEST_F(BrakeSequenceTest, StandbyThatFollowsTheSelfTestHasNoTorque) {
     EXPECT_TRUE(with_contacts_.apply(SafeState::kStandby, Instant{11}) == kOff);
 }
 
+TEST_F(BrakeSequenceTest, StandbyInTheFirstCycleHasNoTorque) {
+    verifies("SWR-FSM-028", Technique::kBoundaryValues, Polarity::kViolation);
+
+    EXPECT_TRUE(with_contacts_.apply(SafeState::kStandby, Instant{0}) == kOff);
+    EXPECT_TRUE(without_contacts_.apply(SafeState::kStandby, Instant{0}) == kOff);
+}
+
 TEST_F(BrakeSequenceTest, BrakesThatDoNotReportInTimeAreOverdue) {
     verifies("SWR-FSM-029", Technique::kBoundaryValues, Polarity::kViolation);
     stand_in_ss1(with_contacts_);

@@ -62,6 +62,8 @@ TEST(BumplessStartTest, EncoderStepThatIsNoneRefusesTheStart) {
     verifies("SWR-FSM-030", Technique::kBoundaryValues, Polarity::kViolation);
 
     EXPECT_TRUE(may_start_bumpless(kMeasured, kMeasured, Axes{kStep, kLittle, kStep}));
+    EXPECT_TRUE(
+        may_start_bumpless(kMeasured, kMeasured, Axes{kStep, std::numeric_limits<double>::max(), kStep}));
     EXPECT_FALSE(may_start_bumpless(kMeasured, kMeasured, Axes{kStep, 0.0, kStep}));
     EXPECT_FALSE(may_start_bumpless(kMeasured, kMeasured, Axes{kStep, -kStep, kStep}));
 }

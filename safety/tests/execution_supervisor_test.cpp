@@ -4,6 +4,7 @@
 // in.
 #include "mamori/safety/execution_supervisor.hpp"
 
+#include <limits>
 #include <type_traits>
 
 #include "mamori/verification/verifies.hpp"
@@ -335,6 +336,26 @@ TEST_F(ExecutionSupervisorTest, WhereNothingIsSupervisedNothingIsProven) {
     ASSERT_EQ(sut_.activate(kMonitor), Status::kOk);
     run(kMonitor);
     EXPECT_EQ(end_cycle(), GlobalStatus::kOk);
+}
+
+TEST_F(ExecutionSupervisorTest, RunsOfAComponentThatNobodyWatchesProveNothing) {
+    verifies("SWR-SUP-009", Technique::kErrorGuessing, Polarity::kViolation);
+
+    for (int cycle = 0; cycle < 3; ++cycle) {
+        run(kLogger);
+        EXPECT_EQ(end_cycle(), GlobalStatus::kFailed) << cycle;
+    }
+}
+
+TEST_F(ExecutionSupervisorTest, NoComponentAndNoLateReleaseSaySo) {
+    verifies("SWR-SUP-010", Technique::kInterface);
+
+    EXPECT_EQ(ExecutionSupervisor::kNoComponent, std::numeric_limits<std::size_t>::max());
+    const LateRelease none = sut_.get_late_release();
+    EXPECT_EQ(none.count, 0U);
+    EXPECT_EQ(none.window, 0U);
+    EXPECT_EQ(none.lateness, Duration{0});
+    EXPECT_EQ(none.at, Instant{});
 }
 
 TEST_F(ExecutionSupervisorTest, SupervisorOfStaticStorageIsReadyBeforeMain) {

@@ -61,6 +61,19 @@ TEST_F(FaultRegisterTest, FaultWithoutASetConfirmationIsLatchedAtOnce) {
     EXPECT_TRUE(sut_.is_latched(3U));
 }
 
+TEST_F(FaultRegisterTest, RecordThatNobodyWroteKnowsOfNoFault) {
+    verifies("SWR-FLT-001", Technique::kInterface);
+    constexpr FaultRecord kFresh{};
+
+    EXPECT_EQ(kFresh.confirmation.cycles, 1U) << "the severest: at once";
+    EXPECT_EQ(kFresh.confirmation.decay, 0U);
+    EXPECT_EQ(kFresh.confirmation.time, Duration{0});
+    EXPECT_EQ(kFresh.healing.cycles, 1U);
+    EXPECT_EQ(kFresh.healing.time, Duration{0});
+    EXPECT_EQ(kFresh.count + kFresh.absent_cycles + kFresh.occurrences + kFresh.order, 0U);
+    EXPECT_FALSE(kFresh.is_present || kFresh.is_confirmed || kFresh.is_latched);
+}
+
 TEST_F(FaultRegisterTest, ConfirmationIsRefusedOutOfRangeAndWhileTheFaultIsPresentOrLatched) {
     verifies("SWR-FLT-001", Technique::kInterface, Polarity::kViolation);
 

@@ -44,6 +44,7 @@ TEST_F(ReactionTableTest, NoFaultDemandsNothing) {
 
     EXPECT_EQ(calc_reaction(kTable, faults_).reaction, Reaction::kNone);
     EXPECT_EQ(calc_reaction(kTable, faults_).fault, kNoFault);
+    EXPECT_EQ(calc_reaction(kTable, faults_).within, Duration{0});
 }
 
 TEST_F(ReactionTableTest, SingleFaultGetsItsRow) {
@@ -198,6 +199,8 @@ TEST_F(ReactionTableTest, ModeDecidesWhichRowAnswers) {
     latch(Fault::kNoise);
 
     EXPECT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSs1);
+    EXPECT_EQ(calc_reaction(kModeTable, faults_).reaction, Reaction::kSs1)
+        << "mode 0 unless another is named";
     EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kDegrade);
     EXPECT_EQ(calc_in(Mode::kService, faults_), Reaction::kDegrade);
     latch(Fault::kWarm);

@@ -303,7 +303,32 @@ TEST_F(SafeStateMachineTest, DefaultInputsPermitNothing) {
 
     SafeStateInputs nothing;
     nothing.now = inputs_.now;
+    EXPECT_FALSE(nothing.start_button || nothing.reset_button || nothing.standstill);
+    EXPECT_FALSE(nothing.faults_cleared || nothing.start_permitted);
+    EXPECT_FALSE(nothing.lock_out) << "an event, and no permission";
+    EXPECT_EQ(nothing.self_test, SelfTestStatus::kRunning);
     EXPECT_EQ(sut_.step(nothing), SafeState::kSafe);
+}
+
+TEST_F(SafeStateMachineTest, PassThatIsThereBeforeTheTestRanDoesNotCount) {
+    verifies("SWR-FSM-008", Technique::kErrorGuessing, Polarity::kViolation);
+    inputs_.self_test = SelfTestStatus::kPassed;
+
+    for (int cycle = 0; cycle < 100; ++cycle) {
+        ASSERT_EQ(step(), SafeState::kSelfTest);
+    }
+    pass_self_test();
+}
+
+TEST(RisingEdgeTest, LevelThatIsHighFromTheFirstCycleOnHasNotRisen) {
+    verifies("SWR-FSM-006", Technique::kBoundaryValues, Polarity::kViolation);
+    RisingEdge sut;
+
+    EXPECT_FALSE(sut.step(true));
+    EXPECT_FALSE(sut.step(true));
+    EXPECT_FALSE(sut.step(false));
+    EXPECT_TRUE(sut.step(true));
+    EXPECT_FALSE(sut.step(true)) << "once";
 }
 
 TEST_F(SafeStateMachineTest, UndisturbedMachineIsConsistentInEveryState) {

@@ -3,6 +3,7 @@
 // Method: the build's own compiler is run on one source, without and with a defect; the rules of a row are
 // called directly.
 #include <array>
+#include <limits>
 
 #include "compile_fail/compiler.hpp"
 #include "mamori/safety/assumptions/assumption_table.hpp"
@@ -52,6 +53,17 @@ TEST(AssumptionTableCompileTest, RowOfNoUseDoesNotCompile) {
         EXPECT_EQ(result.exit_status, 1) << defect;
         EXPECT_TRUE(result.names("row with an unknown assumption")) << result.messages;
     }
+}
+
+TEST(AssumptionTableCompileTest, RowThatNobodyWroteIsOfNoAssumption) {
+    verifies("SWR-AOU-002", Technique::kInterface, Polarity::kViolation);
+    constexpr std::array kFresh{AssumptionRow{}};
+
+    EXPECT_EQ(kFresh[0].assumption, std::numeric_limits<AssumptionIndex>::max())
+        << "more than a table can have";
+    EXPECT_EQ(kFresh[0].assumption, kNoAssumption);
+    EXPECT_EQ(kFresh[0].within, Duration{0});
+    EXPECT_FALSE(are_rows_valid(kFresh, kNoAssumption));
 }
 
 TEST(AssumptionTableCompileTest, EachRuleOfARowIsJudged) {

@@ -204,6 +204,7 @@ TEST(CrossComparisonCompileTest, EveryKindOfToleranceIsJudged) {
     const std::vector<Change> changes{
         {0U, [](Ports& p) { p.joints[1].torque_nm = -1.0F; }},
         {1U, [](Ports& p) { p.limits[0] = -1.0; }},
+        {1U, [](Ports& p) { p.limits[1] = -1.0; }},
         {2U, [](Ports& p) { p.count = 1; }},
         {3U, [](Ports& p) { p.is_on = true; }},
         {4U, [](Ports& p) { p.mode = Mode::kMove; }},

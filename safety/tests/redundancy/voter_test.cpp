@@ -31,6 +31,8 @@ TEST(WorseValueTest, EachOrderChoosesItsWorseValue) {
     EXPECT_EQ(choose_worse(2.0, -3.0, WorseValue::kFurtherFromZero), -3.0);
     EXPECT_EQ(choose_worse(-3.0, 3.0, WorseValue::kFurtherFromZero), -3.0) << "the first of equals";
     EXPECT_EQ(choose_worse(3.0, -3.0, WorseValue::kFurtherFromZero), 3.0);
+    EXPECT_EQ(choose_worse(0.25, 0.5, WorseValue::kFurtherFromZero), 0.5);
+    EXPECT_EQ(choose_worse(0.5, 0.25, WorseValue::kFurtherFromZero), 0.5);
     EXPECT_EQ(choose_worse(2.0, 3.0, WorseValue::kNone), 2.0);
     EXPECT_EQ(choose_worse(2.0, 3.0, static_cast<WorseValue>(77)), 2.0);
 }

@@ -7,6 +7,8 @@
 
 #include <cfenv>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "mamori/verification/verifies.hpp"
 
@@ -40,14 +42,17 @@ struct FaultyCpu {
     static inline unsigned int operation{0U};  ///< arithmetic ones first
     static inline unsigned int bit{0U};
     static inline bool stuck_at{false};
-    static inline Type flushed{Type::kNone};  ///< denormal operands and results are zero
-    static inline bool does_saturate{false};  ///< the largest number in place of infinity
+    static inline std::optional<std::uint64_t> second{};  ///< stuck with this second operand only
+    static inline Type flushed{Type::kNone};              ///< denormal operands and results are zero
+    static inline bool does_saturate{false};              ///< the largest number in place of infinity
     static inline bool has_nan{true};
     static inline Type compared{Type::kNone};
     static inline Relation relation{Relation::kSound};
 
     static void mend() {
         type = Type::kNone;
+        stuck_at = false;
+        second.reset();
         flushed = Type::kNone;
         does_saturate = false;
         has_nan = true;
@@ -100,7 +105,8 @@ struct FaultyCpu {
     }
     template <typename T>
     static T calc(WordOperation done, T a, T b) {
-        return corrupt(4U + static_cast<unsigned int>(done), NativeCpu::calc(done, a, b));
+        const T result = NativeCpu::calc(done, a, b);
+        return second.value_or(b) == b ? corrupt(4U + static_cast<unsigned int>(done), result) : result;
     }
     template <typename T>
     static bool is_less(T a, T b) {
@@ -214,6 +220,33 @@ TEST_F(CpuCheckTest, EveryStuckBitOfEveryWordOperationIsFound) {
 
     expect_every_stuck_bit_found(Cpu::Type::kWord32, 11U, 32U);
     expect_every_stuck_bit_found(Cpu::Type::kWord64, 11U, 64U);
+}
+
+/// The bits of a result that a shift by `distance` can set.
+bool carries(WordOperation shift, unsigned int bit, unsigned int distance, unsigned int bits) {
+    if (shift == WordOperation::kShiftLeft) {
+        return bit >= distance;
+    }
+    return shift == WordOperation::kShiftRightSigned || bit + distance < bits;
+}
+
+TEST_F(CpuCheckTest, EveryPathOfAShiftThatIsStuckAtZeroIsFound) {
+    verifies("SWR-SLF-008", Technique::kFaultInjection, Polarity::kViolation);
+
+    for (const auto& [type, bits] : {std::pair{Cpu::Type::kWord32, 32U}, {Cpu::Type::kWord64, 64U}}) {
+        Cpu::type = type;
+        for (const WordOperation shift :
+             {WordOperation::kShiftLeft, WordOperation::kShiftRight, WordOperation::kShiftRightSigned}) {
+            Cpu::operation = 4U + static_cast<unsigned int>(shift);
+            for (unsigned int distance = 0U; distance < bits; ++distance) {
+                Cpu::second = distance;
+                for (Cpu::bit = 0U; Cpu::bit < bits; ++Cpu::bit) {
+                    ASSERT_EQ(is_found(), carries(shift, Cpu::bit, distance, bits))
+                        << Cpu::operation << " by " << distance << " bit " << Cpu::bit;
+                }
+            }
+        }
+    }
 }
 
 TEST_F(CpuCheckTest, EveryStuckBitOfEveryFloatingPointOperationIsFound) {
