@@ -85,6 +85,10 @@ TEST(SafeStateTableTest, EveryStateAnswersEveryEventAsWanted) {
 
 TEST(SafeStateTableTest, CorruptedStateOrEventGivesLockedOut) {
     verifies("SWR-FSM-001", Technique::kFaultInjection, Polarity::kViolation);
+    // As a constant, so that a look past the end of the table does not compile.
+    constexpr State kBehindTheTable =
+        calc_next_state(State::kOperational, static_cast<Event>(kSafeStateEventCount));
+    static_assert(kBehindTheTable == State::kLockedOut);
 
     for (unsigned value = 0U; value <= 255U; ++value) {
         const auto state = static_cast<State>(value);
