@@ -11,12 +11,25 @@ namespace {
 /// More stalls than this in one run: the machine is of no use, and the last ones are not kept.
 constexpr std::size_t kRoom = 1'000'000U;
 
+/// The first stall that ends at `begin` or later.
+auto find_first(const std::vector<Stall>& stalls, Instant begin) {
+    return std::lower_bound(stalls.begin(), stalls.end(), begin,
+                            [](const Stall& stall, Instant at) { return stall.end < at; });
+}
+
 }  // namespace
 
 bool overlaps(const std::vector<Stall>& stalls, Instant begin, Instant end) {
-    const auto first = std::lower_bound(stalls.begin(), stalls.end(), begin,
-                                        [](const Stall& stall, Instant at) { return stall.end < at; });
+    const auto first = find_first(stalls, begin);
     return first != stalls.end() && first->begin <= end;
+}
+
+Duration calc_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end) {
+    Duration loss{0};
+    for (auto look = find_first(late_looks, begin); look != late_looks.end() && look->begin < end; ++look) {
+        loss = loss + (std::min(look->end, end) - std::max(look->begin, begin));
+    }
+    return loss;
 }
 
 int find_processor() noexcept {
@@ -33,9 +46,10 @@ int find_processor() noexcept {
 }
 
 StallWatch::StallWatch(const ports::posix_rt::FrameClock& clock, Duration step,
-                       ports::posix_rt::ThreadPlace place)
-    : clock_(clock) {
+                       ports::posix_rt::ThreadPlace place, std::size_t late_look_max)
+    : clock_(clock), late_look_max_(late_look_max) {
     stalls_.reserve(kRoom);
+    late_looks_.reserve(late_look_max);
     thread_ = std::thread{[this, step, place] { watch(step, place); }};
 }
 
@@ -49,12 +63,17 @@ void StallWatch::stop() {
 void StallWatch::watch(Duration step, ports::posix_rt::ThreadPlace place) {
     static_cast<void>(ports::posix_rt::set_priority(pthread_self(), place.priority));
     static_cast<void>(ports::posix_rt::set_processor(pthread_self(), place.processor));
+    const Duration half{step.ns / 2};
     Instant before = clock_.get_now();
     while (!is_ending_.load(std::memory_order_relaxed)) {
-        clock_.wait_until(before + step);
+        const Instant planned = before + step;
+        clock_.wait_until(planned);
         const Instant now = clock_.get_now();
         if (now - before > step + step && stalls_.size() < kRoom) {
             stalls_.push_back({before, now});
+        }
+        if (now - planned >= half && late_looks_.size() < late_look_max_) {
+            late_looks_.push_back({planned, now});
         }
         before = now;
     }

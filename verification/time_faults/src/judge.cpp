@@ -10,7 +10,7 @@ namespace {
 class Judge final {
   public:
     Judge(const Plan& plan, const Course& course)
-        : plan_(plan), reports_(course.reports), stalls_(course.stalls) {
+        : plan_(plan), reports_(course.reports), stalls_(course.stalls), late_looks_(course.late_looks) {
         explained_.resize(reports_.size(), false);
     }
 
@@ -78,7 +78,7 @@ class Judge final {
             const Report& report = reports_[i];
             if (explained_[i] || is_aftermath(i)) {
                 explained_[i] = true;
-            } else if (overlaps(stalls_, report.release, report.at)) {
+            } else if (calc_loss(late_looks_, report.release, report.at) >= kLossMin) {
                 explained_[i] = true;
                 ++verdict.by_host;
             } else {
@@ -114,6 +114,7 @@ class Judge final {
     const Plan& plan_;
     const std::vector<Report>& reports_;
     const std::vector<Stall>& stalls_;
+    const std::vector<Stall>& late_looks_;
     std::vector<bool> explained_;
 };
 

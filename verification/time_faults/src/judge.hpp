@@ -17,6 +17,10 @@ namespace mamori::time_faults {
 /// Frame of the system: what "within one tick" means.
 inline constexpr Duration kTick{1'000'000};
 
+/// Time that the machine must have taken away from a window, in pieces or at once, to be the reason of what
+/// is reported about it: half of the budget. The components need a few microseconds of that.
+inline constexpr Duration kLossMin{100'000};
+
 /// Page faults that need no disk, of all threads of the windows together, in a run with locked memory: the
 /// kernel moves a page now and then.
 inline constexpr std::int64_t kMinorFaultsMax = 16;
@@ -58,8 +62,8 @@ struct Verdict {
     std::uint64_t unseen{0U};         ///< not reported at all
     std::uint64_t tardy{0U};          ///< reported more than a tick after its deadline, while the machine ran
     std::uint64_t tardy_by_host{0U};  ///< likewise, while the machine stood still
-    std::uint64_t invented{0U};       ///< reported without a fault, while the machine ran
-    std::uint64_t by_host{0U};        ///< reported without a fault, while the machine stood still
+    std::uint64_t invented{0U};       ///< reported without a fault, though the machine took nothing away
+    std::uint64_t by_host{0U};        ///< reported without a fault; the machine took kLossMin or more away
     std::uint64_t stalls{0U};  ///< times at which the machine stood still for a tenth of a tick or more
     Duration longest_stall{};
     std::vector<std::int64_t> detection_ns{};  ///< from the deadline of each overrun to its report
@@ -110,6 +114,7 @@ struct Course {
     std::vector<Delay> delays{};
     std::vector<Stall> stalls{};
     WatchCourse watch{};
+    std::vector<Stall> late_looks{};  ///< of whoever tells of stalls
 };
 
 /// @return the counts from `injected` to `longest_stall`, and all from `detection_ns` to `watch`; the rest is

@@ -25,6 +25,8 @@ using verification::find_processor;
 using verification::StallWatch;
 
 constexpr Duration kLead{500'000'000};
+constexpr std::int64_t kLooksPerFrame = 20;
+constexpr std::size_t kLateLooksPerFrame = 8U;  ///< room for them; a machine that needs more is of no use
 constexpr int kStallPriority = 90;
 constexpr int kWatchPriority = 85;
 constexpr int kRunnerPriority = 80;
@@ -63,7 +65,10 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
                     {kWatchPriority, processor}};
     runner.set_observer(beats.data());
     director.set_watch(&watch);
-    StallWatch stalls{clock, Duration{kTick.ns / 20}, {kStallPriority, processor}};
+    StallWatch stalls{clock,
+                      Duration{kTick.ns / kLooksPerFrame},
+                      {kStallPriority, processor},
+                      request.frame_count * kLateLooksPerFrame};
     if (watch.open() == Status::kOk) {
         beats[0].expect(Instant{0});
         runner.run(request.frame_count);
@@ -74,6 +79,7 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
     stalls.stop();
     Course course = director.get_course();
     course.stalls = stalls.get_stalls();
+    course.late_looks = stalls.get_late_looks();
     return course;
 }
 

@@ -29,6 +29,10 @@ Verdict judge(const Course& course) {
     const WatchBounds bounds{Duration{1'000'000}, Duration{21'000'000}};
     return judge({Duration{200'000}, {0U, 1U, 1U}, {Duration{300'000}, Duration{300'000}}, bounds}, course);
 }
+/// Reports without a fault, while looks came late.
+Verdict judge_late(const std::vector<Report>& reports, const std::vector<Stall>& late_looks) {
+    return judge({reports, {}, {}, {}, {}, late_looks});
+}
 /// Component 1 takes 1.5 ms, from 5310 us on.
 const Deed kDeed{1U, at(5310), at(6810)};
 
@@ -63,30 +67,30 @@ TEST(JudgeTest, AReportOneFrameAfterTheDeadlineIsInTimeAndALaterOneIsTardyUnless
     EXPECT_TRUE(excused.is_well());
 }
 
-TEST(JudgeTest, AReportWithoutAFaultIsInventedUnlessTheMachineStoodStill) {
+TEST(JudgeTest, AReportWithoutAFaultIsInventedUnlessTheMachineTookHalfABudgetAway) {
     verifies("SWR-PRT-007", Technique::kFaultInjection, Polarity::kViolation);
     const std::vector<Report> reports{overrun(0U, 0U, 8000, 8010, 8215)};
     EXPECT_EQ(judge({reports, {kDeed}, {}, {}}).invented, 1U);
     EXPECT_EQ(judge({reports, {}, {}, {}}).unexplained.size(), 1U);
     EXPECT_FALSE(judge({reports, {}, {}, {}}).is_well());
-    EXPECT_EQ(judge({reports, {}, {}, {{at(7000), at(7999)}}}).invented, 1U)
-        << "over before the window opened";
-    EXPECT_EQ(judge({reports, {}, {}, {{at(7000), at(8000)}}}).by_host, 1U);
-    EXPECT_EQ(judge({reports, {}, {}, {{at(8216), at(9000)}}}).invented, 1U)
-        << "not begun when it was reported";
+    EXPECT_EQ(judge_late(reports, {{at(7000), at(8099)}}).invented, 1U) << "most of it before the window";
+    EXPECT_EQ(judge_late(reports, {{at(7000), at(8100)}}).by_host, 1U);
+    EXPECT_EQ(judge_late(reports, {{at(8115), at(9000)}}).by_host, 1U);
+    EXPECT_EQ(judge_late(reports, {{at(8116), at(9000)}}).invented, 1U) << "most of it after the report";
+    EXPECT_EQ(judge_late(reports, {{at(7000), at(7999)}, {at(8216), at(9000)}}).invented, 1U);
+    EXPECT_EQ(judge_late(reports, {{at(8010), at(8060)}, {at(8100), at(8150)}}).by_host, 1U) << "in pieces";
+    EXPECT_EQ(judge_late(reports, {{at(8010), at(8060)}, {at(8100), at(8149)}}).invented, 1U);
+    EXPECT_EQ(judge({reports, {}, {}, {{at(8000), at(8200)}}}).invented, 1U) << "no look came late";
     EXPECT_EQ(judge({{late(0U, 8000, 9100)}, {}, {}, {}}).invented, 1U);
+    EXPECT_EQ(judge_late({late(0U, 8000, 9100)}, {{at(8000), at(9090)}}).by_host, 1U);
 }
 
 TEST(JudgeTest, WorkThatIsOutOneFrameAfterTheMachineStoodStillIsItsDoingToo) {
     verifies("SWR-PRT-007", Technique::kBoundaryValues);
-    const std::vector<Stall> stalls{{at(8000), at(8210)}};
-    EXPECT_TRUE(
-        judge({{overrun(0U, 0U, 8000, 8010, 8215), overrun(0U, 0U, 9000, 9010, 9010)}, {}, {}, stalls})
-            .is_well());
-    EXPECT_EQ(
-        judge({{overrun(0U, 0U, 8000, 8010, 8215), overrun(0U, 0U, 10000, 10010, 10010)}, {}, {}, stalls})
-            .invented,
-        1U);
+    const Report first = overrun(0U, 0U, 8000, 8010, 8215);
+    const std::vector<Stall> late_looks{{at(8000), at(8210)}};
+    EXPECT_TRUE(judge_late({first, overrun(0U, 0U, 9000, 9010, 9010)}, late_looks).is_well());
+    EXPECT_EQ(judge_late({first, overrun(0U, 0U, 10000, 10010, 10010)}, late_looks).invented, 1U);
 }
 
 TEST(JudgeTest, ALateReleaseIsSeenAtItsWindowAndExplainsThoseUntilTheGridIsMet) {

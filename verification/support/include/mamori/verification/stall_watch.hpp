@@ -6,6 +6,7 @@
 #define MAMORI_VERIFICATION_STALL_WATCH_HPP
 
 #include <atomic>
+#include <cstddef>
 #include <thread>
 #include <vector>
 
@@ -14,7 +15,8 @@
 
 namespace mamori::verification {
 
-/// From one look at the clock to the next, much later one.
+/// From one look at the clock to the next, much later one; or, of a late look, from its planned instant to
+/// it.
 struct Stall {
     Instant begin{};
     Instant end{};
@@ -23,27 +25,37 @@ struct Stall {
 /// Whether a stall lies, in part, within the two instants. @param[in] stalls in the order of their instants.
 bool overlaps(const std::vector<Stall>& stalls, Instant begin, Instant end);
 
+/// What is lost of the time within the two instants: those parts of the late looks that lie there, together.
+/// @param[in] late_looks in the order of their instants.
+Duration calc_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end);
+
 /// The first processor that this process may use: threads whose stalls are watched must be on that of the
 /// watch.
 int find_processor() noexcept;
 
-/// Thread safety: get_stalls() after stop(). Memory: heap, taken in the constructor.
+/// Thread safety: get_stalls() and get_late_looks() after stop(). Memory: heap, taken in the constructor.
 class StallWatch final {
   public:
     /// Looks every `step`; a gap longer than two of them is a stall.
-    StallWatch(const ports::posix_rt::FrameClock& clock, Duration step, ports::posix_rt::ThreadPlace place);
+    /// @param[in] late_look_max so many looks that came late by half a step or more are kept as well: several
+    ///                          of them in a row hold a window up like a stall, and none of them is one.
+    StallWatch(const ports::posix_rt::FrameClock& clock, Duration step, ports::posix_rt::ThreadPlace place,
+               std::size_t late_look_max = 0U);
     StallWatch(const StallWatch&) = delete;
     StallWatch& operator=(const StallWatch&) = delete;
     ~StallWatch() { stop(); }
 
     void stop();
     const std::vector<Stall>& get_stalls() const noexcept { return stalls_; }
+    const std::vector<Stall>& get_late_looks() const noexcept { return late_looks_; }
 
   private:
     void watch(Duration step, ports::posix_rt::ThreadPlace place);
 
     const ports::posix_rt::FrameClock& clock_;
     std::vector<Stall> stalls_;
+    std::vector<Stall> late_looks_;
+    std::size_t late_look_max_;
     std::atomic<bool> is_ending_{false};
     std::thread thread_;
 };
