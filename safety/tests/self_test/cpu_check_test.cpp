@@ -46,6 +46,7 @@ struct FaultyCpu {
     static inline Type flushed{Type::kNone};              ///< denormal operands and results are zero
     static inline bool does_saturate{false};              ///< the largest number in place of infinity
     static inline bool has_nan{true};
+    static inline std::optional<ArithmeticOperation> without_nan{};  ///< the one that gives zero in its place
     static inline Type compared{Type::kNone};
     static inline Relation relation{Relation::kSound};
 
@@ -56,6 +57,7 @@ struct FaultyCpu {
         flushed = Type::kNone;
         does_saturate = false;
         has_nan = true;
+        without_nan.reset();
         compared = Type::kNone;
         relation = Relation::kSound;
     }
@@ -97,7 +99,7 @@ struct FaultyCpu {
             if (does_saturate && std::isinf(result)) {
                 result = std::copysign(std::numeric_limits<T>::max(), result);
             }
-            if (!has_nan && std::isnan(result)) {
+            if ((!has_nan || without_nan == done) && std::isnan(result)) {
                 result = T{0};
             }
         }
@@ -363,6 +365,13 @@ TEST_F(CpuCheckTest, UnitWithoutNotANumberIsFound) {
     verifies("SWR-SLF-009", Technique::kFaultInjection, Polarity::kViolation);
     Cpu::has_nan = false;
     EXPECT_TRUE(is_found());
+    Cpu::mend();
+    for (const ArithmeticOperation operation :
+         {ArithmeticOperation::kAdd, ArithmeticOperation::kSubtract, ArithmeticOperation::kMultiply,
+          ArithmeticOperation::kDivide}) {
+        Cpu::without_nan = operation;
+        EXPECT_TRUE(is_found()) << static_cast<int>(operation);
+    }
     Cpu::mend();
 
     for (const Cpu::Type type : {Cpu::Type::kFloat, Cpu::Type::kDouble}) {
