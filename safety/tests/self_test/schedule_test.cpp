@@ -64,6 +64,15 @@ class SelfTestScheduleTest : public ::testing::Test {
     std::int64_t now_ns_{0};
 };
 
+TEST_F(SelfTestScheduleTest, ScheduleThatHasNotStartedIsAtItsFirstTest) {
+    verifies("SWR-SLF-001", Technique::kInterface);
+
+    EXPECT_EQ(sut_.get_test(), 0U);
+    EXPECT_EQ(sut_.get_pass_count(), 0U);
+    EXPECT_EQ(sut_.get_status(), SelfTestStatus::kRunning);
+    EXPECT_EQ(sut_.get_failure(), SelfTestFailure::kNone);
+}
+
 TEST_F(SelfTestScheduleTest, RunsUntilEveryTestHasPassedAndStaysPassedWhilePassesFollow) {
     verifies("SWR-SLF-001");
     start();

@@ -50,6 +50,17 @@ TEST_F(StackCheckTest, UseUpToTheLimitPasses) {
     EXPECT_EQ(sut_.calc_used_words(), 8U);
 }
 
+TEST_F(StackCheckTest, StepsAreAsManyAsTheMarginNeeds) {
+    verifies("SWR-SLF-010", Technique::kBoundaryValues);
+    const RamArea area(words_.data(), kWords);
+
+    EXPECT_EQ((StackCheck{area, {2U, 8U, 3U}}.get_step_count()), 4U);
+    EXPECT_EQ((StackCheck{area, {2U, 8U, 4U}}.get_step_count()), 3U);
+    EXPECT_EQ((StackCheck{area, {2U, 8U, 11U}}.get_step_count()), 2U);
+    EXPECT_EQ((StackCheck{area, {2U, 8U, 12U}}.get_step_count()), 1U);
+    EXPECT_EQ((StackCheck{area, {2U, 8U, 13U}}.get_step_count()), 1U);
+}
+
 TEST_F(StackCheckTest, UseBeyondTheLimitIsFoundAndItsSizeKnown) {
     verifies("SWR-SLF-010", Technique::kBoundaryValues, Polarity::kViolation);
 

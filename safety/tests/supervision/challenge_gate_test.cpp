@@ -94,6 +94,33 @@ std::vector<Link> make_sound_links() {
             {ProofLink::kEntity, 1U},  {ProofLink::kWhole, 0U}};
 }
 
+TEST_F(ChallengeGateTest, AnswerOfTheFirstCycleNeedsAQuestionToo) {
+    verifies("SWR-SUP-039", Technique::kBoundaryValues, Polarity::kViolation);
+
+    static_cast<void>(sut_.step(Instant{}, GlobalStatus::kOk, true, 0U));
+    EXPECT_EQ(watchdog_.answers, 0) << "nothing was asked";
+}
+
+TEST(ProofChainTest, LinkIsItsNumberDeviationAndIndexInAKnownOrder) {
+    verifies("SWR-SUP-039", Technique::kBackToBack);
+    const std::array<std::pair<ProofLink, std::uint8_t>, 6U> links{{{ProofLink::kReports, 1U},
+                                                                    {ProofLink::kAlive, 2U},
+                                                                    {ProofLink::kDeadline, 3U},
+                                                                    {ProofLink::kEntity, 4U},
+                                                                    {ProofLink::kWhole, 5U},
+                                                                    {ProofLink::kApplication, 6U}}};
+
+    for (const auto& [link, number] : links) {
+        ProofChain sut{0x01020304U};
+        sut.add(link, 0xABCDU, 0x81U);
+        Crc32 expected;
+        for (const unsigned int byte : {0x04U, 0x03U, 0x02U, 0x01U, 0xCDU, 0xABU, 0x81U, unsigned{number}}) {
+            expected.add(static_cast<std::uint8_t>(byte));
+        }
+        EXPECT_EQ(sut.get_value(), expected.get_value()) << unsigned{number};
+    }
+}
+
 TEST_F(ChallengeGateTest, AnswerIsTheChecksumOfQuestionAndLinks) {
     verifies("SWR-SUP-039");
 
@@ -190,7 +217,7 @@ TEST_F(ChallengeGateTest, ReportThatIsWrongDeviatesInTheSameCycle) {
 }
 
 TEST_F(ChallengeGateTest, HealthyCyclesAreAnsweredAndCounted) {
-    verifies("SWR-WDG-010");
+    verifies("SWR-SUP-039");
 
     for (std::int64_t at = 0; at < 1000; at += 100) {
         ASSERT_EQ(run(at), ChallengeOutcome::kAnswered) << at;
@@ -202,7 +229,7 @@ TEST_F(ChallengeGateTest, HealthyCyclesAreAnsweredAndCounted) {
 }
 
 TEST_F(ChallengeGateTest, UnprovenHealthIsNotAnswered) {
-    verifies("SWR-WDG-010", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-SUP-039", Technique::kFaultInjection, Polarity::kViolation);
 
     EXPECT_EQ(supervise_at(0), ChallengeOutcome::kRefused) << "control is silent";
     rig_.report_as(Entity::kControl, Point::kRead, 10);
@@ -213,7 +240,7 @@ TEST_F(ChallengeGateTest, UnprovenHealthIsNotAnswered) {
 }
 
 TEST_F(ChallengeGateTest, AnswersAtBothEndsOfTheWindow) {
-    verifies("SWR-WDG-010", Technique::kBoundaryValues);
+    verifies("SWR-SUP-039", Technique::kBoundaryValues);
     ASSERT_EQ(run(0), ChallengeOutcome::kAnswered);
 
     EXPECT_EQ(run(100), ChallengeOutcome::kAnswered);
@@ -221,7 +248,7 @@ TEST_F(ChallengeGateTest, AnswersAtBothEndsOfTheWindow) {
 }
 
 TEST_F(ChallengeGateTest, AnswerBeforeTheWindowIsHeldBackAndTheQuestionStaysOpen) {
-    verifies("SWR-WDG-010", Technique::kBoundaryValues, Polarity::kViolation);
+    verifies("SWR-SUP-039", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(run(0), ChallengeOutcome::kAnswered);
     const std::uint32_t question = watchdog_.question;
 
@@ -232,7 +259,7 @@ TEST_F(ChallengeGateTest, AnswerBeforeTheWindowIsHeldBackAndTheQuestionStaysOpen
 }
 
 TEST_F(ChallengeGateTest, MissedWindowClosesTheGateForGood) {
-    verifies("SWR-WDG-010", Technique::kBoundaryValues, Polarity::kViolation);
+    verifies("SWR-SUP-039", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(run(0), ChallengeOutcome::kAnswered);
 
     EXPECT_EQ(run(201), ChallengeOutcome::kClosed);
@@ -242,7 +269,7 @@ TEST_F(ChallengeGateTest, MissedWindowClosesTheGateForGood) {
 }
 
 TEST_F(ChallengeGateTest, DeviceThatDoesNotTakeAnAnswerIsAskedAndAnsweredAgain) {
-    verifies("SWR-WDG-010", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-SUP-039", Technique::kFaultInjection, Polarity::kViolation);
     watchdog_.takes_answers = false;
     EXPECT_EQ(run(0), ChallengeOutcome::kFailed);
     EXPECT_EQ(sut_.get_answer_count(), 0U);
@@ -253,7 +280,7 @@ TEST_F(ChallengeGateTest, DeviceThatDoesNotTakeAnAnswerIsAskedAndAnsweredAgain) 
 }
 
 TEST_F(ChallengeGateTest, OutcomesOfTheWindowAreItsOwn) {
-    verifies("SWR-WDG-010", Technique::kEquivalenceClasses, Polarity::kViolation);
+    verifies("SWR-SUP-039", Technique::kEquivalenceClasses, Polarity::kViolation);
 
     EXPECT_EQ(to_challenge_outcome(WatchdogOutcome::kServiced), ChallengeOutcome::kAnswered);
     EXPECT_EQ(to_challenge_outcome(WatchdogOutcome::kHeldBack), ChallengeOutcome::kHeldBack);
