@@ -95,6 +95,16 @@ TEST_F(StackCheckTest, TouchedGuardIsFoundInTheNextStepWhereverThePassIs) {
     }
 }
 
+TEST_F(StackCheckTest, PassThatBeginsAnewLooksAtEveryWordAgain) {
+    verifies("SWR-SLF-010", Technique::kStateTransition, Polarity::kViolation);
+    sut_.begin();
+    ASSERT_EQ(sut_.step(), SelfTestStatus::kRunning);
+
+    words_[4] = 0U;  // of the first step, and not of the guard
+    sut_.begin();
+    EXPECT_EQ(sut_.step(), SelfTestStatus::kFailed);
+}
+
 TEST_F(StackCheckTest, StackThatWasNeverPaintedIsFound) {
     verifies("SWR-SLF-010", Technique::kErrorGuessing, Polarity::kViolation);
     words_.fill(0U);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a faulty row is found wherever it stands, and with whichever other row it clashes. Method: a sound
 // table of four like entities; each row, and each pair of rows, of each kind is spoiled in turn.
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -104,6 +104,48 @@ TEST(SupervisionRowsTest, EachFaultyRowIsFoundBehindSoundOnes) {
         Rows to_nowhere;
         to_nowhere.edges[e].to = kCheckpointMax;
         expect(to_nowhere, Fault::kEdgeOfUnknownCheckpoint, e);
+    }
+}
+
+TEST(SupervisionRowsTest, EachFaultyCheckpointIsFoundBehindSoundOnes) {
+    verifies("SWR-SUP-033", Technique::kFaultInjection, Polarity::kViolation);
+
+    for (std::size_t c = 0U; c < kCheckpointMax; ++c) {
+        Rows unknown_number;
+        unknown_number.checkpoints[c].checkpoint = kCheckpointMax;
+        expect(unknown_number, Fault::kCheckpointOutOfOrder, c);
+        Rows of_nobody;
+        of_nobody.checkpoints[c].entity = kEntities;
+        expect(of_nobody, Fault::kCheckpointOfUnknownEntity, c);
+    }
+    for (std::size_t e = 0U; e < kEntities; ++e) {
+        const std::size_t first = 2U * e;
+        Rows unused;
+        unused.checkpoints[first].role = CheckpointRole::kUnordered;
+        unused.checkpoints[first + 1U].role = CheckpointRole::kInitialAndFinal;
+        unused.alives.erase(unused.alives.begin() + static_cast<std::ptrdiff_t>(e));
+        unused.deadlines.erase(unused.deadlines.begin() + static_cast<std::ptrdiff_t>(e));
+        unused.edges.erase(unused.edges.begin() + static_cast<std::ptrdiff_t>(e));
+        expect(unused, Fault::kCheckpointUnused, first);
+        Rows unreachable;
+        unreachable.checkpoints[first].role = CheckpointRole::kInner;
+        unreachable.checkpoints[first + 1U].role = CheckpointRole::kInitialAndFinal;
+        expect(unreachable, Fault::kCheckpointUnreachable, first);
+        Rows dead_end;
+        dead_end.checkpoints[first + 1U].role = CheckpointRole::kInner;
+        expect(dead_end, Fault::kCheckpointIsDeadEnd, first + 1U);
+    }
+}
+
+TEST(SupervisionRowsTest, DeadlineWithOneEndInTheGraphIsBypassedByNothing) {
+    verifies("SWR-SUP-033", Technique::kEquivalenceClasses);
+    for (const std::size_t unordered : {0U, 1U}) {
+        Rows rows;
+        rows.checkpoints[unordered].role = CheckpointRole::kUnordered;
+        rows.checkpoints[1U - unordered].role = CheckpointRole::kInitialAndFinal;
+        rows.edges.erase(rows.edges.begin());
+
+        expect(rows, Fault::kNone);
     }
 }
 
