@@ -43,6 +43,18 @@ TEST_F(DeadlineSupervisorTest, RunsInsideTheLimitsAreHealthyBothEndsIncluded) {
     EXPECT_EQ(sut_.get_violation(0U), DeadlineViolation::kNone);
 }
 
+TEST_F(DeadlineSupervisorTest, StorageThatWasUsedBeforeIsCleared) {
+    verifies("SWR-SUP-003", Technique::kErrorGuessing, Polarity::kViolation);
+    slots_[1].is_running = true;
+    slots_[1].violation = DeadlineViolation::kTooLong;
+    slots_[1].is_expired = true;
+
+    ASSERT_EQ(sut_.watch(1U, {10_ns, 100_ns}), Status::kOk);
+    EXPECT_EQ(sut_.get_violation(1U), DeadlineViolation::kNone);
+    EXPECT_FALSE(sut_.step(Instant{1000}));
+    EXPECT_FALSE(sut_.is_expired(1U));
+}
+
 TEST_F(DeadlineSupervisorTest, RunThatIsTooLongExpires) {
     verifies("SWR-SUP-003", Technique::kBoundaryValues, Polarity::kViolation);
 

@@ -297,6 +297,41 @@ TEST_F(ExecutionSupervisorTest, RunsOfAComponentThatIsSwitchedOffProveNothing) {
     }
 }
 
+TEST_F(ExecutionSupervisorTest, RunsOfAComponentThatWasHealthyBeforeItWasSwitchedOffProveNothing) {
+    verifies("SWR-SUP-009", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kMonitor, kLimits), Status::kOk);
+    for (int cycle = 0; cycle < 3; ++cycle) {
+        run(kMonitor);
+        ASSERT_EQ(end_cycle(), GlobalStatus::kOk) << cycle;
+    }
+
+    ASSERT_EQ(sut_.deactivate(kMonitor), Status::kOk);
+    for (int cycle = 0; cycle < 3; ++cycle) {
+        run(kMonitor);
+        EXPECT_EQ(end_cycle(), GlobalStatus::kFailed) << cycle;
+    }
+}
+
+TEST_F(ExecutionSupervisorTest, OverrunBetweenTwoGoodRunsOfOneStepExpires) {
+    verifies("SWR-SUP-008", Technique::kFaultInjection, Polarity::kViolation);
+    for (const std::size_t component : {kControl, kMonitor}) {
+        ASSERT_EQ(sut_.watch(component, kLimits), Status::kOk);
+    }
+    for (int cycle = 0; cycle < 3; ++cycle) {
+        run(kControl);
+        run(kMonitor);
+        ASSERT_EQ(end_cycle(), GlobalStatus::kOk) << cycle;
+    }
+
+    run(kControl);
+    run(kMonitor);
+    sut_.on_budget_overrun(0U, kMonitor, now_);
+    run(kMonitor);
+    EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
+    EXPECT_EQ(sut_.get_cause(kMonitor), ExpiryCause::kBudgetOverrun);
+    EXPECT_EQ(sut_.get_local_status(kControl), LocalStatus::kOk);
+}
+
 TEST_F(ExecutionSupervisorTest, LocalScopeKeepsItsFailureOutOfTheGlobalStatus) {
     verifies("SWR-SUP-009", Technique::kEquivalenceClasses);
     ASSERT_EQ(sut_.watch(kControl, kLocalLimits), Status::kOk);

@@ -70,6 +70,19 @@ class SupervisionStatusTest : public ::testing::Test {
     std::int64_t now_{0};
 };
 
+TEST(CheckpointViolationTest, NumbersThatAreStoredOverAResetAreTheseForEver) {
+    verifies("SWR-SUP-036", Technique::kInterface);
+    constexpr std::array kInOrder{Violation::kNone,    Violation::kLostReport,    Violation::kForeign,
+                                  Violation::kClock,   Violation::kOrder,         Violation::kTooShort,
+                                  Violation::kTooLong, Violation::kMissingFinish, Violation::kMissingStart,
+                                  Violation::kAlive};
+
+    for (std::size_t number = 0U; number < kInOrder.size(); ++number) {
+        EXPECT_EQ(static_cast<std::size_t>(kInOrder[number]), number);
+    }
+    EXPECT_EQ(kCheckpointViolationMax, kInOrder.size() - 1U);
+}
+
 TEST_F(SupervisionStatusTest, NothingIsProvenBeforeTheFirstCycle) {
     verifies("SWR-SUP-028", Technique::kStateTransition, Polarity::kViolation);
 
