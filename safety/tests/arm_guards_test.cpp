@@ -47,6 +47,7 @@ using Deviation = JointSet (*)(const JointVector&, const JointVector&, const Joi
 
 void expect_passes_up_to_its_limit(Deviation guard) {
     EXPECT_TRUE(guard(kZero, kZero, kLimits).is_empty());
+    EXPECT_TRUE(guard(kInside, kInside, kLimits).is_empty()) << "far from zero";
     for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
         EXPECT_TRUE(guard(with(kZero, joint, kLimits[joint]), kZero, kLimits).is_empty()) << joint;
         EXPECT_TRUE(guard(kZero, with(kZero, joint, kLimits[joint]), kLimits).is_empty()) << joint;
@@ -57,6 +58,8 @@ void expect_trips_beyond_its_limit(Deviation guard) {
     for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
         const double beyond = above(kLimits[joint]);
         EXPECT_TRUE(is_only(guard(with(kZero, joint, beyond), kZero, kLimits), joint)) << joint;
+        EXPECT_TRUE(is_only(guard(with(kZero, joint, beyond), with(kZero, joint, -beyond), kLimits), joint))
+            << joint;
         EXPECT_TRUE(is_only(guard(kZero, with(kZero, joint, beyond), kLimits), joint)) << joint;
         for (const double value : kNotFinite) {
             EXPECT_TRUE(is_only(guard(with(kZero, joint, value), kZero, kLimits), joint)) << value;

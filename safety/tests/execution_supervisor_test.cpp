@@ -4,6 +4,7 @@
 // in.
 #include "mamori/safety/execution_supervisor.hpp"
 
+#include <array>
 #include <limits>
 #include <type_traits>
 
@@ -163,6 +164,29 @@ TEST_F(ExecutionSupervisorTest, HangIsFoundWithoutTheHelpOfTheHangingComponent) 
     EXPECT_EQ(end_cycle(), GlobalStatus::kExpired);
     EXPECT_EQ(sut_.get_first_expired(), kControl);
     EXPECT_EQ(sut_.get_cause(kControl), ExpiryCause::kSilent);
+}
+
+TEST_F(ExecutionSupervisorTest, EachHangIsFoundAfterHealthyCyclesBesideHealthyComponents) {
+    verifies("SWR-SUP-007", Technique::kFaultInjection, Polarity::kViolation);
+    for (const std::size_t hanging : {kControl, kMonitor, kLogger}) {
+        ExecutionStorage<3U> storage{};
+        ExecutionSupervisor sut{storage, 10_us};
+        for (const std::size_t component : {kControl, kMonitor, kLogger}) {
+            ASSERT_EQ(sut.watch(component, kLimits), Status::kOk);
+        }
+        constexpr std::array kExpected{GlobalStatus::kOk, GlobalStatus::kOk,     GlobalStatus::kOk,
+                                       GlobalStatus::kOk, GlobalStatus::kFailed, GlobalStatus::kExpired};
+        for (std::size_t cycle = 0U; cycle < kExpected.size(); ++cycle) {
+            for (const std::size_t component : {kControl, kMonitor, kLogger}) {
+                if (component != hanging || cycle < 3U) {
+                    sut.get_records()[component].note_run(now_, now_ + 50_us);
+                }
+            }
+            now_ = now_ + 1_ms;
+            ASSERT_EQ(sut.step(now_), kExpected[cycle]) << hanging << " in cycle " << cycle;
+        }
+        EXPECT_EQ(sut.get_first_expired(), hanging);
+    }
 }
 
 TEST_F(ExecutionSupervisorTest, ARunThatEndsAfterTheSupervisorsCycleBeganIsNoViolation) {

@@ -255,6 +255,22 @@ TEST_F(FaultRegisterTest, FaultThatDecaysAsFastAsItCountsIsNeverConfirmed) {
     EXPECT_EQ(sut_.get_record(0U).count, 0U) << "a decay beyond the count ends at 0";
 }
 
+TEST_F(FaultRegisterTest, CountDecaysInEachCycleWithoutTheFaultAndIsNotForgotten) {
+    verifies("SWR-FLT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(sut_.set_confirmation(1U, {5U, 1U}), Status::kOk);
+    for (const bool is_present : {true, true, true, true, false, false, false}) {
+        report(1U, is_present);
+    }
+    EXPECT_EQ(sut_.get_record(1U).count, 1U);
+
+    for (int i = 0; i < 3; ++i) {
+        report(1U, true);
+        EXPECT_FALSE(sut_.is_latched(1U)) << i;
+    }
+    report(1U, true);
+    EXPECT_TRUE(sut_.is_latched(1U));
+}
+
 TEST_F(FaultRegisterTest, PresenceThatWasConfirmedLeavesNoCountBehind) {
     verifies("SWR-FLT-007", Technique::kStateTransition, Polarity::kViolation);
     ASSERT_EQ(sut_.set_confirmation(0U, {3U, 1U}), Status::kOk);
@@ -313,6 +329,16 @@ TEST_F(FaultRegisterTest, FaultIsConfirmedWhenItWasThereForItsTime) {
     EXPECT_TRUE(sut_.is_latched(0U));
     EXPECT_EQ(sut_.get_record(0U).seen_at, Instant{7});
     EXPECT_EQ(sut_.get_record(0U).latched_at, Instant{107});
+}
+
+TEST_F(FaultRegisterTest, ShortestTimeOfAllConfirms) {
+    verifies("SWR-FLT-001", Technique::kBoundaryValues);
+    ASSERT_EQ(sut_.set_confirmation(1U, {0U, 0U, Duration{1}}), Status::kOk);
+
+    sut_.report(1U, true, Instant{5});
+    EXPECT_FALSE(sut_.is_latched(1U));
+    sut_.report(1U, true, Instant{6});
+    EXPECT_TRUE(sut_.is_latched(1U));
 }
 
 TEST_F(FaultRegisterTest, BreakBeginsTheTimeAnew) {

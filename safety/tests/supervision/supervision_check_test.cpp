@@ -4,6 +4,7 @@
 #include "mamori/safety/supervision/supervision_check.hpp"
 
 #include <array>
+#include <limits>
 
 #include "broken_tables.hpp"
 #include "mamori/verification/verifies.hpp"
@@ -48,6 +49,17 @@ TEST(SupervisionCheckTest, SoundTableHasNoFault) {
 
     expect(broken::kSound, Fault::kNone);
     EXPECT_TRUE(is_sound<broken::kSound>());
+}
+
+TEST(SupervisionCheckTest, TableThatNobodyWroteIsOfOneModeAndEmpty) {
+    verifies("SWR-SUP-033", Technique::kInterface, Polarity::kViolation);
+    const SupervisionTable table{};
+
+    EXPECT_EQ(table.mode_count, 1U);
+    EXPECT_EQ(table.expired_cycles_tolerated, 0U);
+    EXPECT_EQ(kNoCheckpoint, std::numeric_limits<CheckpointIndex>::max());
+    EXPECT_EQ(kNoEntity, std::numeric_limits<EntityIndex>::max());
+    expect(table, Fault::kTableEmpty);
 }
 
 TEST(SupervisionCheckTest, RowsOfEntitiesAreFound) {
