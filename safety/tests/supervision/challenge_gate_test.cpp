@@ -217,7 +217,7 @@ TEST_F(ChallengeGateTest, ReportThatIsWrongDeviatesInTheSameCycle) {
 }
 
 TEST_F(ChallengeGateTest, HealthyCyclesAreAnsweredAndCounted) {
-    verifies("SWR-SUP-039");
+    verifies("SWR-WDG-010");
 
     for (std::int64_t at = 0; at < 1000; at += 100) {
         ASSERT_EQ(run(at), ChallengeOutcome::kAnswered) << at;
@@ -229,7 +229,7 @@ TEST_F(ChallengeGateTest, HealthyCyclesAreAnsweredAndCounted) {
 }
 
 TEST_F(ChallengeGateTest, UnprovenHealthIsNotAnswered) {
-    verifies("SWR-SUP-039", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-WDG-010", Technique::kFaultInjection, Polarity::kViolation);
 
     EXPECT_EQ(supervise_at(0), ChallengeOutcome::kRefused) << "control is silent";
     rig_.report_as(Entity::kControl, Point::kRead, 10);
@@ -240,7 +240,7 @@ TEST_F(ChallengeGateTest, UnprovenHealthIsNotAnswered) {
 }
 
 TEST_F(ChallengeGateTest, AnswersAtBothEndsOfTheWindow) {
-    verifies("SWR-SUP-039", Technique::kBoundaryValues);
+    verifies("SWR-WDG-010", Technique::kBoundaryValues);
     ASSERT_EQ(run(0), ChallengeOutcome::kAnswered);
 
     EXPECT_EQ(run(100), ChallengeOutcome::kAnswered);
@@ -248,7 +248,7 @@ TEST_F(ChallengeGateTest, AnswersAtBothEndsOfTheWindow) {
 }
 
 TEST_F(ChallengeGateTest, AnswerBeforeTheWindowIsHeldBackAndTheQuestionStaysOpen) {
-    verifies("SWR-SUP-039", Technique::kBoundaryValues, Polarity::kViolation);
+    verifies("SWR-WDG-010", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(run(0), ChallengeOutcome::kAnswered);
     const std::uint32_t question = watchdog_.question;
 
@@ -259,7 +259,7 @@ TEST_F(ChallengeGateTest, AnswerBeforeTheWindowIsHeldBackAndTheQuestionStaysOpen
 }
 
 TEST_F(ChallengeGateTest, MissedWindowClosesTheGateForGood) {
-    verifies("SWR-SUP-039", Technique::kBoundaryValues, Polarity::kViolation);
+    verifies("SWR-WDG-010", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(run(0), ChallengeOutcome::kAnswered);
 
     EXPECT_EQ(run(201), ChallengeOutcome::kClosed);
@@ -269,7 +269,7 @@ TEST_F(ChallengeGateTest, MissedWindowClosesTheGateForGood) {
 }
 
 TEST_F(ChallengeGateTest, DeviceThatDoesNotTakeAnAnswerIsAskedAndAnsweredAgain) {
-    verifies("SWR-SUP-039", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-WDG-010", Technique::kFaultInjection, Polarity::kViolation);
     watchdog_.takes_answers = false;
     EXPECT_EQ(run(0), ChallengeOutcome::kFailed);
     EXPECT_EQ(sut_.get_answer_count(), 0U);
@@ -280,7 +280,7 @@ TEST_F(ChallengeGateTest, DeviceThatDoesNotTakeAnAnswerIsAskedAndAnsweredAgain) 
 }
 
 TEST_F(ChallengeGateTest, OutcomesOfTheWindowAreItsOwn) {
-    verifies("SWR-SUP-039", Technique::kEquivalenceClasses, Polarity::kViolation);
+    verifies("SWR-WDG-010", Technique::kEquivalenceClasses, Polarity::kViolation);
 
     EXPECT_EQ(to_challenge_outcome(WatchdogOutcome::kServiced), ChallengeOutcome::kAnswered);
     EXPECT_EQ(to_challenge_outcome(WatchdogOutcome::kHeldBack), ChallengeOutcome::kHeldBack);
