@@ -172,7 +172,7 @@ TEST(BrakeSequencePropertyTest, SearchReachesEveryStateThatInputsLeadTo) {
 }
 
 TEST(BrakeSequencePropertyTest, BrakesAreNeverOpenWithoutTorque) {
-    verifies("SWR-FSM-028", Technique::kStateTransition, Polarity::kViolation);
+    verifies("SWR-FSM-034", Technique::kStateTransition, Polarity::kViolation);
 
     expect_always(
         [](const Step& step, bool) { return step.outputs.torque_enable || !step.outputs.brake_release; });

@@ -212,6 +212,25 @@ TEST_F(BrakeSequenceTest, BrakesThatReportAreOpenOrCannotReportAreNotOverdue) {
     EXPECT_FALSE(with_contacts_.is_overdue(Instant{5000}));
 }
 
+TEST_F(BrakeSequenceTest, BrakesCloseInTheCycleInWhichTorqueGoes) {
+    verifies("SWR-FSM-034");
+
+    for (const SafeState state :
+         {SafeState::kSelfTest, SafeState::kStandby, SafeState::kSafe, SafeState::kLockedOut}) {
+        ASSERT_TRUE(with_contacts_.apply(SafeState::kOperational, Instant{900}).brake_release);
+        EXPECT_TRUE(with_contacts_.apply(state, Instant{901}) == kOff) << get_name(state);
+    }
+}
+
+TEST_F(BrakeSequenceTest, NumberThatIsNoStateHasNeitherTorqueNorOpenBrakes) {
+    verifies("SWR-FSM-034", Technique::kFaultInjection, Polarity::kViolation);
+
+    for (const unsigned value : {0U, 10U, 255U}) {
+        ASSERT_TRUE(without_contacts_.apply(SafeState::kOperational, Instant{900}).brake_release);
+        EXPECT_TRUE(without_contacts_.apply(static_cast<SafeState>(value), Instant{901}) == kOff) << value;
+    }
+}
+
 TEST_F(BrakeSequenceTest, ClosingTimeOfNoLengthGoesToTheAssertionHandler) {
     verifies("SWR-FSM-026", Technique::kBoundaryValues, Polarity::kViolation);
 
@@ -306,6 +325,39 @@ TEST(BrakedMachineTest, StoDoesNotWaitForTheBrakes) {
 
     sut.inputs.demand = Reaction::kSto;
     EXPECT_TRUE(sut.step() == kOff);
+}
+
+TEST(BrakedMachineTest, BrakesOpenInTheCycleOfTheStart) {
+    verifies("SWR-FSM-035", Technique::kInterface);
+    BrakedMachine sut{Duration{20}};
+    sut.is_standing = true;
+    ASSERT_FALSE(sut.step().brake_release);
+    sut.inputs.self_test = SelfTestStatus::kPassed;
+    ASSERT_FALSE(sut.step().brake_release);
+    ASSERT_FALSE(sut.step().brake_release) << "standby alone opens nothing";
+
+    sut.inputs.start_button = true;
+    EXPECT_TRUE(sut.step().brake_release);
+    EXPECT_EQ(sut.machine.get_state(), SafeState::kOperational);
+}
+
+TEST(BrakedMachineTest, PushDoesNotOpenTheBrakesOfAnSs1) {
+    verifies("SWR-FSM-035", Technique::kInterface, Polarity::kViolation);
+    BrakedMachine sut{Duration{20}};
+    sut.operate();
+    sut.inputs.demand = Reaction::kSs1;
+    ASSERT_TRUE(sut.step() == kStopping);
+    sut.is_standing = true;
+    ASSERT_TRUE(sut.step() == kStoppingOnBrakes);
+
+    sut.is_standing = false;
+    sut.inputs.demand = Reaction::kNone;
+    sut.inputs.start_button = false;
+    for (int cycle = 0; cycle < 250; ++cycle) {
+        ASSERT_FALSE(sut.step().brake_release) << cycle;
+        sut.inputs.start_button = !sut.inputs.start_button;
+    }
+    EXPECT_EQ(sut.machine.get_state(), SafeState::kSafe);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori prove safe-state`: builds the program that prints the step relation, proves, shows, keeps models and result.
+"""`./mamori prove safe-state`: builds the programs that print the relations, proves, shows, keeps models and result.
 
 @satisfies SWR-FSM-025      Design: docs/design/safe_state.md#the-command-prove
 """
@@ -10,9 +10,10 @@ import json
 import shutil
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from mamori.profiles.input_error import InputError, nearest_names
 from mamori.profiles.text_file import write_text
@@ -20,15 +21,24 @@ from mamori.verification.command.console import Screen
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, StepError, UsageError
 from mamori.verification.command.process import run_logged
 from mamori.verification.command.project import ROOT, Project
+from mamori.verification.safe_state.brakes import promela as brake_promela
+from mamori.verification.safe_state.brakes import smt as brake_smt
+from mamori.verification.safe_state.brakes.coupling import Pair
+from mamori.verification.safe_state.brakes.defects import BRAKE_DEFECTS, BrakeDefect
+from mamori.verification.safe_state.brakes.prove import prove_brakes
+from mamori.verification.safe_state.brakes.relation import read_brakes
+from mamori.verification.safe_state.brakes.sequence import make_cycles
 from mamori.verification.safe_state.defects import DEFECTS, Defect
-from mamori.verification.safe_state.machine import merge
+from mamori.verification.safe_state.machine import Machine, merge
 from mamori.verification.safe_state.prove import Result, make_record, prove
 from mamori.verification.safe_state.relation import read_relation, run_program
 
 TARGET = "mamori_safe_state_relation"
+BRAKE_TARGET = "mamori_brake_sequence_relation"
 TOOLS = {"z3": "z3", "spin": "spin", "gcc": "gcc"}
 """Programs, and the Debian packages that bring them."""
 MODELS = ("machine.smt2", "machine.pml")
+BRAKE_MODELS = (brake_smt.MODEL, brake_promela.MODEL)
 
 
 @dataclass(frozen=True)
@@ -41,17 +51,29 @@ class Request:
     jobs: int = 1
 
 
+@dataclass(frozen=True)
+class Proof:
+    """What was proved of one part, what its record tells beside that, and the files to keep."""
+
+    results: Sequence[Result]
+    facts: Mapping[str, Any]
+    files: Mapping[str, str]
+
+
 def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
     """@return exit status; 1 when a property is not proved, or when nothing could be proved, which is said on standard error.
     @raise UsageError for an unknown defect."""
     defect = choose_defect(request.defect)
     try:
         check_tools()
-        text = run_program(_build(project, request.jobs))
-        results, record = _prove(text, defect, request.out or _get_folder(project, defect))
+        _build(project, request.jobs)
+        programs = project.build / "verification" / "safe_state"
+        proofs = _prove(run_program(programs / TARGET), run_program(programs / BRAKE_TARGET), defect)
+        record = _keep(proofs, defect, request.out or _get_folder(project, defect))
     except (StepError, InputError) as error:
         print(f"mamori: prove: {error}", file=sys.stderr)
         return EXIT_FAILED
+    results = [result for proof in proofs for result in proof.results]
     if request.json:
         print(record)
     else:
@@ -59,11 +81,11 @@ def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
     return EXIT_OK if all(result.is_proved for result in results) else EXIT_FAILED
 
 
-def choose_defect(name: str | None) -> Defect | None:
+def choose_defect(name: str | None) -> Defect | BrakeDefect | None:
     """@raise UsageError when there is no property of that name."""
     if name is None:
         return None
-    known = {defect.breaks: defect for defect in DEFECTS}
+    known: dict[str, Defect | BrakeDefect] = {defect.breaks: defect for defect in (*DEFECTS, *BRAKE_DEFECTS)}
     if name not in known:
         raise UsageError(f"prove: there is no defect '{name}'; {nearest_names(name, known)}")
     return known[name]
@@ -77,46 +99,70 @@ def check_tools() -> None:
         raise StepError(f"{', '.join(missing)} not found in PATH; install the package(s) {packages} (as root: apt-get install {packages})")
 
 
-def _build(project: Project, jobs: int) -> Path:
-    """@return the program. @raise StepError when it cannot be built."""
+def _build(project: Project, jobs: int) -> None:
+    """@raise StepError when a program cannot be built."""
     log = project.logs / "build-prove.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     log.write_text("", encoding="utf-8")
     commands = (("cmake", "-S", str(project.root), "--preset", project.preset),
-                ("cmake", "--build", str(project.build), "--target", TARGET, "--parallel", str(jobs)))  # fmt: skip
+                ("cmake", "--build", str(project.build), "--target", TARGET, BRAKE_TARGET, "--parallel", str(jobs)))  # fmt: skip
     for command in commands:
         if run_logged(command, log, project.root, lambda _: None) != 0:
-            raise StepError(f"{TARGET} could not be built; the compiler's words are in {log}")
-    return project.build / "verification" / "safe_state" / TARGET
+            raise StepError(f"{TARGET} and {BRAKE_TARGET} could not be built; the compiler's words are in {log}")
 
 
-def _get_folder(project: Project, defect: Defect | None) -> Path:
+def _get_folder(project: Project, defect: Defect | BrakeDefect | None) -> Path:
     """Where the files go. What a defect does is no evidence of the machine."""
     folder = project.evidence / "safe_state"
     return folder / "defects" / defect.breaks if defect else folder
 
 
-def _prove(text: str, defect: Defect | None, folder: Path) -> tuple[list[Result], str]:
-    """Writes all files to `folder` when everything is known. @return the results, and the record as JSON."""
+def _prove(text: str, brake_text: str, defect: Defect | BrakeDefect | None) -> list[Proof]:
+    """A defect is judged by the properties of the part that it sits in."""
     relation = read_relation(text, Path(TARGET))
     machine = merge(relation)
-    facts = {"situations": len(relation.labels), "merged_situations": len(machine.labels), "steps": relation.steps,
-             "corrupted_objects": relation.corrupted_objects, "defect": defect.breaks if defect else None}  # fmt: skip
+    proofs = []
     with tempfile.TemporaryDirectory(prefix="mamori-prove-") as scratch:
-        results = prove(defect.seed(machine) if defect else machine, Path(scratch))
-        record = json.dumps(make_record(results, facts), indent=1)
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InputError(f"cannot be made: {error.strerror}; name another folder with --out", folder) from error
-        for name in MODELS:
-            write_text(folder / name, (Path(scratch) / name).read_text(encoding="utf-8"))
-    write_text(folder / "relation.json", text)
+        folder = Path(scratch)
+        if not isinstance(defect, BrakeDefect):
+            facts = {"situations": len(relation.labels), "merged_situations": len(machine.labels), "steps": relation.steps,
+                     "corrupted_objects": relation.corrupted_objects}  # fmt: skip
+            results = prove(defect.seed(machine) if defect else machine, folder)
+            proofs.append(Proof(results, facts, {**_read_all(folder, MODELS), "relation.json": text}))
+        if not isinstance(defect, Defect):
+            proofs.append(_prove_brakes(machine, brake_text, defect, folder))
+    return proofs
+
+
+def _prove_brakes(machine: Machine, text: str, defect: BrakeDefect | None, folder: Path) -> Proof:
+    relation = read_brakes(text, Path(BRAKE_TARGET))
+    brakes = make_cycles(relation)
+    results = prove_brakes(Pair(machine, defect.seed(brakes) if defect else brakes), folder)
+    facts = {"brake_situations": len(relation.fitted), "merged_brake_situations": len(brakes.fitted), "brake_calls": relation.calls}
+    return Proof(results, facts, {**_read_all(folder, BRAKE_MODELS), "brakes.json": text})
+
+
+def _read_all(folder: Path, names: Sequence[str]) -> dict[str, str]:
+    return {name: (folder / name).read_text(encoding="utf-8") for name in names}
+
+
+def _keep(proofs: Sequence[Proof], defect: Defect | BrakeDefect | None, folder: Path) -> str:
+    """Writes all files to `folder`, now that everything is known. @return the record as JSON."""
+    facts = {name: value for proof in proofs for name, value in proof.facts.items()}
+    results = [result for proof in proofs for result in proof.results]
+    record = json.dumps(make_record(results, {**facts, "defect": defect.breaks if defect else None}), indent=1)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"cannot be made: {error.strerror}; name another folder with --out", folder) from error
+    for proof in proofs:
+        for name, text in proof.files.items():
+            write_text(folder / name, text)
     write_text(folder / "proof.json", record + "\n")
-    return results, record
+    return record
 
 
-def show(results: Sequence[Result], defect: Defect | None, screen: Screen) -> None:
+def show(results: Sequence[Result], defect: Defect | BrakeDefect | None, screen: Screen) -> None:
     """A line per property, the steps of those that do not hold, and a closing line."""
     if defect is not None:
         screen.say(f"seeded defect: {defect.sentence}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of the prover share: the built program, what it prints, and the machine in it."""
+"""What the tests of the provers share: the built programs, what they print, and the machine and the brakes in it."""
 
 from __future__ import annotations
 
@@ -8,16 +8,23 @@ from pathlib import Path
 import pytest
 
 from mamori.verification.command.project import ROOT, Project
-from mamori.verification.safe_state.command import TARGET
+from mamori.verification.safe_state.brakes.coupling import Pair
+from mamori.verification.safe_state.brakes.relation import BrakeRelation, read_brakes
+from mamori.verification.safe_state.brakes.sequence import Brakes, make_cycles
+from mamori.verification.safe_state.command import BRAKE_TARGET, TARGET
 from mamori.verification.safe_state.machine import Machine, merge
 from mamori.verification.safe_state.relation import Relation, read_relation, run_program
 
 
-@pytest.fixture(scope="session")
-def text() -> str:
-    program = Project(ROOT).build / "verification" / "safe_state" / TARGET
+def run_built(target: str) -> str:
+    program = Project(ROOT).build / "verification" / "safe_state" / target
     assert program.exists(), f"{program} is missing; run ./mamori build"
     return run_program(program)
+
+
+@pytest.fixture(scope="session")
+def text() -> str:
+    return run_built(TARGET)
 
 
 @pytest.fixture(scope="session")
@@ -28,3 +35,23 @@ def relation(text: str) -> Relation:
 @pytest.fixture(scope="session")
 def machine(relation: Relation) -> Machine:
     return merge(relation)
+
+
+@pytest.fixture(scope="session")
+def brake_text() -> str:
+    return run_built(BRAKE_TARGET)
+
+
+@pytest.fixture(scope="session")
+def brake_relation(brake_text: str) -> BrakeRelation:
+    return read_brakes(brake_text, Path("brakes.json"))
+
+
+@pytest.fixture(scope="session")
+def brakes(brake_relation: BrakeRelation) -> Brakes:
+    return make_cycles(brake_relation)
+
+
+@pytest.fixture(scope="session")
+def pair(machine: Machine, brakes: Brakes) -> Pair:
+    return Pair(machine, brakes)

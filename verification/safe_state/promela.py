@@ -142,14 +142,15 @@ def _list_moves_of(machine: Machine, source: int) -> Iterator[Move]:
         part = machine.next[source][demands][:, :, :, standstill, :, :, :, reset, :]
         for target in np.unique(part):
             places = np.argwhere(part == target)
-            for guard, times in _list_guards(limit, {int(time) for time in places[:, -1]}):
+            for guard, times in list_guards(limit, {int(time) for time in places[:, -1]}):
                 at = max((place for place in places.tolist() if place[-1] in times), key=lambda place: place[-1])
                 letter = (demands[at[0]], at[1], at[2], standstill, at[3], at[4], at[5], reset, at[6])
                 yield Move(source, int(target), sees, guard, letter)
 
 
-def _list_guards(limit: str, times: set[int]) -> Iterator[tuple[str, set[int]]]:
-    """When a step at one of `times` can happen. The clock may jump before the entry and beyond the bound in any cycle."""
+def list_guards(limit: str, times: set[int], counter: str = "age") -> Iterator[tuple[str, set[int]]]:
+    """When a step at one of `times` can happen. The clock may jump before the entry and beyond the bound in any cycle. `counter`: of
+    the cycles that the bound is compared with."""
     if limit == "none":
         yield "", times
         return
@@ -157,9 +158,9 @@ def _list_guards(limit: str, times: set[int]) -> Iterator[tuple[str, set[int]]]:
     if times & {BEFORE_ENTRY, BEYOND}:
         yield "", times & {BEFORE_ENTRY, BEYOND}
     if WITHIN in times:
-        yield f"age + 1 < {bound}", {WITHIN}
+        yield f"{counter} + 1 < {bound}", {WITHIN}
     if AT_BOUND in times:
-        yield f"age + 1 == {bound}", {AT_BOUND}
+        yield f"{counter} + 1 == {bound}", {AT_BOUND}
 
 
 def write_model(machine: Machine, properties: Sequence[Property]) -> str:
@@ -198,10 +199,15 @@ def list_formulas(properties: Sequence[Property]) -> list[tuple[str, str]]:
 
 def check(machine: Machine, properties: Sequence[Property], folder: Path) -> dict[str, Run]:
     """Lets spin judge each formula. @return by name what it found. @raise StepError when spin or gcc is missing or fails."""
-    (folder / "machine.pml").write_text(write_model(machine, properties), encoding="utf-8")
-    _call(("spin", "-a", "machine.pml"), folder)
+    return judge_all(write_model(machine, properties), properties, folder, "machine.pml")
+
+
+def judge_all(text: str, properties: Sequence[Property], folder: Path, name: str) -> dict[str, Run]:
+    """Writes the model to the file `name` and lets spin judge each formula of it. @return and @raise like check."""
+    (folder / name).write_text(text, encoding="utf-8")
+    _call(("spin", "-a", name), folder)
     _call(COMPILE, folder)
-    return {name: _judge(name, folder) for name, _ in list_formulas(properties)}
+    return {formula: _judge(formula, folder) for formula, _ in list_formulas(properties)}
 
 
 def _judge(name: str, folder: Path) -> Run:

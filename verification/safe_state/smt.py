@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import subprocess
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -94,39 +94,40 @@ def _choose(word: str, values: Sequence[str]) -> str:
     return text
 
 
-def _write_step(machine: Machine, result: str, names: Mapping[str, str]) -> list[str]:
-    """The situation after the step from `s`, as the constant `result`: one constant per node of the diagram, the deepest first.
-    `names`: of the inputs. Constants and not functions, which z3 would write out at each place where they are used."""
+def write_diagram(result: str, root: str, answers: Array, inputs: Sequence[tuple[str, str]]) -> list[str]:
+    """The number that `answers` hold at `root` and the inputs, as the constant `result`: one constant per node of a decision diagram,
+    the deepest first. `inputs`: names and sorts of the axes after the first. Constants and not functions, which z3 would write out
+    at each place where they are used."""
     lines: list[str] = []
     known: dict[tuple[int, bytes], str] = {}
 
-    def make(answers: Array, depth: int) -> str:
-        if (answers == answers.flat[0]).all():
-            return str(int(answers.flat[0]))
-        key = (depth, answers.tobytes())
+    def make(part: Array, depth: int) -> str:
+        if (part == part.flat[0]).all():
+            return str(int(part.flat[0]))
+        key = (depth, part.tobytes())
         if key not in known:
-            branches = [make(part, depth + 1) for part in answers]
-            name = names[INPUTS[depth]]
+            branches = [make(branch, depth + 1) for branch in part]
+            name, sort = inputs[depth]
             if all(branch == branches[0] for branch in branches):
                 known[key] = branches[0]
             else:
                 known[key] = f"{result}{len(lines)}"
-                body = f"(ite {name} {branches[1]} {branches[0]})" if SORTS[INPUTS[depth]] == "Bool" else _choose(name, branches)
+                body = f"(ite {name} {branches[1]} {branches[0]})" if sort == "Bool" else _choose(name, branches)
                 lines.append(f"(define-fun {known[key]} () Int {body})")
         return known[key]
 
-    roots = [make(np.ascontiguousarray(answers), 0) for answers in machine.next]
-    return [*lines, f"(define-fun {result} () Int {_choose('s', roots)})"]
+    roots = [make(np.ascontiguousarray(part), 0) for part in answers]
+    return [*lines, f"(define-fun {result} () Int {_choose(root, roots)})"]
 
 
 def _write_situation(machine: Machine) -> list[str]:
     """One step: its inputs, the same with something worse, the past, and which pasts can be."""
     known = []
     for number, pasts in enumerate(machine.pasts):
-        words = [f"(and {' '.join(_literal(*pair) for pair in zip(PASTS, _levels(past), strict=True))})" for past in sorted(pasts)]
+        words = [f"(and {' '.join(write_literal(*pair) for pair in zip(PASTS, _levels(past), strict=True))})" for past in sorted(pasts)]
         known.append(f"(or {' '.join(words)})" if words else "false")
-    names = {name: name for name in INPUTS}
-    worse = names | {name: f"worse_{name}" for name in WORSENED}
+    names = [(name, SORTS[name]) for name in INPUTS]
+    worse = [(f"worse_{name}" if name in WORSENED else name, sort) for name, sort in names]
     return [
         "(declare-const s Int)",
         *(f"(declare-const {name} Bool)" for name in PASTS),
@@ -134,8 +135,8 @@ def _write_situation(machine: Machine) -> list[str]:
         *(f"(declare-const worse_{name} {SORTS[name]})" for name in WORSENED),
         *(_write_range(name, len(VALUES[name])) for name in PREFIXES),
         *(_write_range(f"worse_{name}", len(VALUES[name])) for name in WORSENED if SORTS[name] == "Int"),
-        *_write_step(machine, "t", names),
-        *_write_step(machine, "t_worse", worse),
+        *write_diagram("t", "s", machine.next, names),
+        *write_diagram("t_worse", "s", machine.next, worse),
         f"(define-fun known ((s Int) (last_start Bool) (last_reset Bool) (has_run Bool)) Bool (and (<= 0 s) (< s {len(known)})"
         f" {_choose('s', known)}))",
         "(define-fun has_run_t () Bool (and (= (state s) (state t)) (or has_run (= self_test Test_Running))))",
@@ -150,7 +151,7 @@ def _levels(past: Past) -> tuple[bool, bool, bool]:
     return past.start, past.reset, past.has_run
 
 
-def _literal(name: str, level: bool) -> str:
+def write_literal(name: str, level: bool) -> str:
     return name if level else f"(not {name})"
 
 
@@ -210,31 +211,38 @@ def _write_induction(machine: Machine, induction: Induction) -> list[str]:
     ]
 
 
-def write_file(machine: Machine, queries: Sequence[Query]) -> str:
-    """A file for z3 alone: it answers "unsat" to each query of a machine that has the properties."""
-    return write_model(machine) + "".join(f"(push)\n{query.text}\n(check-sat)\n(pop)\n" for query in queries)
-
-
 def check(machine: Machine, queries: Sequence[Query], folder: Path) -> list[Refutation | None]:
     """Asks z3. @return for each query nothing, when it is impossible, or how it is possible. @raise StepError when z3 is missing or
     does not answer."""
-    path = folder / "machine.smt2"
-    path.write_text(write_file(machine, queries), encoding="utf-8")
-    answers = _ask(path).split()
-    if len(answers) != len(queries) or not set(answers) <= {"sat", "unsat"}:
-        raise StepError(f"z3 gave no answer to a query: {' '.join(answers)[:200]}; the queries are in {path}")
-    return [None if answer == "unsat" else _find(machine, query, folder) for answer, query in zip(answers, queries, strict=True)]
+    model = write_model(machine)
+    answers = ask_all(model, queries, folder / "machine.smt2")
+    return [None if is_impossible else _find(model, query, folder) for is_impossible, query in zip(answers, queries, strict=True)]
 
 
-def _find(machine: Machine, query: Query, folder: Path) -> Refutation:
+def _find(model: str, query: Query, folder: Path) -> Refutation:
     names = ("s", *PASTS, *INPUTS, *(f"worse_{name}" for name in WORSENED))
-    path = folder / "counterexample.smt2"
-    path.write_text(write_model(machine) + f"{query.text}\n(check-sat)\n(get-value ({' '.join(names)}))\n", encoding="utf-8")
-    values = dict(re.findall(r"\((\w+) (true|false|\d+)\)", _ask(path)))
-    numbers = {name: int(text) if text.isdecimal() else int(text == "true") for name, text in values.items()}
+    numbers = ask_values(model, query, names, folder / "counterexample.smt2")
     letter = tuple(numbers[name] for name in INPUTS)
     worse = tuple(numbers[f"worse_{name}" if name in WORSENED and "t_worse" in query.text else name] for name in INPUTS)
     return Refutation(numbers["s"], Past(*(bool(numbers[name]) for name in PASTS)), letter, worse)
+
+
+def ask_all(model: str, queries: Sequence[Query], path: Path) -> list[bool]:
+    """Writes a file for z3 alone: it answers "unsat" to each query of a machine that has the properties. @return for each query
+    whether it is impossible. @raise StepError when z3 is missing or does not answer."""
+    asked = "".join(f"(push)\n{query.text}\n(check-sat)\n(pop)\n" for query in queries)
+    path.write_text(model + asked, encoding="utf-8")
+    answers = _ask(path).split()
+    if len(answers) != len(queries) or not set(answers) <= {"sat", "unsat"}:
+        raise StepError(f"z3 gave no answer to a query: {' '.join(answers)[:200]}; the queries are in {path}")
+    return [answer == "unsat" for answer in answers]
+
+
+def ask_values(model: str, query: Query, names: Sequence[str], path: Path) -> dict[str, int]:
+    """What the constants are when the query, which is possible, comes true; 0 and 1 for levels. @raise StepError like ask_all."""
+    path.write_text(model + f"{query.text}\n(check-sat)\n(get-value ({' '.join(names)}))\n", encoding="utf-8")
+    values = dict(re.findall(r"\((\w+) (true|false|\d+)\)", _ask(path)))
+    return {name: int(text) if text.isdecimal() else int(text == "true") for name, text in values.items()}
 
 
 def _ask(path: Path) -> str:

@@ -57,7 +57,7 @@ def test_diagram_of_z3_answers_like_the_machine(machine: Machine, tmp_path: Path
         here, letter = number % len(machine.labels), make_letter(chance)
         values = [f"(= s {here})"]
         for name, digit in zip(INPUTS, letter, strict=True):
-            values.append(f"(= {name} {digit})" if smt.SORTS[name] == "Int" else smt._literal(name, bool(digit)))
+            values.append(f"(= {name} {digit})" if smt.SORTS[name] == "Int" else smt.write_literal(name, bool(digit)))
         rows.append(f"(and {' '.join(values)} (not (= t {machine.next[(here, *letter)]})))")
 
     assert smt.check(machine, [smt.Query("", f"(assert (or {' '.join(rows)}))")], tmp_path) == [None]

@@ -11,10 +11,14 @@ import pytest
 from mamori.verification.command.errors import UsageError
 from mamori.verification.command.main import main
 from mamori.verification.command.project import Project
+from mamori.verification.safe_state.brakes.properties import BRAKE_PROPERTIES
 from mamori.verification.safe_state.command import Request, prove_safe_state
 from mamori.verification.safe_state.properties import PROPERTIES
 
-FILES = ["machine.pml", "machine.smt2", "proof.json", "relation.json"]
+BRAKE_FILES = ["brakes.json", "brakes.pml", "brakes.smt2"]
+MACHINE_FILES = ["machine.pml", "machine.smt2"]
+COMMON_FILES = ["proof.json", "relation.json"]
+NAMES = [one.name for one in (*PROPERTIES, *BRAKE_PROPERTIES)]
 
 
 @pytest.mark.verifies("SWR-FSM-025")
@@ -25,8 +29,9 @@ def test_all_is_proved_printed_as_json_and_kept(tmp_path: Path, capsys: pytest.C
     assert status == 0
     assert record["schema"] == "mamori.safe_state_proof/1"
     assert (record["situations"], record["merged_situations"], record["corrupted_objects"]) == (74, 15, 1168)
-    assert [row["name"] for row in record["properties"] if row["proved"]] == [one.name for one in PROPERTIES]
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == FILES
+    assert (record["brake_situations"], record["merged_brake_situations"]) == (68, 8)
+    assert [row["name"] for row in record["properties"] if row["proved"]] == NAMES
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == BRAKE_FILES + MACHINE_FILES + COMMON_FILES
     assert json.loads((tmp_path / "out" / "proof.json").read_text(encoding="utf-8")) == record
 
 
@@ -40,6 +45,18 @@ def test_property_that_does_not_hold_ends_with_status_1_and_its_steps(tmp_path: 
     assert "start-is-bumpless does not hold: " in shown
     assert "Standby -> Operational: demand None" in shown
     assert shown.strip().endswith(f"{len(PROPERTIES)} properties: {len(PROPERTIES) - 1} proved, 1 refuted")
+
+
+@pytest.mark.verifies("SWR-FSM-025", technique="fault_injection", polarity="violation")
+def test_defect_of_the_brakes_is_judged_by_their_properties_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status = prove_safe_state(Request(out=tmp_path, defect="sto-waits-for-no-brakes"))
+
+    shown = capsys.readouterr().out
+    assert status == 1
+    assert "seeded defect: An SS1 that ends in STO keeps torque for its brakes." in shown
+    assert "sto-waits-for-no-brakes does not hold: " in shown
+    assert shown.strip().endswith(f"{len(BRAKE_PROPERTIES)} properties: {len(BRAKE_PROPERTIES) - 1} proved, 1 refuted")
+    assert sorted(path.name for path in tmp_path.iterdir()) == [*BRAKE_FILES, "proof.json"]
 
 
 @pytest.mark.verifies("SWR-FSM-025", technique="fault_injection", polarity="violation")

@@ -3,7 +3,7 @@
 /// Brakes need time to bite. At the end of a stop that is not urgent, torque holds the machine until they do;
 /// where torque is to go at once, it goes, and the brakes close as fast as they can.
 ///
-/// @satisfies SWR-FSM-026, SWR-FSM-027, SWR-FSM-028, SWR-FSM-029
+/// @satisfies SWR-FSM-026, SWR-FSM-027, SWR-FSM-028, SWR-FSM-029, SWR-FSM-034, SWR-FSM-035
 /// Design:   docs/design/safe_state.md#brakes-with-delay
 /// Source:   IEC 61800-5-2 (SBC, SS1, STO)
 #ifndef MAMORI_SAFETY_BRAKE_SEQUENCE_HPP

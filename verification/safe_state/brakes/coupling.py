@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Machine and brake sequence in one cycle, as the contract of the sequence says: confirm() gets the state before the step and gives
+the standstill that the step sees, apply() gets the state after it. Both halves are the compiled ones.
+
+@satisfies SWR-FSM-022      Design: docs/design/safe_state.md#brakes-in-the-models
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+
+from mamori.verification.safe_state.brakes.sequence import Answer, Brakes, Call, Memory, advance
+from mamori.verification.safe_state.machine import Machine
+from mamori.verification.safe_state.relation import INPUTS
+
+STANDSTILL = INPUTS.index("standstill")
+
+Letter = tuple[int, ...]
+
+
+@dataclass(frozen=True, order=True)
+class Node:
+    """Situations of machine and sequence between two cycles, with what an onlooker remembers of the brakes."""
+
+    machine: int
+    brakes: int
+    memory: Memory
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """`letter`: inputs of the machine, its standstill the confirmed one; empty where a bit flips, and then `call` is None."""
+
+    letter: Letter
+    call: Call | None
+
+
+@dataclass(frozen=True)
+class Pair:
+    """The machine with its brakes."""
+
+    machine: Machine
+    brakes: Brakes
+
+    @cached_property
+    def roads(self) -> Mapping[Node, tuple[Node, Cycle] | None]:
+        """For each node the one before it on a shortest way from power-up, and the cycle in between."""
+        found: dict[Node, tuple[Node, Cycle] | None] = {Node(self.machine.first, first, Memory()): None for first in self.brakes.firsts}
+        pending = deque(found)
+        while pending:
+            here = pending.popleft()
+            for cycle, there in self._list_cycles(here):
+                if there not in found:
+                    found[there] = (here, cycle)
+                    pending.append(there)
+        return found
+
+    def step(self, node: Node, letter: Letter, standing: bool, contacts: bool, time: int) -> tuple[Node, Call, Answer]:
+        """@param letter whose standstill is replaced by the confirmed one."""
+        before = self.machine.labels[node.machine].state
+        is_confirmed = self.confirms(node, standing, contacts, time)
+        target = int(self.machine.next[(node.machine, *with_standstill(letter, is_confirmed))])
+        call = Call(before, standing, contacts, self.machine.labels[target].state, time)
+        answer = self.brakes.take(node.brakes, call)
+        return Node(target, answer.next, advance(node.memory, call, answer)), call, answer
+
+    def confirms(self, node: Node, standing: bool, contacts: bool, time: int) -> bool:
+        before = self.brakes.states.index(self.machine.labels[node.machine].state)
+        return bool(self.brakes.confirmed[node.brakes, before, int(standing), int(contacts), time])
+
+    @cached_property
+    def _letters(self) -> Mapping[tuple[int, bool], tuple[Letter, ...]]:
+        """One letter for each next situation of the machine, by situation and standstill."""
+        letters = {}
+        for number, level in product(range(len(self.machine.labels)), (False, True)):
+            answers = np.take(self.machine.next[number], [int(level)], axis=STANDSTILL)
+            places = (np.argwhere(answers == target)[0].tolist() for target in np.unique(answers))
+            letters[number, level] = tuple(with_standstill(tuple(place), level) for place in places)
+        return letters
+
+    def _list_cycles(self, node: Node) -> Iterator[tuple[Cycle, Node]]:
+        for standing, contacts, time in product((False, True), (False, True), range(4)):
+            is_confirmed = self.confirms(node, standing, contacts, time)
+            for letter in self._letters[node.machine, is_confirmed]:
+                there, call, _ = self.step(node, letter, standing, contacts, time)
+                yield Cycle(letter, call), there
+        if node.machine != self.machine.corrupted:
+            yield Cycle((), None), Node(self.machine.corrupted, node.brakes, node.memory)
+
+
+def with_standstill(letter: Letter, level: bool) -> Letter:
+    return (*letter[:STANDSTILL], int(level), *letter[STANDSTILL + 1 :])

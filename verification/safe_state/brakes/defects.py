@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One seeded defect for each property of the brakes: a sequence that has all properties but that one.
+
+@satisfies SWR-FSM-024      Design: docs/design/safe_state.md#properties-of-the-brakes
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mamori.verification.safe_state.brakes.relation import AT_BOUND, BEYOND, WITHIN
+from mamori.verification.safe_state.brakes.sequence import HOLD, LOCKED_OUT, SS1, Brakes
+
+
+@dataclass(frozen=True)
+class BrakeDefect:
+    """`breaks`: name of the property. `sentence`: what the sequence does wrong."""
+
+    breaks: str
+    sentence: str
+    seed: Callable[[Brakes], Brakes]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A situation with and without contacts: one in which the brakes were left by `last`, with that torque."""
+
+    last: str
+    torque: bool
+
+    def find(self, brakes: Brakes, is_fitted: bool) -> int:
+        """@raise StopIteration when there is none."""
+        return next(number for number, memory in brakes.roads
+                    if (memory.last, memory.torque, brakes.fitted[number]) == (self.last, self.torque, is_fitted))  # fmt: skip
+
+
+OPEN = Kind("Operational", torque=True)
+TOLD = Kind("Safe", torque=False)
+HELD = Kind(HOLD, torque=True)
+HANDING_OVER = Kind("Standby", torque=True)
+ANY: Sequence[int] = (0, 1)
+
+
+@dataclass(frozen=True)
+class Where:
+    """The cycles that a defect bends. None: all."""
+
+    kinds: Sequence[Kind]
+    after: str
+    before: str | None = None
+    standing: Sequence[int] = ANY
+    contacts: Sequence[int] = ANY
+    times: Sequence[int] = range(4)
+
+
+def bend(where: Where, answers: Mapping[str, int], leads_to: Kind | None = None) -> Callable[[Brakes], Brakes]:
+    """A sequence that gives these `answers` in these cycles, and is then in the situation of `leads_to`."""
+
+    def seed(brakes: Brakes) -> Brakes:
+        cycle = {name: array.copy() for name, array in brakes.cycle.items()}
+        before = range(len(brakes.states)) if where.before is None else [brakes.states.index(where.before)]
+        after = [brakes.states.index(where.after)]
+        for kind in where.kinds:
+            for is_fitted in (True, False):
+                place = np.ix_([kind.find(brakes, is_fitted)], before, where.standing, where.contacts, after, where.times)
+                for name, value in answers.items():
+                    cycle[name][place] = value
+                if leads_to is not None:
+                    cycle["next"][place] = leads_to.find(brakes, is_fitted)
+        return replace(brakes, cycle=cycle)
+
+    return seed
+
+
+def confirm(level: int, is_fitted: Sequence[bool], standing: Sequence[int], contacts: Sequence[int]) -> Callable[[Brakes], Brakes]:
+    """A sequence that confirms an SS1, or does not, whatever the time."""
+
+    def seed(brakes: Brakes) -> Brakes:
+        confirmed = brakes.confirmed.copy()
+        numbers = [number for number, fitted in enumerate(brakes.fitted) if fitted in is_fitted]
+        confirmed[np.ix_(numbers, [brakes.states.index(SS1)], standing, contacts)] = level
+        return replace(brakes, confirmed=confirmed)
+
+    return seed
+
+
+def notice_nothing_late(brakes: Brakes) -> Brakes:
+    overdue = brakes.cycle["overdue"].copy()
+    overdue[..., BEYOND] = 0
+    return replace(brakes, cycle={**brakes.cycle, "overdue": overdue})
+
+
+BRAKE_DEFECTS: tuple[BrakeDefect, ...] = (
+    BrakeDefect("brakes-closed-without-torque", "A moving machine that is locked out keeps its brakes open.",
+                bend(Where((OPEN,), LOCKED_OUT), {"open": 1, "told_now": 0, "overdue": 0}, OPEN)),
+    BrakeDefect("brakes-close-under-torque-in-ss1-only", "An SS1 closes its brakes while the machine still moves.",
+                bend(Where((OPEN, HELD), SS1), {"open": 0, "told_now": 1}, TOLD)),
+    BrakeDefect("ss1-holds-while-its-brakes-close", "An SS1 takes torque away once its brakes were told to close.",
+                bend(Where((TOLD,), SS1), {"torque": 0})),
+    BrakeDefect("ss1-confirmed-by-its-brakes", "Standstill alone confirms an SS1, whatever the contacts say.",
+                confirm(1, (True,), standing=(1,), contacts=(0,))),
+    BrakeDefect("torque-outlives-the-hold-only", "A standby gets torque also after a self test.",
+                bend(Where((TOLD,), "Standby", before="SelfTest", times=(WITHIN,)), {"torque": 1}, HANDING_OVER)),
+    BrakeDefect("torque-outlives-the-hold-within-the-closing-time", "Torque outlives the hold up to and including the closing time.",
+                bend(Where((HANDING_OVER,), "Standby", contacts=(0,), times=(AT_BOUND,)), {"torque": 1}, HANDING_OVER)),
+    BrakeDefect("hold-is-handed-over-to-the-brakes", "Torque goes in the cycle in which the hold is left.",
+                bend(Where((HELD,), "Standby"), {"torque": 0}, TOLD)),
+    BrakeDefect("sto-waits-for-no-brakes", "An SS1 that ends in STO keeps torque for its brakes.",
+                bend(Where((TOLD,), "Safe", before=SS1, contacts=(0,), times=(WITHIN,)), {"torque": 1})),
+    BrakeDefect("brakes-open-by-a-start-only", "The brakes of an SS1 open again when the machine is pushed.",
+                bend(Where((TOLD,), SS1, before=SS1, standing=(0,)), {"open": 1, "told_now": 0, "overdue": 0}, OPEN)),
+    BrakeDefect("silent-brakes-are-overdue", "Only a clock that runs backwards makes brakes overdue.", notice_nothing_late),
+    BrakeDefect("brakes-end-stops", "No SS1 is ever confirmed.", confirm(0, (True, False), standing=(0, 1), contacts=(0, 1))),
+)  # fmt: skip

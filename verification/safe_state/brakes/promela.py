@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The machine with its brakes as a Promela model for spin, with one branch for each way in which a cycle can go as far as the formulas
+can tell.
+
+@satisfies SWR-FSM-022, SWR-FSM-023      Design: docs/design/safe_state.md#brakes-in-the-models
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+
+from mamori.verification.safe_state import promela
+from mamori.verification.safe_state.brakes.coupling import Letter, Node, Pair
+from mamori.verification.safe_state.brakes.sequence import SS1, Call, Memory
+from mamori.verification.safe_state.promela import BOUNDS, WITHIN, Run
+from mamori.verification.safe_state.properties import Property
+from mamori.verification.safe_state.relation import VALUES
+
+MODEL = "brakes.pml"
+CLOSES_WITHIN = 2
+"""In cycles; shorter than the bound of an SS1, as an application must have it."""
+STO = VALUES["demand"].index("Sto")
+START, BY_BRAKES, KEEPS_AGE, KEEPS_COMMAND, FLIPS = 1, 2, 4, 8, 16
+
+HEAD = """\
+/* Generated from the compiled safe-state machine and brake sequence; see docs/design/safe_state.md#brakes-in-the-models. */
+{states}
+#define SS2_WITHIN {ss2_within}
+#define SS1_WITHIN {ss1_within}
+#define CLOSES_WITHIN {closes_within}
+
+byte to = 0;                /* situation after the cycle */
+hidden byte sees = 0;       /* 1 start pushed or held, 2 an SS1 ended by its brakes, 4 and 8 which time goes on: age, closing;
+                               16 a bit flipped between two cycles: no time passed */
+byte age = 0;               /* cycles since the state was entered, while a bound counts */
+byte closing = 0;           /* cycles since the command to close */
+
+/* What an onlooker sees between two cycles. */
+byte situation = 0;
+byte state = SelfTest;      /* that apply() was given */
+bool torque = 0;
+bool open = 0;
+bool fitted = 0;
+bool start = 1;
+bool by_brakes = 0;
+byte handover_cycles = 0;   /* with torque in standby */
+
+inline look_up(n) {{
+  if
+{views}
+  fi
+}}
+
+inline settle() {{
+  d_step {{
+    look_up(to);
+    start = (sees & 1) != 0;
+    by_brakes = by_brakes || (sees & 2) != 0;
+    age = ((sees & 4) != 0 -> age + (age <= SS2_WITHIN + SS1_WITHIN) : 0);
+    if
+    :: (sees & 16) != 0 -> skip
+    :: else ->
+      closing = ((sees & 8) != 0 -> closing + (closing <= CLOSES_WITHIN) : 0);
+      handover_cycles = (state == Standby && torque -> handover_cycles + (handover_cycles <= CLOSES_WITHIN) : 0)
+    fi;
+    situation = to;
+    to = 0
+  }}
+}}
+
+active proctype machine() {{
+  if  /* brakes with contacts, or without */
+{firsts}
+  fi;
+  do
+  :: atomic {{
+    if
+{moves}
+    fi;
+    settle()
+  }}
+  od
+}}
+
+{formulas}
+"""
+
+
+@dataclass(frozen=True, order=True)
+class View:
+    """What spin tells apart between two cycles."""
+
+    machine: int
+    brakes: int
+    state: str
+    torque: bool
+    open: bool
+
+
+@dataclass(frozen=True)
+class Move:
+    """A branch of the model: one of the cycles that lead from `source` to `target` and look the same. `call`: None where a bit
+    flips. `guards`: when the two times can be what they are."""
+
+    source: View
+    target: View
+    sees: int
+    guards: tuple[str, ...]
+    letter: Letter
+    call: Call | None
+
+
+Half = tuple[Letter, bool, str]
+"""A letter of the machine, whether it takes neither STO nor the bound, and the guard of its time."""
+
+
+class Model:
+    """The branches of a pair, numbered, and the text made from them. A run begins with contacts or without."""
+
+    def __init__(self, pair: Pair) -> None:
+        self.pair = pair
+
+    @cached_property
+    def views(self) -> Mapping[View, Node]:
+        """Each with one node behind it: what comes after depends on the two situations alone."""
+        views: dict[View, Node] = {}
+        for node in sorted(self.pair.roads):
+            views.setdefault(look_at(node), node)
+        return views
+
+    @cached_property
+    def moves(self) -> list[Move]:
+        return [move for view, node in self.views.items() for move in self._list_moves_of(view, node)]
+
+    def _list_moves_of(self, view: View, node: Node) -> Iterator[Move]:
+        ways: dict[tuple[View, int, str], dict[int, tuple[Letter, Call]]] = {}
+        for standing, contacts, time in product((False, True), (False, True), range(4)):
+            is_confirmed = self.pair.confirms(node, standing, contacts, time)
+            for letter, is_quiet, guard in self._halves[node.machine, is_confirmed]:
+                there, call, answer = self.pair.step(node, letter, standing, contacts, time)
+                sees = self._list_sights(node, there, letter, is_quiet)
+                sees += KEEPS_COMMAND if not answer.open and not answer.told_now else 0
+                ways.setdefault((look_at(there), sees, guard), {}).setdefault(time, (letter, call))
+        for (target, sees, guard), by_time in ways.items():
+            for closing_guard, times in promela.list_guards("closes_within", set(by_time), "closing"):
+                letter, call = by_time[max(times)]
+                yield Move(view, target, sees, tuple(word for word in (guard, closing_guard) if word), letter, call)
+        if node.machine != self.pair.machine.corrupted:
+            # The outputs stay what they are until the next cycle.
+            flipped = View(self.pair.machine.corrupted, view.brakes, view.state, view.torque, view.open)
+            yield Move(view, flipped, 0, (), (), None)
+
+    def _list_sights(self, node: Node, there: Node, letter: Letter, is_quiet: bool) -> int:
+        before, after = self.pair.machine.labels[node.machine], self.pair.machine.labels[there.machine]
+        is_by_brakes = is_quiet and (before.state, after.state) == (SS1, "Safe")
+        keeps_age = after.limit != "none" and before.state == after.state
+        return START * letter[6] + BY_BRAKES * is_by_brakes + KEEPS_AGE * keeps_age
+
+    @cached_property
+    def _halves(self) -> Mapping[tuple[int, bool], tuple[Half, ...]]:
+        """One letter for each way of the machine's step, by situation and standstill."""
+        levels = product(range(len(self.pair.machine.labels)), (False, True))
+        return {(number, level): tuple(self._list_halves(number, level)) for number, level in levels}
+
+    def _list_halves(self, number: int, standstill: bool) -> Iterator[Half]:
+        limit = self.pair.machine.labels[number].limit
+        for start, is_sto in product((0, 1), (False, True)):
+            demands = list(range(STO, len(VALUES["demand"]))) if is_sto else list(range(STO))
+            part = self.pair.machine.next[number][demands][:, :, :, int(standstill), :, :, start]
+            for target in np.unique(part):
+                places = np.argwhere(part == target).tolist()
+                for guard, times in promela.list_guards(limit, {place[-1] for place in places}):
+                    at = max((place for place in places if place[-1] in times), key=lambda place: place[-1])
+                    letter = (demands[at[0]], at[1], at[2], int(standstill), at[3], at[4], start, at[5], at[6])
+                    yield letter, not is_sto and letter[-1] == WITHIN, guard
+
+    def write(self, properties: Sequence[Property]) -> str:
+        """The Promela text, with one named formula for each claim of `properties`."""
+        machine, brakes = self.pair.machine, self.pair.brakes
+        numbers = {view: number for number, view in enumerate(self.views)}
+        firsts = [look_at(node) for node, road in self.pair.roads.items() if road is None]
+        branches: dict[View, list[str]] = {view: [] for view in self.views}
+        for number, move in enumerate(self.moves):
+            guard = " && ".join(move.guards) or "true"
+            # A flipped bit changes neither button nor times.
+            sees = str(move.sees) if move.call else f"(start -> {START} : 0) + {FLIPS}"
+            branches[move.source].append(
+                f"      :: d_step {{ ({guard}) -> to = {numbers[move.target]}; sees = {sees}; printf(\"MOVE {number}\\n\") }}")  # fmt: skip
+        moves = [f"    :: situation == {numbers[view]} ->\n      if\n" + "\n".join(rows) + "\n      fi" for view, rows in branches.items()]
+        starts = [f"  :: situation = {numbers[view]}; fitted = {int(brakes.fitted[view.brakes])}" for view in firsts]
+        views = [f"  :: n == {number} -> state = {view.state}; torque = {int(view.torque)}; open = {int(view.open)};"
+                 f" fitted = {int(brakes.fitted[view.brakes])}" for view, number in numbers.items()]  # fmt: skip
+        return HEAD.format(
+            states="\n".join(f"#define {name} {number}" for number, name in enumerate(machine.states, start=1)),
+            ss2_within=BOUNDS["ss2_within"], ss1_within=BOUNDS["ss1_within"], closes_within=CLOSES_WITHIN,
+            firsts="\n".join(starts), views="\n".join(views), moves="\n".join(moves),
+            formulas="\n".join(f"ltl {name} {{ {formula} }}" for name, formula in promela.list_formulas(properties)),
+        )  # fmt: skip
+
+
+def look_at(node: Node) -> View:
+    is_before_first_cycle = node.memory == Memory()
+    return View(node.machine, node.brakes, node.memory.last, node.memory.torque, not node.memory.closed and not is_before_first_cycle)
+
+
+def check(pair: Pair, properties: Sequence[Property], folder: Path) -> tuple[Model, dict[str, Run]]:
+    """Lets spin judge each formula. @return the model, and by name what spin found. @raise StepError when spin or gcc is missing or
+    fails."""
+    model = Model(pair)
+    return model, promela.judge_all(model.write(properties), properties, folder, MODEL)

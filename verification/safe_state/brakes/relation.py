@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads what `mamori_brake_sequence_relation` prints: all that the compiled brake sequence answers to its calls.
+
+@satisfies SWR-FSM-022      Design: docs/design/safe_state.md#brakes-in-the-models
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mamori.profiles.input_error import InputError
+from mamori.verification.safe_state.relation import OUTPUTS, Array
+from mamori.verification.table_dump.json_node import JsonNode
+
+SCHEMA = "mamori.brake_sequence/1"
+TIMES = ("BeforeCommand", "Within", "AtBound", "Beyond")
+"""Where the time since the command to close lies; the closing time is the bound."""
+BEFORE_COMMAND, WITHIN, AT_BOUND, BEYOND = range(4)
+INVALID = "Invalid"
+CONFIRM_LETTER = ("state", "standstill", "closed", "time")
+CONFIRM_ANSWER = ("confirmed", "told_now", "next")
+APPLY_LETTER = ("state", "time")
+APPLY_ANSWER = (*OUTPUTS, "told_now", "next")
+MEND = "print it again with mamori_brake_sequence_relation"
+
+
+@dataclass(frozen=True)
+class BrakeRelation:
+    """`confirm` has the shape (situations, states, 2, 2, 4, 3), `apply` (situations, states, 4, 6), `overdue` (situations, 4). The
+    last axis of the first two are the answers above; the last state stands for each number that is none. `firsts`: the
+    situations after power-up, with contacts and without. `fitted`: of each situation, whether its brakes have contacts."""
+
+    states: tuple[str, ...]
+    confirm: Array
+    apply: Array
+    overdue: Array
+    firsts: tuple[int, int]
+    fitted: tuple[bool, ...]
+    calls: int
+
+
+def read_brakes(text: str, path: Path) -> BrakeRelation:
+    """@param path where the text comes from, for messages. @raise InputError for a text that is no whole relation."""
+    try:
+        node = JsonNode(path, "the relation", json.loads(text), MEND)
+    except ValueError as error:
+        raise InputError(f"is no JSON: {error}; {MEND}", path) from error
+    node.at("schema").text((SCHEMA,))
+    for name, wanted in (("times", TIMES), ("confirm_letter", CONFIRM_LETTER), ("confirm_answer", CONFIRM_ANSWER),
+                         ("apply_letter", APPLY_LETTER), ("apply_answer", APPLY_ANSWER)):  # fmt: skip
+        found = tuple(item.text() for item in node.at(name).items())
+        if found != wanted:
+            raise node.at(name).complain(f"are {found}, the properties speak about {wanted}")
+    states = tuple(item.text() for item in node.at("states").items())
+    rows = node.at("situations").items()
+    count, kinds = len(rows), len(states)
+    confirm = np.stack([_read_calls(row.at("confirm"), count, (kinds, 2, 2, 4), len(CONFIRM_ANSWER)) for row in rows])
+    apply = np.stack([_read_calls(row.at("apply"), count, (kinds, 4), len(APPLY_ANSWER)) for row in rows])
+    overdue = np.stack([_read_overdue(row.at("overdue")) for row in rows])
+    first = node.at("first")
+    firsts = (first.at("with_contacts").index(count), first.at("without_contacts").index(count))
+    fitted = _find_fitted(confirm, apply, firsts[0])
+    if fitted[firsts[1]]:
+        raise node.complain("says that brakes with contacts turn into brakes without")
+    return BrakeRelation(states, confirm, apply, overdue, firsts, fitted, node.at("calls").count())
+
+
+def _read_calls(node: JsonNode, count: int, shape: tuple[int, ...], width: int) -> Array:
+    """Answers of one call in one situation: levels, and the number of the situation after it."""
+    answers = node.items()
+    if len(answers) != np.prod(shape):
+        raise node.complain(f"has {len(answers)} answers for {np.prod(shape)} calls")
+    rows = []
+    for answer in answers:
+        cells = answer.items()
+        if len(cells) != width:
+            raise answer.complain(f"has {len(cells)} cells, wanted {width}")
+        rows.append([*(cell.index(2) for cell in cells[:-1]), cells[-1].index(count)])
+    return np.array(rows, dtype=np.int64).reshape(*shape, width)
+
+
+def _read_overdue(node: JsonNode) -> Array:
+    levels = [item.index(2) for item in node.items()]
+    if len(levels) != len(TIMES):
+        raise node.complain(f"has {len(levels)} answers for {len(TIMES)} times")
+    return np.array(levels, dtype=np.int64)
+
+
+def _find_fitted(confirm: Array, apply: Array, first: int) -> tuple[bool, ...]:
+    """Of each situation, whether calls lead to it from power-up with contacts."""
+    reached = {first}
+    while True:
+        places = sorted(reached)
+        grown = reached | set(np.unique(confirm[places][..., -1]).tolist()) | set(np.unique(apply[places][..., -1]).tolist())
+        if len(grown) == len(reached):
+            return tuple(number in reached for number in range(len(confirm)))
+        reached = grown

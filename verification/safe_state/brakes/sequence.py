@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The brake sequence as a whole cycle: confirm(), the step of whatever machine, apply(); with situations merged that nobody can tell
+apart, and with what an onlooker knows of the past in each of them.
+
+@satisfies SWR-FSM-022      Design: docs/design/safe_state.md#brakes-in-the-models
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+
+from mamori.verification.safe_state.brakes.relation import WITHIN, BrakeRelation
+from mamori.verification.safe_state.relation import Array
+
+SS1 = "ProtectiveStopSs1"
+HOLD = "StandstillHold"
+LOCKED_OUT = "LockedOut"
+
+
+@dataclass(frozen=True, order=True)
+class Memory:
+    """What an onlooker remembers of the cycles before: the state that apply() was given last, torque and closed brakes as it
+    answered, and whether the machine was measured standing in this visit of an SS1. Before the first cycle nothing was told."""
+
+    last: str = "SelfTest"
+    torque: bool = False
+    closed: bool = False
+    stood: bool = False
+
+
+@dataclass(frozen=True)
+class Call:
+    """What the two calls of a cycle are given. `before`: the state given to confirm(), `after`: that given to apply()."""
+
+    before: str
+    standing: bool
+    contacts: bool
+    after: str
+    time: int
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a cycle answers. `told_now`: the command to close counts from this cycle on."""
+
+    confirmed: bool
+    torque: bool
+    open: bool
+    told_now: bool
+    overdue: bool
+    next: int
+
+
+@dataclass(frozen=True)
+class Brakes:
+    """`confirmed` has the shape (situations, states, 2, 2, 4): state before, standing, contacts, time. The arrays of `cycle`,
+    by the names of Answer, have (situations, states, 2, 2, states, 4), the state after before the time."""
+
+    states: tuple[str, ...]
+    fitted: tuple[bool, ...]
+    firsts: tuple[int, ...]
+    confirmed: Array
+    cycle: Mapping[str, Array]
+
+    def take(self, number: int, call: Call) -> Answer:
+        before, after = self.states.index(call.before), self.states.index(call.after)
+        middle = (number, before, int(call.standing), int(call.contacts))
+        values = {name: int(array[(*middle, after, call.time)]) for name, array in self.cycle.items()}
+        return Answer(bool(self.confirmed[(*middle, call.time)]), bool(values["torque"]), bool(values["open"]),
+                      bool(values["told_now"]), bool(values["overdue"]), values["next"])  # fmt: skip
+
+    @cached_property
+    def roads(self) -> Mapping[tuple[int, Memory], tuple[tuple[int, Memory], Call] | None]:
+        """For each situation with a past, the one before it on a shortest way from power-up, and the calls in between."""
+        found: dict[tuple[int, Memory], tuple[tuple[int, Memory], Call] | None] = {(first, Memory()): None for first in self.firsts}
+        pending = deque(found)
+        while pending:
+            here = pending.popleft()
+            for call in self.list_calls(here[1]):
+                answer = self.take(here[0], call)
+                there = (answer.next, advance(here[1], call, answer))
+                if there not in found:
+                    found[there] = (here, call)
+                    pending.append(there)
+        return found
+
+    def list_calls(self, memory: Memory) -> Iterator[Call]:
+        """All that a caller who keeps to the contract can call: confirm() is given the state that apply() was given last, or
+        both are given the locked-out one, when a corrupted machine reads so."""
+        ways = [(memory.last, after) for after in self.states] + [(LOCKED_OUT, LOCKED_OUT)]
+        for (before, after), standing, contacts, time in product(ways, (False, True), (False, True), range(4)):
+            yield Call(before, standing, contacts, after, time)
+
+
+def advance(memory: Memory, call: Call, answer: Answer) -> Memory:
+    """@return what is remembered after the cycle."""
+    return Memory(call.after, answer.torque, not answer.open, call.after == SS1 and has_stood(memory, call))
+
+
+def has_stood(memory: Memory, call: Call) -> bool:
+    return call.before == SS1 and (call.standing or memory.stood)
+
+
+def make_cycles(relation: BrakeRelation) -> Brakes:
+    """Puts the calls of a cycle one behind the other, and merges situations between cycles that answer all cycles alike."""
+    confirm, apply = relation.confirm, relation.apply
+    middle, told_first = confirm[..., 2], confirm[..., 1]
+    # At the moment of a command no time has passed since it, whatever was before.
+    time = np.where(told_first == 1, WITHIN, np.arange(4))
+    states = np.arange(len(relation.states))
+    answers = np.moveaxis(apply[middle[..., None], states, time[..., None]], -2, -3)  # the time stands last again
+    told = answers[..., 4] | told_first[..., None, :]
+    final = np.where(told == 1, WITHIN, np.arange(4))
+    cycle = {"torque": answers[..., 0], "open": answers[..., 1], "told_now": told, "overdue": relation.overdue[answers[..., 5], final],
+             "next": answers[..., 5]}  # fmt: skip
+    return _merge(Brakes(relation.states, relation.fitted, relation.firsts, confirm[..., 0], cycle))
+
+
+def _merge(brakes: Brakes) -> Brakes:
+    count = len(brakes.fitted)
+    seen = [np.array(brakes.fitted, dtype=np.int64)[:, None], brakes.confirmed.reshape(count, -1)]
+    seen += [array.reshape(count, -1) for name, array in brakes.cycle.items() if name != "next"]
+    following = brakes.cycle["next"]
+    group = np.zeros(count, dtype=np.int64)
+    while True:
+        rows = np.concatenate([group[:, None], *seen, group[following].reshape(count, -1)], axis=1)
+        _, first_seen, finer = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        finer = np.argsort(np.argsort(first_seen))[finer.reshape(-1)]  # numbered in the order of the relation
+        if finer.max() == group.max():
+            break
+        group = finer
+    members = [int(np.flatnonzero(group == number)[0]) for number in range(int(group.max()) + 1)]
+    cycle = {name: array[members] for name, array in brakes.cycle.items()} | {"next": group[following[members]]}
+    for name, array in brakes.cycle.items():
+        if not np.array_equal(group[array] if name == "next" else array, cycle[name][group]):
+            raise AssertionError("merged situations of the brakes differ from those of the relation")
+    return Brakes(brakes.states, tuple(brakes.fitted[member] for member in members), tuple(int(group[first]) for first in brakes.firsts),
+                  brakes.confirmed[members], cycle)  # fmt: skip

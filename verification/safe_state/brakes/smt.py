@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The brake sequence as SMT-LIB for z3, beside the machine: one cycle as decision diagrams, closing time and clock any whole numbers.
+
+@satisfies SWR-FSM-022, SWR-FSM-023      Design: docs/design/safe_state.md#brakes-in-the-models
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.verification.safe_state import smt
+from mamori.verification.safe_state.brakes.coupling import Letter, Node, Pair
+from mamori.verification.safe_state.brakes.properties import BrakeProperty
+from mamori.verification.safe_state.brakes.relation import TIMES
+from mamori.verification.safe_state.brakes.sequence import Call, Memory
+from mamori.verification.safe_state.relation import INPUTS
+from mamori.verification.safe_state.smt import Query
+
+MODEL = "brakes.smt2"
+MEMORY = ("was_torque", "was_closed", "stood")
+CALL = ("q", "standing", "contacts", "r", "brake_time")
+
+
+@dataclass(frozen=True)
+class BrakeRefutation:
+    """A cycle that breaks the property, as z3 found it. `letter`: inputs of the machine, for a coupled one."""
+
+    node: Node
+    call: Call
+    letter: Letter
+
+
+def write_model(pair: Pair) -> str:
+    """The definitions: those of the machine, one cycle of the brakes, and which pasts can be."""
+    machine, brakes = pair.machine, pair.brakes
+    own = [f"(= a {state})" for state in dict.fromkeys(label.state for label in machine.labels if label.get("torque_enable"))]
+    fitted = [f"(= b {number})" for number, is_fitted in enumerate(brakes.fitted) if is_fitted]
+    lines = [
+        f"(define-fun Invalid () Int {len(brakes.states)})",
+        *(f"(define-fun Closing_{name} () Int {digit})" for digit, name in enumerate(TIMES)),
+        f"(define-fun own_torque ((a Int)) Bool (or {' '.join(own)}))",
+        *(f"(declare-const {name} Int)" for name in ("b", "q", "r", "last", "brake_time")),
+        *(f"(declare-const {name} Bool)" for name in ("standing", "contacts", *MEMORY)),
+        f"(assert (and (<= 0 brake_time) (< brake_time {len(TIMES)})))",
+        f"(define-fun fitted () Bool (or {' '.join(fitted)}))",
+    ]
+    # The states of the machine are numbered from 1.
+    before = [("(- q 1)", "Int"), ("standing", "Bool"), ("contacts", "Bool")]
+    time = ("brake_time", "Int")
+    lines += smt.write_diagram("confirmed_level", "b", brakes.confirmed, [*before, time])
+    for name, array in brakes.cycle.items():
+        lines += smt.write_diagram("b_t" if name == "next" else f"{name}_level", "b", array, [*before, ("(- r 1)", "Int"), time])
+    lines += [f"(define-fun {word} () Bool (= {level}_level 1))" for word, level in (
+        ("confirmed", "confirmed"), ("torque_out", "torque"), ("open_out", "open"), ("told_now", "told_now"), ("overdue_out", "overdue"))]  # fmt: skip
+    lines += ["(define-fun stood_now () Bool (and (= q ProtectiveStopSs1) (or standing stood)))",
+              "(define-fun stood_t () Bool (and (= r ProtectiveStopSs1) stood_now))"]  # fmt: skip
+    lines += _write_known(pair)
+    return smt.write_model(machine) + "\n".join(lines) + "\n"
+
+
+def _write_known(pair: Pair) -> list[str]:
+    """Which situations with which pasts calls lead to, alone and under the machine."""
+    alone = [f"(and (= b {number}) {_write_memory(memory)})" for number, memory in sorted(pair.brakes.roads)]
+    both = [f"(and (= s {node.machine}) (= b {node.brakes}) {_write_memory(node.memory)})" for node in sorted(pair.roads)]
+    words = "(b Int) (last Int) (was_torque Bool) (was_closed Bool) (stood Bool)"
+    return [f"(define-fun known_alone ({words}) Bool (or\n {_join(alone)}))",
+            f"(define-fun known_both ((s Int) {words}) Bool (or\n {_join(both)}))"]  # fmt: skip
+
+
+def _join(rows: Iterable[str]) -> str:
+    return "\n ".join(rows)
+
+
+def _write_memory(memory: Memory) -> str:
+    levels = zip(MEMORY, (memory.torque, memory.closed, memory.stood), strict=True)
+    return " ".join([f"(= last {memory.last})", *(smt.write_literal(name, level) for name, level in levels)])
+
+
+NOW = "b last was_torque was_closed stood"
+NEXT = "b_t r torque_out (not open_out) stood_t"
+ALONE = (f"(and (known_alone {NOW}) (<= 1 r) (<= r Invalid)"
+         " (or (= q last) (and (= q LockedOut) (= r LockedOut))))")  # fmt: skip
+COUPLED = f"(and (known_both s {NOW}) {smt.KNOWN} (= q (state s)) (= r (state t)) (= standstill confirmed))"
+
+
+def list_history_queries(pair: Pair) -> list[Query]:
+    """What the pasts rest on: each cycle, and each flipped bit of the machine, leads from known ones to known ones."""
+    powered = [f"(and (= b {first}) {_write_memory(Memory())})" for first in pair.brakes.firsts]
+    powered_up = f"(assert (or {' '.join(powered)}))"
+    flipped = f"(known_both {pair.machine.corrupted} {NOW})"
+    return [
+        Query("", f"{powered_up}\n(assert (not (and (known_alone {NOW}) (known_both {pair.machine.first} {NOW}))))"),
+        Query("", f"(assert (and {ALONE} (not (known_alone {NEXT}))))"),
+        Query("", f"(assert (and {COUPLED} (not (known_both t {NEXT}))))"),
+        Query("", f"(assert (and {COUPLED} (not {flipped})))"),
+    ]
+
+
+def list_queries(wanted: BrakeProperty) -> list[Query]:
+    """What must be impossible for the property to hold."""
+    situation = COUPLED if wanted.is_coupled else ALONE
+    if wanted.induction is not None:
+        return [Query(wanted.name, text) for text in _write_induction(wanted.induction.invariant, wanted.induction.claim, situation)]
+    return [Query(wanted.name, f"(assert (and {situation} (not {wanted.step})))")] if wanted.step else []
+
+
+def _write_induction(invariant: str, claim: str, situation: str) -> list[str]:
+    """Base, step, and what each step of the invariant's situations must do. A cycle takes 1 to `cycle`; the clock of the sequence
+    may also jump to either side of its closing time. Where no brakes were told, the time does not count."""
+    moved = re.sub(r"\b(last|was_closed|closed_age|told_age)\b", lambda word: f"{word[0]}_t", invariant)
+    elapsed = "(+ told_age tick)"
+    match = (f"(= brake_time (ite (< {elapsed} closes_within) Closing_Within"
+             f" (ite (= {elapsed} closes_within) Closing_AtBound Closing_Beyond)))")  # fmt: skip
+    head = [f"(declare-const {name} Int)" for name in ("closed_age", "told_age", "closes_within", "cycle", "tick")]
+    head += [
+        "(assert (and (> closes_within 0) (> cycle 0) (<= 1 tick cycle)))",
+        f"(define-fun exact () Bool (=> was_closed {match}))",
+        "(assert (or exact (= brake_time Closing_BeforeCommand) (= brake_time Closing_Beyond)))",
+        "(define-fun closing () Int (ite was_closed (+ closed_age tick) 0))",
+        "(define-fun last_t () Int r)",
+        "(define-fun was_closed_t () Bool (not open_out))",
+        "(define-fun closed_age_t () Int closing)",
+        f"(define-fun told_age_t () Int (ite told_now 0 {elapsed}))",
+    ]
+    base = "(assert (not was_closed))"  # at power-up nothing was told
+    return [
+        "\n".join([*head, base, f"(assert (not {invariant}))"]),
+        "\n".join([*head, f"(assert (and {situation} {invariant} (not {moved})))"]),
+        "\n".join([*head, f"(assert (and {situation} {invariant} (not {claim})))"]),
+    ]
+
+
+def check(pair: Pair, queries: Sequence[Query], folder: Path) -> list[BrakeRefutation | None]:
+    """Asks z3. @return for each query nothing, when it is impossible, or how it is possible. @raise StepError when z3 is missing or
+    does not answer."""
+    model = write_model(pair)
+    answers = smt.ask_all(model, queries, folder / MODEL)
+    return [None if is_impossible else _find(pair, model, query, folder)
+            for is_impossible, query in zip(answers, queries, strict=True)]  # fmt: skip
+
+
+def _find(pair: Pair, model: str, query: Query, folder: Path) -> BrakeRefutation:
+    names = ("s", "b", "last", *MEMORY, *CALL, *INPUTS)
+    found = smt.ask_values(model, query, names, folder / "brake_counterexample.smt2")
+    states = dict(enumerate(pair.brakes.states, start=1))
+    memory = Memory(states[found["last"]], *(bool(found[name]) for name in MEMORY))
+    # What the query leaves open may be any number.
+    call = Call(states[found["q"]], bool(found["standing"]), bool(found["contacts"]), states[found["r"]], found["brake_time"])
+    return BrakeRefutation(Node(found["s"], found["b"], memory), call, tuple(found[name] for name in INPUTS))
