@@ -95,9 +95,6 @@ class BrakeExplorer final {
         static_cast<void>(find_or_add(copy(sequences_[0])));
         explore_from(0U);
         relation_.first_without_contacts = find_or_add(copy(sequences_[1]));
-        if (relation_.first_without_contacts + 1U != images_.size()) {
-            throw std::runtime_error("the sequence does not remember whether its brakes have contacts");
-        }
         explore_from(relation_.first_without_contacts);
         return relation_;
     }

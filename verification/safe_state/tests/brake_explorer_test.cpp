@@ -58,7 +58,7 @@ class RelationWalk {
         return static_cast<std::size_t>(time);
     }
 
-    const CallAnswer& take(const CallAnswer& answer, Instant now) {
+    CallAnswer take(CallAnswer answer, Instant now) {
         situation_ = answer.next;
         told_at_ = answer.is_told_now ? now : told_at_;
         return answer;
