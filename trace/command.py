@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import os
 import sys
 from collections.abc import Sequence
 from types import ModuleType
 
 from mamori.trace.readers.files import InputError
+from mamori.trace.system_error import describe
 
 _ABOUT = "Judge requirements by executed results, and show the chain from hazard to result."
 _ACTIONS = {
@@ -32,6 +34,9 @@ _ACTIONS = {
 }
 """Module of each action, below `actions`."""
 _EXIT_INPUT = 2
+_EXIT_PIPE = 141
+"""As a shell counts a program that wrote to a reader who is gone."""
+_SHOWN_MAX = 400
 
 
 def add_arguments(subparsers: argparse._SubParsersAction) -> None:
@@ -42,14 +47,26 @@ def add_arguments(subparsers: argparse._SubParsersAction) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Runs what `add_arguments` parsed. @return the exit status."""
     try:
-        return int(_load(arguments.trace_action).run(arguments))
-    except (InputError, OSError) as error:
-        print(f"mamori trace: {error}", file=sys.stderr)
-        return _EXIT_INPUT
+        status = int(_load(arguments.trace_action).run(arguments))
+        sys.stdout.flush()  # what cannot be written is told here, and not when Python ends
+        return status
+    except BrokenPipeError:  # who read it has read enough, such as `head`
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")
+        return _EXIT_PIPE
+    except InputError as error:
+        return _refuse(str(error))
+    except OSError as error:
+        return _refuse(describe(error))
     except UnicodeEncodeError as error:  # half of a letter, from a word, a file name or a JSON escape; no file can hold it
         near = error.object[max(0, error.start - 20) : error.end]
-        print(f"mamori trace: nothing was written: {near!a} ends with what is no letter, so UTF-8 cannot hold it", file=sys.stderr)
-        return _EXIT_INPUT
+        return _refuse(f"nothing was written: {near!a} ends with what is no letter, so UTF-8 cannot hold it")
+
+
+def _refuse(message: str) -> int:
+    if len(message) > 2 * _SHOWN_MAX:  # a word of the command line may have any length; the remedy stands at the end
+        message = f"{message[:_SHOWN_MAX]} ... {message[-_SHOWN_MAX:]}"
+    print(f"mamori trace: {message}", file=sys.stderr)
+    return _EXIT_INPUT
 
 
 def main(argv: Sequence[str] | None = None) -> int:

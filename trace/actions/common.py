@@ -61,8 +61,15 @@ def find_item(project: Project, name: str) -> Item:
     item = project.items.get(name)
     if item is None:
         near = ", ".join(project.suggest(name))
-        raise InputError(f"no item has the id {name}" + (f"; nearest: {near}" if near else ""))
+        raise InputError(f"no item has the id '{name}'" + (f"; nearest: {near}" if near else ""))
     return item
+
+
+def demand_readable(project: Project) -> None:
+    """Raises InputError where a file of it could not be read: ids and areas may stand in that file."""
+    for problem in project.problems:
+        if problem.rule == unreadable_input.RULE.id:
+            raise InputError(f"{problem.place}: {problem.message}")
 
 
 def print_outcome(arguments: argparse.Namespace, project: Project, findings: list[Finding]) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from mamori.trace.actions.common import EXIT_CLEAN, add_root
 from mamori.trace.formats.mapping import read_mapping
 from mamori.trace.formats.registry import FORMATS, read_format
-from mamori.trace.formats.take_over import Takeover, take_over, write_takeover
+from mamori.trace.formats.take_over import Takeover, take_back, take_over, write_takeover
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.lock import ReviewLock
 from mamori.trace.readers.files import InputError
@@ -50,7 +50,11 @@ def run(arguments: argparse.Namespace) -> int:
     if outcome.reviews:
         lock = project.lock or ReviewLock()
         lock.reviews.update({(each.child, each.parent): each for each in outcome.reviews})
-        write_lock(arguments.root, lock)
+        try:
+            write_lock(arguments.root, lock)
+        except InputError:
+            take_back(written)
+            raise
     _tell(outcome, written, problems)
     return EXIT_CLEAN
 

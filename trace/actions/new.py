@@ -7,7 +7,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from mamori.trace.actions.common import EXIT_CLEAN, add_root
+from mamori.trace.actions.common import EXIT_CLEAN, add_root, demand_readable
 from mamori.trace.readers.files import InputError
 
 HELP = "allocate an id that was never used, and print or append the draft of an item"
@@ -32,6 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
     from mamori.trace.readers.project import read_requirements
 
     project = read_requirements(arguments.root)
+    demand_readable(project)
     parents = tuple(name.strip() for name in arguments.parents.split(",") if name.strip())
     wish = Wish(arguments.kind, arguments.area, arguments.new_area, parents=parents,
                 **{word: getattr(arguments, word).strip() for word in _WORDS})  # fmt: skip

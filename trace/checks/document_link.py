@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from mamori.trace.model.finding import ERROR, Place, Problem, Rule
 from mamori.trace.model.project import Project
-from mamori.trace.readers.files import read_text
+from mamori.trace.readers.files import list_paths, read_text
 
 RULE = Rule("document-link", ERROR, "Ids and tests that a document of docs/manual/safety names exist, and the ids are not retired.")
 
@@ -23,11 +23,11 @@ _TEST = re.compile(r"\b(test_\w+\.py)::(test_\w+)")
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     ids = re.compile(rf"(?<![\w-])(?:{'|'.join(map(re.escape, sorted(project.schema.levels)))})(?:-[A-Z0-9]+)*-\d+(?![\w-])")
     tests = {(test.place.file.rpartition("/")[2], test.name) for test in project.tests}
-    for path in sorted((project.root / FOLDER).glob("*.md")):
-        shown = f"{FOLDER}/{path.name}"
-        problems: list[Problem] = []
-        text = read_text(path, shown, problems)
-        yield from ((problem.place, problem.message, "") for problem in problems)
+    problems: list[Problem] = []
+    paths = list_paths(project.root / FOLDER, "*.md", project.root, problems)
+    texts = [(f"{FOLDER}/{path.name}", read_text(path, f"{FOLDER}/{path.name}", problems)) for path in paths]
+    yield from ((problem.place, problem.message, "") for problem in problems)
+    for shown, text in texts:
         for number, line in enumerate(text.splitlines(), start=1):
             place = Place(shown, number)
             for named in dict.fromkeys(ids.findall(line)):

@@ -39,7 +39,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
     """The items of every document at or below `path`."""
     project = ForeignProject(NAME)
     prefixes: dict[Path, str | None] = {}
-    for file in list_files(path, SUFFIXES):
+    for file in list_files(path, SUFFIXES, root, problems):
         folder = file.parent
         if folder not in prefixes:
             prefixes[folder] = _read_prefix(folder, root, problems)

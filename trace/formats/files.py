@@ -6,22 +6,21 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE, get_shown_path, read_text
+from mamori.trace.readers.files import UNREADABLE, get_shown_path, read_text, walk_folders
 
 _SKIPPED = {"node_modules", "__pycache__", "build", "output"}
 
 
-def list_files(path: Path, suffixes: tuple[str, ...]) -> Iterator[Path]:
+def list_files(path: Path, suffixes: tuple[str, ...], root: Path, problems: list[Problem]) -> Iterator[Path]:
     """The file itself, or the files below a folder with one of `suffixes`, in order. Links to folders are not followed."""
     if path.is_file():
         yield path
         return
-    for folder, folders, files in os.walk(path, followlinks=False):
+    for folder, folders, files in walk_folders(path, root, problems):
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(files):
             if name.endswith(suffixes) and not name.startswith("."):
@@ -30,7 +29,7 @@ def list_files(path: Path, suffixes: tuple[str, ...]) -> Iterator[Path]:
 
 def read_texts(path: Path, suffixes: tuple[str, ...], root: Path, problems: list[Problem]) -> Iterator[tuple[str, str]]:
     """(shown path, text) of each file that could be read whole."""
-    for file in list_files(path, suffixes):
+    for file in list_files(path, suffixes, root, problems):
         shown = get_shown_path(file, root)
         text = read_whole(file, shown, problems)
         if text is not None:

@@ -21,7 +21,7 @@ from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.project import Project, attach_sources, list_result_keys
 from mamori.trace.model.rule_pack import Grades
 from mamori.trace.readers.code_schema import read_code_schema
-from mamori.trace.readers.files import UNREADABLE, InputError, get_shown_path
+from mamori.trace.readers.files import InputError, get_shown_path, list_paths, note_unreadable
 from mamori.trace.readers.git import read_head
 from mamori.trace.readers.ids import read_ids
 from mamori.trace.readers.junit import parse_junit
@@ -106,12 +106,12 @@ def _read_evidence(given: ForeignInput, project: Project) -> Evidence:
     for path in given.results:
         if not path.exists():
             raise InputError(f"{path}: no such result file; run the tests first")
-        for file in sorted(path.glob("*.xml")) if path.is_dir() else [path]:
+        for file in list_paths(path, "*.xml", project.root, project.problems) if path.is_dir() else [path]:
             shown = get_shown_path(file, project.root)
             try:
                 data = file.read_bytes()
             except OSError as error:
-                project.problems.append(Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {error.strerror or error}"))
+                note_unreadable(error, shown, project.problems)
                 continue
             evidence.results += parse_junit(data, shown, UNIT, project.root, project.problems)
     return evidence

@@ -42,7 +42,7 @@ def _describe_nothing(name: str, module: ModuleType, path: Path) -> str:
 def _guess_others(name: str, path: Path) -> list[str]:
     """Formats other than `name` that files below `path` look like, the most frequent first."""
     counts: dict[str, int] = {}
-    for file in islice(list_files(path, ("",)), _PEEK_FILES):
+    for file in islice(list_files(path, ("",), path, []), _PEEK_FILES):
         try:
             with file.open("rb") as stream:
                 text = stream.read(_PEEK_BYTES).decode("utf-8-sig", errors="replace")

@@ -15,7 +15,7 @@ from pathlib import Path
 from mamori.trace.formats.files import list_files
 from mamori.trace.formats.model import ForeignItem, ForeignProject, Loss, Relation
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE, get_shown_path
+from mamori.trace.readers.files import UNREADABLE, get_shown_path, note_unreadable
 
 NAME = "reqif"
 TITLE = "ReqIF"
@@ -54,14 +54,14 @@ def looks_alike(name: str, text: str) -> bool:
 def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
     """All objects of all files that a relation, a specification or an id of its own makes a requirement."""
     project = ForeignProject(NAME)
-    for file in list_files(path, SUFFIXES):
+    for file in list_files(path, SUFFIXES, root, problems):
         shown = get_shown_path(file, root)
         try:
             collector = _Collector()
             with file.open("rb") as stream:
                 collector.parser.ParseFile(stream)
         except OSError as error:
-            problems.append(Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {error.strerror or error}"))
+            note_unreadable(error, shown, problems)
         except _Refused as error:
             problems.append(Problem(UNREADABLE, Place(shown, collector.parser.CurrentLineNumber), str(error)))
         except xml.parsers.expat.ExpatError as error:

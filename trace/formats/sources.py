@@ -43,7 +43,7 @@ def read_sources(
     parser = tree_sitter.Parser(tree_sitter.Language(tree_sitter_cpp.language()))
     tags: list[CodeTag] = []
     tests: list[SourceTest] = []
-    for path, relative in walk_sources(folder, (*_CPP, *_PYTHON, *_OTHERS)):
+    for path, relative in walk_sources(folder, (*_CPP, *_PYTHON, *_OTHERS), problems):
         shown = get_shown_path(path, root)
         text = read_whole(path, shown, problems)
         in_test = is_test_file(relative)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import io
+import os
 import re
 from collections import Counter
 from dataclasses import dataclass, field, replace
@@ -21,6 +22,7 @@ from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.item import Item, Schema
 from mamori.trace.model.lock import Review
 from mamori.trace.readers.files import InputError
+from mamori.trace.system_error import explain
 
 _NUMBER_MAX = 999
 _MARKS = ("#", "```", "~~~", "- ", "* ", "|")
@@ -152,20 +154,28 @@ def format_map(outcome: Takeover) -> str:
 
 
 def write_takeover(outcome: Takeover, folder: Path, map_name: str) -> list[Path]:
-    """Writes all files or none. Raises InputError where one exists already, OSError where one cannot be written."""
+    """Writes all files or none. Raises InputError where one exists already, or cannot be written."""
     files = {folder / name: text for name, text in outcome.files.items()} | {folder / map_name: format_map(outcome)}
-    present = sorted(path for path in files if path.exists())
+    present = sorted(path for path in files if os.path.lexists(path))
     if present:
         raise InputError(f"{present[0]}: is there already, and an import overwrites nothing; name another folder with --into")
     written: list[Path] = []
     try:
         for path, text in sorted(files.items()):
             path.parent.mkdir(parents=True, exist_ok=True)
-            written.append(path)
             with path.open("x", encoding="utf-8", newline="\n") as stream:
+                written.append(path)
                 stream.write(text)
-    except (OSError, UnicodeEncodeError):
-        for path in written:
-            path.unlink(missing_ok=True)
+    except OSError as error:
+        take_back(written)
+        raise InputError(f"{path}: cannot be written: {explain(error)}; nothing was taken over") from None
+    except UnicodeEncodeError:
+        take_back(written)
         raise
     return written
+
+
+def take_back(written: list[Path]) -> None:
+    """Removes what was written, where something after it failed."""
+    for path in written:
+        path.unlink(missing_ok=True)

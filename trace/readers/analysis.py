@@ -15,7 +15,7 @@ from typing import Any
 
 from mamori.trace.model.evidence import AnalysisFinding, Evidence
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE, get_shown_path, read_text
+from mamori.trace.readers.files import UNREADABLE, get_shown_path, list_paths, read_text
 from mamori.trace.readers.source_names import SourceNames
 from mamori.trace.readers.xml_file import Refused, feed_file, make_parser
 from mamori.trace.readers.yaml_depth import demand_shallow
@@ -30,7 +30,7 @@ Row = tuple[str, str, str, int]  # rule, message, file as the tool names it, lin
 def read_analysis(folder: Path, names: SourceNames, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
     """Fills in the findings, each once, in order of their places. A file that is not whole is one problem and gives nothing."""
     found: set[AnalysisFinding] = set()
-    for path in sorted(folder.glob("static/*")):
+    for path in list_paths(folder, "static/*", root, problems):
         reader = _READERS.get(path.suffix)
         if reader is None:
             continue

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from mamori.trace.model.bundle import MANIFEST, SIGNATURE, Content, Entry
 from mamori.trace.readers.files import InputError
+from mamori.trace.system_error import explain
 from mamori.trace.readers.tar_file import MAX_MEMBERS, TarError, read_members
 
 _CHUNK = 1 << 16
@@ -71,7 +72,7 @@ def _take_file(content: Content, name: str, path: Path) -> None:
     try:
         handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError as error:
-        content.irregular[name] = f"cannot be read: {error.strerror}"
+        content.irregular[name] = f"cannot be read: {explain(error)}"
         return
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)

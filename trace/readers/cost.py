@@ -10,6 +10,7 @@ from pathlib import Path
 
 from mamori.trace.model.evidence import CostRun, Evidence
 from mamori.trace.model.finding import Problem
+from mamori.trace.readers.files import list_paths
 from mamori.trace.readers.json_file import Each, Maybe, read_records
 
 SCHEMA = "mamori.cost/1"
@@ -33,6 +34,6 @@ _SHAPE = {
 
 def read_cost(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
     """Fills in the counted systems in order of their folders. A record that does not keep to its contract is a problem, one each."""
-    files = sorted(folder.glob("cost/*/cost.json"))
+    files = list_paths(folder, "cost/*/cost.json", root, problems)
     for path, table, place in read_records(files, SCHEMA, _SHAPE, "count again", root, problems):
         evidence.cost_runs.append(CostRun(path.parent.as_posix(), table, place))

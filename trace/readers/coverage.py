@@ -15,7 +15,7 @@ from mamori.trace.model.coverage import Condition, CoverageRun
 from mamori.trace.model.evidence import Evidence
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.cobertura import take_cobertura
-from mamori.trace.readers.files import UNREADABLE, get_shown_path, read_text
+from mamori.trace.readers.files import UNREADABLE, get_shown_path, list_paths, read_text
 from mamori.trace.readers.json_file import Maybe, find_misfit
 from mamori.trace.readers.lcov import take_lcov
 from mamori.trace.readers.llvm_cov import TYPE, FormatError, take_llvm
@@ -31,7 +31,7 @@ _FITTING_ERRORS = (KeyError, TypeError, ValueError, IndexError, AttributeError, 
 
 def read_coverage(folder: Path, root: Path, names: SourceNames, evidence: Evidence, problems: list[Problem]) -> None:
     """Fills in the runs in order of their files. A file that does not keep to its format is one problem, and gives nothing."""
-    for path in sorted((*folder.glob("coverage/*"), *folder.glob("coverage/by_test/*"))):
+    for path in sorted(each for pattern in ("coverage/*", "coverage/by_test/*") for each in list_paths(folder, pattern, root, problems)):
         if path.suffix in SUFFIXES and path.is_file():
             test = urllib.parse.unquote(path.stem) if path.parent.name == "by_test" else ""
             run = CoverageRun(Place(get_shown_path(path, root), 1), test)

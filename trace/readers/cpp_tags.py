@@ -53,7 +53,7 @@ def read_cpp_tags(
     parser = tree_sitter.Parser(_LANGUAGE)
     tags: list[CodeTag] = []
     texts: dict[str, str] = {}
-    for path, shown in walk_sources(root, SUFFIXES):
+    for path, shown in walk_sources(root, SUFFIXES, problems):
         if not is_test_file(shown):
             text = read_text(path, shown, problems)
             if code is not None:

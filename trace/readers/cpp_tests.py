@@ -26,7 +26,7 @@ _CAPITAL = re.compile(r"(?<!^)([A-Z])")
 def read_cpp_tests(root: Path, problems: list[Problem], id_pattern: str = ID_PATTERN) -> list[SourceTest]:
     """Tests of all C++ test files below `root`."""
     tests: list[SourceTest] = []
-    for path, shown in walk_sources(root, SUFFIXES):
+    for path, shown in walk_sources(root, SUFFIXES, problems):
         if is_test_file(shown):
             text = read_text(path, shown, problems)
             if "verifies(" in text or has_mark(text):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from mamori.trace.model.evidence import Evidence, FileRecord
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE, get_shown_path
+from mamori.trace.readers.files import UNREADABLE, get_shown_path, note_unreadable
 from mamori.trace.readers.json_file import Each, Maybe, find_misfit, read_json
 
 NAME = "records.json"
@@ -68,4 +68,4 @@ def _compare(folder: Path, root: Path, recorded: dict[str, str], place: Place, p
             if hash_file(path) != recorded[name]:
                 problems.append(Problem(ALTERED, shown, f"differs from what was recorded when it was made; {_REMEDY}"))
         except OSError as error:
-            problems.append(Problem(UNREADABLE, shown, f"cannot be read: {error.strerror or error}"))
+            note_unreadable(error, shown.file, problems)

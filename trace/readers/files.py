@@ -1,13 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""File access shared by the readers: paths as findings show them, text that may be badly encoded, the source tree."""
+"""File access shared by the readers: paths as findings show them, text that may be badly encoded, the source tree.
+
+What cannot be opened or listed is a problem and never an absence: a folder without rights would otherwise pass for an empty one.
+
+@satisfies SWR-TRC-009      Design: docs/design/trace.md#refusals-of-the-system
+"""
 
 from __future__ import annotations
 
+import fnmatch
 import os
 from collections.abc import Iterator
 from pathlib import Path
 
 from mamori.trace.model.finding import Place, Problem
+from mamori.trace.system_error import explain
 
 UNREADABLE = "unreadable-input"
 _SKIPPED_FOLDERS = {"build", "report", "requirements", "docs", "node_modules", "__pycache__"}
@@ -31,10 +38,10 @@ def read_text(path: Path, shown: str, problems: list[Problem]) -> str:
     """Text of a UTF-8 file. Wrong bytes and an unreadable file become problems; wrong bytes are read as U+FFFD."""
     try:
         if path.exists() and not path.is_file():  # a pipe would never end
-            raise OSError("it is no file")
+            raise OSError("it is no file; put one in its place")
         data = path.read_bytes()
     except OSError as error:
-        problems.append(Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {error.strerror or error}"))
+        note_unreadable(error, shown, problems)
         return ""
     try:
         return data.decode("utf-8-sig")
@@ -46,12 +53,42 @@ def read_text(path: Path, shown: str, problems: list[Problem]) -> str:
         return data.decode("utf-8", errors="replace")
 
 
-def walk_sources(root: Path, suffixes: tuple[str, ...]) -> Iterator[tuple[Path, str]]:
+def note_unreadable(error: OSError, shown: str, problems: list[Problem]) -> None:
+    """One problem for a file or folder, however often it is asked for."""
+    problem = Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {explain(error)}")
+    if problem not in problems:
+        problems.append(problem)
+
+
+def walk_folders(top: Path, root: Path, problems: list[Problem]) -> Iterator[tuple[str, list[str], list[str]]]:
+    """As os.walk, links to folders not followed; a folder that cannot be listed is a problem."""
+    return os.walk(top, onerror=lambda error: note_unreadable(error, get_shown_path(Path(error.filename), root), problems))
+
+
+def list_paths(folder: Path, pattern: str, root: Path, problems: list[Problem]) -> list[Path]:
+    """As Path.glob, in order, for names and stars between slashes. What is absent has no paths; what cannot be listed is a problem."""
+    found = [folder]
+    for part in pattern.split("/"):
+        found = [each / name for each in found for name in _list_names(each, root, problems) if fnmatch.fnmatchcase(name, part)]
+    return sorted(found)
+
+
+def _list_names(folder: Path, root: Path, problems: list[Problem]) -> list[str]:
+    try:
+        return os.listdir(folder)
+    except (FileNotFoundError, NotADirectoryError):
+        return []
+    except OSError as error:
+        note_unreadable(error, get_shown_path(folder, root), problems)
+        return []
+
+
+def walk_sources(root: Path, suffixes: tuple[str, ...], problems: list[Problem]) -> Iterator[tuple[Path, str]]:
     """Source files below `root` with one of `suffixes`, and their shown paths, in order of their paths.
 
     Hidden folders, build trees, requirements, documents and reports are left out.
     """
-    for folder, folders, files in os.walk(root):
+    for folder, folders, files in walk_folders(root, root, problems):
         kept = (name for name in folders if name not in _SKIPPED_FOLDERS and not name.startswith((".", "build")))
         folders[:] = sorted(name for name in kept if not name.endswith(".egg-info"))
         relative = os.path.relpath(folder, root).replace(os.sep, "/")

@@ -41,9 +41,10 @@ def describe_gap(root: Path) -> str:
 
 def read_texts(root: Path) -> Iterator[str]:
     """Every version of each text below requirements/: of all branches at hand, and as the files are now."""
-    for path in sorted((root / _FOLDER).rglob("*")):
-        if path.is_file():
-            yield path.read_text(encoding="utf-8", errors="replace")
+    for folder, _, files in os.walk(root / _FOLDER, onerror=_refuse):
+        for path in (Path(folder, name) for name in files):
+            if path.is_file():
+                yield path.read_text(encoding="utf-8", errors="replace")
     listing = run_git(root, ["rev-list", "--all", "--objects", "--", _FOLDER]) or b""
     entries = []
     for line in listing.splitlines():
@@ -52,6 +53,11 @@ def read_texts(root: Path) -> Iterator[str]:
             entries.append((os.fsdecode(path), name))
     for _, data in read_blobs(root, entries):
         yield data.decode("utf-8", errors="replace")
+
+
+def _refuse(error: OSError) -> None:
+    """What cannot be listed may hold an id."""
+    raise error
 
 
 def read_events(root: Path, schema: Schema, item_id: str) -> list[Event]:

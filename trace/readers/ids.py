@@ -40,7 +40,7 @@ def read_ids(root: Path, problems: list[Problem]) -> dict[str, FormerId]:
 
 
 def write_ids(root: Path, former: dict[str, FormerId]) -> None:
-    """Writes the ledger whole or not at all; none where no id was ever given up."""
+    """Writes the ledger whole or not at all, to where a link at its place leads; none where no id was ever given up."""
     if former or (root / IDS_PATH).exists():
         rows = [f"{each.id} {each.fingerprint} {each.date} {each.title or _NONE}\n" for _, each in sorted(former.items())]
         write_whole(root / IDS_PATH, _HEAD + "".join(rows))

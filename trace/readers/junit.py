@@ -15,7 +15,7 @@ from pathlib import Path
 
 from mamori.trace.model.evidence import CAMPAIGN, ERRORED, FAILED, PASSED, SKIPPED, UNIT, TestResult
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import get_shown_path
+from mamori.trace.readers.files import get_shown_path, list_paths
 from mamori.trace.readers.tag_aliases import RESULT_PROPERTIES
 from mamori.trace.readers.xml_file import Refused, feed, feed_file, make_parser
 
@@ -33,7 +33,7 @@ _REMEDY = "run the tests again"
 def read_junit(folder: Path, root: Path, problems: list[Problem]) -> list[TestResult]:
     """Results of all XML files in `folder`, in order of file and line."""
     results: list[TestResult] = []
-    for path in sorted(folder.glob("*.xml")):
+    for path in list_paths(folder, "*.xml", root, problems):
         kind = CAMPAIGN if path.name == "campaign.xml" else UNIT
         collector = _Collector(get_shown_path(path, root), kind, root)
         if feed_file(collector.parser, path, collector.shown, _REMEDY, problems):

@@ -40,7 +40,7 @@ def read_lock(root: Path, problems: list[Problem], path: Path | None = None) -> 
 
 
 def write_lock(root: Path, lock: ReviewLock, path: Path | None = None) -> None:
-    """Writes the lock whole or not at all."""
+    """Writes the lock whole or not at all, to where a link at its place leads. Raises InputError."""
     rows = [
         f"{each.child} {each.child_fingerprint} {each.parent} {each.parent_fingerprint} {each.date} {each.reviewer}\n"
         for _, each in sorted(lock.reviews.items())

@@ -9,12 +9,12 @@ A broken block is told as a problem and kept as far as it can be read, so that o
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.item import Item, Schema
-from mamori.trace.readers.files import get_shown_path, read_text
+from mamori.trace.readers.files import get_shown_path, read_text, walk_folders
 
 MALFORMED = "malformed-item"
 _ATTRIBUTE = re.compile(r"- ([A-Za-z]+):(.*)")
@@ -24,12 +24,17 @@ def read_items(root: Path, schema: Schema, problems: list[Problem]) -> list[Item
     """All items below requirements/, in file order. README files and the schema folder hold none."""
     base = root / "requirements"
     items: list[Item] = []
-    for path in sorted(base.rglob("*.md")):
+    for path in sorted(_list_files(base, root, problems)):
         if path.name == "README.md" or "schema" in path.relative_to(base).parts:
             continue
         shown = get_shown_path(path, root)
         items.extend(parse_items(read_text(path, shown, problems), shown, schema, problems))
     return items
+
+
+def _list_files(base: Path, root: Path, problems: list[Problem]) -> Iterator[Path]:
+    for folder, folders, files in walk_folders(base, root, problems):
+        yield from (Path(folder, name) for name in (*folders, *files) if name.endswith(".md"))  # a folder of that name is told as no file
 
 
 def parse_items(text: str, shown: str, schema: Schema, problems: list[Problem]) -> list[Item]:

@@ -12,6 +12,7 @@ from mamori.trace.model.finding import Problem
 from mamori.trace.model.item import Schema
 from mamori.trace.readers.files import InputError
 from mamori.trace.readers.markdown_items import parse_items
+from mamori.trace.system_error import explain
 from mamori.trace.write import write_whole
 
 
@@ -21,13 +22,18 @@ def check_file(root: Path, file: Path) -> None:
     try:
         path = file.resolve()
     except RuntimeError:
-        raise InputError(f"{file}: is a loop of links") from None
-    if not path.is_relative_to(base) or path.suffix != ".md" or path.name == "README.md" or "schema" in path.relative_to(base).parts:
-        raise InputError(f"{file}: items are read from Markdown files below {root / 'requirements'} only")
+        raise InputError(f"{file}: is a loop of links; mend the link") from None
+    named = file.parent.resolve() / file.name  # a link there is read, wherever it leads
+    if not any(_is_item_file(each, base) for each in (named, path)):
+        raise InputError(f"{file}: items are read from Markdown files below {root / 'requirements'} only; name one of these")
     if not path.parent.is_dir():
-        raise InputError(f"{file}: there is no folder {path.parent.name}")
+        raise InputError(f"{file}: there is no folder {path.parent}; make it, or name another file")
     if path.exists() and not path.is_file():
-        raise InputError(f"{file}: is no file")
+        raise InputError(f"{file}: is no file; name another")
+
+
+def _is_item_file(path: Path, base: Path) -> bool:
+    return path.is_relative_to(base) and path.suffix == ".md" and path.name != "README.md" and "schema" not in path.relative_to(base).parts
 
 
 def check_block(block: str, item_id: str, schema: Schema) -> None:
@@ -41,12 +47,13 @@ def check_block(block: str, item_id: str, schema: Schema) -> None:
 
 
 def append_block(file: Path, block: str, item_id: str) -> int:
-    """@return the line of the heading. Raises InputError, or OSError; the file is as it was then."""
-    path = file.resolve()
+    """@return the line of the heading. Raises InputError; the file is as it was then."""
     try:
-        old = path.read_text(encoding="utf-8") if path.exists() else f"# {path.stem.replace('_', ' ').capitalize()}\n"
+        old = file.read_text(encoding="utf-8") if file.exists() else f"# {file.stem.replace('_', ' ').capitalize()}\n"
+    except OSError as error:
+        raise InputError(f"{file}: cannot be read: {explain(error)}") from None
     except UnicodeDecodeError:
-        raise InputError(f"{file}: is not UTF-8; nothing was appended") from None
+        raise InputError(f"{file}: is not UTF-8; nothing was appended, save it as UTF-8") from None
     text = old.rstrip("\n") + "\n\n" + block
-    write_whole(path, text)
+    write_whole(file, text)
     return text[: text.rindex(f"## {item_id} ")].count("\n") + 1

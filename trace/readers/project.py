@@ -8,6 +8,7 @@ from pathlib import Path
 from mamori.trace.checks import list_rules
 from mamori.trace.model.code import CodeBase
 from mamori.trace.model.evidence import INTEGRATION, UNIT, Evidence
+from mamori.trace.model.finding import Problem
 from mamori.trace.model.project import Project, attach_sources
 from mamori.trace.readers.analysis import read_analysis
 from mamori.trace.readers.campaign import read_campaign, read_environment
@@ -18,7 +19,7 @@ from mamori.trace.readers.cpp_tags import read_cpp_tags
 from mamori.trace.readers.cpp_tests import read_cpp_tests
 from mamori.trace.readers.decomposition import read_decomposition
 from mamori.trace.readers.evidence_records import read_evidence_records
-from mamori.trace.readers.files import InputError, get_shown_path
+from mamori.trace.readers.files import InputError, get_shown_path, list_paths
 from mamori.trace.readers.git import read_commit_date, read_head
 from mamori.trace.readers.ids import read_ids
 from mamori.trace.readers.junit import read_junit
@@ -40,7 +41,7 @@ from mamori.trace.readers.waivers import read_waivers
 
 def find_evidence(root: Path) -> Path:
     """The evidence folder of the release build, or else the only one there is. Raises InputError when there is no such."""
-    folders = sorted(path for path in root.glob("build/*/evidence") if path.is_dir())
+    folders = _list_evidence(root)
     preferred = root / "build" / "host-release" / "evidence"
     if preferred in folders:
         return preferred
@@ -50,6 +51,14 @@ def find_evidence(root: Path) -> Path:
         names = ", ".join(get_shown_path(folder, root) for folder in folders)
         raise InputError(f"several evidence folders: {names}; choose one with --evidence")
     raise InputError(f"{root}: no evidence in build/*/evidence; run the tests first, or name the folder with --evidence")
+
+
+def _list_evidence(root: Path) -> list[Path]:
+    problems: list[Problem] = []
+    folders = [path / "evidence" for path in list_paths(root, "build/*", root, problems)]
+    if problems:
+        raise InputError(f"{root / problems[0].place.file}: {problems[0].message}")
+    return [folder for folder in folders if folder.is_dir()]
 
 
 def read_requirements(root: Path) -> Project:
@@ -114,7 +123,7 @@ def _choose_evidence(root: Path, evidence: Path | None, allow_missing: bool) -> 
         if not evidence.is_dir():
             raise InputError(f"{evidence}: no such evidence folder; run the tests first")
         return evidence
-    if allow_missing and not any(path.is_dir() for path in root.glob("build/*/evidence")):
+    if allow_missing and not _list_evidence(root):
         return None
     return find_evidence(root)
 

@@ -27,7 +27,7 @@ def read_python(
     """Tags of all Python files that are no tests, and marks of those that are. @param code takes in the functions of the former."""
     tags: list[CodeTag] = []
     tests: list[SourceTest] = []
-    for path, shown in walk_sources(root, (".py",)):
+    for path, shown in walk_sources(root, (".py",), problems):
         in_test = is_test_file(shown)
         text = read_text(path, shown, problems)
         if "verifies" not in text and not has_mark(text) if in_test else code is None and not has_mark(text):

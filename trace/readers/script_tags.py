@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mamori.trace.model.evidence import CodeTag
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import is_test_file, read_text, walk_sources
+from mamori.trace.readers.files import is_test_file, list_paths, note_unreadable, read_text, walk_sources
 from mamori.trace.readers.tag_text import FILE_SYMBOL, has_mark, make_tags
 
 _SUFFIXES = (".sh", ".cmake", "CMakeLists.txt")
@@ -18,9 +18,9 @@ _SUFFIXES = (".sh", ".cmake", "CMakeLists.txt")
 
 def read_script_tags(root: Path, problems: list[Problem]) -> list[CodeTag]:
     """Tags of scripts: files with a script's suffix anywhere, and files in the root that begin with `#!`."""
-    scripts = [(path, path.name) for path in sorted(root.iterdir()) if _is_plain_script(path)]
+    scripts = [(path, path.name) for path in list_paths(root, "*", root, problems) if _is_plain_script(path, problems)]
     tags: list[CodeTag] = []
-    for path, shown in [*scripts, *walk_sources(root, _SUFFIXES)]:
+    for path, shown in [*scripts, *walk_sources(root, _SUFFIXES, problems)]:
         if is_test_file(shown):
             continue
         for number, line in enumerate(read_text(path, shown, problems).splitlines(), start=1):
@@ -29,8 +29,12 @@ def read_script_tags(root: Path, problems: list[Problem]) -> list[CodeTag]:
     return tags
 
 
-def _is_plain_script(path: Path) -> bool:
+def _is_plain_script(path: Path, problems: list[Problem]) -> bool:
     if path.suffix or not path.is_file():
         return False
-    with path.open("rb") as file:
-        return file.read(2) == b"#!"
+    try:
+        with path.open("rb") as file:
+            return file.read(2) == b"#!"
+    except OSError as error:
+        note_unreadable(error, path.name, problems)
+        return False

@@ -11,6 +11,8 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from mamori.trace.system_error import explain
+
 JOINTS = 7
 
 
@@ -34,7 +36,7 @@ def read_series(path: Path) -> Series:
         with path.open(newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file))
     except OSError as error:
-        raise SeriesError(f"{path.name} cannot be read: {error.strerror or error}") from None
+        raise SeriesError(f"{path.name} cannot be read: {explain(error)}") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise SeriesError(f"{path.name} is no CSV text: {error}") from None
     if len(rows) < 2:

@@ -12,7 +12,9 @@ from pathlib import Path
 
 from mamori.trace.model.evidence import Evidence, TimingRun
 from mamori.trace.model.finding import Problem
+from mamori.trace.readers.files import list_paths
 from mamori.trace.readers.json_file import Each, Maybe, read_records
+from mamori.trace.system_error import explain
 
 SCHEMA = "mamori.timing/1"
 PICTURE_BYTES_MAX = 300_000
@@ -76,7 +78,7 @@ _KINDS = (
 
 def read_timing(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
     """Fills in the measured systems in order of their folders. A record that does not keep to its contract is a problem, one each."""
-    files = sorted(folder.glob("timing/*/timing.json"))
+    files = list_paths(folder, "timing/*/timing.json", root, problems)
     for path, table, place in read_records(files, SCHEMA, _SHAPE, "measure again", root, problems):
         evidence.timing_runs.append(TimingRun(path.parent.as_posix(), table, place))
 
@@ -96,7 +98,7 @@ def read_picture(folder: Path, name: str, room_bytes: int) -> Picture | None:
             return Picture("", f"{path.name} would take {needed} bytes of this page, which has room for {room}; look at the file")
         data = path.read_bytes()
     except OSError as error:
-        raise PictureError(f"{name} cannot be read: {error.strerror or error}; measure again") from None
+        raise PictureError(f"{name} cannot be read: {explain(error)}") from None
     if not data.startswith(kind.head) or not data.rstrip().endswith(kind.end):
         raise PictureError(f"{path.name} is no whole picture; measure again")
     return Picture(start + base64.b64encode(data).decode("ascii"))

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from mamori.trace.readers.files import InputError
+from mamori.trace.system_error import explain
 
 
 class TomlError(ValueError):
@@ -34,6 +35,6 @@ def load_toml(path: Path) -> dict[str, Any]:
     except FileNotFoundError:
         raise
     except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
+        raise InputError(f"{path}: cannot be read: {explain(error)}") from None
     except ValueError as error:  # not UTF-8, or no TOML
         raise InputError(f"{path}: {error}") from None

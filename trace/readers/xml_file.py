@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE
+from mamori.trace.readers.files import UNREADABLE, note_unreadable
 
 CHUNK_BYTES = 1 << 18
 DEPTH_MAX = 200
@@ -62,11 +62,11 @@ def feed_file(parser: Parser, path: Path, shown: str, remedy: str, problems: lis
     """@return whether all of the file was read; if not, that is a problem, one, which ends with `remedy`."""
     try:
         if path.exists() and not path.is_file():
-            raise OSError("it is no file")
+            raise OSError("it is no file; put one in its place")
         with path.open("rb") as file:
             return feed(parser, file, shown, remedy, problems)
     except OSError as error:
-        problems.append(Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {error.strerror or error}"))
+        note_unreadable(error, shown, problems)
         return False
 
 

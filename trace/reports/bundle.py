@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import shutil
@@ -16,6 +17,8 @@ from pathlib import Path
 from mamori.trace.model.bundle import MANIFEST, SIGNATURE, Entry, Manifest, describe_path, format_manifest
 from mamori.trace.readers.files import InputError
 from mamori.trace.signature import sign
+from mamori.trace.system_error import explain
+from mamori.trace.write import find_target, name_part
 
 FIXED_TIME_S = 315532800  # 1980-01-01: no archive format is too young for it
 _CHUNK = 1 << 16
@@ -48,23 +51,29 @@ def finish(folder: Path, manifest: Manifest, key: Path | None, out: Path) -> Non
     if key is not None:
         (folder / SIGNATURE).write_bytes(sign(data, key))
     names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
-    out.parent.mkdir(parents=True, exist_ok=True)
-    if out.suffix != ".tar":
-        _place_folder(folder, names, out)
-        return
-    part = out.with_name(f".{out.name}.{os.getpid()}.part")
+    try:
+        target = find_target(out)
+        (_place_archive if out.suffix == ".tar" else _place_folder)(folder, names, target)
+    except OSError as error:
+        raise InputError(f"{out}: cannot be written: {explain(error)}") from None
+
+
+def _place_archive(folder: Path, names: list[str], out: Path) -> None:
+    part = name_part(out)
     try:
         _write_tar(folder, names, part)
         part.replace(out)
     finally:
-        part.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            part.unlink(missing_ok=True)
 
 
 def _place_folder(folder: Path, names: list[str], out: Path) -> None:
-    part = out.with_name(f".{out.name}.{os.getpid()}.part")
+    part = name_part(out)
     try:
-        shutil.copytree(folder, part)
         for name in names:
+            (part / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(folder / name, part / name)
             (part / name).chmod(0o644)
             os.utime(part / name, (FIXED_TIME_S, FIXED_TIME_S))
         part.rename(out)
@@ -93,13 +102,18 @@ def _list_files(source: Path) -> Iterator[tuple[Path, str]]:
     if source.is_file():
         yield source, ""
         return
-    for base, folders, files in os.walk(source):
+    for base, folders, files in os.walk(source, onerror=_refuse):
         folders.sort()
         for name in sorted(files) + [each for each in folders if Path(base, each).is_symlink()]:
             path = Path(base, name)
             if path.is_symlink() or not path.is_file():
                 raise InputError(f"{path}: is a link or no regular file; a bundle holds regular files only")
             yield path, path.relative_to(source).as_posix()
+
+
+def _refuse(error: OSError) -> None:
+    """A folder that cannot be listed would be a bundle of half of the evidence."""
+    raise error
 
 
 def _copy(source: Path, target: Path) -> Entry:

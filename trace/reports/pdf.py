@@ -22,7 +22,7 @@ _NODES = re.compile(rb"\bnode\d{8}\b")
 
 
 def print_page(page: str, out: Path) -> None:
-    """Writes `out` whole or not at all. Raises BrowserError and OSError."""
+    """Writes `out` whole or not at all. Raises BrowserError and InputError."""
     with tempfile.TemporaryDirectory(prefix="mamori-paper-") as folder:
         file = Path(folder) / "report.html"
         file.write_text(page, encoding="utf-8", newline="\n")
