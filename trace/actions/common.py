@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 from mamori.trace.actions.foreign import add_foreign, get_foreign
-from mamori.trace.checks import unreadable_input
+from mamori.trace.checks import list_rule_ids, unreadable_input
 from mamori.trace.model.finding import ERROR, Finding
 from mamori.trace.model.item import Item
 from mamori.trace.model.project import Project
@@ -52,8 +52,8 @@ def read_input(arguments: argparse.Namespace) -> Project:
     if foreign is not None:
         from mamori.trace.formats.in_place import read_in_place  # loads much that a project of Mamori's own format does not need
 
-        return read_in_place(foreign)
-    return read_project(arguments.root, arguments.evidence, arguments.allow_missing, arguments.date or "")
+        return read_in_place(foreign, list_rule_ids())
+    return read_project(arguments.root, arguments.evidence, list_rule_ids(), arguments.allow_missing, arguments.date or "")
 
 
 def find_item(project: Project, name: str) -> Item:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from mamori.trace.actions.common import EXIT_CLEAN, add_root, find_item
 from mamori.trace.actions.foreign import check_format
+from mamori.trace.checks import list_rule_ids
 from mamori.trace.formats.in_place import LOCK_NAME, ForeignInput, read_in_place
 from mamori.trace.model.finding import Place
 from mamori.trace.model.ids import FormerId
@@ -65,7 +66,7 @@ def _read(arguments: argparse.Namespace) -> tuple[Project, Path | None]:
     name, path = arguments.format
     check_format(name)
     given = ForeignInput(name, Path(path), arguments.root, schema=arguments.schema, allow_missing=True)
-    return read_in_place(given), given.folder / LOCK_NAME
+    return read_in_place(given, list_rule_ids()), given.folder / LOCK_NAME
 
 
 def list_gone(project: Project) -> dict[str, str]:

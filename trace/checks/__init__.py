@@ -116,6 +116,11 @@ def list_rules() -> list[Rule]:
     return [module.RULE for module in RULES + LATE_RULES]
 
 
+def list_rule_ids() -> list[str]:
+    """What waivers and rule packs may name."""
+    return [rule.id for rule in list_rules()]
+
+
 def describe_rules() -> dict[str, str]:
     """What each rule is after, in the first sentence of its module."""
     return {module.RULE.id: (module.__doc__ or "").strip().partition("\n")[0] for module in RULES + LATE_RULES}

@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -52,8 +52,8 @@ class ForeignInput:
         return self.path if self.path.is_dir() else self.path.parent
 
 
-def read_in_place(given: ForeignInput) -> Project:
-    """The project with all its evidence. Raises InputError where nothing can be judged."""
+def read_in_place(given: ForeignInput, rules: Sequence[str]) -> Project:
+    """The project with all its evidence. `rules` are the ids of those that are known. Raises InputError where nothing can be judged."""
     mapping = read_mapping(given.format, given.schema)
     folder = given.folder
     root = given.root if folder.resolve().is_relative_to(given.root.resolve()) else folder
@@ -77,7 +77,7 @@ def read_in_place(given: ForeignInput) -> Project:
     project.evidence.results = _link_results(project.evidence.results, project.tests, converted, problems)
     attach_sources(project)
     _follow_polarity(project, converted)
-    read_judgement(project, given.date)
+    read_judgement(project, rules, given.date)
     project.pack.grades["design-missing"] = Grades()  # the rule keeps its own severity, which is none: no format has such links
     return project
 

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
-from mamori.trace.checks import list_rules
 from mamori.trace.model.code import CodeBase
 from mamori.trace.model.evidence import INTEGRATION, UNIT, Evidence
 from mamori.trace.model.finding import Problem
@@ -72,13 +72,13 @@ def read_requirements(root: Path) -> Project:
     return project
 
 
-def read_judgement(project: Project, date: str = "") -> None:
+def read_judgement(project: Project, rules: Sequence[str], date: str = "") -> None:
     """What the project says beside its items: pack, waivers, records, techniques, kinds, and the day to judge by. Raises InputError.
 
+    `rules` are the ids that packs and waivers may name; who runs the rules knows them.
     `date` empty: the day of the checked-out commit, or else that of the evidence; never the clock, which would make the
     outcome change by itself.
     """
-    rules = [rule.id for rule in list_rules()]
     project.pack = read_rule_pack(project.root, project.schema, rules)
     project.waivers = read_waivers(project.root, rules, project.problems)
     project.decomposition = read_decomposition(project.root, project.problems)
@@ -91,8 +91,11 @@ def read_judgement(project: Project, date: str = "") -> None:
         project.date = read_commit_date(project.root) or (made if is_date(made) else "")
 
 
-def read_project(root: Path, evidence: Path | None, allow_missing: bool = False, date: str = "") -> Project:
-    """Everything. `evidence` None looks for the folder; no folder at all is an InputError unless results may be missing."""
+def read_project(root: Path, evidence: Path | None, rules: Sequence[str], allow_missing: bool = False, date: str = "") -> Project:
+    """Everything. `rules` are the ids of those that are known.
+
+    `evidence` None looks for the folder; no folder at all is an InputError unless results may be missing.
+    """
     project = read_requirements(root)
     project.allow_missing = allow_missing
     project.head = read_head(root)
@@ -114,7 +117,7 @@ def read_project(root: Path, evidence: Path | None, allow_missing: bool = False,
         for result in project.evidence.results:
             if result.kind == UNIT and result.source is not None and result.source.file.startswith("verification/"):
                 result.kind = INTEGRATION
-    read_judgement(project, date)
+    read_judgement(project, rules, date)
     return project
 
 

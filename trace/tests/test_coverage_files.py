@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample
 
+from mamori.trace.checks import list_rule_ids
 from mamori.trace.model.project import Project
 from mamori.trace.readers.llvm_cov import calc_line_counts
 from mamori.trace.readers.project import read_project
@@ -124,7 +125,7 @@ def write(sample: Sample, name: str, text: str | bytes) -> Path:
 
 
 def load(sample: Sample) -> Project:
-    return read_project(sample.root, None)
+    return read_project(sample.root, None, list_rule_ids())
 
 
 @pytest.mark.parametrize("name", FORMATS)

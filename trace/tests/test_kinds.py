@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample, format_item, format_technique
 
+from mamori.trace.checks import list_rule_ids
 from mamori.trace.readers.kinds import read_kinds
 from mamori.trace.readers.project import read_project, read_requirements
 from mamori.trace.readers.schema import read_schema
@@ -102,7 +103,7 @@ def test_a_technique_that_is_shown_stands_in_the_project_and_on_the_page(sample:
 
     outcome = trace("report", "--root", sample.root)
 
-    (technique,) = read_project(sample.root, None).techniques or []
+    (technique,) = read_project(sample.root, None, list_rule_ids()).techniques or []
     assert (outcome.status, technique.phase, technique.items) == (0, "design", ("SWR-SUP-001",))
     page = (sample.root / "report" / "index.html").read_text()
     assert "<td>Looking twice</td><td>Annex Z; needs the bought text; design</td>" in page
@@ -131,5 +132,5 @@ def test_a_broken_technique_is_named(sample: Sample, trace: Callable, old: str, 
 
 @pytest.mark.verifies("SWR-TRC-027", technique="requirements_based", polarity="nominal")
 def test_a_project_without_a_table_of_techniques_has_none(sample: Sample) -> None:
-    assert read_project(sample.root, None).techniques is None
+    assert read_project(sample.root, None, list_rule_ids()).techniques is None
     assert read_requirements(sample.root).kinds.kinds == {}

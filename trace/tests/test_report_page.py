@@ -15,6 +15,7 @@ import pytest
 from large_project import make_large_project
 from trace_sample import Sample
 
+from mamori.trace.checks import list_rule_ids
 from mamori.trace.model.code import Function
 from mamori.trace.model.coverage import Condition, CoverageRun, FileCoverage
 from mamori.trace.model.finding import Place
@@ -181,7 +182,7 @@ def test_waived_findings_stand_on_the_page_with_their_reasons(sample: Sample, pa
 
 @pytest.mark.verifies("SWR-TRC-064", technique="interface", polarity="nominal")
 def test_coverage_and_techniques_stand_on_the_page_where_the_project_offers_them(sample: Sample) -> None:
-    project = read_project(sample.root, None)
+    project = read_project(sample.root, None, list_rule_ids())
     owners = ("SWR-SUP-001", "SWR-OLD-001")
     project.functions = [Function("safety/src/alive.cpp", "step", 7, 9, 7, owners), Function("safety/src/alive.cpp", "stop", 11, 12, 11, owners)]
     covered = FileCoverage({7: 1, 8: 0, 9: 1, 11: 0}, branches={8: (3, 4)}, conditions={(8, 1): Condition("late", True), (8, 2): Condition("silent", False)})
@@ -228,7 +229,7 @@ def test_a_browser_that_fails_leaves_the_old_report(sample: Sample, page: Callab
         raise BrowserError("chromium ended by itself")
 
     with pytest.raises(BrowserError):
-        write_report(read_project(sample.root, None), sample.root / "report" / "index.html", fail)
+        write_report(read_project(sample.root, None, list_rule_ids()), sample.root / "report" / "index.html", fail)
 
     assert (sample.root / "report" / "index.html").read_text() == before
 
@@ -237,7 +238,7 @@ def test_a_browser_that_fails_leaves_the_old_report(sample: Sample, page: Callab
 def test_paper_has_overview_findings_matrix_and_items_and_no_script(sample: Sample) -> None:
     papers: list[str] = []
 
-    write_report(read_project(sample.root, None), sample.root / "page.html", papers.append)
+    write_report(read_project(sample.root, None, list_rule_ids()), sample.root / "page.html", papers.append)
 
     (paper,) = papers
     assert re.findall(r'<section id="(\w+)"', paper) == ["overview", "findings", "matrix", "items", "techniques", "glossary"]

@@ -63,6 +63,7 @@ ALLOWED = {
     "simbody_sim/src/a.cpp": "#include <Simbody.h>\n#include <kdl/chain.hpp>\n#include \"mamori/virtual_time/clock.hpp\"\n",
     "examples/a/main.cpp": "#include <iostream>\n#include \"mamori/simbody_sim/arm.hpp\"\n",
     "trace/a.py": "import mamori.trace.model\nfrom pathlib import Path\n",
+    "trace/checks/a.py": "import mamori.trace.readers.files\n",
     "verification/a.py": "from mamori.profiles.motion import read_motion\n",
     "safety/CMakeLists.txt": "mamori_library(safety DEPENDS mamori::kernel)\nmamori_test(t DEPENDS mamori::virtual_time)\n",
 }  # fmt: skip
@@ -102,6 +103,8 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
         ("ports/posix_rt/CMakeLists.txt", "mamori_library(posix_rt DEPENDS mamori::conformance)", "link: ports/posix_rt may"),
         ("trace/a.py", "import mamori.verification.command", "import: trace may not import mamori.verification.command"),
         ("trace/a.py", "from mamori import profiles", "import: trace may not import mamori.profiles"),
+        ("trace/readers/a.py", "from mamori.trace import checks", "import: trace/readers may not import mamori.trace.checks"),
+        ("trace/model/a.py", "import mamori.trace.readers.files", "import: trace/model may not import mamori.trace.readers.files"),
         ("profiles/a.py", "from mamori.trace.model import item", "import: profiles may not import mamori.trace.model.item"),
     ],
 )

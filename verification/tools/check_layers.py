@@ -70,8 +70,10 @@ def _check_file(root: Path, path: Path) -> Iterator[Finding]:
     name = "/".join(parts)
     if path.suffix == ".py":
         text = path.read_text(encoding="utf-8")
-        for line, message in _check_imports(parts[0], text):
-            yield Finding(name, line, "import", message)
+        for folder, forbidden in FORBIDDEN_IMPORTS.items():
+            if name.startswith(f"{folder}/"):
+                for line, message in _check_imports(folder, forbidden, text):
+                    yield Finding(name, line, "import", message)
         return
     layer = get_layer(parts)
     if layer is None:
@@ -139,8 +141,7 @@ def _check_links(layer: Layer, layers: set[str], text: str) -> Iterator[tuple[in
                 yield line, f"{layer.name} may not link mamori::{target['layer']}"
 
 
-def _check_imports(package: str, text: str) -> Iterator[tuple[int, str]]:
-    forbidden = FORBIDDEN_IMPORTS.get(package, ())
+def _check_imports(folder: str, forbidden: tuple[str, ...], text: str) -> Iterator[tuple[int, str]]:
     for node in ast.walk(ast.parse(text)):
         match node:
             case ast.Import(names=names):
@@ -151,7 +152,7 @@ def _check_imports(package: str, text: str) -> Iterator[tuple[int, str]]:
                 continue
         for module in modules:
             if any(f"{module}.".startswith(f"{name}.") for name in forbidden):
-                yield node.lineno, f"{package} may not import {module}"
+                yield node.lineno, f"{folder} may not import {module}"
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -50,8 +50,15 @@ def get_layer(path: tuple[str, ...]) -> Layer | None:
             return None
 
 
-# Python package -> packages of ours that it must not import.
+_TRACE_UPPER = ("mamori.trace.checks", "mamori.trace.reports", "mamori.trace.actions", "mamori.trace.command")
+
+# Folder of Python -> packages of ours that must not be imported in or below it.
 FORBIDDEN_IMPORTS = {
     "trace": ("mamori.profiles", "mamori.verification"),
+    "trace/model": ("mamori.trace.readers", "mamori.trace.formats", *_TRACE_UPPER),
+    "trace/readers": ("mamori.trace.formats", *_TRACE_UPPER),
+    "trace/formats": _TRACE_UPPER,
+    "trace/checks": ("mamori.trace.formats", *_TRACE_UPPER[1:]),
+    "trace/reports": ("mamori.trace.formats", *_TRACE_UPPER[2:]),
     "profiles": ("mamori.trace", "mamori.verification"),
 }

@@ -12,6 +12,7 @@ import pytest
 from large_project import make_large_project
 from trace_sample import make_sample
 
+from mamori.trace.checks import list_rule_ids
 from mamori.trace.readers.project import read_project
 from mamori.trace.reports.chromium import Chromium
 from mamori.trace.reports.html import write_report
@@ -94,7 +95,7 @@ def small_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     sample.replace("build/host-release/evidence/junit/tools.xml", 'name="test_no_connection[b]" time="0.001">',
                    'name="test_no_connection[b]" time="0.001"><failure message="&lt;b&gt;no&lt;/b&gt;"/>')  # fmt: skip
     out = sample.root / "report" / "index.html"
-    write_report(read_project(sample.root, None), out)
+    write_report(read_project(sample.root, None, list_rule_ids()), out)
     return out
 
 

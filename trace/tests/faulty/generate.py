@@ -13,6 +13,7 @@ from faulty.page import Pages
 from faulty.plan import COMMIT, Plan, make_plan
 from faulty.writers import WRITERS, add_native_schema
 from mamori.trace.actions.review import review_links
+from mamori.trace.checks import list_rule_ids
 from mamori.trace.formats.in_place import LOCK_NAME, ForeignInput, read_in_place
 from mamori.trace.model.lock import ReviewLock
 from mamori.trace.readers.lock import LOCK_PATH, write_lock
@@ -84,7 +85,7 @@ def _write(plan: Plan, writer, root: Path) -> Pages:
 
 def _review(format_name: str, root: Path) -> None:
     native = format_name == "native"
-    project = read_requirements(root) if native else read_in_place(ForeignInput(format_name, root, root, allow_missing=True))
+    project = read_requirements(root) if native else read_in_place(ForeignInput(format_name, root, root, allow_missing=True), list_rule_ids())
     review_links(project, set(project.items), DATE, REVIEWER)
     write_lock(root, project.lock or ReviewLock(), None if native else root / LOCK_NAME)
 
