@@ -11,7 +11,6 @@ import io
 import re
 import tokenize
 from bisect import bisect_left, bisect_right
-from dataclasses import replace
 from pathlib import Path
 
 import tree_sitter
@@ -23,7 +22,7 @@ from mamori.trace.model.evidence import CodeTag, SourceTest
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.cpp_tags import FILE_SYMBOL, parse_cpp_tags
 from mamori.trace.readers.files import get_shown_path, is_test_file, walk_sources
-from mamori.trace.readers.tag_aliases import TEST, Alias, find_aliases, has_aliases
+from mamori.trace.readers.tag_text import ANY_ID, VERIFIES, TagWord, find_words, has_mark
 
 _CPP = (".c", ".h", ".hpp", ".hh", ".hxx", ".cpp", ".cc", ".cxx", ".ipp")
 _PYTHON = (".py",)
@@ -34,6 +33,9 @@ _CPP_CALL = re.compile(r"""\b(?:verifies\(\s*|RecordProperty\(\s*"(?:requirement
 _PYTHON_TEST = re.compile(r"^(?P<indent>[ \t]*)(?:async[ \t]+)?def[ \t]+(?P<name>test\w*)|^class[ \t]+(?P<group>\w+)", re.MULTILINE)
 _PYTHON_MARK = re.compile(r"""^[ \t]*@pytest\.mark\.verifies\(\s*["']([^"']+)["']""", re.MULTILINE)
 _POLARITY = re.compile(r"k?(Violation|violation)\b")
+
+Numbered = tuple[int, TagWord]
+"""A word with the number of its line."""
 
 
 def read_sources(
@@ -48,41 +50,24 @@ def read_sources(
         text = read_whole(path, shown, problems)
         in_test = is_test_file(relative)
         listed = code is not None and not in_test and relative.endswith(_CPP)
-        if text is None or not (listed or has_aliases(text) or "verifies" in text.lower()):
+        if text is None or not (listed or has_mark(text) or "verifies" in text.lower()):
             continue
-        aliases = list(find_aliases(text))
-        found = [alias for alias in aliases if in_test or alias.kind == TEST]
-        tests += _read_tests(text, shown, found)
-        tags += _read_tags(text, shown, [alias for alias in aliases if alias not in found], parser, code if listed else None)
+        words = [(number, word) for number, line in enumerate(text.splitlines(), start=1) for word in find_words(line, ANY_ID)]
+        tests += _read_tests(text, shown, [(number, word) for number, word in words if in_test or word.role == VERIFIES])
+        if not in_test:
+            chosen = [(number, word) for number, word in words if word.role != VERIFIES]
+            tags += _read_tags(text, shown, chosen, parser, code if listed else None)
     return tags, tests
 
 
-def _read_tags(text: str, shown: str, aliases: list[Alias], parser: tree_sitter.Parser, code: CodeBase | None) -> list[CodeTag]:
-    if not aliases and code is None:
+def _read_tags(text: str, shown: str, words: list[Numbered], parser: tree_sitter.Parser, code: CodeBase | None) -> list[CodeTag]:
+    if not words and code is None:
         return []
     if shown.endswith(_CPP):
-        return _read_cpp_tags(text, shown, aliases, parser, code)
+        return parse_cpp_tags(text, shown, parser, [], code, ANY_ID)
     symbols = _name_python_lines(text) if shown.endswith(_PYTHON) else _list_comment_lines(text)
-    return [CodeTag(each, Place(shown, alias.line), symbols[alias.line])
-            for alias in aliases if alias.line in symbols for each in alias.ids]  # fmt: skip
-
-
-def _read_cpp_tags(text: str, shown: str, aliases: list[Alias], parser: tree_sitter.Parser, code: CodeBase | None) -> list[CodeTag]:
-    """Each tag is written over by one of the project's own shape, whose number leads back to the foreign ids; lines stay."""
-    lines = text.splitlines()
-    for number, alias in sorted(enumerate(aliases), key=lambda pair: (pair[1].line, -pair[1].start)):
-        line = lines[alias.line - 1]
-        lines[alias.line - 1] = f"{line[: alias.start]}@satisfies ALIAS-{number} .{line[alias.end :]}"
-    known = len(code.scopes) if code is not None else 0
-    found = parse_cpp_tags("\n".join(lines), shown, parser, [], code)
-    if code is not None:
-        code.scopes[known:] = [replace(scope, requirements=_name_ids(scope.requirements, aliases)) for scope in code.scopes[known:]]
-    return [CodeTag(each, tag.place, tag.symbol) for tag in found if tag.requirement.startswith("ALIAS-")
-            for each in aliases[int(tag.requirement[6:])].ids]  # fmt: skip
-
-
-def _name_ids(numbered: tuple[str, ...], aliases: list[Alias]) -> tuple[str, ...]:
-    return tuple(each for word in numbered if word.startswith("ALIAS-") for each in aliases[int(word[6:])].ids)
+    return [CodeTag(word.requirement, Place(shown, number), FILE_SYMBOL if word.of_file else symbols[number])
+            for number, word in words if number in symbols]  # fmt: skip
 
 
 def _list_comment_lines(text: str) -> dict[int, str]:
@@ -115,10 +100,10 @@ def _name_python_lines(text: str) -> dict[int, str]:
     return symbols
 
 
-def _read_tests(text: str, shown: str, aliases: list[Alias]) -> list[SourceTest]:
+def _read_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest]:
     """A tag belongs to the test whose head stands below its comment, or around it. Without a test it keeps an empty name."""
     heads = _list_python_heads(text, shown) if shown.endswith(_PYTHON) else _list_cpp_heads(text)
-    named = [(alias.line, each, "nominal") for alias in aliases for each in alias.ids]
+    named = [(number, word.requirement, "nominal") for number, word in words]
     pattern = _PYTHON_MARK if shown.endswith(_PYTHON) else _CPP_CALL
     for match in pattern.finditer(text):
         line = text.count("\n", 0, match.start()) + 1

@@ -16,7 +16,7 @@ from pathlib import Path
 from mamori.trace.model.evidence import CAMPAIGN, ERRORED, FAILED, PASSED, SKIPPED, UNIT, TestResult
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import get_shown_path, list_paths
-from mamori.trace.readers.tag_aliases import RESULT_PROPERTIES
+from mamori.trace.readers.tag_text import RESULT_PROPERTIES
 from mamori.trace.readers.xml_file import Refused, feed, feed_file, make_parser
 
 _WORST_FIRST = (ERRORED, FAILED, SKIPPED, PASSED)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Finds the ids that one line of a comment names, in the words of this project and in those of other tools.
 
-@satisfies SWR-TRC-002, SWR-TRC-040      Design: docs/design/trace_cover.md#tags-of-other-tools
+@satisfies SWR-TRC-002, SWR-TRC-040, SWR-TRC-047      Design: docs/design/trace_cover.md#tags-of-other-tools
 """
 
 from __future__ import annotations
@@ -17,15 +17,21 @@ from mamori.trace.model.finding import Place, Problem
 FILE_SYMBOL = "file"
 ID_PATTERN = r"[A-Z]+-[\w-]+"
 """Ids as this project writes them. A project kept for another tool brings its own pattern."""
+ANY_ID = r"[A-Za-z_][\w.\-~/]*\w"
+"""Ids of a project of which nothing is known."""
+RESULT_PROPERTIES = {"Verifies": "requirement", "FullyVerifies": "requirement", "PartiallyVerifies": "requirement",
+                     "verifies": "requirement", "lobster-tracing": "requirement"}  # fmt: skip
+"""Properties of a JUnit test case that name what it verifies, in the words of other tools."""
 
 IMPLEMENTS = "implements"
 VERIFIES = "verifies"
 NAMES = "names"
 """The tag does not tell; where it stands does."""
 
-_MARKS = ("@satisfies", "@verifies", "@relation(", "req-Id:", "lobster-trace:")
-_ARTIFACT = re.compile(r"\[[a-z]+(?:~[^\]\s]*)?[ \t]*->")
-_TEST_ARTIFACT = re.compile(r"[a-z]*test")
+_MARKS = ("@satisfies", "@verifies", "@relation(", "@need-ids", "lobster-trace", "req-Id", "req-id", "REQ-ID")
+_ARTIFACT = re.compile(r"\[[A-Za-z]+(?:~[^\]\s]*)?[ \t]*->")
+_TEST_ARTIFACT = re.compile(r"[a-z]*test|tst")
+_OFT_ID = r"[A-Za-z]+~[\w.\-]+~\d+"
 
 
 def has_mark(text: str) -> bool:
@@ -53,7 +59,6 @@ class _Patterns:
     relation: re.Pattern[str]
     artifact: re.Pattern[str]
     named: re.Pattern[str]
-    single: re.Pattern[str]
 
 
 @cache
@@ -61,14 +66,18 @@ def _get_patterns(id_pattern: str) -> _Patterns:
     one = rf"(?:{id_pattern})"
     more = rf"({one}(?:[ \t]*,[ \t]*{one})*)"
     return _Patterns(
-        satisfies=re.compile(rf"@satisfies[ \t]+{more}"),
-        bare=re.compile(rf"^[\s/*#'\"]*@satisfies\b(?![ \t]+{one})"),
-        verifies=re.compile(rf"@verifies[ \t]+{more}"),
+        satisfies=re.compile(rf"@satisfies[ \t]*:?[ \t]+{more}"),
+        bare=re.compile(rf"^[\s/*#'\"]*@satisfies\b(?![ \t]*:?[ \t]+{one})"),
+        verifies=re.compile(rf"@verifies[ \t]*:?[ \t]+{more}"),
         relation=re.compile(rf"@relation\([ \t]*{more}[ \t]*((?:,[ \t]*\w+[ \t]*=[ \t]*\w+[ \t]*)*)\)"),
-        artifact=re.compile(rf"\[([a-z]+)(?:~[^\]\s]*?)?[ \t]*->[ \t]*({one})[ \t]*(?:>>[^\]]*)?\]"),
-        named=re.compile(rf"\b(?:req-Id|lobster-trace):[ \t]*{more}"),
-        single=re.compile(one),
+        artifact=re.compile(rf"\[([A-Za-z]+)(?:~[^\]\s]*?)?[ \t]*->[ \t]*({_list_covered(id_pattern)})[ \t]*(?:>>[^\]]*)?\]"),
+        named=re.compile(rf"(?:\b(?:req-[Ii]d|REQ-ID|lobster-trace)|@need-ids)[ \t]*:[ \t]*{more}"),
     )
+
+
+def _list_covered(id_pattern: str) -> str:
+    """What a tag with an arrow covers. Where any word may be an id, only one with a revision counts: `[x -> y]` is code."""
+    return rf"{_OFT_ID}(?:[ \t]*,[ \t]*{_OFT_ID})*" if id_pattern == ANY_ID else rf"(?:{id_pattern})"
 
 
 def find_words(line: str, id_pattern: str = ID_PATTERN) -> Iterator[TagWord]:
@@ -86,7 +95,8 @@ def find_words(line: str, id_pattern: str = ID_PATTERN) -> Iterator[TagWord]:
         role = _get_role(options.get("role", ""))
         yield from (TagWord(word, role, options.get("scope") == "file") for word in _split(match[1]))
     for match in patterns.artifact.finditer(line):
-        yield TagWord(match[2], VERIFIES if _TEST_ARTIFACT.fullmatch(match[1]) else IMPLEMENTS)
+        role = VERIFIES if _TEST_ARTIFACT.fullmatch(match[1]) else IMPLEMENTS
+        yield from (TagWord(word, role) for word in _split(match[2]))
 
 
 def _get_role(word: str) -> str:

@@ -8,7 +8,7 @@ import pytest
 
 from mamori.trace.model.finding import Place
 from mamori.trace.readers.cpp_tags import read_cpp_tags
-from mamori.trace.readers.tag_text import IMPLEMENTS, NAMES, VERIFIES, find_words, make_tags
+from mamori.trace.readers.tag_text import ANY_ID, IMPLEMENTS, NAMES, VERIFIES, find_words, make_tags
 
 OFT = r"[a-z]+~[\w.-]+~\d+"
 
@@ -26,6 +26,9 @@ OFT = r"[a-z]+~[\w.-]+~\d+"
         ("// [impl~watch~2->SWR-ABC-001>>utest,itest] [utest->SWR-ABC-002]", [("SWR-ABC-001", IMPLEMENTS), ("SWR-ABC-002", VERIFIES)]),
         ("// req-Id: SWR-ABC-001", [("SWR-ABC-001", NAMES)]),
         ("// lobster-trace: SWR-ABC-001,SWR-ABC-002", [("SWR-ABC-001", NAMES), ("SWR-ABC-002", NAMES)]),
+        ("// @satisfies: SWR-ABC-001", [("SWR-ABC-001", IMPLEMENTS)]),
+        ("// @need-ids: SWR-ABC-001", [("SWR-ABC-001", NAMES)]),
+        ("// REQ-ID : SWR-ABC-001", [("SWR-ABC-001", NAMES)]),
         ("auto f = [impl]() -> int { return table[i->SWR]; };", []),
         ("// @relation(see below)", []),
     ],
@@ -44,6 +47,21 @@ def test_ids_may_have_the_shape_of_another_tool() -> None:
     assert [(tag.requirement, tag.symbol) for tag in tags] == [("req~watch-late~2", "watch")]
     assert [tag.requirement for tag in make_tags("// lobster-trace: watch.silent", Place("a.hpp", 3), "watch", problems, r"\w+\.\w+")] == ["watch.silent"]
     assert problems == []
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("// [itest->req~watch.silent~1, req~x~1]", [("req~watch.silent~1", VERIFIES), ("req~x~1", VERIFIES)]),
+        ("// [Impl~~2->req~x~1>>utest]", [("req~x~1", IMPLEMENTS)]),
+        ("// lobster-trace: watch.silent,b/c", [("watch.silent", NAMES), ("b/c", NAMES)]),
+        ("// @relation(arm-1, scope=function)", [("arm-1", NAMES)]),
+        ("auto next = table[here->next];  // [x -> y]", []),
+    ],
+)
+@pytest.mark.verifies("SWR-TRC-047", technique="equivalence_classes", polarity="nominal")
+def test_ids_of_any_shape_are_read_and_code_is_not(line: str, words: list[tuple[str, str]]) -> None:
+    assert [(word.requirement, word.role) for word in find_words(line, ANY_ID)] == words
 
 
 @pytest.mark.verifies("SWR-TRC-040", technique="requirements_based", polarity="nominal")
