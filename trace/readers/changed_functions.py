@@ -7,15 +7,20 @@
 from __future__ import annotations
 
 import ast
+from bisect import bisect_right
 from dataclasses import dataclass
 
 import tree_sitter
 import tree_sitter_cpp
 
+from mamori.trace.readers.cpp_functions import capture, find_class_name, find_definitions, find_function_name, has_body, list_classes, qualify
+from mamori.trace.readers.python_functions import Definition, list_definitions
+
 CPP_SUFFIXES = (".hpp", ".h", ".cpp", ".cc", ".ipp")
 _LANGUAGE = tree_sitter.Language(tree_sitter_cpp.language())
 _TESTS = ("TEST", "TEST_F", "TEST_P", "TYPED_TEST", "TYPED_TEST_P")
-_CLASSES = ("class_specifier", "struct_specifier", "union_specifier", "enum_specifier")
+_DECLARED = tree_sitter.Query(_LANGUAGE, "(field_declaration) @function (enum_specifier) @class")
+"""What a changed line may belong to beside the parts that have owners: only here, as each run of a check would pay for the search."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,52 +71,32 @@ def _has_line_of_its_own(span: Span, inner: list[Span], first: int, last: int) -
 
 
 def _list_cpp(text: str) -> list[Span]:
-    tree = tree_sitter.Parser(_LANGUAGE).parse(text.encode())
-    spans: list[Span] = []
-    stack: list[tuple[tree_sitter.Node, tuple[str, ...]]] = [(tree.root_node, ())]
-    while stack:  # no recursion: sources may be nested as deep as they like
-        node, scope = stack.pop()
-        inner = scope
-        if node.type == "function_definition" or (node.type == "field_declaration" and _find_function(node) is not None):
-            span = _make_cpp_span(node, scope)
-            if span is not None:
-                spans.append(span)
-            continue
-        if node.type in _CLASSES and node.child_by_field_name("body") is not None:
-            name = node.child_by_field_name("name")
-            if name is not None:
-                inner = (*scope, name.text.decode())
-                spans.append(Span("::".join(inner), _find_start(node), node.end_point.row + 1))
-        stack.extend((child, inner) for child in node.named_children)
-    return spans
+    root = tree_sitter.Parser(_LANGUAGE).parse(text.encode()).root_node
+    captures = capture(root)
+    declared = tree_sitter.QueryCursor(_DECLARED).captures(root)
+    classes = list_classes(captures)
+    definitions = list(find_definitions(captures, classes))
+    starts = [node.start_byte for node, _ in definitions]
+
+    def is_inside(node: tree_sitter.Node) -> bool:
+        """Whether it stands in a function, and is a part of that."""
+        index = bisect_right(starts, node.start_byte) - 1
+        return index >= 0 and node.start_byte < definitions[index][0].end_byte
+
+    named = [(node, find_function_name(node)) for node in declared.get("function", ())]
+    named += [(node, find_class_name(node)) for node in (*captures.get("class", ()), *declared.get("class", ())) if has_body(node)]
+    free = [(node, qualify(node, name, classes)) for node, name in named if name and not is_inside(node)]
+    return [_make_cpp_span(node, name) for node, name in definitions + free]
 
 
-def _find_function(node: tree_sitter.Node) -> tree_sitter.Node | None:
-    for _ in range(16):  # deeper declarators do not occur in code that people read
-        if node.type == "function_declarator":
-            return node
-        inner = node.child_by_field_name("declarator")
-        if inner is None and node.type == "reference_declarator" and node.named_children:
-            inner = node.named_children[-1]
-        if inner is None:
-            return None
-        node = inner
-    return None
-
-
-def _make_cpp_span(node: tree_sitter.Node, scope: tuple[str, ...]) -> Span | None:
-    declarator = _find_function(node)
-    name = declarator.child_by_field_name("declarator") if declarator is not None else None
-    if name is None:
-        return None
-    word = name.text.decode()
+def _make_cpp_span(node: tree_sitter.Node, name: str) -> Span:
     first, last = _find_start(node), node.end_point.row + 1
-    if word in _TESTS:
-        parameters = declarator.child_by_field_name("parameters")
+    if name in _TESTS:
+        parameters = node.child_by_field_name("declarator").child_by_field_name("parameters")
         parts = [child.text.decode() for child in parameters.named_children] if parameters is not None else []
         if len(parts) == 2:
             return Span(".".join(parts), first, last, is_test=True)
-    return Span("::".join((*scope, word)), first, last)
+    return Span(name, first, last)
 
 
 def _find_start(node: tree_sitter.Node) -> int:
@@ -128,19 +113,11 @@ def _find_start(node: tree_sitter.Node) -> int:
 
 def _list_python(text: str) -> list[Span]:
     try:
-        tree = ast.parse(text)
+        definitions = list_definitions(ast.parse(text))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []  # the whole file counts then
-    spans: list[Span] = []
-    stack: list[tuple[ast.AST, tuple[str, ...]]] = [(tree, ())]
-    while stack:
-        node, scope = stack.pop()
-        for child in ast.iter_child_nodes(node):
-            inner = scope
-            if isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-                inner = (*scope, child.name)
-                first = min([child.lineno, *(decorator.lineno for decorator in child.decorator_list)])
-                is_test = child.name.startswith("test") and not isinstance(child, ast.ClassDef)
-                spans.append(Span(".".join(inner), first, child.end_lineno or child.lineno, is_test))
-            stack.append((child, inner))
-    return spans
+    return [Span(one.name.replace("::", "."), one.first, one.last, _is_python_test(one)) for one in definitions]
+
+
+def _is_python_test(one: Definition) -> bool:
+    return one.node.name.startswith("test") and not isinstance(one.node, ast.ClassDef)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections import defaultdict
+from collections.abc import Iterator
 from dataclasses import dataclass
 from os.path import commonprefix
 
@@ -30,12 +31,16 @@ _NAME_TYPES = ("identifier", "type_identifier", "field_identifier", "qualified_i
 _WRAPPED = ("template_declaration", "reference_declarator", "linkage_specification")
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">\n]+)[">]', re.MULTILINE)
 _SOURCE_SUFFIXES = (".cpp", ".cc")
+_BODIES = ("compound_statement", "try_statement")
+_CLASS_TYPES = ("class_specifier", "struct_specifier", "union_specifier")
 _DEPTH_MAX = 16
 """Deeper declarators do not occur in code that people read."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Class:
+class Class:
+    """A class with its lines; one without a name has an empty one."""
+
     name: str
     first: int
     last: int
@@ -46,7 +51,7 @@ class FileFunctions:
     """Functions and classes of one file, both in order of their first lines. A function in a function is part of that."""
 
     functions: list[Function]
-    classes: list[_Class]
+    classes: list[Class]
     starts: list[int]
 
     def find_around(self, line: int) -> Function | None:
@@ -72,41 +77,56 @@ def capture(root: tree_sitter.Node) -> Captures:
 
 def list_functions(captures: Captures, shown: str) -> FileFunctions:
     """All functions with a body, by the lines that they fill."""
-    # What has no body is sorted out here: a query that asks for it takes twice as long to compile, in each run.
-    with_body = (node for node in captures.get("class", ()) if node.child_by_field_name("body") is not None)
-    classes = [_read_class(node) for node in sorted(with_body, key=lambda node: node.start_byte)]
-    functions: list[Function] = []
-    end = -1
-    for node in sorted(captures.get("function", ()), key=lambda node: node.start_byte):
-        if node.start_byte < end:
-            continue
-        function = _read_function(node, shown, classes)
-        if function is not None:
-            functions.append(function)
-            end = node.end_byte
+    classes = list_classes(captures)
+    functions = []
+    for node, name in find_definitions(captures, classes, _BODIES):
+        first = node.start_point.row + 1
+        functions.append(Function(shown, name, first, node.end_point.row + 1, first))
     return FileFunctions(functions, classes, [function.first for function in functions])
 
 
-def _read_class(node: tree_sitter.Node) -> _Class:
+def list_classes(captures: Captures) -> list[Class]:
+    """Classes with a body, by the lines that they fill."""
+    # What has no body is sorted out here: a query that asks for it takes twice as long to compile, in each run.
+    nodes = sorted(filter(has_body, captures.get("class", ())), key=lambda node: node.start_byte)
+    return [Class(find_class_name(node), node.start_point.row + 1, node.end_point.row + 1) for node in nodes]
+
+
+def has_body(node: tree_sitter.Node) -> bool:
+    return node.child_by_field_name("body") is not None
+
+
+def find_class_name(node: tree_sitter.Node) -> str:
+    """Name of a class or enumeration; empty where it has none."""
     name = node.child_by_field_name("name")
-    text = _strip_arguments(name.text.decode(errors="replace")) if name is not None else ""
-    return _Class(text, node.start_point.row + 1, node.end_point.row + 1)
+    return _strip_arguments(name.text.decode(errors="replace")) if name is not None else ""
 
 
-def _read_function(node: tree_sitter.Node, shown: str, classes: list[_Class]) -> Function | None:
-    """@return nothing for what is deleted, defaulted, or only looks like a function."""
-    body = node.child_by_field_name("body")
-    if body is None or body.type not in ("compound_statement", "try_statement"):
-        return None
-    name = _find_function_name(node)
-    if not name:
-        return None
+def find_definitions(captures: Captures, classes: list[Class], bodies: tuple[str, ...] = ()) -> Iterator[tuple[tree_sitter.Node, str]]:
+    """Functions that are in no other one, each with its name and the classes around it.
+
+    @param bodies kinds of body that count; without them also what is deleted, defaulted, or only looks like a function.
+    """
+    end = -1
+    for node in sorted(captures.get("function", ()), key=lambda node: node.start_byte):
+        body = node.child_by_field_name("body") if bodies else None
+        if node.start_byte < end or (bodies and (body is None or body.type not in bodies)):
+            continue
+        name = find_function_name(node)
+        if name:
+            end = node.end_byte
+            yield node, qualify(node, name, classes)
+
+
+def qualify(node: tree_sitter.Node, name: str, classes: list[Class]) -> str:
+    """`name` with the classes that hold the lines of `node`."""
     first, last = node.start_point.row + 1, node.end_point.row + 1
-    around = [one.name for one in classes if one.name and one.first <= first and last <= one.last]
-    return Function(shown, "::".join([*around, name]), first, last, first)
+    own = (name, first, last) if node.type in _CLASS_TYPES else None
+    around = [one.name for one in classes if one.name and one.first <= first and last <= one.last and (one.name, one.first, one.last) != own]
+    return "::".join([*around, name])
 
 
-def _find_function_name(node: tree_sitter.Node) -> str:
+def find_function_name(node: tree_sitter.Node) -> str:
     """Name in the declarator of a definition, with the classes that it spells itself."""
     inner = node.child_by_field_name("declarator")
     for _ in range(_DEPTH_MAX):

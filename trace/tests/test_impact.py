@@ -159,6 +159,17 @@ def test_spans_of_both_languages() -> None:
         ("A", 1, 5, False), ("A.one", 2, 5, False), ("A.one.inner", 4, 5, False), ("test_b", 8, 9, True)]  # fmt: skip
 
 
+@pytest.mark.verifies("SWR-TRC-070", technique="equivalence_classes", polarity="nominal")
+def test_parts_have_the_names_that_owners_and_coverage_know() -> None:
+    cpp = (
+        "template <int N>\nvoid Ring<N>::push() {\n    struct Inner {\n        int a;\n    };\n}\n"
+        "enum class Word { kOne };\nstruct A {\n    A() = default;\n    struct B {\n        int size() const;\n    };\n};\n"
+    )
+
+    assert [(span.name, span.first, span.last) for span in list_spans(cpp, "a.cpp")] == [
+        ("Ring::push", 1, 6), ("Word", 7, 7), ("A", 8, 13), ("A::A", 9, 9), ("A::B", 10, 12), ("A::B::size", 11, 11)]  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("lines", "names", "outside"),
     [((2, 2), ["A"], False), ((4, 4), ["A::one"], False), ((5, 7), ["A", "A::two", "S.N"], False), ((9, 9), [], True), ((8, 9), ["S.N"], True)],
