@@ -18,7 +18,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     if not may_hold(texts, (*project.schema.unfinished_words, "???")):
         return
     words = "|".join(re.escape(word) for word in project.schema.unfinished_words)
-    pattern = re.compile(rf"\b(?:{words})\b|\?\?\?", re.IGNORECASE)
+    pattern = re.compile(rf"\b(?:{words})\b|\?\?\?" if words else r"\?\?\?", re.IGNORECASE)
     for item in project.live_items:
         if not item.approved:
             continue

@@ -24,8 +24,6 @@ _SIL_NOISE = re.compile(r"^(?:ASIL|SIL)[\s_\-:(]*|[\s)]+$")
 _NO_SIL = {"", "NO", "NONE", "N/A", "NA", "-", "0"}
 _SUSPECT = "suspect-link"
 _REVISION = re.compile(r"~\d+$")
-_UNFINISHED = ("tbd", "tbc", "todo", "fixme", "xxx", "lorem", "dummy", "placeholder", "to be defined", "to be determined",
-               "to be done")  # fmt: skip
 _TECHNIQUES = ("requirements_based", "boundary_values", "equivalence_classes", "fault_injection", "state_transition", "error_guessing",
                "interface", "back_to_back")  # fmt: skip
 
@@ -61,7 +59,7 @@ def convert(project: ForeignProject, mapping: Mapping, problems: list[Problem]) 
         levels = infer_levels(items, groups, known, [bool(above) for above in parents], mapping)
     words = _ASIL if any(_find_sil(item, mapping) in _ASIL[1:] for item in items) else _SIL
     schema = Schema((), words, ("test", "campaign", "analysis", "review"), ("nominal", "violation"), (DRAFT, APPROVED, RETIRED),
-                    _TECHNIQUES, _UNFINISHED, levels)  # fmt: skip
+                    _TECHNIQUES, levels)  # fmt: skip
     outcome = Converted(schema, [], revisions=revisions)
     for item, group, above in zip(items, groups, parents, strict=True):
         if group in levels:

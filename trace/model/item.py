@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass, field
 
 from mamori.trace.model.finding import Place
-from mamori.trace.model.words import WEAK_WORDS
+from mamori.trace.model.words import UNFINISHED_WORDS, WEAK_WORDS
 
 DRAFT = "draft"
 APPROVED = "approved"
@@ -42,8 +42,8 @@ class Schema:
     polarity: tuple[str, ...]
     status: tuple[str, ...]
     technique: tuple[str, ...]
-    unfinished_words: tuple[str, ...]
     levels: dict[str, Level]
+    unfinished_words: tuple[str, ...] = UNFINISHED_WORDS
     weak_words: tuple[str, ...] = WEAK_WORDS
     weak_word_exceptions: tuple[str, ...] = ()
 

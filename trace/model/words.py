@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Words that leave open what is demanded, for projects whose schema lists none of its own.
+"""Words that leave open what is demanded or say that a text is not finished, for projects whose schema lists none of its own.
 
 @satisfies SWR-TRC-024      Design: docs/design/trace_rules.md#weak-words
 """
 
 from __future__ import annotations
+
+UNFINISHED_WORDS = ("tbd", "tbc", "todo", "fixme", "xxx", "lorem", "dummy", "placeholder", "to be defined", "to be determined",
+                    "to be done")  # fmt: skip
 
 WEAK_WORDS = (
     "appropriate", "appropriately", "adequate", "adequately", "sufficient", "sufficiently", "reasonable", "reasonably", "suitable",

@@ -10,8 +10,8 @@ from mamori.trace.model.item import Level, Schema
 from mamori.trace.readers.files import InputError
 from mamori.trace.readers.toml_file import load_toml
 
-_LISTS = ("attributes", "sil", "verify", "polarity", "status", "technique", "unfinished_words")
-_MAYBE_LISTS = ("weak_words", "weak_word_exceptions")
+_LISTS = ("attributes", "sil", "verify", "polarity", "status", "technique")
+_MAYBE_LISTS = ("unfinished_words", "weak_words", "weak_word_exceptions")
 
 
 def read_schema(root: Path) -> Schema:

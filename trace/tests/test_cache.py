@@ -131,7 +131,7 @@ CHANGES = {
     "requirement file removed": remove("requirements/software/software.md"),
     "requirement folder added": add("requirements/extra/deep/more.md", "# More\n\n## SWR-BAD-001 Broken\n"),
     "schema": edit("requirements/schema/items.toml", '"state_transition", ', ""),
-    "unfinished words": edit("requirements/schema/items.toml", '"tbd",', '"late",'),
+    "unfinished words": edit("requirements/schema/items.toml", "weak_word_exceptions", 'unfinished_words = ["late"]\nweak_word_exceptions'),
     "review lock": lambda sample: (sample.root / "requirements/trace.lock").write_text("# empty\n"),
     "review lock removed": remove("requirements/trace.lock"),
     "source": edit("safety/include/alive.hpp", "@satisfies SWR-SUP-002", "@satisfies SWR-SUP-007"),

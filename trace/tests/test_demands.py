@@ -9,7 +9,7 @@ import pytest
 from trace_sample import Sample, format_item, format_review
 
 from mamori.trace.checks import weak_word
-from mamori.trace.model.words import WEAK_WORDS
+from mamori.trace.model.words import UNFINISHED_WORDS, WEAK_WORDS
 from mamori.trace.readers.project import read_requirements
 
 SOFTWARE = "requirements/software/software.md"
@@ -165,3 +165,22 @@ def run_check(sample: Sample, trace: Callable) -> list[dict]:
     """Findings apart from those about the commit of the evidence."""
     findings = trace("check", "--root", sample.root, "--output", "json").content["findings"]
     return [finding for finding in findings if finding["rule"] != "evidence-stale"]
+
+
+@pytest.mark.parametrize("word", UNFINISHED_WORDS)
+@pytest.mark.verifies("SWR-TRC-010", technique="equivalence_classes", polarity="violation")
+def test_each_unfinished_word_is_found(sample: Sample, trace: Callable, word: str) -> None:
+    sample.replace("requirements/system/system.md", "The tool shall run offline.", f"The tool shall run offline, {word}.")
+    sample.review()
+
+    assert trace("check", "--root", sample.root, "--output", "json").rules == {"unfinished-text"}
+
+
+@pytest.mark.parametrize("words", ['["later"]', "[]"])
+@pytest.mark.verifies("SWR-TRC-010", technique="boundary_values", polarity="nominal")
+def test_unfinished_words_of_the_project_replace_those_of_the_tool(sample: Sample, trace: Callable, words: str) -> None:
+    sample.replace("requirements/system/system.md", "The tool shall run offline.", "The dummy shall run offline.")
+    sample.replace(SCHEMA, "weak_word_exceptions", f"unfinished_words = {words}\nweak_word_exceptions")
+    sample.review()
+
+    assert trace("check", "--root", sample.root).status == 0
