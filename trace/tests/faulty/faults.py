@@ -255,9 +255,9 @@ FAULTS = {
     **JUDGEMENT_FAULTS,
 }
 WITHOUT_FAULT = {
-    "technique-unshown": "about the project's table of techniques, not about an item; seeded in test_rules.py",
-    "link-kind": "the generated projects have no schema of kinds; seeded in test_rules.py",
-    "id-unrecorded": "its place is a line of the review lock, which the tool writes and sorts; seeded in test_rules.py",
+    "technique-unshown": "about the project's table of techniques, not about an item; seeded in tests/seeds",
+    "link-kind": "the generated projects have no schema of kinds; seeded in tests/seeds",
+    "id-unrecorded": "its place is a line of the review lock, which the tool writes and sorts; seeded in tests/seeds",
     "evidence-altered": "seeded in test_evidence_records.py",
     "document-link": "about documents of the project itself, which no foreign format has",
     "result-flaky": "seeded in test_foreign_results.py",
