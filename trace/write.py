@@ -37,6 +37,23 @@ def write_whole_bytes(path: Path, data: bytes) -> None:
         raise InputError(f"{path}: cannot be written: {explain(error)}") from None
 
 
+def write_folder(path: Path, files: dict[str, str]) -> None:
+    """Writes `files` beside `path`, which must not be there yet, and renames the folder. Raises InputError; then nothing is there."""
+    if os.path.lexists(path):
+        raise InputError(f"{path}: is there already, and a folder is never overwritten; remove it, or name another")
+    part = name_part(path)
+    try:
+        part.mkdir(parents=True)
+        for name, text in files.items():
+            (part / name).parent.mkdir(parents=True, exist_ok=True)
+            (part / name).write_text(text, encoding="utf-8", newline="\n")
+        part.rename(path)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {explain(error)}") from None
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+
+
 def find_target(path: Path) -> Path:
     """The file that is to be written, links followed, in a folder that is there. Raises InputError, and OSError."""
     if not path.name:

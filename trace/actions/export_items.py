@@ -11,21 +11,24 @@ from pathlib import Path
 
 from mamori.trace.actions.common import EXIT_CLEAN, add_root
 from mamori.trace.actions.foreign import check_format
+from mamori.trace.formats.model import ForeignProject
 from mamori.trace.formats.own import make_neutral
 from mamori.trace.formats.registry import read_format
-from mamori.trace.formats.writers import WRITERS
-from mamori.trace.model.finding import Problem
+from mamori.trace.formats.writers import FOLDER_WRITERS, WRITERS
+from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import InputError
 from mamori.trace.readers.project import read_requirements
-from mamori.trace.write import write_whole
+from mamori.trace.write import write_folder, write_whole
 
 HELP = "write the requirements in the format of another tool"
+_TARGETS = sorted({*WRITERS, *FOLDER_WRITERS})
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_root(parser)
-    parser.add_argument("target", choices=sorted(WRITERS), metavar="FORMAT", help=", ".join(sorted(WRITERS)))
-    parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="the file to write")
+    parser.add_argument("target", choices=_TARGETS, metavar="FORMAT", help=", ".join(_TARGETS))
+    parser.add_argument("--out", type=Path, required=True, metavar="FILE",
+                        help=f"the file to write; for {', '.join(FOLDER_WRITERS)} a folder, which must not be there yet")  # fmt: skip
     parser.add_argument("--format", nargs=2, metavar=("FORMAT", "PATH"), help="take the items from another tool's files instead")
 
 
@@ -41,6 +44,19 @@ def run(arguments: argparse.Namespace) -> int:
         neutral = make_neutral(project)
     if problems:
         raise InputError(f"{problems[0].place}: {problems[0].message}; mend it before the export")
-    write_whole(arguments.out, WRITERS[arguments.target](neutral))
+    _demand_single(neutral)
+    if arguments.target in FOLDER_WRITERS:
+        write_folder(arguments.out, FOLDER_WRITERS[arguments.target](neutral))
+    else:
+        write_whole(arguments.out, WRITERS[arguments.target](neutral))
     print(f"{len(neutral.items)} items written to {arguments.out}")
     return EXIT_CLEAN
+
+
+def _demand_single(project: ForeignProject) -> None:
+    """Raises InputError for an id with two items: a format that keeps items by their ids would lose one."""
+    first: dict[str, Place] = {}
+    for item in project.items:
+        if item.id in first:
+            raise InputError(f"{item.place}: {item.id} is defined at {first[item.id]}, too; mend it before the export")
+        first[item.id] = item.place

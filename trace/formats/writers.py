@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 from mamori.trace.formats.csv_file import format_csv
 from mamori.trace.formats.model import ForeignItem, ForeignProject
+from mamori.trace.formats.write_doorstop import make_doorstop
 from mamori.trace.formats.write_reqif import format_reqif
 
 _OFT_KINDS = {"STK": "feat", "HAZ": "feat", "SYS": "req", "AOU": "req", "SWR": "dsn"}
@@ -87,3 +88,7 @@ def format_strictdoc(project: ForeignProject) -> str:
 WRITERS: dict[str, Callable[[ForeignProject], str]] = {
     "reqif": format_reqif, "csv": format_csv, "json": format_json, "needs": format_needs, "oft": format_oft, "strictdoc": format_strictdoc,
 }  # fmt: skip
+"""Formats of one file: its text."""
+
+FOLDER_WRITERS: dict[str, Callable[[ForeignProject], dict[str, str]]] = {"doorstop": make_doorstop}
+"""Formats of one folder: the texts of its files."""
