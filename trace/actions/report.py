@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -27,6 +28,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     out = arguments.out or arguments.root / "report" / "index.html"
     pdf: Path | None = arguments.pdf
+    if pdf is not None and os.path.realpath(pdf) == os.path.realpath(out):
+        raise InputError(f"{pdf}: is the file of the page, too; give --pdf and --out two names")
     try:
         if pdf is not None:
             find_chromium()  # before a long reading

@@ -55,6 +55,8 @@ class ForeignInput:
 def read_in_place(given: ForeignInput, rules: Sequence[str]) -> Project:
     """The project with all its evidence. `rules` are the ids of those that are known. Raises InputError where nothing can be judged."""
     mapping = read_mapping(given.format, given.schema)
+    if not given.root.is_dir():
+        raise InputError(f"{given.root}: no such folder; --root names the folder of the project")
     folder = given.folder
     root = given.root if folder.resolve().is_relative_to(given.root.resolve()) else folder
     problems: list[Problem] = []
@@ -106,7 +108,10 @@ def _read_evidence(given: ForeignInput, project: Project) -> Evidence:
     for path in given.results:
         if not path.exists():
             raise InputError(f"{path}: no such result file; run the tests first")
-        for file in list_paths(path, "*.xml", project.root, project.problems) if path.is_dir() else [path]:
+        files = list_paths(path, "*.xml", project.root, project.problems) if path.is_dir() else [path]
+        if not files and not project.problems:
+            raise InputError(f"{path}: holds no result file (*.xml); run the tests first")
+        for file in files:
             shown = get_shown_path(file, project.root)
             try:
                 data = file.read_bytes()

@@ -60,7 +60,7 @@ def _read(path: Path) -> dict[str, Any]:
     try:
         table = load_toml(path)
     except FileNotFoundError:
-        raise InputError(f"{path}: no such file") from None
+        raise InputError(f"{path}: no such file; --schema names a TOML file that says what words and levels mean") from None
     if table.pop("schema", None) != _SCHEMA:
         raise InputError(f"{path}: has no line schema = '{_SCHEMA}'")
     known = {"group_by", "share", "words", "level", *_LISTS}

@@ -65,6 +65,15 @@ def walk_folders(top: Path, root: Path, problems: list[Problem]) -> Iterator[tup
     return os.walk(top, onerror=lambda error: note_unreadable(error, get_shown_path(Path(error.filename), root), problems))
 
 
+def walk_whole(top: Path) -> Iterator[tuple[str, list[str], list[str]]]:
+    """The same where a part is worth nothing: raises OSError for a folder that cannot be listed."""
+    return os.walk(top, onerror=_raise)
+
+
+def _raise(error: OSError) -> None:
+    raise error
+
+
 def list_paths(folder: Path, pattern: str, root: Path, problems: list[Problem]) -> list[Path]:
     """As Path.glob, in order, for names and stars between slashes. What is absent has no paths; what cannot be listed is a problem."""
     found = [folder]

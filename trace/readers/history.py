@@ -15,6 +15,7 @@ from mamori.trace.git_run import run_git
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.impact import compare_items
 from mamori.trace.model.item import Item, Schema
+from mamori.trace.readers.files import walk_whole
 from mamori.trace.readers.git_changes import is_shallow, read_blobs
 from mamori.trace.readers.markdown_items import parse_items
 
@@ -40,8 +41,11 @@ def describe_gap(root: Path) -> str:
 
 
 def read_texts(root: Path) -> Iterator[str]:
-    """Every version of each text below requirements/: of all branches at hand, and as the files are now."""
-    for folder, _, files in os.walk(root / _FOLDER, onerror=_refuse):
+    """Every version of each text below requirements/: of all branches at hand, and as the files are now.
+
+    Raises OSError: what cannot be read may hold an id.
+    """
+    for folder, _, files in walk_whole(root / _FOLDER):
         for path in (Path(folder, name) for name in files):
             if path.is_file():
                 yield path.read_text(encoding="utf-8", errors="replace")
@@ -53,11 +57,6 @@ def read_texts(root: Path) -> Iterator[str]:
             entries.append((os.fsdecode(path), name))
     for _, data in read_blobs(root, entries):
         yield data.decode("utf-8", errors="replace")
-
-
-def _refuse(error: OSError) -> None:
-    """What cannot be listed may hold an id."""
-    raise error
 
 
 def read_events(root: Path, schema: Schema, item_id: str) -> list[Event]:

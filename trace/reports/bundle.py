@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mamori.trace.model.bundle import MANIFEST, SIGNATURE, Entry, Manifest, describe_path, format_manifest
-from mamori.trace.readers.files import InputError
+from mamori.trace.readers.files import InputError, walk_whole
 from mamori.trace.signature import sign
 from mamori.trace.system_error import explain
 from mamori.trace.write import find_target, name_part
@@ -102,18 +102,13 @@ def _list_files(source: Path) -> Iterator[tuple[Path, str]]:
     if source.is_file():
         yield source, ""
         return
-    for base, folders, files in os.walk(source, onerror=_refuse):
+    for base, folders, files in walk_whole(source):
         folders.sort()
         for name in sorted(files) + [each for each in folders if Path(base, each).is_symlink()]:
             path = Path(base, name)
             if path.is_symlink() or not path.is_file():
                 raise InputError(f"{path}: is a link or no regular file; a bundle holds regular files only")
             yield path, path.relative_to(source).as_posix()
-
-
-def _refuse(error: OSError) -> None:
-    """A folder that cannot be listed would be a bundle of half of the evidence."""
-    raise error
 
 
 def _copy(source: Path, target: Path) -> Entry:

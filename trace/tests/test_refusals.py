@@ -205,3 +205,32 @@ def test_a_word_of_any_length_gives_a_line_that_can_be_read(sample: Sample, trac
     outcome = trace("show", "A" * 100_000, "--root", sample.root)
 
     assert (outcome.status, outcome.err.count("\n"), len(outcome.err) < 1000) == (2, 1, True)
+
+
+@pytest.mark.verifies("SWR-TRC-095", technique="error_guessing", polarity="violation")
+def test_page_and_paper_do_not_overwrite_each_other(sample: Sample, trace: Callable, tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to("page")
+
+    outcome = trace("report", "--root", sample.root, "--out", tmp_path / "page", "--pdf", tmp_path / "link")
+
+    assert (outcome.status, outcome.out, outcome.err.count("\n")) == (2, "", 1)
+    assert not (tmp_path / "page").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [(("--root", "nowhere"), "nowhere: no such folder; "), (("--results", "empty"), "empty: holds no result file (*.xml); "),
+     (("--results", "nowhere"), "nowhere: no such result file; "), (("--schema", "nowhere"), "nowhere: no such file; ")],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-TRC-048", technique="error_guessing", polarity="violation")
+def test_a_project_of_another_tool_is_not_judged_beside_what_was_named(
+    words: tuple[str, str], named: str, trace: Callable, tmp_path: Path
+) -> None:
+    (tmp_path / "a.csv").write_text("ID,Title,Statement\nA-1,First,It shall be.\n")
+    (tmp_path / "empty").mkdir()
+    option, path = words
+
+    outcome = trace("check", "--format", "csv", tmp_path / "a.csv", option, tmp_path / path)
+
+    assert (outcome.status, outcome.out, outcome.err.count("\n")) == (2, "", 1)
+    assert named in outcome.err
