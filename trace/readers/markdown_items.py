@@ -14,7 +14,7 @@ from pathlib import Path
 
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.item import Item, Schema
-from mamori.trace.readers.files import get_shown_path, read_text, walk_folders
+from mamori.trace.readers.files import UNREADABLE, get_shown_path, read_text, walk_folders
 
 MALFORMED = "malformed-item"
 _ATTRIBUTE = re.compile(r"- ([A-Za-z]+):(.*)")
@@ -33,8 +33,15 @@ def read_items(root: Path, schema: Schema, problems: list[Problem]) -> list[Item
 
 
 def _list_files(base: Path, root: Path, problems: list[Problem]) -> Iterator[Path]:
+    """A link to a folder is not followed, which could go on for ever; it is told, as its items would be missed by nobody."""
     for folder, folders, files in walk_folders(base, root, problems):
-        yield from (Path(folder, name) for name in (*folders, *files) if name.endswith(".md"))  # a folder of that name is told as no file
+        for path in (Path(folder, name) for name in folders):
+            if path.is_symlink():
+                message = "is a link to a folder, which is not followed; put the folder itself here, or links to its files"
+                problems.append(Problem(UNREADABLE, Place((Path("requirements") / path.relative_to(base)).as_posix(), 1), message))
+            elif path.suffix == ".md":
+                yield path  # is told as no file
+        yield from (Path(folder, name) for name in files if name.endswith(".md"))
 
 
 def parse_items(text: str, shown: str, schema: Schema, problems: list[Problem]) -> list[Item]:

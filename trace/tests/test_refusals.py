@@ -234,3 +234,15 @@ def test_a_project_of_another_tool_is_not_judged_beside_what_was_named(
 
     assert (outcome.status, outcome.out, outcome.err.count("\n")) == (2, "", 1)
     assert named in outcome.err
+
+
+@pytest.mark.verifies("SWR-TRC-009", technique="error_guessing", polarity="violation")
+def test_items_behind_a_link_to_a_folder_are_missed_aloud(sample: Sample, trace: Callable, tmp_path: Path) -> None:
+    (tmp_path / "shared").mkdir()
+    (sample.root / "requirements" / "system" / "shared").symlink_to(tmp_path / "shared")
+    (sample.root / "requirements" / "ring.md").symlink_to(".")
+
+    outcome = trace("check", "--root", sample.root, "--output", "json")
+
+    told = [(row["file"], "is not followed" in row["message"]) for row in outcome.content["findings"]]
+    assert (outcome.status, outcome.rules, told) == (2, {"unreadable-input"}, [("requirements/ring.md", True), ("requirements/system/shared", True)])
