@@ -26,7 +26,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from mamori.trace.model.bundle import Manifest
-    from mamori.trace.model.verdict import calc_verdicts
     from mamori.trace.readers.git import read_worktree
     from mamori.trace.reports.bundle import add_text, check_out, finish, stage
     from mamori.trace.reports.html import write_report
@@ -47,12 +46,12 @@ def run(arguments: argparse.Namespace) -> int:
     with tempfile.TemporaryDirectory(prefix="mamori-bundle-") as name:
         folder = Path(name)
         stage(sources, folder, manifest)
-        findings = write_report(project, folder / "report.part")
+        findings, verdicts = write_report(project, folder / "report.part")
         add_text(folder, "report/index.html", (folder / "report.part").read_text(encoding="utf-8"), manifest)
         (folder / "report.part").unlink()
-        add_text(folder, "trace.json", format_json(project, findings, calc_verdicts(project)), manifest)
+        add_text(folder, "trace.json", format_json(project, findings, verdicts), manifest)
         finish(folder, manifest, arguments.key, arguments.out)
-    print_outcome(arguments, project, findings)
+    print_outcome(arguments, project, findings, verdicts)
     signed = "signed" if arguments.key else "not signed"
     stream = sys.stderr if arguments.output == "json" else sys.stdout
     print(f"bundle: {arguments.out}, {len(manifest.files)} files, {signed}", file=stream)

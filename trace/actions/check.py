@@ -18,8 +18,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from mamori.trace.checks import run_checks
+    from mamori.trace.model.verdict import calc_verdicts
 
     project = read_input(arguments)
     findings = run_checks(project)
-    print_outcome(arguments, project, findings)
+    print_outcome(arguments, project, findings, calc_verdicts(project))
     return get_status(findings)

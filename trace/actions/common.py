@@ -12,7 +12,7 @@ from mamori.trace.checks import list_rule_ids, unreadable_input
 from mamori.trace.model.finding import ERROR, Finding
 from mamori.trace.model.item import Item
 from mamori.trace.model.project import Project
-from mamori.trace.model.verdict import calc_verdicts
+from mamori.trace.model.verdict import Verdict
 from mamori.trace.readers.files import InputError
 from mamori.trace.readers.project import read_project
 from mamori.trace.readers.toml_rows import is_date
@@ -72,9 +72,8 @@ def demand_readable(project: Project) -> None:
             raise InputError(f"{problem.place}: {problem.message}")
 
 
-def print_outcome(arguments: argparse.Namespace, project: Project, findings: list[Finding]) -> None:
+def print_outcome(arguments: argparse.Namespace, project: Project, findings: list[Finding], verdicts: dict[str, Verdict]) -> None:
     """Findings and summary in the form that `add_output` chose."""
-    verdicts = calc_verdicts(project)
     if arguments.output == "json":
         print(format_json(project, findings, verdicts), end="")
         return

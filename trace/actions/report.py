@@ -34,10 +34,10 @@ def run(arguments: argparse.Namespace) -> int:
         if pdf is not None:
             find_chromium()  # before a long reading
         project = read_input(arguments)
-        findings = write_report(project, out, None if pdf is None else lambda page: print_page(page, pdf))
+        findings, verdicts = write_report(project, out, None if pdf is None else lambda page: print_page(page, pdf))
     except BrowserError as error:
         raise InputError(f"{pdf}: not written: {error}") from error
-    print_outcome(arguments, project, findings)
+    print_outcome(arguments, project, findings, verdicts)
     stream = sys.stdout if arguments.output == "text" else sys.stderr
     for file in filter(None, (out, pdf)):
         print(f"report: {file}", file=stream)

@@ -94,5 +94,5 @@ class Item:
         Rationale, design link and status may be mended without a new review of the links.
         """
         parts = (self.id, self.title, self.statement, self.sil, ",".join(self.verify), ",".join(self.polarity))
-        text = "\n".join(" ".join(part.split()) for part in parts)
+        text = "\n".join([" ".join(part.split()) for part in parts])
         return hashlib.sha256(text.encode()).hexdigest()[:12]

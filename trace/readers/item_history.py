@@ -11,6 +11,7 @@ import tempfile
 from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 from mamori.trace.git_run import run_git
@@ -55,23 +56,28 @@ def find_changes(lines: Iterable[str]) -> dict[str, list[Change]]:
     changes: dict[str, list[Change]] = defaultdict(list)
     commit = Change("", "", "")
     item = ""
-    in_hunk = False
-    for number, line in enumerate(lines):
-        if number >= _LINES_MAX:
-            break
-        if line.startswith(_COMMIT):
+    in_hunk = is_told = False  # told: the item has this commit, so the next heading is all that matters
+    for line in islice(lines, _LINES_MAX):
+        if line[:1] in ("+", "-"):
+            if not in_hunk or (is_told and "##" not in line) or not line[1:].strip():
+                continue
+            heading = _HEADING.match(line, 1)
+            item = heading[1] if heading else item
+            if item:
+                _add_change(changes[item], commit)
+            is_told = True
+        elif line.startswith(_COMMIT):
             commit = Change(*(line[1:].split("\x1f", 2) + ["", ""])[:3])
             in_hunk = False
         elif hunk := _HUNK.match(line):
             heading = _HEADING.match(hunk[1])
             item = heading[1] if heading else ""
-            in_hunk = True
+            in_hunk, is_told = True, False
         elif line.startswith("diff --git "):
             in_hunk = False
-        elif in_hunk and line[:1] in ("+", "-") and line[1:].strip():
-            heading = _HEADING.match(line[1:])
-            item = heading[1] if heading else item
-            known = changes[item] if item else []
-            if item and len(known) < CHANGES_MAX and (not known or known[-1] is not commit):
-                known.append(commit)
     return dict(changes)
+
+
+def _add_change(known: list[Change], commit: Change) -> None:
+    if len(known) < CHANGES_MAX and (not known or known[-1] is not commit):
+        known.append(commit)

@@ -49,12 +49,9 @@ def parse_items(text: str, shown: str, schema: Schema, problems: list[Problem]) 
     items: list[Item] = []
     block: _Block | None = None
     for number, line in enumerate(text.splitlines(), start=1):
-        if line.startswith("## "):
+        if line.startswith(("# ", "## ")):
             _finish(block, items)
-            block = _Block.open(line, Place(shown, number), schema, problems)
-        elif line.startswith("# "):
-            _finish(block, items)
-            block = None
+            block = _Block.open(line, Place(shown, number), schema, problems) if line.startswith("## ") else None
         elif block is not None:
             block.take(number, line.rstrip())
     _finish(block, items)
@@ -100,7 +97,8 @@ class _Block:
             return
         match = _ATTRIBUTE.fullmatch(line) if line.startswith("- ") else None
         if match:
-            self._take_attribute(number, match[1], match[2].strip())
+            name, value = match.groups()
+            self._take_attribute(number, name, value.strip())
         elif self._last and line.startswith("  "):
             self._extend_attribute(number, line.strip())
         elif self._last:
@@ -140,7 +138,8 @@ class _Block:
         rank = self._schema.attributes.index(name)
         if rank < self._rank:
             self._refuse(number, f"{name} is out of order; the order is {', '.join(self._schema.attributes)}")
-        self._rank = max(rank, self._rank)
+        else:
+            self._rank = rank
         self._last = name
         item.lines[name] = number
         if not value:
@@ -168,26 +167,26 @@ class _Block:
         self._item.parents = tuple(parent for parent in parents if parent not in wrong)
 
     def _set_sil(self, number: int, value: str) -> None:
-        self._item.sil = self._choose(number, "SIL", [value], self._schema.sil)[0]
+        self._item.sil = "".join(self._keep_known(number, "SIL", [value], self._schema.sil))
 
     def _set_verify(self, number: int, value: str) -> None:
-        self._item.verify = tuple(filter(None, self._choose(number, "Verify", _split(value), self._schema.verify)))
+        self._item.verify = self._keep_known(number, "Verify", _split(value), self._schema.verify)
 
     def _set_polarity(self, number: int, value: str) -> None:
-        self._item.polarity = tuple(filter(None, self._choose(number, "Polarity", _split(value), self._schema.polarity)))
+        self._item.polarity = self._keep_known(number, "Polarity", _split(value), self._schema.polarity)
 
     def _set_design(self, _number: int, value: str) -> None:
         self._item.design = "" if value == "-" else value
 
     def _set_status(self, number: int, value: str) -> None:
-        self._item.status = self._choose(number, "Status", [value], self._schema.status)[0]
+        self._item.status = "".join(self._keep_known(number, "Status", [value], self._schema.status))
 
-    def _choose(self, number: int, name: str, words: list[str], known: tuple[str, ...]) -> list[str]:
-        """`words` with the unknown ones emptied and told."""
+    def _keep_known(self, number: int, name: str, words: list[str], known: tuple[str, ...]) -> tuple[str, ...]:
+        """`words` without the unknown ones, which are told."""
         for word in words:
             if word not in known:
                 self._refuse(number, f"{name}: '{word}' is not one of {', '.join(known)}")
-        return [word if word in known else "" for word in words]
+        return tuple([word for word in words if word in known])
 
 
 _SETTERS: dict[str, Callable[[_Block, int, str], None]] = {

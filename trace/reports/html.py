@@ -26,6 +26,7 @@ from mamori.trace.reports.campaign_view import find_slowest, make_scenario_views
 from mamori.trace.reports.cost_view import make_cost_views
 from mamori.trace.reports.inline_json import format_inline
 from mamori.trace.reports.page_data import make_page_data, order_items
+from mamori.trace.reports.static_lists import format_files, format_suites
 from mamori.trace.reports.static_view import StaticView
 from mamori.trace.reports.technique_view import list_techniques
 from mamori.trace.reports.timing_view import make_timing_views
@@ -55,17 +56,19 @@ GLOSSARY = (
 )  # fmt: skip
 
 
-def write_report(project: Project, out: Path, make_pdf: Callable[[str], None] | None = None) -> list[Finding]:
+def write_report(
+    project: Project, out: Path, make_pdf: Callable[[str], None] | None = None
+) -> tuple[list[Finding], dict[str, Verdict]]:
     """Checks, judges, draws and writes. `make_pdf` gets the page as it stands on paper, before anything is written.
 
-    @return the findings, including those about series and pictures that cannot be shown.
+    @return the findings, including those about series and pictures that cannot be shown, and the verdicts.
     """
     context = _make_context(project)
     page = _render(context)
     if make_pdf is not None:
         make_pdf(_render(context | {"paper": True, "listed": context["ordered"][:PAPER_ITEMS_MAX]}))
     write_whole(out, page)
-    return context["findings"]
+    return context["findings"], context["verdicts"]
 
 
 def _render(context: dict[str, Any]) -> str:
@@ -84,11 +87,14 @@ def _make_context(project: Project) -> dict[str, Any]:
     anchors = {view.case.id: view.anchor for scenario in scenarios for view in scenario.cases}
     history = read_item_history(project.root)
     ordered = order_items(project, verdicts)
+    static = StaticView(project, verdicts, _group_by_item(findings), anchors, history)
+    suites, files = make_suite_views(project.results), group_tags(project.tags)
     return {
         "paper": False,
         "project": project,
         "environment": describe_environment(project.evidence.environment),
         "findings": findings,
+        "verdicts": verdicts,
         "findings_of_rule": _group_by_rule(findings),
         "errors": sum(finding.severity == ERROR for finding in findings),
         "rules": list_rules(),
@@ -99,11 +105,13 @@ def _make_context(project: Project) -> dict[str, Any]:
         "finding_bars": dashboard.list_finding_bars(findings),
         "result_bars": dashboard.list_result_bars(project),
         "data": Markup(format_inline(make_page_data(project, verdicts, findings, anchors, history))),
-        "static": StaticView(project, verdicts, _group_by_item(findings), anchors, history),
+        "static": static,
         "ordered": ordered,
         "listed": ordered,
-        "suites": make_suite_views(project.results),
-        "files": group_tags(project.tags),
+        "suites": suites,
+        "suite_rows": format_suites(suites, static.link_item),
+        "files": files,
+        "file_rows": format_files(files, static.link_item),
         "scenarios": scenarios,
         "anchors": anchors,
         "slowest": find_slowest(scenarios),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Matrix, items, results and code as plain HTML rows: what is read without a script, and on paper.
+"""Matrix and items as plain HTML rows: what is read without a script, and on paper.
 
 Made by hand and not by the template, since ten thousand items go through here.
 
@@ -9,7 +9,8 @@ Made by hand and not by the template, since ten thousand items go through here.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cache
 from html import escape
 from urllib.parse import quote
 
@@ -33,6 +34,8 @@ class StaticView:
     findings: Mapping[str, list[Finding]]
     anchors: Mapping[str, str]
     history: Mapping[str, list[Change]]
+    links: dict[str, str] = field(default_factory=dict)
+    """Of items, once they were asked for: each stands in several rows."""
 
     def format_matrix(self, items: Iterable[Item]) -> Markup:
         """One table row for each item."""
@@ -105,9 +108,11 @@ class StaticView:
 
     def link_item(self, item_id: str) -> str:
         """A link to the item's place in the page, or the bare id where there is no such item."""
-        if item_id not in self.verdicts:
-            return f'<span class="unknown">{escape(item_id)}</span>'
-        return f'<a class="id" href="{get_address(item_id)}">{escape(item_id)}</a>'
+        if item_id not in self.links:
+            is_known = item_id in self.verdicts
+            text = escape(item_id)
+            self.links[item_id] = f'<a class="id" href="{get_address(item_id)}">{text}</a>' if is_known else f'<span class="unknown">{text}</span>'
+        return self.links[item_id]
 
 
 def get_address(item_id: str) -> str:
@@ -115,6 +120,7 @@ def get_address(item_id: str) -> str:
     return f"#item/{quote(item_id, safe=_SAFE_IN_FRAGMENT)}"
 
 
+@cache
 def format_badge(word: str) -> str:
     return f'<span class="badge {word.replace(" ", "-")}">{escape(word)}</span>'
 
