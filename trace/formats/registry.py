@@ -3,24 +3,30 @@
 
 from __future__ import annotations
 
+import importlib
 from itertools import islice
 from pathlib import Path
 from types import ModuleType
 
-from mamori.trace.formats import csv_file, doorstop, needs, oft, reqif, sdoc, trlc
 from mamori.trace.formats.files import list_files
 from mamori.trace.formats.model import ForeignProject
 from mamori.trace.model.finding import Problem
 from mamori.trace.readers.files import InputError
 
-FORMATS: dict[str, ModuleType] = {module.NAME: module for module in (sdoc, needs, oft, doorstop, trlc, reqif, csv_file)}
+FORMATS = {"strictdoc": "sdoc", "needs": "needs", "oft": "oft", "doorstop": "doorstop", "trlc": "trlc", "reqif": "reqif", "csv": "csv_file"}
+"""Module of each format, in this package; loaded when it is asked for, since most checks need none of them and they need much."""
+
 _PEEK_BYTES = 65536
 _PEEK_FILES = 200
 
 
+def load_format(name: str) -> ModuleType:
+    return importlib.import_module(f"mamori.trace.formats.{FORMATS[name]}")
+
+
 def read_format(name: str, path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
     """All items. Raises InputError where there is nothing to judge: no such path, no file of the format, no item in them."""
-    module = FORMATS[name]
+    module = load_format(name)
     if not path.exists():
         raise InputError(f"{path}: no such file or folder")
     before = len(problems)
@@ -34,7 +40,7 @@ def read_format(name: str, path: Path, root: Path, problems: list[Problem]) -> F
 def _describe_nothing(name: str, module: ModuleType, path: Path) -> str:
     others = _guess_others(name, path)
     if others:
-        return f"{path}: holds no item of {module.TITLE}; it looks like {FORMATS[others[0]].TITLE}: use --format {others[0]}"
+        return f"{path}: holds no item of {module.TITLE}; it looks like {load_format(others[0]).TITLE}: use --format {others[0]}"
     wanted = " or ".join(f"*{suffix}" if suffix.startswith(".") else suffix for suffix in module.SUFFIXES)
     return f"{path}: holds no item of {module.TITLE} (looked for {wanted}); name the file or folder of the requirements"
 
@@ -48,7 +54,7 @@ def _guess_others(name: str, path: Path) -> list[str]:
                 text = stream.read(_PEEK_BYTES).decode("utf-8-sig", errors="replace")
         except OSError:
             continue
-        for other, module in FORMATS.items():
-            if other != name and module.looks_alike(file.name, text):
+        for other in FORMATS:
+            if other != name and load_format(other).looks_alike(file.name, text):
                 counts[other] = counts.get(other, 0) + 1
     return sorted(counts, key=lambda other: (-counts[other], other))

@@ -20,6 +20,8 @@ from mamori.trace.readers.tag_text import ID_PATTERN, find_verified, has_mark
 _COMMENT_OR_STRING = re.compile(r'"(?:\\.|[^"\\\n])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 _TEST = re.compile(r"^[ \t]*(?:TYPED_)?TEST(?:_F|_P)?\s*\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
 _CALL = re.compile(r'\bverifies\(\s*"([^"]*)"([^;]*?)\)\s*;')
+_TECHNIQUE = re.compile(r"\bTechnique::k(\w+)")
+_POLARITY = re.compile(r"\bPolarity::k(\w+)")
 _CAPITAL = re.compile(r"(?<!^)([A-Z])")
 
 
@@ -46,8 +48,8 @@ def parse_cpp_tests(text: str, shown: str, id_pattern: str = ID_PATTERN) -> list
         counted = call.start()
         index = bisect_right(starts, call.start()) - 1
         suite, name = (heads[index][1], heads[index][2]) if index >= 0 else (shown, "")
-        technique = _read_enumerator(call[2], "Technique", "requirements_based")
-        polarity = _read_enumerator(call[2], "Polarity", "nominal")
+        technique = _read_enumerator(call[2], _TECHNIQUE, "requirements_based")
+        polarity = _read_enumerator(call[2], _POLARITY, "nominal")
         tests.append(SourceTest(call[1], suite, name, technique, polarity, Place(shown, line)))
     if has_mark(text):
         tests.extend(_find_tagged(text, plain, heads, shown, id_pattern))
@@ -79,7 +81,7 @@ def _blank_comment(match: re.Match[str]) -> str:
     return match[0] if match[0].startswith('"') else "\n" * match[0].count("\n")
 
 
-def _read_enumerator(arguments: str, enumeration: str, default: str) -> str:
+def _read_enumerator(arguments: str, enumerator: re.Pattern[str], default: str) -> str:
     """`Technique::kBoundaryValues` -> `boundary_values`."""
-    match = re.search(rf"\b{enumeration}::k(\w+)", arguments)
+    match = enumerator.search(arguments)
     return _CAPITAL.sub(r"_\1", match[1]).lower() if match else default

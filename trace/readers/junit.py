@@ -70,12 +70,12 @@ class _Collector:
             raise Refused(f"begins with <{tag[:40]}>, which is no JUnit; put files of results alone into this folder")
         elif tag == "testcase":
             self._case = self._open_case(attributes)
+        elif tag == "property":
+            self._set_property(attributes.get("name", ""), attributes.get("value", ""))
         elif tag in _OUTCOMES:
             self._take_outcome(tag, attributes)
         elif self._case is not None and tag in _RETRIES:
             self._case.flaky = True
-        elif self._case is not None and tag == "property":
-            self._set_property(attributes.get("name", ""), attributes.get("value", ""))
 
     def _take_outcome(self, tag: str, attributes: dict[str, str]) -> None:
         """An outcome outside of any case is one of its whole suite."""
@@ -112,24 +112,22 @@ class _Collector:
             self._case.message += text[:_MESSAGE_CHARACTERS_MAX] if self._case.message else text.lstrip()[:_MESSAGE_CHARACTERS_MAX]
 
     def _open_case(self, attributes: dict[str, str]) -> TestResult:
-        words = (attributes.get(name, "").lower() for name in ("status", "result"))
-        status = min((_STATUS_WORDS.get(word, PASSED) for word in words), key=_WORST_FIRST.index)
-        case = TestResult(
+        words = [word.lower() for name in ("status", "result") if (word := attributes.get(name))]
+        status = min([_STATUS_WORDS[word] for word in words if word in _STATUS_WORDS], key=_WORST_FIRST.index, default=PASSED)
+        return TestResult(
             suite=attributes.get("classname", ""),
             name=attributes.get("name", ""),
             status=status,
-            requirement="",
-            technique="",
-            polarity="",
+            # GoogleTest before 1.8.1 writes properties as attributes.
+            requirement=attributes.get("requirement", ""),
+            technique=attributes.get("technique", ""),
+            polarity=attributes.get("polarity", ""),
             message="disabled" if status == SKIPPED and "skipped" not in (attributes.get("status"), attributes.get("result")) else "",
             time_s=_read_time(attributes.get("time", "0")),
             place=Place(self.shown, self.parser.CurrentLineNumber),
             source=self._read_source(attributes),
             kind=self._kind,
         )
-        for name in ("requirement", "technique", "polarity"):  # GoogleTest before 1.8.1 writes properties as attributes
-            setattr(case, name, attributes.get(name, ""))
-        return case
 
     def _read_source(self, attributes: dict[str, str]) -> Place | None:
         file = attributes.get("file")

@@ -85,16 +85,16 @@ def find_words(line: str, id_pattern: str = ID_PATTERN) -> Iterator[TagWord]:
     if not has_mark(line):
         return
     patterns = _get_patterns(id_pattern)
-    for pattern, role in ((patterns.satisfies, IMPLEMENTS), (patterns.verifies, VERIFIES), (patterns.named, NAMES)):
-        for match in pattern.finditer(line):
-            yield from (TagWord(word, role) for word in _split(match[1]))
-    for match in patterns.relation.finditer(line):
+    for mark, pattern, role in (("@satisfies", patterns.satisfies, IMPLEMENTS), ("@verifies", patterns.verifies, VERIFIES), (":", patterns.named, NAMES)):
+        if mark in line:  # looking for plain letters takes a tenth of what a pattern takes
+            yield from (TagWord(word, role) for match in pattern.finditer(line) for word in _split(match[1]))
+    for match in patterns.relation.finditer(line) if "@relation" in line else ():
         options = dict(re.findall(r"(\w+)[ \t]*=[ \t]*(\w+)", match[2]))
         if options.get("scope") == "range_end":  # its beginning has told it already
             continue
         role = _get_role(options.get("role", ""))
         yield from (TagWord(word, role, options.get("scope") == "file") for word in _split(match[1]))
-    for match in patterns.artifact.finditer(line):
+    for match in patterns.artifact.finditer(line) if "->" in line else ():
         role = VERIFIES if _TEST_ARTIFACT.fullmatch(match[1]) else IMPLEMENTS
         yield from (TagWord(word, role) for word in _split(match[2]))
 
