@@ -70,11 +70,11 @@ def read_in_place(given: ForeignInput, rules: Sequence[str]) -> Project:
     project.code_schema = read_code_schema(root)
     base = CodeBase()
     tags, tests = read_sources(given.sources or folder, root, problems, base if project.code_schema.traced or given.evidence else None)
-    base.scopes = [replace(scope, requirements=_resolve_all(scope.requirements, converted)) for scope in base.scopes]
+    base.scopes = [scope._replace(requirements=_resolve_all(scope.requirements, converted)) for scope in base.scopes]
     project.functions = base.bind()
     code = [CodeTag(target, item.place, item.id) for item in converted.code_items for target in converted.stands_for[item.id]]
-    project.tags = [replace(tag, requirement=each) for tag in tags for each in _resolve(tag.requirement, tag.place, converted, problems)] + code
-    project.tests = [replace(test, requirement=each) for test in tests for each in _resolve(test.requirement, test.place, converted, problems)]
+    project.tags = [tag._replace(requirement=each) for tag in tags for each in _resolve(tag.requirement, tag.place, converted, problems)] + code
+    project.tests = [test._replace(requirement=each) for test in tests for each in _resolve(test.requirement, test.place, converted, problems)]
     project.evidence = _read_evidence(given, project)
     project.evidence.results = _link_results(project.evidence.results, project.tests, converted, problems)
     attach_sources(project)

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from mamori.trace.model.finding import Place
 
@@ -25,8 +26,7 @@ class CodeSchema:
         return any(file == one or file.startswith(f"{one}/") for one in self.traced)
 
 
-@dataclass(frozen=True, slots=True)
-class Function:
+class Function(NamedTuple):
     """A function with a body. Lines count from 1, `last` included; `body` is the line from which on a call leaves a trace.
 
     `name` holds the classes around it, but no namespace. `requirements` are the ids of all tags that own it, the nearest first.
@@ -44,8 +44,7 @@ class Function:
         return Place(self.file, self.first)
 
 
-@dataclass(frozen=True, slots=True)
-class Scope:
+class Scope(NamedTuple):
     """What a tag speaks for: the lines of a declaration, also where it is defined elsewhere, or (without a name) the whole file."""
 
     file: str
@@ -75,7 +74,7 @@ class CodeBase:
     def _bind(self, function: Function, scopes_of: dict[str, list[Scope]]) -> Function:
         owners = list(self._find_owners(function, scopes_of))
         owners.sort(key=lambda scope: (not scope.name, scope.last - scope.first))
-        return replace(function, requirements=tuple(dict.fromkeys(word for scope in owners for word in scope.requirements)))
+        return function._replace(requirements=tuple(dict.fromkeys(word for scope in owners for word in scope.requirements)))
 
     def _find_owners(self, function: Function, scopes_of: dict[str, list[Scope]]) -> Iterator[Scope]:
         for scope in scopes_of.get(function.file, ()):

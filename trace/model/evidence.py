@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from mamori.trace.model.coverage import CoverageRun
 from mamori.trace.model.finding import Place
@@ -19,8 +19,7 @@ INTEGRATION = "integration"
 CAMPAIGN = "campaign"
 
 
-@dataclass(frozen=True, slots=True)
-class CodeTag:
+class CodeTag(NamedTuple):
     """`@satisfies`: the code at `place` realises `requirement`. `symbol` is the class or function, or `file`."""
 
     requirement: str
@@ -28,8 +27,7 @@ class CodeTag:
     symbol: str
 
 
-@dataclass(frozen=True, slots=True)
-class SourceTest:
+class SourceTest(NamedTuple):
     """A test as its source states it; `suite` and `name` find its results. `by_comment`: the running test knows nothing of its
     requirement, so its results cannot tell it."""
 

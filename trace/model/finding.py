@@ -4,15 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 ERROR = "error"
 WARNING = "warning"
 OFF = "off"
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class Place:
-    """A line of a file. `file` is relative to the project root where it lies inside; `line` counts from 1."""
+class Place(NamedTuple):
+    """A line of a file. `file` is relative to the project root where it lies inside; `line` counts from 1.
+
+    A tuple, like all that a large project has ten thousands of: made in half of the time that a frozen class takes, and compared in less.
+    """
 
     file: str
     line: int

@@ -7,12 +7,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from mamori.trace.model.item import Item
 
 
-@dataclass(frozen=True, slots=True)
-class Review:
+class Review(NamedTuple):
     """What one line of the lock says. `date` is ISO 8601; `reviewer` is a name."""
 
     child: str

@@ -33,6 +33,10 @@ class _Block:
     first: tree_sitter.Node
     last: tree_sitter.Node
 
+    @property
+    def text(self) -> str:
+        return "\n".join(self.texts)
+
 
 @dataclass(frozen=True, slots=True)
 class _Target:
@@ -113,12 +117,12 @@ def _list_blocks(captures: Captures) -> list[_Block]:
         block.texts.append(node.text.decode(errors="replace"))
         block.last = node
         end = node.end_point[0]
-    return [block for block in blocks if any(map(has_mark, block.texts))]
+    return [block for block in blocks if has_mark(block.text)]
 
 
 def _find_target(block: _Block, found: FileFunctions) -> _Target:
     """The function around the block, or the declaration below it; the file when the block is the file's own or nothing follows."""
-    if any("@file" in text for text in block.texts):
+    if "@file" in block.text:
         return _WHOLE_FILE
     around = found.find_around(block.rows[0] + 1)
     if around is not None:

@@ -37,7 +37,7 @@ def get_shown_path(path: Path, root: Path) -> str:
 def read_text(path: Path, shown: str, problems: list[Problem]) -> str:
     """Text of a UTF-8 file. Wrong bytes and an unreadable file become problems; wrong bytes are read as U+FFFD."""
     try:
-        if path.exists() and not path.is_file():  # a pipe would never end
+        if not path.is_file() and path.exists():  # a pipe would never end
             raise OSError("it is no file; put one in its place")
         data = path.read_bytes()
     except OSError as error:

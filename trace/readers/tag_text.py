@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 from mamori.trace.model.evidence import CodeTag
 from mamori.trace.model.finding import Place, Problem
@@ -42,8 +43,7 @@ def has_mark(text: str) -> bool:
     return "->" in text and _ARTIFACT.search(text) is not None
 
 
-@dataclass(frozen=True, slots=True)
-class TagWord:
+class TagWord(NamedTuple):
     """One id that a tag names. `of_file`: the tag says that it speaks for the whole file."""
 
     requirement: str

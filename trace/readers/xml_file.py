@@ -61,7 +61,7 @@ def make_parser(start: Start, end: End, text: Callable[[str], None], doctype: bo
 def feed_file(parser: Parser, path: Path, shown: str, remedy: str, problems: list[Problem]) -> bool:
     """@return whether all of the file was read; if not, that is a problem, one, which ends with `remedy`."""
     try:
-        if path.exists() and not path.is_file():
+        if not path.is_file() and path.exists():
             raise OSError("it is no file; put one in its place")
         with path.open("rb") as file:
             return feed(parser, file, shown, remedy, problems)
