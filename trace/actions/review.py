@@ -101,7 +101,7 @@ def review_links(project: Project, chosen: set[str], date: str, reviewer: str) -
     lock.reviews = {key: review for key, review in lock.reviews.items() if key in live}
     count = 0
     for key, (child, parent) in live.items():
-        if chosen & set(key) and lock.describe_suspicion(child, parent):
+        if chosen & set(key) and lock.describe_suspicion(*key, project.fingerprints):
             lock.record(child, parent, date, reviewer)
             count += 1
     return count

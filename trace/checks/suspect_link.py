@@ -18,7 +18,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
         if problem.rule == RULE.id:
             yield problem.place, problem.message, problem.item
     links = [
-        (item, project.items[parent])
+        (item, parent)
         for item in project.live_items
         for parent in item.parents
         if parent in project.items and item.whole
@@ -29,7 +29,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
             yield Place(LOCK, 1), message, ""
         return
     for item, parent in links:
-        suspicion = project.lock.describe_suspicion(item, parent)
+        suspicion = project.lock.describe_suspicion(item.id, parent, project.fingerprints)
         if suspicion:
             cure = f"look again, then `mamori trace review {item.id}`"
             yield item.find_place("Parents"), f"{suspicion}; {cure}", item.id

@@ -124,7 +124,7 @@ def list_reviews(old: Project, new: Project) -> list[Redo]:
                 why = f"{' and '.join(changed)} changed"
             else:
                 continue
-            recorded = new.lock is not None and not new.lock.describe_suspicion(child, parent)
+            recorded = new.lock is not None and not new.lock.describe_suspicion(child.id, name, new.fingerprints)
             reviews.append(Redo(child.id, name, why, recorded))
     return sorted(reviews)
 

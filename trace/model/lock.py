@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -31,19 +32,22 @@ class ReviewLock:
     lines: dict[tuple[str, str], int] = field(default_factory=dict)
     file: str = "requirements/trace.lock"
 
-    def describe_suspicion(self, child: Item, parent: Item) -> str:
-        """Why the link is suspect, or an empty text when both ends are as they were at the last review."""
-        review = self.reviews.get((child.id, parent.id))
+    def describe_suspicion(self, child: str, parent: str, fingerprints: Mapping[str, str]) -> str:
+        """Why the link is suspect, or an empty text when both ends are as they were at the last review.
+
+        @param fingerprints of all items as they are now, by id: an item has many links and one fingerprint.
+        """
+        review = self.reviews.get((child, parent))
         if review is None:
-            return f"the link {child.id} -> {parent.id} was never reviewed"
+            return f"the link {child} -> {parent} was never reviewed"
         changed = []
-        if review.child_fingerprint != child.calc_fingerprint():
-            changed.append(child.id)
-        if review.parent_fingerprint != parent.calc_fingerprint():
-            changed.append(parent.id)
+        if review.child_fingerprint != fingerprints[child]:
+            changed.append(child)
+        if review.parent_fingerprint != fingerprints[parent]:
+            changed.append(parent)
         if not changed:
             return ""
-        return f"{' and '.join(changed)} changed since the link {child.id} -> {parent.id} was reviewed on {review.date}"
+        return f"{' and '.join(changed)} changed since the link {child} -> {parent} was reviewed on {review.date}"
 
     def record(self, child: Item, parent: Item, date: str, reviewer: str) -> None:
         """Records a new look at one link."""

@@ -69,6 +69,11 @@ class Project:
         return [self.items[key] for key in sorted(self.items) if not self.items[key].retired]
 
     @cached_property
+    def fingerprints(self) -> dict[str, str]:
+        """Of each item, by its id."""
+        return {key: item.calc_fingerprint() for key, item in self.items.items()}
+
+    @cached_property
     def children_of(self) -> dict[str, list[Item]]:
         children: dict[str, list[Item]] = defaultdict(list)
         for item in self.live_items:

@@ -31,7 +31,7 @@ from mamori.trace.reports.static_view import StaticView
 from mamori.trace.reports.technique_view import list_techniques
 from mamori.trace.reports.timing_view import make_timing_views
 from mamori.trace.reports.view import describe_environment, group_tags, make_suite_views
-from mamori.trace.write import write_whole
+from mamori.trace.write import write_whole_bytes
 
 PAPER_ITEMS_MAX = 2000
 _TEMPLATES = Path(__file__).parent / "templates"
@@ -66,15 +66,15 @@ def write_report(
     context = _make_context(project)
     page = _render(context)
     if make_pdf is not None:
-        make_pdf(_render(context | {"paper": True, "listed": context["ordered"][:PAPER_ITEMS_MAX]}))
-    write_whole(out, page)
+        make_pdf(_render(context | {"paper": True, "listed": context["ordered"][:PAPER_ITEMS_MAX]}).decode("utf-8"))
+    write_whole_bytes(out, page)
     return context["findings"], context["verdicts"]
 
 
-def _render(context: dict[str, Any]) -> str:
+def _render(context: dict[str, Any]) -> bytes:
     page = _make_environment().get_template("report.html.j2").render(context)
     # A lone surrogate can come out of foreign JSON; no file can hold it.
-    return page.encode("utf-8", errors="replace").decode("utf-8")
+    return page.encode("utf-8", errors="replace")
 
 
 def _make_context(project: Project) -> dict[str, Any]:
@@ -128,6 +128,7 @@ def _make_environment() -> jinja2.Environment:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(_TEMPLATES),
         autoescape=True,
+        optimized=False,  # a page is drawn once; working out what is constant takes longer than it saves
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

@@ -65,19 +65,18 @@ class StaticView:
         rows = (
             ("Statement", escape(item.statement)),
             ("Rationale", escape(item.rationale)),
-            ("Against it", "; ".join(map(escape, verdict.reasons))),
+            ("Against it", escape("; ".join(verdict.reasons))),
             ("Comes from", self._link_items(item.parents)),
-            ("Refined by", self._link_items(child.id for child in self.project.children_of.get(item.id, []))),
+            ("Refined by", self._link_items([child.id for child in self.project.children_of.get(item.id, [])])),
             ("Code", "<br>".join(self._list_code(item))),
             ("Tests", "<br>".join(self._list_tests(item))),
             ("Campaign", "<br>".join(self._list_cases(item))),
-            ("Findings", "<br>".join(f"{format_badge(row.severity)} {escape(row.message)} {format_place(row.place)}"
-                                     for row in self.findings.get(item.id, []))),
-            ("History", "<br>".join(f"{row.date} <code>{escape(row.commit)}</code> {escape(row.subject)}"
-                                    for row in self.history.get(item.id, []))),
+            ("Findings", "<br>".join([f"{format_badge(row.severity)} {escape(row.message)} {format_place(row.place)}"
+                                      for row in self.findings.get(item.id, [])])),
+            ("History", "<br>".join(map(_format_change, self.history.get(item.id, [])))),
             ("Facts", f"{escape(facts)}, {format_place(item.place)}"),
         )  # fmt: skip
-        body = "".join(f"<tr><th>{name}<td>{text}" for name, text in rows if text)
+        body = "".join([f"<tr><th>{name}<td>{text}" for name, text in rows if text])
         return (
             f'<article class="still" id="item/{escape(item.id)}"><h4><b class="id">{escape(item.id)}</b> {escape(item.title)} '
             f"{format_badge(verdict.word)}</h4><table>{body}</table></article>\n"
@@ -118,6 +117,11 @@ class StaticView:
 def get_address(item_id: str) -> str:
     """Fragment of an item's page."""
     return f"#item/{quote(item_id, safe=_SAFE_IN_FRAGMENT)}"
+
+
+@cache
+def _format_change(change: Change) -> str:
+    return f"{change.date} <code>{escape(change.commit)}</code> {escape(change.subject)}"
 
 
 @cache
