@@ -141,5 +141,5 @@ def list_uncovered_polarities(project: Project, item: Item, children: list[Item]
 def is_reviewed(project: Project, item: Item) -> bool:
     """Whether a person has looked at each parent link of the item as it stands now."""
     parents = [parent for parent in item.parents if parent in project.items]
-    lock = project.lock
-    return bool(parents) and lock is not None and not any(lock.describe_suspicion(item.id, parent, project.fingerprints) for parent in parents)
+    lock, now = project.lock, project.fingerprints
+    return bool(parents) and lock is not None and not any(lock.describe_suspicion(item.id, parent, now) for parent in parents)

@@ -38,7 +38,8 @@ def _format_result(result: TestResult, link: Link) -> str:
 def format_files(files: Iterable[tuple[str, list[CodeTag]]], link: Link) -> Markup:
     """One table row for each file."""
     return Markup("".join(
-        f"<tr><td><code>{escape(file)}</code></td><td>{', '.join(_format_tag(tag, link) for tag in tags)}</td></tr>\n" for file, tags in files
+        f"<tr><td><code>{escape(file)}</code></td><td>{', '.join(_format_tag(tag, link) for tag in tags)}</td></tr>\n"
+        for file, tags in files
     ))  # fmt: skip
 
 

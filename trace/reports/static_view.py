@@ -108,9 +108,10 @@ class StaticView:
     def link_item(self, item_id: str) -> str:
         """A link to the item's place in the page, or the bare id where there is no such item."""
         if item_id not in self.links:
-            is_known = item_id in self.verdicts
-            text = escape(item_id)
-            self.links[item_id] = f'<a class="id" href="{get_address(item_id)}">{text}</a>' if is_known else f'<span class="unknown">{text}</span>'
+            start, end = ('<span class="unknown">', "span")
+            if item_id in self.verdicts:
+                start, end = (f'<a class="id" href="{get_address(item_id)}">', "a")
+            self.links[item_id] = f"{start}{escape(item_id)}</{end}>"
         return self.links[item_id]
 
 
