@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 from faulty.generate import generate
 
+from mamori.trace.formats.registry import FORMATS, load_format
+
 _SDOC = """[DOCUMENT]
 TITLE: Arm
 
@@ -337,3 +339,9 @@ def test_the_report_shows_a_foreign_project(trace: Callable, tmp_path: Path) -> 
     outcome = trace("report", *project.arguments, "--out", tmp_path / "page.html")
 
     assert (outcome.status, "dsn~item-007~1" in (tmp_path / "page.html").read_text()) == (0, True)
+
+
+@pytest.mark.verifies("SWR-TRC-045", technique="interface", polarity="nominal")
+@pytest.mark.parametrize("name", FORMATS)
+def test_a_format_is_loaded_by_the_name_that_it_gives_itself(name: str) -> None:
+    assert load_format(name).NAME == name
