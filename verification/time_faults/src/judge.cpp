@@ -15,9 +15,10 @@ class Judge final {
     }
 
     /// Everything that is reported from the deed's begin to a tick after its end, about its window, is its
-    /// doing. A guard that is stuck with it reports later, and the windows after it open late.
+    /// doing; time that the machine took away meanwhile does not count. A guard that is stuck with it reports
+    /// later, and the windows after it open late.
     void judge(const Deed& deed, Verdict& verdict) {
-        const Instant last = deed.end + kTick;
+        const Instant last = calc_last(deed);
         const Report* first = nullptr;
         bool is_misnamed = false;
         for (std::size_t i = find(deed.begin); i < reports_.size() && reports_[i].at <= last; ++i) {
@@ -89,6 +90,16 @@ class Judge final {
     }
 
   private:
+    /// A tick of the machine's own time after the end of a deed.
+    Instant calc_last(const Deed& deed) const {
+        Instant last = deed.end + kTick;
+        Instant before = deed.end;
+        while (last > before) {
+            before = last;
+            last = deed.end + kTick + calc_loss(late_looks_, deed.end, last);
+        }
+        return last;
+    }
     /// The window opened so late that less than its budget was left to its close.
     bool is_cut_short(const Report& report) const {
         return report.woke + plan_.budget > report.release + plan_.window_lengths[report.window];

@@ -56,6 +56,20 @@ TEST(JudgeTest, AReportUnderAnotherNameIsMisnamedAndNoneIsUnseen) {
     EXPECT_FALSE(unseen.is_well());
 }
 
+TEST(JudgeTest, AReportIsLookedForUntilATickOfTheMachinesOwnTimeAfterTheEnd) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto judge_report = [](std::int64_t at_us, const std::vector<Stall>& late_looks) {
+        return judge(
+            {{overrun(1U, 1U, 5300, 5310, at_us)}, {kDeed}, {}, {{at(6000), at(6810)}}, {}, late_looks});
+    };
+    const std::vector<Stall> late_looks{{at(6820), at(6900)}, {at(7850), at(7900)}};
+
+    EXPECT_EQ(judge_report(7810, {}).seen, 1U);
+    EXPECT_EQ(judge_report(7811, {}).unseen, 1U);
+    EXPECT_EQ(judge_report(7940, late_looks).seen, 1U) << "80 us, and 50 us within these";
+    EXPECT_EQ(judge_report(7941, late_looks).unseen, 1U);
+}
+
 TEST(JudgeTest, AReportOneFrameAfterTheDeadlineIsInTimeAndALaterOneIsTardyUnlessTheMachineStoodStill) {
     verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
     EXPECT_TRUE(judge({{overrun(1U, 1U, 5300, 5310, 6510)}, {kDeed}, {}, {}}).is_well());
