@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -14,20 +13,11 @@ from mamori.verification.command.project import ROOT
 from mamori.verification.safe_state.machine import merge
 from mamori.verification.safe_state.prove import prove
 from mamori.verification.safe_state.relation import read_relation, run_program
+from mamori.verification.safe_state.source_slip import Slip
 
 TABLE = "safety/include/mamori/safety/safe_state.hpp"
 EDGE = "safety/include/mamori/safety/rising_edge.hpp"
 MACHINE = "safety/src/safe_state_machine.cpp"
-
-
-@dataclass(frozen=True)
-class Slip:
-    """`right` stands once in `file` and becomes `wrong`; the properties `broken` are refuted then."""
-
-    file: str
-    right: str
-    wrong: str
-    broken: tuple[str, ...]
 
 
 SLIPS = {
@@ -59,10 +49,7 @@ def build_with(slip: Slip, folder: Path) -> Path:
     """@return the relation program, made from a copy of the source with the slip."""
     for name in ("include", "src"):
         shutil.copytree(ROOT / "safety" / name, folder / "safety" / name)
-    path = folder / slip.file
-    text = path.read_text(encoding="utf-8")
-    assert text.count(slip.right) == 1, "the source has changed; adapt the slip"
-    path.write_text(text.replace(slip.right, slip.wrong), encoding="utf-8")
+    slip.put_into(folder)
     program = folder / "relation"
     sources = [ROOT / "verification/safe_state/src/main.cpp", ROOT / "kernel/src/assert.cpp", *(folder / "safety/src").glob("safe_state*.cpp")]
     subprocess.run(("g++", "-std=c++17", "-O1", f"-I{folder / 'safety/include'}", f"-I{ROOT / 'kernel/include'}",

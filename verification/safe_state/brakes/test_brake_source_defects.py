@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -17,20 +16,11 @@ from mamori.verification.safe_state.brakes.relation import read_brakes
 from mamori.verification.safe_state.brakes.sequence import make_cycles
 from mamori.verification.safe_state.machine import Machine
 from mamori.verification.safe_state.relation import run_program
+from mamori.verification.safe_state.source_slip import Slip
 
 HEADER = "include/mamori/safety/brake_sequence.hpp"
 SOURCE = "src/brake_sequence.cpp"
 INCLUDES = tuple(f"-I{ROOT / layer / 'include'}" for layer in ("safety", "kernel"))
-
-
-@dataclass(frozen=True)
-class Slip:
-    """`right` stands once in `file` and becomes `wrong`; the properties `broken` are refuted then."""
-
-    file: str
-    right: str
-    wrong: str
-    broken: tuple[str, ...]
 
 
 SLIPS = {
@@ -59,10 +49,7 @@ def build_with(slip: Slip, folder: Path) -> Path:
     for name in (HEADER, SOURCE):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / "safety" / name, folder / name)
-    path = folder / slip.file
-    text = path.read_text(encoding="utf-8")
-    assert text.count(slip.right) == 1, "the source has changed; adapt the slip"
-    path.write_text(text.replace(slip.right, slip.wrong), encoding="utf-8")
+    slip.put_into(folder)
     sources = [ROOT / "verification/safe_state/src/brake_main.cpp", ROOT / "kernel/src/assert.cpp", folder / SOURCE,
                *(ROOT / "safety/src").glob("safe_state*.cpp")]  # fmt: skip
     program = folder / "relation"
