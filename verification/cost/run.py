@@ -45,7 +45,7 @@ class Build:
 
 @dataclass(frozen=True)
 class Facts:
-    """run.json of one run. `empty_ns`, `reference_ns`: times of counted work that does nothing, and of the reference work."""
+    """run.json of one run. `empty_ns`: the least time of counted work that does nothing; `reference_ns`: the median of the reference work."""
 
     build: Build
     calibration_count: int

@@ -111,9 +111,19 @@ def test_declared_worst_case_below_the_greatest_is_a_finding(tmp_path: Path) -> 
                         "take 1.02 us, with 0 % margin 1.02 us; declare more, or make 'reader' cheaper"]  # fmt: skip
 
 
+@pytest.mark.parametrize("greatest_ns", [0, 1])
+@pytest.mark.verifies("SWR-TIM-033", technique="boundary_values", polarity="violation")
+def test_run_in_which_no_step_took_any_time_is_a_finding(table: Table, greatest_ns: int) -> None:
+    run = make_run(table)
+    run.times_ns[:] = greatest_ns * (run.steps["component"] == 1)
+    findings, _ = judge([run])
+
+    assert [line.partition(":")[0] for line in findings] == ([] if greatest_ns else ["ratio"])
+
+
 @pytest.mark.verifies("SWR-TIM-035", polarity="violation")
 def test_component_that_never_ran_is_a_finding(table: Table) -> None:
-    findings, left = judge([make_run(table, counts={0: (1, 1, 1, 1)})])
+    findings, left = judge([make_run(table, counts={0: (10, 10, 10, 10)})])
 
     assert [line.partition(":")[0] for line in findings] == ["component 'monitor'", "component 'controller'", "component 'drive'"]
     assert "declare a class of inputs in which it runs" in findings[0]

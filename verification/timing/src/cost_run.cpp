@@ -4,6 +4,7 @@
 #include <gnu/libc-version.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -36,17 +37,19 @@ void do_reference(void* argument, std::size_t, std::size_t) noexcept {
     static_cast<ReferenceWork*>(argument)->run();
 }
 
-/// Median time of a counted piece of work that is no step, by the same two readings as a step's.
-/// @param[in] count 1 .. kReferenceCount times.
-Duration calibrate(const FrameClock& clock, void (*work)(void*, std::size_t, std::size_t) noexcept,
-                   void* argument, std::size_t count) noexcept {
-    std::array<std::int64_t, kReferenceCount> times{};
+using Times = std::array<std::int64_t, kReferenceCount>;
+
+/// Times of a counted piece of work that is no step, by the same two readings as a step's.
+/// @param[in] count 1 .. kReferenceCount times; the others stay 0.
+Times calibrate(const FrameClock& clock, void (*work)(void*, std::size_t, std::size_t) noexcept,
+                void* argument, std::size_t count) noexcept {
+    Times times{};
     for (std::size_t i = 0U; i < count; ++i) {
         const Instant begin = clock.get_now();
         mamori_counted_step(work, argument, 0U);
         times[i] = (clock.get_now() - begin).ns;
     }
-    return take_median(times);
+    return times;
 }
 
 std::string check(const std::vector<CostCore>& cores, const CostOptions& options) {
@@ -120,8 +123,12 @@ class CostSession final {
 
   private:
     void run_frames() noexcept {
-        facts_.empty = calibrate(clock_, &do_nothing, nullptr, facts_.calibration_count);
-        facts_.reference = calibrate(clock_, &do_reference, &reference_, facts_.calibration_count);
+        // The least, since it is taken off each step: a machine that was slow here would make all short.
+        const Times empty = calibrate(clock_, &do_nothing, nullptr, facts_.calibration_count);
+        facts_.empty = Duration{*std::min_element(
+            empty.begin(), empty.begin() + static_cast<std::ptrdiff_t>(facts_.calibration_count))};
+        Times reference = calibrate(clock_, &do_reference, &reference_, facts_.calibration_count);
+        facts_.reference = take_median(reference);
         clock_ = FrameClock::starting_in(options_.is_paced ? kLead : Duration{0});
         FrameRunner runner{{cores_.data(), cores_.size()}, devices_};
         while (runner.get_frame_count() < options_.cycles) {
