@@ -204,8 +204,9 @@ LossRun run_losses(const LossRequest& request) {
     CoreRunner runner{executive, host, clock};
     runner.set_observer(&director);
     LossRun result;
-    if (host.open() != Status::kOk || executive.initialize() != Status::kOk ||
-        executive.start() != Status::kOk) {
+    // Started once, since a component lives once; each run goes on with it.
+    static const bool is_started = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
+    if (!is_started || host.open() != Status::kOk) {
         return result;
     }
     Rig rig{clock, host, runner, director, processor, combine(right, host.get_priority_right())};

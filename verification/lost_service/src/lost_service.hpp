@@ -31,7 +31,7 @@ struct LossRun {
     bool has_priority{false};
 };
 
-/// Some 40 frames of 1 ms for each trial. To be called once per process.
+/// Some 40 frames of 1 ms for each trial. To be called from the same thread each time.
 LossRun run_losses(const LossRequest& request);
 
 /// One JSON document.

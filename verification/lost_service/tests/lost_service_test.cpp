@@ -47,5 +47,14 @@ TEST(LostServiceTest, OutputsAreClosedInTimeAfterEachLossAndNotBefore) {
     EXPECT_TRUE(run.verdict.is_well()) << facts;
 }
 
+TEST(LostServiceTest, ARunAfterAnotherIsAWholeOne) {
+    verifies("SWR-PRT-022", Technique::kEquivalenceClasses);
+    for (std::uint64_t seed = 1U; seed <= 2U; ++seed) {
+        const LossVerdict verdict = run_losses({7U, seed}).verdict;
+        EXPECT_EQ(verdict.requested, 6U) << seed;
+        EXPECT_GT(verdict.answered, 0U) << seed;
+    }
+}
+
 }  // namespace
 }  // namespace mamori::lost_service
