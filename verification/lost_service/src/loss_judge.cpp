@@ -20,15 +20,20 @@ LossVerdict judge_losses(const std::vector<LossTrial>& trials, const std::vector
         if (!trial.is_injected) {
             continue;
         }
-        ++verdict.injected;
-        if (!trial.is_closed) {
-            ++verdict.unanswered;
-            continue;
-        }
-        ++verdict.answered;
         // A service that comes too early is wrong at once; else the watchdog's time began with the last one.
         const bool is_at_once = trial.loss == Loss::kRunaway;
         const Instant over = is_at_once ? trial.injected_at : trial.asked_at + timeout;
+        if (!trial.is_closed && trial.ended_at - over <= kTick) {
+            ++verdict.by_host;
+            continue;
+        }
+        ++verdict.injected;
+        if (!trial.is_closed) {
+            ++verdict.unanswered;
+            verdict.unexplained.push_back(trial);
+            continue;
+        }
+        ++verdict.answered;
         verdict.reaction_ns.push_back((trial.closed_at - over).ns);
         if (!is_at_once && trial.closed_at - trial.asked_at <= timeout) {
             ++verdict.early;

@@ -40,6 +40,7 @@ struct LossTrial {
     bool is_closed{false};
     Instant closed_at{};  ///< of the outputs
     ports::posix_rt::WatchdogCause cause{ports::posix_rt::WatchdogCause::kNone};
+    Instant ended_at{};  ///< reading of the clock before the watchdog was closed
 };
 
 /// All is well when nearly all losses took effect, each was answered in time, and nothing else was.
@@ -49,12 +50,14 @@ struct LossVerdict {
     std::uint64_t answered{0U};   ///< outputs closed, in time or not
     std::uint64_t unanswered{0U};
     std::uint64_t late{0U};  ///< answered more than a tick after the time was over, while the machine ran
-    std::uint64_t late_by_host{0U};           ///< likewise, while the machine stood still
-    std::uint64_t early{0U};                  ///< answered before the time was over
-    std::uint64_t invented{0U};               ///< closed without a loss, while the machine ran
-    std::uint64_t by_host{0U};                ///< closed without a loss, while the machine stood still
+    std::uint64_t late_by_host{0U};  ///< likewise, while the machine stood still
+    std::uint64_t early{0U};         ///< answered before the time was over
+    std::uint64_t invented{0U};      ///< closed without a loss, while the machine ran
+    /// Closed without a loss while the machine stood still, or at an end before an answer was due: frames
+    /// that the machine missed count as well.
+    std::uint64_t by_host{0U};
     std::vector<std::int64_t> reaction_ns{};  ///< from the end of the watchdog's time to the closing
-    std::vector<LossTrial> unexplained{};     ///< those that were invented
+    std::vector<LossTrial> unexplained{};     ///< those that were invented or not answered
 
     bool is_well() const noexcept {
         return 20U * injected >= 19U * requested && answered == injected &&

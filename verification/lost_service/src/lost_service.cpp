@@ -157,7 +157,8 @@ std::string to_text(const LossTrial& trial) {
            ", \"cause\": " + std::to_string(static_cast<int>(trial.cause)) +
            ", \"asked_at_ns\": " + std::to_string(trial.asked_at.ns) +
            ", \"injected_at_ns\": " + std::to_string(trial.injected_at.ns) +
-           ", \"closed_at_ns\": " + std::to_string(trial.closed_at.ns) + "}";
+           ", \"closed_at_ns\": " + std::to_string(trial.closed_at.ns) +
+           ", \"ended_at_ns\": " + std::to_string(trial.ended_at.ns) + "}";
 }
 
 /// @return frames. Afterwards `stage.trial` is what became of it.
@@ -180,6 +181,7 @@ std::uint64_t run_trial(Rig& rig, Loss loss, std::uint64_t loss_frame) {
     const std::uint64_t frames = loss_frame + kFramesAfter;
     rig.runner.run(frames);
     // A clean trial ends while it is still served in time; work that hung has come back by now or soon does.
+    stage.trial.ended_at = rig.clock.get_now();
     MAMORI_ENSURE(1, watchdog.close() == Status::kOk);
     while (!rig.host.has_returned(0U)) {
         rig.clock.wait_until(rig.clock.get_now() + kTick);

@@ -19,7 +19,7 @@ constexpr Instant at(std::int64_t us) noexcept {
 }
 /// Served last at 10,000 us, lost at 10,900, so the time is over at 15,000.
 LossTrial make(Loss loss, std::int64_t closed_us) {
-    return {loss, true, at(10900), at(10000), closed_us != 0, at(closed_us), {}};
+    return {loss, true, at(10900), at(10000), closed_us != 0, at(closed_us), {}, at(20000)};
 }
 LossVerdict judge(const LossTrial& trial, const std::vector<Stall>& stalls = {}) {
     return judge_losses({trial}, stalls, Duration{5'000'000});
@@ -43,6 +43,18 @@ TEST(LossJudgeTest, ClosedBeforeTheTimeIsOverIsEarlyAndNeverClosedIsUnanswered) 
     EXPECT_FALSE(judge(make(Loss::kUnhealthy, 15000)).is_well());
     EXPECT_EQ(judge(make(Loss::kWait, 0)).unanswered, 1U);
     EXPECT_FALSE(judge(make(Loss::kWait, 0)).is_well());
+}
+
+TEST(LossJudgeTest, ATrialThatEndedBeforeAnAnswerWasDueIsTheMachines) {
+    verifies("SWR-PRT-022", Technique::kBoundaryValues, Polarity::kViolation);
+    LossTrial trial = make(Loss::kWait, 0);
+    trial.ended_at = at(16000);
+    EXPECT_EQ(judge(trial).by_host, 1U);
+    EXPECT_EQ(judge(trial).injected, 0U);
+    EXPECT_FALSE(judge(trial).is_well()) << "nothing was shown";
+    trial.ended_at = at(16001);
+    EXPECT_EQ(judge(trial).unanswered, 1U);
+    EXPECT_EQ(judge(trial).unexplained.size(), 1U);
 }
 
 TEST(LossJudgeTest, RunawayIsToBeAnsweredAtOnce) {
