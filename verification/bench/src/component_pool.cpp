@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "component_pool.hpp"
 
+#include <algorithm>
 #include <array>
+#include <random>
 
 namespace mamori::verification::bench {
 namespace {
@@ -45,9 +47,16 @@ struct ComponentPool::Block {
     std::array<Counting*, kClassCount> all{&a, &b, &c, &d, &e, &f, &g, &h};
 };
 
-ComponentPool::ComponentPool(std::size_t count)
+ComponentPool::ComponentPool(std::size_t count, ClassOrder order)
     : block_count_((count + kClassCount - 1U) / kClassCount),
-      blocks_(std::make_unique<Block[]>(block_count_)) {}
+      blocks_(std::make_unique<Block[]>(block_count_)) {
+    if (order == ClassOrder::kMixed) {
+        std::minstd_rand random{1U};  // the same order in each run
+        for (std::size_t i = 0U; i < block_count_; ++i) {
+            std::shuffle(blocks_[i].all.begin(), blocks_[i].all.end(), random);
+        }
+    }
+}
 ComponentPool::~ComponentPool() = default;
 
 Component& ComponentPool::at(std::size_t index) noexcept {

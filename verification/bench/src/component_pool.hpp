@@ -13,11 +13,15 @@
 
 namespace mamori::verification::bench {
 
-/// Components of several classes in turn, as a system has them, side by side in memory.
+/// In which order components of different classes come: always the same one of eight, or each eight of them
+/// in an order of their own, in which a processor finds nothing that returns.
+enum class ClassOrder : std::uint8_t { kInTurn, kMixed };
+
+/// Components of several classes, as a system has them, side by side in memory.
 class ComponentPool {
   public:
     /// @param[in] count components, > 0.
-    explicit ComponentPool(std::size_t count);
+    explicit ComponentPool(std::size_t count, ClassOrder order = ClassOrder::kInTurn);
     ~ComponentPool();
     ComponentPool(const ComponentPool&) = delete;
     ComponentPool& operator=(const ComponentPool&) = delete;

@@ -17,7 +17,7 @@
 namespace mamori::verification::bench {
 
 /// Executive over `kCount` components, started. `Clock` is what its host reads.
-template <std::size_t kCount, typename Clock>
+template <std::size_t kCount, typename Clock, ClassOrder kOrder = ClassOrder::kInTurn>
 class ExecutiveRig {
   public:
     ExecutiveRig() : table_(make_table(pool_)), executive_(table_) {
@@ -73,7 +73,7 @@ class ExecutiveRig {
         return table;
     }
 
-    ComponentPool pool_{kCount};
+    ComponentPool pool_{kCount, kOrder};
     const Table table_;
     ExecutiveFor<Table> executive_;
     safety::ExecutionStorage<kCount> storage_{};

@@ -7,8 +7,8 @@
 namespace mamori::verification::bench {
 namespace {
 
-template <std::size_t kCount>
-class Unsupervised final : public Subject {
+template <std::size_t kCount, ClassOrder kOrder>
+class UnsupervisedIn final : public Subject {
   public:
     std::uint64_t run(std::uint64_t count) override {
         const std::uint64_t before = rig_.count_runs();
@@ -19,8 +19,13 @@ class Unsupervised final : public Subject {
     }
 
   private:
-    ExecutiveRig<kCount, CountingClock> rig_;
+    ExecutiveRig<kCount, CountingClock, kOrder> rig_;
 };
+
+template <std::size_t kCount>
+using Unsupervised = UnsupervisedIn<kCount, ClassOrder::kInTurn>;
+template <std::size_t kCount>
+using UnsupervisedInMixedOrder = UnsupervisedIn<kCount, ClassOrder::kMixed>;
 
 template <std::size_t kCount>
 class Supervised final : public Subject {
@@ -43,6 +48,7 @@ class Supervised final : public Subject {
 
 void add_mamori_executive(std::vector<Case>& schedulers) {
     add_to_schedulers<Unsupervised>(schedulers, "mamori component");
+    add_to_schedulers<UnsupervisedInMixedOrder>(schedulers, "mamori component, mixed order");
     add_to_schedulers<Supervised>(schedulers, "mamori supervised component");
 }
 

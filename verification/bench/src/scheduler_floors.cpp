@@ -9,7 +9,7 @@ namespace mamori::verification::bench {
 namespace {
 
 /// The bare loop over the components; `kReadsClock`: with a start time noted for each.
-template <std::size_t kCount, bool kReadsClock>
+template <std::size_t kCount, bool kReadsClock, ClassOrder kOrder = ClassOrder::kInTurn>
 class BareLoop final : public Subject {
   public:
     BareLoop() {
@@ -33,7 +33,7 @@ class BareLoop final : public Subject {
     }
 
   private:
-    ComponentPool pool_{kCount};
+    ComponentPool pool_{kCount, kOrder};
     std::array<Component*, kCount> order_{};
     std::array<Instant, kCount> started_at_{};
 };
@@ -42,12 +42,15 @@ template <std::size_t kCount>
 using VirtualCall = BareLoop<kCount, false>;
 template <std::size_t kCount>
 using VirtualCallWithClock = BareLoop<kCount, true>;
+template <std::size_t kCount>
+using VirtualCallInMixedOrder = BareLoop<kCount, false, ClassOrder::kMixed>;
 
 }  // namespace
 
 void add_scheduler_floors(std::vector<Case>& schedulers) {
     add_to_schedulers<VirtualCall>(schedulers, "virtual call");
     add_to_schedulers<VirtualCallWithClock>(schedulers, "virtual call + clock");
+    add_to_schedulers<VirtualCallInMixedOrder>(schedulers, "virtual call, mixed order");
 }
 
 }  // namespace mamori::verification::bench
