@@ -34,7 +34,7 @@ struct CostFacts {
     bool is_paced{false};
     Duration frame{};
     std::size_t calibration_count{1U};  ///< calls of each of the two pieces of work before the first row
-    Duration empty{};                   ///< median time of counted work that does nothing
+    Duration empty{};                   ///< least time of counted work that does nothing
     Duration reference{};               ///< median time of the reference work, counted
     ports::posix_rt::Right priority{};
     ports::posix_rt::Right processor{};
