@@ -247,6 +247,10 @@ class ExecutionContext final {
     void enter_error(Component& component, ContextHandle handle) noexcept;
     ContextHandle make_handle(Instant now) const noexcept { return {id_, now}; }
 
+    /// Whose action is being called. Atomic, since an action that its host has abandoned ends on another
+    /// thread; kNoPosition is stored last, so that whoever sees it sees all that the actions did. The first
+    /// member, so that a turn needs no register for its address.
+    std::atomic<std::size_t> acting_position_{kNoPosition};
     Span<Component* const> participants_{};
     ContextPlan plan_{};
     Duration period_{};          ///< in use
@@ -255,9 +259,6 @@ class ExecutionContext final {
     std::int64_t windows_to_skip_{0};
     Instant cycle_start_{};
     std::size_t refusing_position_{kNoPosition};
-    /// Whose action is being called. Atomic, since an action that its host has abandoned ends on another
-    /// thread; kNoPosition is stored last, so that whoever sees it sees all that the actions did.
-    std::atomic<std::size_t> acting_position_{kNoPosition};
     std::atomic<Phase> phase_{Phase::kIdle};
     std::size_t abandoned_position_{0U};  ///< in kAbandoned
     bool is_running_{false};
