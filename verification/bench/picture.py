@@ -72,7 +72,8 @@ def _draw_ratios(axis: Any, ratios: Sequence[RatioResult]) -> None:
         axis.plot([one.lowest, one.highest], [row, row], color=colour, linewidth=3.0, alpha=0.35, solid_capstyle="butt")
         axis.plot([one.ratio], [row], marker="o" if one.verdict == PASSED else "X", color=colour, markersize=7)
         axis.plot([one.limit, one.limit], [row - 0.38, row + 0.38], color=INK, linewidth=2.0)
-        text = f"{format_ratio(one.ratio or 0.0)}  ({one.verdict}, limit {one.limit:g})"
+        limit = f"{'advisory ' if one.kind == 'advisory' else ''}limit {one.limit:g}"
+        text = f"{format_ratio(one.ratio or 0.0)}  ({one.verdict}, {limit})"
         axis.annotate(text, (max(one.highest or 0.0, one.limit), row), xytext=(8, 0), textcoords="offset points",
                       va="center", fontsize=8.5, color=colour)  # fmt: skip
     labels = [f"{one.id}  {one.title}, {one.size} {SIZE_UNITS.get(one.metric, '')}  /  {one.against}" for one in ratios]

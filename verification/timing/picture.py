@@ -32,7 +32,7 @@ ROWS_MAX = 16
 BINS = 80
 POINTS_MAX = 2000
 ROW_INCH = 1.5
-TITLE_LENGTH = 56
+TITLE_LENGTH = 68
 WIDTH_INCH = 11.0
 LOGARITHMIC_FROM = 20.0
 """From this ratio of greatest to least on, an axis of time is logarithmic."""
@@ -91,7 +91,7 @@ def _list_execution(report: Report) -> list[Row]:
 
 
 def _list_latency(report: Report) -> list[Row]:
-    return [Row(f"{number}: {row.name}", row.times.values, (Limit("virtual time, at most", row.virtual.max_ns),))
+    return [Row(f"{number}: {shorten(row.name, TITLE_LENGTH - 4)}", row.times.values, (Limit("virtual time, at most", row.virtual.max_ns),))
             for number, row in enumerate(report.chains, start=1)]  # fmt: skip
 
 

@@ -109,7 +109,17 @@ def test_times_have_the_digits_that_count(ns: int | None, text: str) -> None:
 
 
 @pytest.mark.verifies("SWR-TIM-026", technique="boundary_values")
-def test_long_names_keep_both_ends() -> None:
+def test_long_name_keeps_both_ends() -> None:
     assert shorten("a" * 90) == "a" * 90
     assert shorten("begin" + "x" * 90 + "end").startswith("begin") and shorten("begin" + "x" * 90 + "end").endswith("end")
     assert len(shorten("x" * 100)) == 90
+
+
+@pytest.mark.verifies("SWR-TIM-026", technique="boundary_values")
+def test_each_member_of_a_long_chain_keeps_its_beginning() -> None:
+    one, other = "arm_reader > joint_monitor > motion_controller > gate", "arm_reader > path_planner > motion_controller > gate"
+    assert shorten(one, 54) == one
+    assert shorten(one, 52) == "arm_reader > joint_monitor > motion_control.. > gate"
+    assert shorten(one, 40) == "arm_rea.. > joint_m.. > motion_.. > gate"
+    assert shorten(one, 40) != shorten(other, 40)
+    assert len(shorten(" > ".join(["member"] * 20), 40)) == 40, "more members than fit: both ends"

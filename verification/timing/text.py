@@ -17,6 +17,7 @@ MISSES_SHOWN = 5
 CHAINS_SHOWN = 6
 ROWS_SHOWN = 12
 NAME_LENGTH = 90
+MEMBER_LENGTH_MIN = 6  # of a chain, when its name is shortened
 FINDINGS_SHOWN = 8
 
 
@@ -168,7 +169,13 @@ def make_printable(text: str) -> str:
 
 
 def shorten(name: str, length: int = NAME_LENGTH) -> str:
-    """Both ends of a long chain; `length` is even."""
+    """At most `length` letters, an even number. Each member of a chain keeps its beginning, so that chains which differ by one still
+    do; of a single name, and of more members than fit, both ends are left."""
+    members = name.split(" > ")
+    for kept in range(max(map(len, members)), MEMBER_LENGTH_MIN - 1, -1) if len(members) > 1 else ():
+        short = " > ".join(one if len(one) <= kept else f"{one[: kept - 2]}.." for one in members)
+        if len(short) <= length:
+            return short
     return name if len(name) <= length else f"{name[: length // 2 - 2]} .. {name[-length // 2 + 2 :]}"
 
 

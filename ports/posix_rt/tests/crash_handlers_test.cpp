@@ -492,23 +492,5 @@ TEST_F(CrashHandlersTest, PlanThatCannotBeFollowedIsRefusedAndSoAreSecondHandler
     EXPECT_EQ(second.install({&Shared::close_outputs, shared_, {}, 0U, clock}), Status::kOk);
 }
 
-TEST_F(CrashHandlersTest, StackIsTakenOnceAndGivenBack) {
-    verifies("SWR-PRT-026");
-    stack_t before{};
-    ASSERT_EQ(::sigaltstack(nullptr, &before), 0);
-    {
-        CrashStack sut;
-        EXPECT_EQ(sut.take(), Status::kOk);
-        EXPECT_EQ(sut.take(), Status::kPreconditionNotMet);
-        stack_t taken{};
-        ASSERT_EQ(::sigaltstack(nullptr, &taken), 0);
-        EXPECT_EQ(taken.ss_size, CrashStack::kSize);
-    }
-    stack_t after{};
-    ASSERT_EQ(::sigaltstack(nullptr, &after), 0);
-    EXPECT_EQ(after.ss_sp, before.ss_sp);
-    EXPECT_EQ(after.ss_flags, before.ss_flags);
-}
-
 }  // namespace
 }  // namespace mamori::ports::posix_rt

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The supervisor of the arm with a watchdog and an assumption that answer as the test says, frame by frame.
+#ifndef SAFE_ARM_TESTS_SAFETY_SUPERVISOR_FIXTURE_HPP
+#define SAFE_ARM_TESTS_SAFETY_SUPERVISOR_FIXTURE_HPP
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+
+#include "feed.hpp"
+#include "safety_supervisor.hpp"
+
+namespace safe_arm {
+
+inline constexpr std::size_t kOther = 0U;
+inline constexpr std::size_t kController = 1U;
+
+class SpyWatchdog final : public mamori::safety::Watchdog {
+  public:
+    mamori::Status service(mamori::Instant) noexcept override {
+        services += answer == mamori::Status::kOk ? 1 : 0;
+        return answer;
+    }
+    int services{0};
+    mamori::Status answer{mamori::Status::kOk};
+};
+
+/// An assumption of use whose check answers as the test says.
+class FakeCheck final : public mamori::safety::AssumptionCheck {
+  public:
+    mamori::safety::SelfTestStatus check() noexcept override { return answer; }
+    mamori::safety::SelfTestStatus answer{mamori::safety::SelfTestStatus::kPassed};
+};
+inline FakeCheck g_sound;
+inline FakeCheck g_check;
+enum class Assumption : mamori::safety::AssumptionIndex { kSound, kChecked, kCount };
+inline constexpr std::array kAssumptions{
+    mamori::safety::assume(Assumption::kSound, "sound", g_sound, kSelfTestTime),
+    mamori::safety::assume(Assumption::kChecked, "checked", g_check, kSelfTestTime)};
+static_assert(mamori::safety::checks_all<kAssumptions, Assumption::kCount>());
+
+class SafetySupervisorFixture : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        using mamori::safety::SupervisionScope;
+        g_check.answer = mamori::safety::SelfTestStatus::kPassed;
+        const mamori::safety::DeadlineLimits deadline{mamori::Duration{0}, kSafetyComponentMax};
+        ASSERT_EQ(supervision_.watch(kOther, {kAliveLimits, deadline, SupervisionScope::kGlobal}),
+                  mamori::Status::kOk);
+        ASSERT_EQ(supervision_.watch(kController, {kAliveLimits, deadline, SupervisionScope::kLocal}),
+                  mamori::Status::kOk);
+        ASSERT_EQ(sut_.initialize(), mamori::Status::kOk);
+        reading_.power_good = true;
+        reading_.brakes_closed = true;
+        state_.is_standing = true;
+        state_.is_setpoint_near = true;
+    }
+
+    /// One frame: the components run as `is_other_running_` and `is_controller_running_` say, then the
+    /// supervisor decides.
+    StopCommand step() {
+        if (is_other_running_) {
+            supervision_.get_records()[kOther].note_run(now_, now_ + 10_us);
+        }
+        if (is_controller_running_) {
+            supervision_.get_records()[kController].note_run(now_, now_ + 10_us);
+        }
+        if (is_reader_running_) {
+            feed(sut_.reading, reading_);
+        }
+        if (is_monitor_running_) {
+            feed(sut_.arm_state, state_);
+        }
+        EXPECT_EQ(sut_.on_execute({0, now_}), mamori::Status::kOk);
+        sut_.reading.mark_read();
+        sut_.arm_state.mark_read();
+        now_ = now_ + kFrame;
+        return take(sut_.stop);
+    }
+    StopCommand step_until(mamori::safety::SafeState wanted, int frames_max) {
+        StopCommand command{};
+        for (int i = 0; i < frames_max && sut_.get_state() != wanted; ++i) {
+            command = step();
+        }
+        return command;
+    }
+    StopCommand operate() {
+        step_until(mamori::safety::SafeState::kStandby, 100);
+        reading_.start_button = true;
+        StopCommand command = step();
+        reading_.start_button = false;
+        reading_.brakes_closed = false;
+        reading_.torque_enabled = true;
+        return command;
+    }
+
+    mamori::safety::ExecutionStorage<2U> storage_;
+    mamori::safety::ExecutionSupervisor supervision_{storage_, kLatenessMax};
+    std::array<mamori::Event, 32U> events_{};
+    mamori::EventLog log_{events_};
+    SpyWatchdog watchdog_;
+    mamori::safety::AssumptionMonitor assumptions_{kAssumptions};
+    DecisionFlow flow_;
+    SafetySupervisor sut_{supervision_, kController, watchdog_, log_, assumptions_, flow_};
+    JointReading reading_{};
+    JointState state_{};
+    mamori::Instant now_{};
+    bool is_reader_running_{true};
+    bool is_monitor_running_{true};
+    bool is_other_running_{true};
+    bool is_controller_running_{true};
+};
+
+}  // namespace safe_arm
+
+#endif  // SAFE_ARM_TESTS_SAFETY_SUPERVISOR_FIXTURE_HPP
