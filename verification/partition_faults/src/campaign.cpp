@@ -21,6 +21,7 @@ using verification::StallWatch;
 
 /// Above what other programs use: what delays these threads is the machine, or what is under test.
 constexpr int kWatchPriority = 98;
+constexpr std::size_t kLateLooksPerFrame = 8U;  ///< room for them; a machine that needs more is of no use
 constexpr int kRunnerPriority = 97;
 constexpr int kWindowPriority = 96;
 constexpr std::uint32_t kWellFrames{20U};
@@ -303,7 +304,8 @@ Verdict run(const CampaignRequest& request) {
     }
     CoreRunner runner{executive, host, clock};
     runner.set_observer(&openings);
-    StallWatch stalls{clock, Duration{kFrame.ns / 20}, {kWatchPriority, processor}};
+    StallWatch stalls{
+        clock, Duration{kFrame.ns / 20}, {kWatchPriority, processor}, frames * kLateLooksPerFrame};
     Right right{};
     std::thread thread{[&runner, &right] {
         right =
@@ -324,7 +326,8 @@ Verdict run(const CampaignRequest& request) {
                   std::move(log.looks),
                   std::move(log.reactions),
                   director.get_deeds(),
-                  stalls.get_stalls()};
+                  stalls.get_stalls(),
+                  stalls.get_late_looks()};
     course.expected = run_in_virtual_time(course.openings);
     Verdict verdict = judge(course);
     verdict.frames = course.openings.size() / kWindowCount;

@@ -151,6 +151,13 @@ bool is_aftermath(const std::vector<Opening>& excused, const Opening& opening) {
     return contains(excused, {opening.window, opening.release - kFrame});
 }
 
+/// The machine stood still for a while, or it was late again and again: each of its gaps is too short for a
+/// stall then, and they hold a window up all the same.
+bool is_by_machine(const Course& course, const TimedOpening& timed) {
+    return verification::overlaps(course.stalls, timed.opening.release, timed.end) ||
+           verification::calc_loss(course.late_looks, timed.opening.release, timed.end) >= kLossMin;
+}
+
 /// Every expected window must have run, in its place. One that was missed has not, and the work of one that
 /// was cut off was given up: it may have run at any time, or never.
 void judge_order(const Course& course, Verdict& verdict) {
@@ -158,9 +165,7 @@ void judge_order(const Course& course, Verdict& verdict) {
     std::vector<Opening> excused;
     for (const TimedOpening& timed : course.openings) {
         if (timed.is_missed || timed.is_overrun) {
-            const bool is_excused = verification::overlaps(course.stalls, timed.opening.release, timed.end) ||
-                                    is_aftermath(excused, timed.opening);
-            if (is_excused) {
+            if (is_by_machine(course, timed) || is_aftermath(excused, timed.opening)) {
                 ++verdict.moved_by_host;
                 excused.push_back(timed.opening);
             } else {

@@ -37,6 +37,10 @@ inline constexpr Duration kReactionTime = 2_ms;
 inline constexpr Duration kBound{(static_cast<std::int64_t>(kSilentFrames) + 2) * kFrame.ns +
                                  kReactionTime.ns};
 
+/// Time that the machine must have taken away from a window, in pieces or at once, to be the reason why it
+/// moved: half of its budget. The components need a few microseconds of that.
+inline constexpr Duration kLossMin = 115_us;
+
 /// A window that opened.
 struct Opening {
     std::size_t window{0U};
@@ -89,6 +93,7 @@ struct Course {
     std::vector<ReactionBegin> reactions{};
     std::vector<Deed> deeds{};
     std::vector<Stall> stalls{};
+    std::vector<Stall> late_looks{};  ///< of whoever tells of stalls
 };
 
 /// What became of one fault.
@@ -122,7 +127,7 @@ struct Verdict {
     std::uint64_t frames{0U};
     std::uint64_t disordered{0U};           ///< windows that ran out of the order of virtual time
     std::vector<TimedOpening> moved{};      ///< windows missed or cut off while the machine ran
-    std::uint64_t moved_by_host{0U};        ///< likewise, while the machine stood still
+    std::uint64_t moved_by_host{0U};        ///< likewise; the machine stood still or took kLossMin away
     std::vector<ReactionBegin> invented{};  ///< reactions that what arrived does not explain
     std::uint64_t by_machine{
         0U};                   ///< reactions because the machine gave the partition, or the guard, no time

@@ -278,6 +278,23 @@ TEST(PartitionJudgeTest, AWindowThatIsMissedOrCutOffHasMovedUnlessTheMachineStoo
     EXPECT_EQ(judge(missed).moved.size(), 1U) << "it was over by then";
 }
 
+TEST(PartitionJudgeTest, AWindowHasNotMovedWhenTheMachineTookHalfOfItsBudgetAwayInPieces) {
+    verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
+    Course course = make_order();
+    course.openings[2U].is_missed = true;
+    course.ran.erase(course.ran.begin() + 2);
+    const std::int64_t release = course.openings[2U].opening.release.ns / 1000;
+    course.openings[2U].end = at(release + 300);
+
+    course.late_looks = {{at(release), at(release + 60)}, {at(release + 100), at(release + 155)}};
+    EXPECT_EQ(judge(course).moved.size(), 0U);
+    EXPECT_EQ(judge(course).moved_by_host, 1U);
+    course.late_looks[1U].end = at(release + 154);
+    EXPECT_EQ(judge(course).moved.size(), 1U) << "less than half";
+    course.late_looks = {{at(release - 60), at(release)}, {at(release + 300), at(release + 400)}};
+    EXPECT_EQ(judge(course).moved.size(), 1U) << "before it and after it";
+}
+
 TEST(PartitionJudgeTest, AWindowWhoseWorkIsStillOutSharesTheReasonOfTheFrameBefore) {
     verifies("SWR-PRT-018", Technique::kErrorGuessing, Polarity::kViolation);
     Course course = make_order();
