@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loss_judge.hpp"
 
+#include <algorithm>
+
 namespace mamori::lost_service {
 
 LossVerdict judge_losses(const std::vector<LossTrial>& trials, const std::vector<Stall>& stalls,
@@ -20,9 +22,10 @@ LossVerdict judge_losses(const std::vector<LossTrial>& trials, const std::vector
         if (!trial.is_injected) {
             continue;
         }
-        // A service that comes too early is wrong at once; else the watchdog's time began with the last one.
+        // A service that comes too early is wrong at once; else the watchdog's time began with the last one,
+        // and is over at this instant at the latest.
         const bool is_at_once = trial.loss == Loss::kRunaway;
-        const Instant over = is_at_once ? trial.injected_at : trial.asked_at + timeout;
+        const Instant over = is_at_once ? trial.injected_at : trial.taken_at + timeout;
         if (!trial.is_closed && trial.ended_at - over <= kTick) {
             ++verdict.by_host;
             continue;
@@ -34,11 +37,14 @@ LossVerdict judge_losses(const std::vector<LossTrial>& trials, const std::vector
             continue;
         }
         ++verdict.answered;
-        verdict.reaction_ns.push_back((trial.closed_at - over).ns);
+        verdict.reaction_ns.push_back(std::max((trial.closed_at - over).ns, std::int64_t{0}));
         if (!is_at_once && trial.closed_at - trial.asked_at <= timeout) {
             ++verdict.early;
+        } else if (trial.closed_at - over > kTick && overlaps(stalls, over, trial.closed_at)) {
+            ++verdict.late_by_host;
         } else if (trial.closed_at - over > kTick) {
-            ++(overlaps(stalls, over, trial.closed_at) ? verdict.late_by_host : verdict.late);
+            ++verdict.late;
+            verdict.unexplained.push_back(trial);
         }
     }
     return verdict;

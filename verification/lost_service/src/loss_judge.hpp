@@ -37,6 +37,7 @@ struct LossTrial {
     bool is_injected{false};
     Instant injected_at{};
     Instant asked_at{};  ///< reading of the clock before the last service that was taken
+    Instant taken_at{};  ///< and after it: the watchdog's time began in between
     bool is_closed{false};
     Instant closed_at{};  ///< of the outputs
     ports::posix_rt::WatchdogCause cause{ports::posix_rt::WatchdogCause::kNone};
@@ -57,7 +58,7 @@ struct LossVerdict {
     /// that the machine missed count as well.
     std::uint64_t by_host{0U};
     std::vector<std::int64_t> reaction_ns{};  ///< from the end of the watchdog's time to the closing
-    std::vector<LossTrial> unexplained{};     ///< those that were invented or not answered
+    std::vector<LossTrial> unexplained{};     ///< those that were invented, late or not answered
 
     bool is_well() const noexcept {
         return 20U * injected >= 19U * requested && answered == injected &&

@@ -104,6 +104,7 @@ class Supervisor final : public Component {
         const Instant now = stage.clock->get_now();
         const GlobalStatus health = is_unhealthy ? GlobalStatus::kExpired : GlobalStatus::kOk;
         if (stage.gate->step(now, health, !is_inconsistent) == WatchdogOutcome::kServiced) {
+            stage.trial.taken_at = stage.clock->get_now();
             stage.trial.asked_at = now;
         }
     }
@@ -156,6 +157,7 @@ std::string to_text(const LossTrial& trial) {
     return "{\"loss\": " + std::to_string(static_cast<int>(trial.loss)) +
            ", \"cause\": " + std::to_string(static_cast<int>(trial.cause)) +
            ", \"asked_at_ns\": " + std::to_string(trial.asked_at.ns) +
+           ", \"taken_at_ns\": " + std::to_string(trial.taken_at.ns) +
            ", \"injected_at_ns\": " + std::to_string(trial.injected_at.ns) +
            ", \"closed_at_ns\": " + std::to_string(trial.closed_at.ns) +
            ", \"ended_at_ns\": " + std::to_string(trial.ended_at.ns) + "}";

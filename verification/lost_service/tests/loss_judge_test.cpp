@@ -19,7 +19,7 @@ constexpr Instant at(std::int64_t us) noexcept {
 }
 /// Served last at 10,000 us, lost at 10,900, so the time is over at 15,000.
 LossTrial make(Loss loss, std::int64_t closed_us) {
-    return {loss, true, at(10900), at(10000), closed_us != 0, at(closed_us), {}, at(20000)};
+    return {loss, true, at(10900), at(10000), at(10000), closed_us != 0, at(closed_us), {}, at(20000)};
 }
 LossVerdict judge(const LossTrial& trial, const std::vector<Stall>& stalls = {}) {
     return judge_losses({trial}, stalls, Duration{5'000'000});
@@ -31,9 +31,11 @@ TEST(LossJudgeTest, ClosedWithinATickAfterTheTimeIsWellAndLaterIsLateUnlessTheMa
     EXPECT_EQ(judge(make(Loss::kHang, 16000)).reaction_ns, (std::vector<std::int64_t>{1'000'000}));
     const LossVerdict late = judge(make(Loss::kHang, 16001), {{at(14000), at(14999)}});
     EXPECT_EQ(late.late, 1U);
+    EXPECT_EQ(late.unexplained.size(), 1U);
     EXPECT_FALSE(late.is_well());
     const LossVerdict excused = judge(make(Loss::kHang, 16001), {{at(14000), at(15000)}});
     EXPECT_EQ(excused.late_by_host, 1U);
+    EXPECT_TRUE(excused.unexplained.empty());
     EXPECT_TRUE(excused.is_well());
 }
 
@@ -43,6 +45,20 @@ TEST(LossJudgeTest, ClosedBeforeTheTimeIsOverIsEarlyAndNeverClosedIsUnanswered) 
     EXPECT_FALSE(judge(make(Loss::kUnhealthy, 15000)).is_well());
     EXPECT_EQ(judge(make(Loss::kWait, 0)).unanswered, 1U);
     EXPECT_FALSE(judge(make(Loss::kWait, 0)).is_well());
+}
+
+TEST(LossJudgeTest, TheTimeBeginsAnywhereWithinTheServiceThatWasTaken) {
+    verifies("SWR-PRT-022", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto judge_held_up = [](std::int64_t closed_us) {
+        LossTrial trial = make(Loss::kHang, closed_us);
+        trial.taken_at = at(10400);
+        return judge(trial);
+    };
+    EXPECT_EQ(judge_held_up(15000).early, 1U);
+    EXPECT_TRUE(judge_held_up(15001).is_well());
+    EXPECT_EQ(judge_held_up(15001).reaction_ns, (std::vector<std::int64_t>{0}));
+    EXPECT_TRUE(judge_held_up(16400).is_well());
+    EXPECT_EQ(judge_held_up(16401).late, 1U);
 }
 
 TEST(LossJudgeTest, ATrialThatEndedBeforeAnAnswerWasDueIsTheMachines) {
@@ -65,7 +81,7 @@ TEST(LossJudgeTest, RunawayIsToBeAnsweredAtOnce) {
 
 TEST(LossJudgeTest, ClosedWithoutALossIsInventedUnlessTheMachineStoodStill) {
     verifies("SWR-PRT-022", Technique::kFaultInjection, Polarity::kViolation);
-    const LossTrial clean{Loss::kNone, false, {}, at(10000), true, at(15010), {}};
+    const LossTrial clean{Loss::kNone, false, {}, at(10000), at(10000), true, at(15010), {}};
     EXPECT_EQ(judge(clean).invented, 1U);
     EXPECT_EQ(judge(clean).unexplained.size(), 1U);
     EXPECT_FALSE(judge(clean).is_well());
@@ -79,8 +95,8 @@ TEST(LossJudgeTest, ClosedWithoutALossIsInventedUnlessTheMachineStoodStill) {
 
 TEST(LossJudgeTest, ServedToTheEndIsWellAndARunWithoutLossesThatTookEffectIsNot) {
     verifies("SWR-PRT-022", Technique::kEquivalenceClasses);
-    EXPECT_TRUE(judge({Loss::kNone, false, {}, at(10000), false, {}, {}}).is_well());
-    EXPECT_FALSE(judge({Loss::kHang, false, {}, at(10000), false, {}, {}}).is_well());
+    EXPECT_TRUE(judge({Loss::kNone, false, {}, at(10000), at(10000), false, {}, {}}).is_well());
+    EXPECT_FALSE(judge({Loss::kHang, false, {}, at(10000), at(10000), false, {}, {}}).is_well());
 }
 
 }  // namespace
