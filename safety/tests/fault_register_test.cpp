@@ -3,7 +3,6 @@
 // deliberate acknowledgement after it is gone. Method: both sides of each limit, each status, full storage.
 #include "mamori/safety/fault_register.hpp"
 
-#include <array>
 #include <limits>
 #include <vector>
 

@@ -219,6 +219,7 @@ class ExecutionContext final {
     class ActionScope;
     static constexpr std::size_t kNoPosition = std::numeric_limits<std::size_t>::max();
 
+    /// kInCycle is 0, as Status::kOk is: a turn asks for both in one.
     enum class Phase : std::uint8_t { kInCycle, kIdle, kAbandoned };
 
     bool is_in_cycle() const noexcept { return phase_.load(std::memory_order_relaxed) == Phase::kInCycle; }
