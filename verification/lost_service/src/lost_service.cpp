@@ -11,6 +11,7 @@
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
+#include "mamori/verification/awake_processor.hpp"
 #include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::lost_service {
@@ -216,6 +217,7 @@ LossRun run_losses(const LossRequest& request) {
     Rig rig{clock, host, runner, director, processor, combine(right, host.get_priority_right())};
     std::mt19937_64 random{request.seed};
     std::vector<LossTrial> trials;
+    const verification::AwakeProcessor awake{processor};
     StallWatch stalls{clock, Duration{kTick.ns / 20}, {kStallPriority, processor}};
     for (std::uint64_t i = 0U; i < request.trial_count; ++i) {
         const std::uint64_t loss_frame = kFramesBefore + random() % kFramesSpread;

@@ -10,12 +10,14 @@
 #include "mamori/ports/posix_rt/partition_process.hpp"
 #include "mamori/ports/posix_rt/shared_memory.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
+#include "mamori/verification/awake_processor.hpp"
 #include "safety_system.hpp"
 
 namespace mamori::partition_faults {
 namespace {
 
 using namespace ports::posix_rt;  // NOLINT: this program is made of them
+using verification::AwakeProcessor;
 using verification::find_processor;
 using verification::StallWatch;
 
@@ -304,6 +306,7 @@ Verdict run(const CampaignRequest& request) {
     }
     CoreRunner runner{executive, host, clock};
     runner.set_observer(&openings);
+    const AwakeProcessor awake{processor};
     StallWatch stalls{
         clock, Duration{kFrame.ns / 20}, {kWatchPriority, processor}, frames * kLateLooksPerFrame};
     Right right{};

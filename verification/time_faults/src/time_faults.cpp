@@ -7,6 +7,7 @@
 #include "director.hpp"
 #include "introspection_load.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
+#include "mamori/verification/awake_processor.hpp"
 #include "mamori/verification/stall_watch.hpp"
 #include "page_storm.hpp"
 #include "victims.hpp"
@@ -21,6 +22,7 @@ using ports::posix_rt::GridWatch;
 using ports::posix_rt::GuardedHost;
 using ports::posix_rt::Right;
 using ports::posix_rt::WindowThread;
+using verification::AwakeProcessor;
 using verification::find_processor;
 using verification::StallWatch;
 
@@ -65,6 +67,7 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
                     {kWatchPriority, processor}};
     runner.set_observer(beats.data());
     director.set_watch(&watch);
+    const AwakeProcessor awake{processor};
     StallWatch stalls{clock,
                       Duration{kTick.ns / kLooksPerFrame},
                       {kStallPriority, processor},
