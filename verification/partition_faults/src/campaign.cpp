@@ -11,6 +11,7 @@
 #include "mamori/ports/posix_rt/shared_memory.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/verification/awake_processor.hpp"
+#include "mamori/verification/occupancy_watch.hpp"
 #include "safety_system.hpp"
 
 namespace mamori::partition_faults {
@@ -19,6 +20,7 @@ namespace {
 using namespace ports::posix_rt;  // NOLINT: this program is made of them
 using verification::AwakeProcessor;
 using verification::find_processor;
+using verification::OccupancyWatch;
 using verification::StallWatch;
 
 /// Above what other programs use: what delays these threads is the machine, or what is under test.
@@ -307,6 +309,7 @@ Verdict run(const CampaignRequest& request) {
     CoreRunner runner{executive, host, clock};
     runner.set_observer(&openings);
     const AwakeProcessor awake{processor};
+    OccupancyWatch occupancy{clock, processor};
     StallWatch stalls{
         clock, Duration{kFrame.ns / 20}, {kWatchPriority, processor}, frames * kLateLooksPerFrame};
     Right right{};
@@ -322,6 +325,7 @@ Verdict run(const CampaignRequest& request) {
     runner.request_stop();
     thread.join();
     stalls.stop();
+    occupancy.stop();
     const bool is_closed = host.close() == Status::kOk;
     Course course{{},
                   log.take_ran(),
@@ -330,7 +334,9 @@ Verdict run(const CampaignRequest& request) {
                   std::move(log.reactions),
                   director.get_deeds(),
                   stalls.get_stalls(),
-                  stalls.get_late_looks()};
+                  stalls.get_late_looks(),
+                  occupancy.knows(),
+                  occupancy.get_foreign()};
     course.expected = run_in_virtual_time(course.openings);
     Verdict verdict = judge(course);
     verdict.frames = course.openings.size() / kWindowCount;

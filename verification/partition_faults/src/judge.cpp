@@ -154,8 +154,16 @@ bool is_aftermath(const std::vector<Opening>& excused, const Opening& opening) {
 /// The machine stood still for a while, or it was late again and again: each of its gaps is too short for a
 /// stall then, and they hold a window up all the same.
 bool is_by_machine(const Course& course, const TimedOpening& timed) {
-    return verification::overlaps(course.stalls, timed.opening.release, timed.end) ||
-           verification::calc_loss(course.late_looks, timed.opening.release, timed.end) >= kLossMin;
+    const Instant release = timed.opening.release;
+    return verification::overlaps(course.stalls, release, timed.end) ||
+           verification::calc_loss(course.late_looks, release, timed.end) >= kLossMin ||
+           verification::calc_loss(course.late_looks, release - kFrame, timed.end) >= kSlowLossMin;
+}
+
+/// No fault of a partition moves a window while neither it nor any other program runs.
+bool is_alone(const Course& course, const TimedOpening& timed) {
+    return course.knows_foreign &&
+           verification::calc_loss(course.foreign, timed.opening.release, timed.end) < kForeignMin;
 }
 
 /// Every expected window must have run, in its place. One that was missed has not, and the work of one that
@@ -168,6 +176,8 @@ void judge_order(const Course& course, Verdict& verdict) {
             if (is_by_machine(course, timed) || is_aftermath(excused, timed.opening)) {
                 ++verdict.moved_by_host;
                 excused.push_back(timed.opening);
+            } else if (is_alone(course, timed)) {
+                ++verdict.moved_alone;
             } else {
                 verdict.moved.push_back(timed);
             }
@@ -270,11 +280,13 @@ std::uint64_t Verdict::count(Outcome outcome) const noexcept {
 bool Verdict::is_well() const noexcept {
     const std::uint64_t good = count(Outcome::kInTime) + count(Outcome::kTardyByHost);
     return has_run && good + count(Outcome::kNotDone) == requested && 20U * good >= 19U * requested &&
-           disordered + moved.size() + invented.size() == 0U;
+           disordered + moved.size() + invented.size() == 0U &&
+           moved_alone * kAloneOneIn <= quiet.openings + faulty.openings;
 }
 
 Verdict judge(const Course& course) {
     Verdict verdict;
+    verdict.knows_foreign = course.knows_foreign;
     verdict.reaction_ns.resize(kKindCount);
     judge_reactions(course, verdict);
     judge_order(course, verdict);

@@ -40,6 +40,16 @@ inline constexpr Duration kBound{(static_cast<std::int64_t>(kSilentFrames) + 2) 
 /// Time that the machine must have taken away from a window, in pieces or at once, to be the reason why it
 /// moved: half of its budget. The components need a few microseconds of that.
 inline constexpr Duration kLossMin = 115_us;
+/// The same from the frame before on: a whole budget. A window sees two to four looks, too few to tell by
+/// them alone how slow the machine is just then; what falls between them is lost as well. Measured: 0.1 of
+/// the windows lie behind such a frame, and all that moved.
+inline constexpr Duration kSlowLossMin = 230_us;
+
+/// Another program must have had the processor for so long of a window to be the reason why it moved: as much
+/// as a look of the watch is late by.
+inline constexpr Duration kForeignMin = 25_us;
+/// Windows that moved while nobody else had the processor, of all: more are the doing of the system itself.
+inline constexpr std::uint64_t kAloneOneIn{10'000U};
 
 /// A window that opened.
 struct Opening {
@@ -94,6 +104,8 @@ struct Course {
     std::vector<Deed> deeds{};
     std::vector<Stall> stalls{};
     std::vector<Stall> late_looks{};  ///< of whoever tells of stalls
+    bool knows_foreign{false};
+    std::vector<Stall> foreign{};  ///< while another program had the processor; with knows_foreign only
 };
 
 /// What became of one fault.
@@ -115,7 +127,7 @@ struct LatenessFigures {
     std::int64_t p99_ns{0};
     std::int64_t p9999_ns{0};
     std::int64_t max_ns{0};
-    std::uint64_t moved{0U};   ///< of the openings, missed or cut off while the machine ran
+    std::uint64_t moved{0U};   ///< of the openings, as Verdict::moved
     std::uint64_t stalls{0U};  ///< of the machine, in that time
     Duration time{};           ///< how long that was
 };
@@ -125,15 +137,17 @@ struct Verdict {
     std::vector<Outcome> outcomes{};                       ///< one per deed
     std::vector<std::vector<std::int64_t>> reaction_ns{};  ///< per kind, from Deed::done; sorted
     std::uint64_t frames{0U};
-    std::uint64_t disordered{0U};           ///< windows that ran out of the order of virtual time
-    std::vector<TimedOpening> moved{};      ///< windows missed or cut off while the machine ran
-    std::uint64_t moved_by_host{0U};        ///< likewise; the machine stood still or took kLossMin away
+    std::uint64_t disordered{0U};       ///< windows that ran out of the order of virtual time
+    std::vector<TimedOpening> moved{};  ///< windows missed or cut off otherwise
+    std::uint64_t moved_by_host{0U};    ///< likewise; the machine stood still or took too much of its time
+    std::uint64_t moved_alone{0U};      ///< likewise; nobody else had the processor for kForeignMin
     std::vector<ReactionBegin> invented{};  ///< reactions that what arrived does not explain
     std::uint64_t by_machine{
         0U};                   ///< reactions because the machine gave the partition, or the guard, no time
     LatenessFigures quiet{};   ///< while the partition was well
     LatenessFigures faulty{};  ///< from a fault to the end of its partition
     bool has_priority{false};
+    bool knows_foreign{false};
     bool has_run{false};  ///< else the campaign could not go on: `trouble` tells why
     const char* trouble{""};
 

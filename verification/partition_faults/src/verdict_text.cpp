@@ -100,10 +100,11 @@ std::string to_json(const CampaignRequest& request, const Verdict& verdict) {
     }
     text += write_count("invented", verdict.invented.size()) + write_count("by_machine", verdict.by_machine) +
             write_count("disordered", verdict.disordered) + write_count("moved", verdict.moved.size()) +
-            write_count("moved_by_host", verdict.moved_by_host) + write_reactions(verdict) +
-            write_lateness("quiet", verdict.quiet) + write_lateness("faulty", verdict.faulty) +
-            write("has_priority", verdict.has_priority) + ",\n \"trouble\": " + quote(verdict.trouble) +
-            write("is_well", verdict.is_well());
+            write_count("moved_by_host", verdict.moved_by_host) +
+            write_count("moved_alone", verdict.moved_alone) + write("knows_foreign", verdict.knows_foreign) +
+            write_reactions(verdict) + write_lateness("quiet", verdict.quiet) +
+            write_lateness("faulty", verdict.faulty) + write("has_priority", verdict.has_priority) +
+            ",\n \"trouble\": " + quote(verdict.trouble) + write("is_well", verdict.is_well());
     return text + (verdict.is_well() ? "" : write_unexplained(verdict) + write_plan(request, verdict)) +
            "\n}\n";
 }

@@ -295,6 +295,54 @@ TEST(PartitionJudgeTest, AWindowHasNotMovedWhenTheMachineTookHalfOfItsBudgetAway
     EXPECT_EQ(judge(course).moved.size(), 1U) << "before it and after it";
 }
 
+TEST(PartitionJudgeTest, AWindowInASlowStretchOfTheMachineMovedBecauseOfIt) {
+    verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
+    Course course = make_order();
+    course.openings[2U].is_overrun = true;
+    const std::int64_t release = course.openings[2U].opening.release.ns / 1000;
+    course.openings[2U].end = at(release + 300);
+
+    // Looks that end before the frame before do not count; those in the window, less than half of its budget,
+    // do.
+    course.late_looks = {{at(release - 1100), at(release - 1001)},
+                         {at(release - 900), at(release - 800)},
+                         {at(release - 300), at(release - 220)},
+                         {at(release + 100), at(release + 150)}};
+    EXPECT_EQ(judge(course).moved.size(), 0U);
+    EXPECT_EQ(judge(course).moved_by_host, 1U);
+    course.late_looks[2U].end = at(release - 221);
+    EXPECT_EQ(judge(course).moved.size(), 1U) << "less than a budget";
+}
+
+TEST(PartitionJudgeTest, AWindowThatMovedWhileNobodyElseRanIsNotTheDoingOfThePartition) {
+    verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
+    Course course = make_order();
+    course.openings[2U].is_overrun = true;
+    const std::int64_t release = course.openings[2U].opening.release.ns / 1000;
+    course.openings[2U].end = at(release + 300);
+    EXPECT_EQ(judge(course).moved.size(), 1U) << "nobody looked";
+
+    course.knows_foreign = true;
+    course.foreign = {{at(release - 100), at(release + 24)}, {at(release + 300), at(release + 400)}};
+    EXPECT_EQ(judge(course).moved.size(), 0U);
+    EXPECT_EQ(judge(course).moved_alone, 1U);
+    course.foreign[0U].end = at(release + 25);
+    EXPECT_EQ(judge(course).moved.size(), 1U);
+    EXPECT_EQ(judge(course).moved_alone, 0U);
+}
+
+TEST(PartitionJudgeTest, WindowsThatMoveByThemselvesAreRareOrTheSystemIsToBlame) {
+    verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
+    Verdict verdict;
+    verdict.has_run = true;
+    verdict.quiet.openings = 10'000U;
+    verdict.faulty.openings = 10'000U;
+    verdict.moved_alone = 2U;
+    EXPECT_TRUE(verdict.is_well());
+    verdict.moved_alone = 3U;
+    EXPECT_FALSE(verdict.is_well());
+}
+
 TEST(PartitionJudgeTest, AWindowWhoseWorkIsStillOutSharesTheReasonOfTheFrameBefore) {
     verifies("SWR-PRT-018", Technique::kErrorGuessing, Polarity::kViolation);
     Course course = make_order();

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Design: docs/design/posix_rt.md#faults-of-partitions
+#include "mamori/verification/occupancy_watch.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "mamori/ports/posix_rt/real_time_rights.hpp"
+#include "mamori/verification/verifies.hpp"
+
+namespace mamori::verification {
+namespace {
+
+using ports::posix_rt::FrameClock;
+
+constexpr Duration kWork{20'000'000};
+
+void compute_until(const FrameClock& clock, Instant end) {
+    while (clock.get_now() < end) {
+    }
+}
+
+TEST(OccupancyWatchTest, AnotherProcessOnTheProcessorIsSeenAndOurOwnThreadsAreNot) {
+    verifies("SWR-PRT-018", Technique::kBoundaryValues);
+    const FrameClock clock = FrameClock::starting_in(Duration{0});
+    const int processor = find_processor();
+    OccupancyWatch watch{clock, processor};
+    if (!watch.knows()) {
+        GTEST_SKIP() << "the kernel does not tell this process who runs";
+    }
+    ASSERT_TRUE(ports::posix_rt::set_processor(pthread_self(), processor).is_granted);
+    const Instant begin = clock.get_now();
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        compute_until(clock, clock.get_now() + kWork);
+        ::_exit(0);
+    }
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    const Instant between = clock.get_now();
+    // The thread that empties the ring and this one share the processor then, with whoever else there is.
+    const bool has_priority = ports::posix_rt::set_priority(pthread_self(), 10).is_granted;
+    compute_until(clock, between + kWork);
+    const Instant end = clock.get_now();
+    static_cast<void>(ports::posix_rt::set_priority(pthread_self(), 0));
+    watch.stop();
+
+    ASSERT_TRUE(watch.knows());
+    const std::vector<Stall>& foreign = watch.get_foreign();
+    EXPECT_GE(calc_loss(foreign, begin, between), Duration{kWork.ns / 4});
+    if (has_priority) {
+        EXPECT_LE(calc_loss(foreign, between, end), Duration{kWork.ns / 4});
+    }
+    for (std::size_t i = 1U; i < foreign.size(); ++i) {
+        EXPECT_LE(foreign[i - 1U].end, foreign[i].begin);
+    }
+}
+
+TEST(OccupancyWatchTest, AProcessorThatIsNotThereIsNotWatched) {
+    verifies("SWR-PRT-018", Technique::kErrorGuessing, Polarity::kViolation);
+    const FrameClock clock = FrameClock::starting_in(Duration{0});
+    OccupancyWatch watch{clock, 1'000'000};
+    EXPECT_FALSE(watch.knows());
+    watch.stop();
+    EXPECT_TRUE(watch.get_foreign().empty());
+}
+
+}  // namespace
+}  // namespace mamori::verification
