@@ -10,7 +10,11 @@ namespace {
 class Judge final {
   public:
     Judge(const Plan& plan, const Course& course)
-        : plan_(plan), reports_(course.reports), stalls_(course.stalls), late_looks_(course.late_looks) {
+        : plan_(plan),
+          reports_(course.reports),
+          stalls_(course.stalls),
+          late_looks_(course.late_looks),
+          late_ends_(course.late_ends) {
         explained_.resize(reports_.size(), false);
     }
 
@@ -24,13 +28,11 @@ class Judge final {
         for (std::size_t i = find(deed.begin); i < reports_.size() && reports_[i].at <= last; ++i) {
             const Report& report = reports_[i];
             const bool is_stuck = deed.cause == Cause::kStuckGuard;
-            if (!report.is_overrun || (is_stuck && is_cut_short(report))) {
-                explained_[i] = explained_[i] || is_stuck;
-                continue;
-            }
             if (report.window == plan_.window_of[deed.component] && report.component == deed.component) {
                 explained_[i] = true;
                 first = first == nullptr ? &report : first;
+            } else if (!report.is_overrun || (is_stuck && is_cut_short(report))) {
+                explained_[i] = explained_[i] || is_stuck;
             } else {
                 is_misnamed = true;
             }
@@ -82,6 +84,9 @@ class Judge final {
             } else if (calc_loss(late_looks_, report.release, report.at) >= kLossMin) {
                 explained_[i] = true;
                 ++verdict.by_host;
+            } else if (is_confirmed(report)) {
+                explained_[i] = true;
+                ++verdict.confirmed;
             } else {
                 ++verdict.invented;
                 verdict.unexplained.push_back(report);
@@ -103,6 +108,15 @@ class Judge final {
     /// The window opened so late that less than its budget was left to its close.
     bool is_cut_short(const Report& report) const {
         return report.woke + plan_.budget > report.release + plan_.window_lengths[report.window];
+    }
+    /// The component itself saw that it ended behind its deadline.
+    bool is_confirmed(const Report& report) const {
+        const Instant deadline = report.woke + plan_.budget;
+        return report.is_overrun &&
+               std::any_of(late_ends_.begin(), late_ends_.end(), [&report, deadline](const LateEnd& late) {
+                   return late.component == report.component && late.release == report.release &&
+                          late.end > deadline;
+               });
     }
     bool is_aftermath(std::size_t index) const {
         const Report& report = reports_[index];
@@ -126,6 +140,7 @@ class Judge final {
     const std::vector<Report>& reports_;
     const std::vector<Stall>& stalls_;
     const std::vector<Stall>& late_looks_;
+    const std::vector<LateEnd>& late_ends_;
     std::vector<bool> explained_;
 };
 

@@ -21,6 +21,9 @@ inline constexpr Duration kTick{1'000'000};
 /// is reported about it: half of the budget. The components need a few microseconds of that.
 inline constexpr Duration kLossMin{100'000};
 
+/// Frames for each late end that nothing but the component's own clock explains.
+inline constexpr std::uint64_t kConfirmedOneIn{10'000U};
+
 /// Page faults that need no disk, of all threads of the windows together, in a run with locked memory: the
 /// kernel moves a page now and then.
 inline constexpr std::int64_t kMinorFaultsMax = 16;
@@ -51,6 +54,13 @@ struct Deed {
     Cause cause{Cause::kWork};
 };
 
+/// A cycle of a component that ended a budget or more after the opening of its window was due.
+struct LateEnd {
+    std::size_t component{0U};
+    Instant release{};
+    Instant end{};  ///< as the component itself read the clock
+};
+
 /// What became of a run. All is well when nearly all faults took effect, each was seen, and nothing was
 /// misnamed, unseen, tardy or invented.
 struct Verdict {
@@ -64,6 +74,8 @@ struct Verdict {
     std::uint64_t tardy_by_host{0U};  ///< likewise, while the machine stood still
     std::uint64_t invented{0U};       ///< reported without a fault, though the machine took nothing away
     std::uint64_t by_host{0U};        ///< reported without a fault; the machine took kLossMin or more away
+    std::uint64_t confirmed{
+        0U};                   ///< likewise; nothing was seen to be taken, but the component did end too late
     std::uint64_t stalls{0U};  ///< times at which the machine stood still for a tenth of a tick or more
     Duration longest_stall{};
     std::vector<std::int64_t> detection_ns{};  ///< from the deadline of each overrun to its report
@@ -81,9 +93,10 @@ struct Verdict {
     bool has_priority{false};
 
     /// A fault may miss its place while the machine stands still; more than a few that do are no test.
+    /// Components that often end too late by themselves are none either.
     bool are_reports_well() const noexcept {
         return 20U * injected >= 19U * requested && seen == injected &&
-               misnamed + unseen + tardy + invented == 0U;
+               misnamed + unseen + tardy + invented == 0U && confirmed * kConfirmedOneIn <= frames;
     }
     /// Without locked memory nothing is asked.
     bool are_pages_well() const noexcept {
@@ -115,6 +128,7 @@ struct Course {
     std::vector<Stall> stalls{};
     WatchCourse watch{};
     std::vector<Stall> late_looks{};  ///< of whoever tells of stalls
+    std::vector<LateEnd> late_ends{};
 };
 
 /// @return the counts from `injected` to `longest_stall`, and all from `detection_ns` to `watch`; the rest is

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "time_faults.hpp"
 
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -95,6 +96,15 @@ void add_deeds(Course& course) {
     }
 }
 
+/// Those that a thread which comes back late is still writing are not among them.
+void add_late_ends(Course& course) {
+    const Surroundings& around = get_surroundings();
+    const std::size_t count = around.late_end_count.load(std::memory_order_acquire);
+    const std::vector<LateEnd>& ends = *around.late_ends;
+    course.late_ends.assign(ends.begin(),
+                            ends.begin() + static_cast<std::ptrdiff_t>(std::min(count, ends.size())));
+}
+
 void add_page_faults(Verdict& verdict) {
     // Those of one window run on one thread: the first of them tells for all.
     for (const std::size_t component : {std::size_t{0U}, std::size_t{1U}, std::size_t{3U}}) {
@@ -135,6 +145,7 @@ Verdict run(const Request& request) {
     static FaultyTime time{2U * request.injection_count};
     static const FrameClock clock = FrameClock::starting_in(kLead, time);
     static std::vector<Doing> deeds(request.injection_count + 1U);
+    static std::vector<LateEnd> late_ends(request.frame_count + 1U);
     const Right memory = ports::posix_rt::lock_memory(std::size_t{256U} * 1024U);
     // All on one processor, or whoever tells of stalls would watch another one.
     const int processor = find_processor();
@@ -143,6 +154,7 @@ Verdict run(const Request& request) {
     get_surroundings().clock = &clock;
     get_surroundings().deeds = &deeds;
     get_surroundings().mutex = &inversion.get_mutex();
+    get_surroundings().late_ends = &late_ends;
     const Right right = combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
                                 ports::posix_rt::set_processor(pthread_self(), processor));
     static GuardedHost host{threads, clock, {kWindowPriority, processor}};
@@ -163,6 +175,7 @@ Verdict run(const Request& request) {
         clock.wait_until(clock.get_now() + kTick);
     }
     add_deeds(course);
+    add_late_ends(course);
     verdict = judge(make_plan(), course);
     verdict.frames = request.frame_count;
     verdict.requested = request.injection_count;

@@ -103,6 +103,7 @@ std::string to_json(const Request& request, const Verdict& verdict) {
     fields.add("tardy_by_host", verdict.tardy_by_host);
     fields.add("invented", verdict.invented);
     fields.add("by_host", verdict.by_host);
+    fields.add("confirmed", verdict.confirmed);
     fields.add("stalls", verdict.stalls);
     fields.add("longest_stall_ns", verdict.longest_stall.ns);
     fields.add_times("detection", verdict.detection_ns);

@@ -38,11 +38,17 @@ Introspection& get_introspection() noexcept {
     return introspection;
 }
 
-Status Victim::on_execute(ContextHandle) noexcept {
+Status Victim::on_execute(ContextHandle handle) noexcept {
     meter_.look();
+    do_as_told();
+    note_late_end(handle.now);
+    return Status::kOk;
+}
+
+void Victim::do_as_told() noexcept {
     const std::int64_t size = size_ns_.exchange(0, std::memory_order_acquire);
     if (size == 0) {
-        return Status::kOk;
+        return;
     }
     Surroundings& around = get_surroundings();
     const Instant begin = around.clock->get_now();
@@ -61,7 +67,18 @@ Status Victim::on_execute(ContextHandle) noexcept {
         }
     }
     deed.end_ns.store(around.clock->get_now().ns, std::memory_order_release);
-    return Status::kOk;
+}
+
+void Victim::note_late_end(Instant release) const noexcept {
+    Surroundings& around = get_surroundings();
+    const Instant end = around.clock->get_now();
+    if (end < release + kBudget) {
+        return;
+    }
+    const std::size_t place = around.late_end_count.fetch_add(1U, std::memory_order_relaxed);
+    if (place < around.late_ends->size()) {
+        (*around.late_ends)[place] = {place_, release, end};
+    }
 }
 
 }  // namespace mamori::time_faults

@@ -99,6 +99,28 @@ TEST(JudgeTest, AReportWithoutAFaultIsInventedUnlessTheMachineTookHalfABudgetAwa
     EXPECT_EQ(judge_late({late(0U, 8000, 9100)}, {{at(8000), at(9090)}}).by_host, 1U);
 }
 
+TEST(JudgeTest, AReportThatTheComponentsOwnClockConfirmsIsNotInvented) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto judge_ends = [](const std::vector<LateEnd>& late_ends) {
+        return judge({{overrun(0U, 0U, 8000, 8010, 8225)}, {}, {}, {}, {}, {}, late_ends});
+    };
+    EXPECT_EQ(judge_ends({{0U, at(8000), at(8211)}}).confirmed, 1U);
+    EXPECT_EQ(judge_ends({{0U, at(8000), at(8211)}}).invented, 0U);
+    EXPECT_EQ(judge_ends({{0U, at(8000), at(8210)}}).invented, 1U) << "at its deadline";
+    EXPECT_EQ(judge_ends({{0U, at(7000), at(8211)}}).invented, 1U) << "of another frame";
+    EXPECT_EQ(judge_ends({{1U, at(8000), at(8211)}}).invented, 1U) << "another component";
+}
+
+TEST(JudgeTest, LateEndsWithoutAnotherReasonAreRareOrTheRunIsNoTest) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    Verdict verdict;
+    verdict.frames = 20'000U;
+    verdict.confirmed = 2U;
+    EXPECT_TRUE(verdict.are_reports_well());
+    verdict.confirmed = 3U;
+    EXPECT_FALSE(verdict.are_reports_well());
+}
+
 TEST(JudgeTest, WorkThatIsOutOneFrameAfterTheMachineStoodStillIsItsDoingToo) {
     verifies("SWR-PRT-007", Technique::kBoundaryValues);
     const Report first = overrun(0U, 0U, 8000, 8010, 8215);
@@ -131,6 +153,10 @@ TEST(JudgeTest, AStuckGuardMayReportLateButMustNameItsComponentAndExplainsWhatIs
     EXPECT_TRUE(verdict.detection_ns.empty()) << "its time is that of the watch";
     EXPECT_EQ(judge({{reports[1]}, {deed}, {}, {}}).unseen, 1U);
     EXPECT_FALSE(judge({reports, {kDeed}, {}, {}}).is_well()) << "of a guard that works, it is tardy";
+    EXPECT_TRUE(judge({{overrun(1U, 1U, 5300, 5401, 6815)}, {deed}, {}, {}}).is_well())
+        << "its own window opened late";
+    EXPECT_EQ(judge({{overrun(0U, 0U, 6000, 6101, 6815)}, {deed}, {}, {}}).unseen, 1U)
+        << "another one that did";
 }
 
 TEST(JudgeTest, AComponentThatWasLockedOutIsCountedAndMustBeNamed) {
