@@ -146,7 +146,7 @@ std::vector<Opening> leave_out(const std::vector<Opening>& openings, const std::
 }
 
 /// A window that was cut off in the frame before does not open until its work is back, which has lost its
-/// priority: one reason for both.
+/// priority: one reason for both, whichever it was.
 bool is_aftermath(const std::vector<Opening>& excused, const Opening& opening) {
     return contains(excused, {opening.window, opening.release - kFrame});
 }
@@ -160,7 +160,7 @@ bool is_by_machine(const Course& course, const TimedOpening& timed) {
            verification::calc_loss(course.late_looks, release - kFrame, timed.end) >= kSlowLossMin;
 }
 
-/// No fault of a partition moves a window while neither it nor any other program runs.
+/// A partition does not keep a window from its processor while neither it nor any other program is there.
 bool is_alone(const Course& course, const TimedOpening& timed) {
     return course.knows_foreign &&
            verification::calc_loss(course.foreign, timed.opening.release, timed.end) < kForeignMin;
@@ -177,7 +177,8 @@ void judge_order(const Course& course, Verdict& verdict) {
                 ++verdict.moved_by_host;
                 excused.push_back(timed.opening);
             } else if (is_alone(course, timed)) {
-                ++verdict.moved_alone;
+                verdict.moved_alone.push_back(timed);
+                excused.push_back(timed.opening);
             } else {
                 verdict.moved.push_back(timed);
             }
@@ -281,7 +282,7 @@ bool Verdict::is_well() const noexcept {
     const std::uint64_t good = count(Outcome::kInTime) + count(Outcome::kTardyByHost);
     return has_run && good + count(Outcome::kNotDone) == requested && 20U * good >= 19U * requested &&
            disordered + moved.size() + invented.size() == 0U &&
-           moved_alone * kAloneOneIn <= quiet.openings + faulty.openings;
+           moved_alone.size() * kAloneOneIn <= quiet.openings + faulty.openings;
 }
 
 Verdict judge(const Course& course) {

@@ -56,6 +56,22 @@ std::string write_lateness(const char* key, const LatenessFigures& figures) {
            ", \"time_ns\": " + std::to_string(figures.time.ns) + "}";
 }
 
+std::string write_opening(const TimedOpening& timed) {
+    return "{\"window\": " + std::to_string(timed.opening.window) +
+           ", \"release_ns\": " + std::to_string(timed.opening.release.ns) +
+           ", \"woke_ns\": " + std::to_string(timed.woke.ns) +
+           ", \"end_ns\": " + std::to_string(timed.end.ns) +
+           ", \"is_missed\": " + (timed.is_missed ? "true" : "false") + "}";
+}
+
+std::string write_alone(const Verdict& verdict) {
+    std::string text;
+    for (const TimedOpening& timed : verdict.moved_alone) {
+        text += (text.empty() ? "\n  " : ",\n  ") + write_opening(timed);
+    }
+    return ",\n \"alone\": [" + text + "]";
+}
+
 std::string write_unexplained(const Verdict& verdict) {
     std::string text;
     for (const ReactionBegin& reaction : verdict.invented) {
@@ -63,11 +79,7 @@ std::string write_unexplained(const Verdict& verdict) {
                 ", \"fault\": " + std::to_string(static_cast<int>(reaction.fault)) + "}";
     }
     for (const TimedOpening& timed : verdict.moved) {
-        text += (text.empty() ? "\n  " : ",\n  ") + ("{\"window\": " + std::to_string(timed.opening.window)) +
-                ", \"release_ns\": " + std::to_string(timed.opening.release.ns) +
-                ", \"woke_ns\": " + std::to_string(timed.woke.ns) +
-                ", \"end_ns\": " + std::to_string(timed.end.ns) +
-                ", \"is_missed\": " + (timed.is_missed ? "true" : "false") + "}";
+        text += (text.empty() ? "\n  " : ",\n  ") + write_opening(timed);
     }
     return ",\n \"unexplained\": [" + text + "]";
 }
@@ -101,11 +113,15 @@ std::string to_json(const CampaignRequest& request, const Verdict& verdict) {
     text += write_count("invented", verdict.invented.size()) + write_count("by_machine", verdict.by_machine) +
             write_count("disordered", verdict.disordered) + write_count("moved", verdict.moved.size()) +
             write_count("moved_by_host", verdict.moved_by_host) +
-            write_count("moved_alone", verdict.moved_alone) + write("knows_foreign", verdict.knows_foreign) +
-            write_reactions(verdict) + write_lateness("quiet", verdict.quiet) +
-            write_lateness("faulty", verdict.faulty) + write("has_priority", verdict.has_priority) +
-            ",\n \"trouble\": " + quote(verdict.trouble) + write("is_well", verdict.is_well());
-    return text + (verdict.is_well() ? "" : write_unexplained(verdict) + write_plan(request, verdict)) +
+            write_count("moved_alone", verdict.moved_alone.size()) +
+            write("knows_foreign", verdict.knows_foreign) + write_reactions(verdict) +
+            write_lateness("quiet", verdict.quiet) + write_lateness("faulty", verdict.faulty) +
+            write("has_priority", verdict.has_priority) + ",\n \"trouble\": " + quote(verdict.trouble) +
+            write("is_well", verdict.is_well());
+    return text +
+           (verdict.is_well()
+                ? ""
+                : write_alone(verdict) + write_unexplained(verdict) + write_plan(request, verdict)) +
            "\n}\n";
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a partition that is killed, stopped, floods or corrupts moves no window of the safety system and ends
 // in the declared reaction, in time; nothing else does. Method: a short campaign by the clock; windows are
-// excused only while a thread above all others saw the machine stand still. The long run is the program
-// `partition_faults`.
+// excused only while a thread above all others saw the machine slow, or the kernel saw nobody else run. The
+// long run is the program `partition_faults`.
 #include <gtest/gtest.h>
 
 #include <algorithm>

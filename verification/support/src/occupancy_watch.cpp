@@ -2,10 +2,12 @@
 #include "mamori/verification/occupancy_watch.hpp"
 
 #include <linux/perf_event.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <ctime>
@@ -13,8 +15,11 @@
 namespace mamori::verification {
 namespace {
 
-/// Room for more than a second of exchanges at 60,000 in one; it is emptied every few milliseconds.
+/// [bytes] Two records of 32 bytes for each exchange: room for 65,536, a second's worth of a busy processor.
+/// It is emptied every few milliseconds.
 constexpr std::size_t kRingSize = std::size_t{4U} << 20U;
+/// Stretches for which there is room: more than a busy processor comes to in half an hour.
+constexpr std::size_t kStretchMax = 4'000'000U;
 constexpr std::chrono::milliseconds kPause{5};
 
 std::size_t get_page_size() noexcept {
@@ -27,12 +32,28 @@ int open_exchanges(int processor) noexcept {
     what.size = sizeof(what);
     what.type = PERF_TYPE_SOFTWARE;
     what.config = PERF_COUNT_SW_DUMMY;
+    what.read_format = PERF_FORMAT_LOST;
     what.sample_type = PERF_SAMPLE_TID | PERF_SAMPLE_TIME;
     what.sample_id_all = 1U;
     what.context_switch = 1U;
     what.use_clockid = 1U;
     what.clockid = CLOCK_MONOTONIC;
     return static_cast<int>(::syscall(SYS_perf_event_open, &what, -1, processor, -1, PERF_FLAG_FD_CLOEXEC));
+}
+
+/// In another space of names for processes than the first, the kernel calls all that are not in it 0, as it
+/// calls a processor at rest.
+bool is_in_first_name_space() noexcept {
+    std::array<char, 32U> name{};
+    return ::readlink("/proc/self/ns/pid", name.data(), name.size() - 1U) > 0 &&
+           std::strcmp(name.data(), "pid:[4026531836]") == 0;
+}
+
+/// @return true: the kernel wrote down all that it saw.
+bool has_lost_nothing(int descriptor) noexcept {
+    std::array<std::uint64_t, 2U> value_and_lost{};
+    return ::read(descriptor, value_and_lost.data(), sizeof(value_and_lost)) == sizeof(value_and_lost) &&
+           value_and_lost[1U] == 0U;
 }
 
 }  // namespace
@@ -48,7 +69,11 @@ struct OccupancyWatch::Record {
 };
 
 OccupancyWatch::OccupancyWatch(const ports::posix_rt::FrameClock& clock, int processor)
-    : clock_(clock), descriptor_(open_exchanges(processor)), own_(::getpid()) {
+    : clock_(clock), own_(::getpid()), since_(clock.get_now()) {
+    if (!is_in_first_name_space()) {
+        return;
+    }
+    descriptor_ = open_exchanges(processor);
     if (descriptor_ < 0) {
         return;
     }
@@ -58,7 +83,8 @@ OccupancyWatch::OccupancyWatch(const ports::posix_rt::FrameClock& clock, int pro
         return;
     }
     ring_ = static_cast<std::byte*>(memory);
-    knows_ = true;
+    foreign_.reserve(kStretchMax);
+    knows_.store(true, std::memory_order_relaxed);
     thread_ = std::thread{[this] { follow(); }};
 }
 
@@ -76,7 +102,12 @@ void OccupancyWatch::stop() {
     is_ending_.store(true, std::memory_order_relaxed);
     if (thread_.joinable()) {
         thread_.join();
+        static_cast<void>(::ioctl(descriptor_, PERF_EVENT_IOC_DISABLE, 0));
         take_what_came();
+        end_stretch(clock_.get_now());
+        if (!has_lost_nothing(descriptor_)) {
+            knows_.store(false, std::memory_order_relaxed);
+        }
     }
 }
 
@@ -101,8 +132,6 @@ void OccupancyWatch::take_what_came() {
         }
         if (record.header.type == PERF_RECORD_SWITCH_CPU_WIDE) {
             take(record);
-        } else if (record.header.type == PERF_RECORD_LOST) {
-            knows_ = false;
         }
         tail += record.header.size;
     }
@@ -111,13 +140,23 @@ void OccupancyWatch::take_what_came() {
 
 void OccupancyWatch::take(const Record& record) {
     const Instant at{static_cast<std::int64_t>(record.time_ns) - clock_.get_epoch_ns()};
-    if (is_foreign_) {
-        foreign_.push_back({since_, at});
-    }
+    end_stretch(at);
     const bool is_coming = (record.header.misc & PERF_RECORD_MISC_SWITCH_OUT) == 0U;
     // 0 is the processor at rest.
     is_foreign_ = is_coming && record.process != 0U && record.process != static_cast<std::uint32_t>(own_);
     since_ = at;
+}
+
+void OccupancyWatch::end_stretch(Instant at) {
+    if (!is_foreign_) {
+        return;
+    }
+    is_foreign_ = false;
+    if (foreign_.size() == kStretchMax) {
+        knows_.store(false, std::memory_order_relaxed);
+        return;
+    }
+    foreign_.push_back({since_, at});
 }
 
 }  // namespace mamori::verification

@@ -14,7 +14,7 @@ class Judge final {
           reports_(course.reports),
           stalls_(course.stalls),
           late_looks_(course.late_looks),
-          late_ends_(course.late_ends) {
+          ends_(course.ends) {
         explained_.resize(reports_.size(), false);
     }
 
@@ -28,7 +28,9 @@ class Judge final {
         for (std::size_t i = find(deed.begin); i < reports_.size() && reports_[i].at <= last; ++i) {
             const Report& report = reports_[i];
             const bool is_stuck = deed.cause == Cause::kStuckGuard;
-            if (report.window == plan_.window_of[deed.component] && report.component == deed.component) {
+            const bool is_own =
+                report.window == plan_.window_of[deed.component] && report.component == deed.component;
+            if (is_own && (!is_stuck || !is_cut_short(report) || is_of_frame(report, deed.begin))) {
                 explained_[i] = true;
                 first = first == nullptr ? &report : first;
             } else if (!report.is_overrun || (is_stuck && is_cut_short(report))) {
@@ -109,14 +111,19 @@ class Judge final {
     bool is_cut_short(const Report& report) const {
         return report.woke + plan_.budget > report.release + plan_.window_lengths[report.window];
     }
-    /// The component itself saw that it ended behind its deadline.
+    /// By its own reading of the clock the component did not end its first pass in time, or it never ran; and
+    /// the report did not come before that could be known.
     bool is_confirmed(const Report& report) const {
-        const Instant deadline = report.woke + plan_.budget;
-        return report.is_overrun &&
-               std::any_of(late_ends_.begin(), late_ends_.end(), [&report, deadline](const LateEnd& late) {
-                   return late.component == report.component && late.release == report.release &&
-                          late.end > deadline;
-               });
+        if (!report.is_overrun || !ends_.covers(report.release)) {
+            return false;
+        }
+        const Instant close = report.release + plan_.window_lengths[report.window];
+        const Instant deadline = std::min(report.woke + plan_.budget, close);
+        const Instant end = ends_.get(report.component, report.release);
+        return report.at >= deadline && (end == Ends::kNone || end > deadline);
+    }
+    static bool is_of_frame(const Report& report, Instant at) {
+        return report.release <= at && at < report.release + kTick;
     }
     bool is_aftermath(std::size_t index) const {
         const Report& report = reports_[index];
@@ -140,7 +147,7 @@ class Judge final {
     const std::vector<Report>& reports_;
     const std::vector<Stall>& stalls_;
     const std::vector<Stall>& late_looks_;
-    const std::vector<LateEnd>& late_ends_;
+    const Ends& ends_;
     std::vector<bool> explained_;
 };
 

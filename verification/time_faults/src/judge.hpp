@@ -21,8 +21,8 @@ inline constexpr Duration kTick{1'000'000};
 /// is reported about it: half of the budget. The components need a few microseconds of that.
 inline constexpr Duration kLossMin{100'000};
 
-/// Frames for each late end that nothing but the component's own clock explains.
-inline constexpr std::uint64_t kConfirmedOneIn{10'000U};
+/// Frames, at least, for each late end that nothing but the component's own clock explains.
+inline constexpr std::uint64_t kConfirmedOneIn{20'000U};
 
 /// Page faults that need no disk, of all threads of the windows together, in a run with locked memory: the
 /// kernel moves a page now and then.
@@ -54,15 +54,44 @@ struct Deed {
     Cause cause{Cause::kWork};
 };
 
-/// A cycle of a component that ended a budget or more after the opening of its window was due.
-struct LateEnd {
-    std::size_t component{0U};
-    Instant release{};
-    Instant end{};  ///< as the component itself read the clock
+/// When each cycle of each component ended, as the component itself read the clock.
+class Ends final {
+  public:
+    static constexpr Instant kNone{-1};
+
+    /// @param[in] frame_count those behind are not written down.
+    Ends(std::size_t component_count, std::uint64_t frame_count)
+        : frame_count_(frame_count), ends_(component_count * frame_count, kNone) {}
+    Ends() = default;
+
+    /// Thread safety: each component from one thread at a time. @param[in] release of its window.
+    void set(std::size_t component, Instant release, Instant end) noexcept {
+        if (covers(release)) {
+            ends_[find(component, release)] = end;
+        }
+    }
+    /// Whether the frame of a window is written down.
+    bool covers(Instant release) const noexcept { return calc_frame(release) < frame_count_; }
+    /// @pre covers(release). @return kNone: it did not end.
+    Instant get(std::size_t component, Instant release) const noexcept {
+        return ends_[find(component, release)];
+    }
+
+  private:
+    static std::uint64_t calc_frame(Instant release) noexcept {
+        return static_cast<std::uint64_t>(release.ns / kTick.ns);
+    }
+    std::size_t find(std::size_t component, Instant release) const noexcept {
+        return component * frame_count_ + calc_frame(release);
+    }
+
+    std::uint64_t frame_count_{0U};
+    std::vector<Instant> ends_{};
 };
 
 /// What became of a run. All is well when nearly all faults took effect, each was seen, and nothing was
-/// misnamed, unseen, tardy or invented.
+/// misnamed, unseen, tardy or invented, and
+/// few were confirmed by nothing but a component's own clock.
 struct Verdict {
     std::uint64_t frames{0U};
     std::uint64_t requested{0U};      ///< faults
@@ -75,7 +104,7 @@ struct Verdict {
     std::uint64_t invented{0U};       ///< reported without a fault, though the machine took nothing away
     std::uint64_t by_host{0U};        ///< reported without a fault; the machine took kLossMin or more away
     std::uint64_t confirmed{
-        0U};                   ///< likewise; nothing was seen to be taken, but the component did end too late
+        0U};  ///< likewise; nothing was seen to be taken, but the component did not end in time
     std::uint64_t stalls{0U};  ///< times at which the machine stood still for a tenth of a tick or more
     Duration longest_stall{};
     std::vector<std::int64_t> detection_ns{};  ///< from the deadline of each overrun to its report
@@ -128,7 +157,7 @@ struct Course {
     std::vector<Stall> stalls{};
     WatchCourse watch{};
     std::vector<Stall> late_looks{};  ///< of whoever tells of stalls
-    std::vector<LateEnd> late_ends{};
+    Ends ends{};
 };
 
 /// @return the counts from `injected` to `longest_stall`, and all from `detection_ns` to `watch`; the rest is

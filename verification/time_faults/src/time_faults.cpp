@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "time_faults.hpp"
 
-#include <algorithm>
 #include <array>
 #include <random>
 
 #include "director.hpp"
 #include "introspection_load.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
-#include "mamori/verification/awake_processor.hpp"
 #include "mamori/verification/stall_watch.hpp"
 #include "page_storm.hpp"
 #include "victims.hpp"
@@ -23,7 +21,6 @@ using ports::posix_rt::GridWatch;
 using ports::posix_rt::GuardedHost;
 using ports::posix_rt::Right;
 using ports::posix_rt::WindowThread;
-using verification::AwakeProcessor;
 using verification::find_processor;
 using verification::StallWatch;
 
@@ -68,7 +65,6 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
                     {kWatchPriority, processor}};
     runner.set_observer(beats.data());
     director.set_watch(&watch);
-    const AwakeProcessor awake{processor};
     StallWatch stalls{clock,
                       Duration{kTick.ns / kLooksPerFrame},
                       {kStallPriority, processor},
@@ -94,15 +90,6 @@ void add_deeds(Course& course) {
         const Instant end{doing.end_ns.load(std::memory_order_acquire)};
         course.deeds.push_back({doing.component, doing.begin, end, doing.cause});
     }
-}
-
-/// Those that a thread which comes back late is still writing are not among them.
-void add_late_ends(Course& course) {
-    const Surroundings& around = get_surroundings();
-    const std::size_t count = around.late_end_count.load(std::memory_order_acquire);
-    const std::vector<LateEnd>& ends = *around.late_ends;
-    course.late_ends.assign(ends.begin(),
-                            ends.begin() + static_cast<std::ptrdiff_t>(std::min(count, ends.size())));
 }
 
 void add_page_faults(Verdict& verdict) {
@@ -145,7 +132,7 @@ Verdict run(const Request& request) {
     static FaultyTime time{2U * request.injection_count};
     static const FrameClock clock = FrameClock::starting_in(kLead, time);
     static std::vector<Doing> deeds(request.injection_count + 1U);
-    static std::vector<LateEnd> late_ends(request.frame_count + 1U);
+    static Ends ends{kComponentCount, request.frame_count};
     const Right memory = ports::posix_rt::lock_memory(std::size_t{256U} * 1024U);
     // All on one processor, or whoever tells of stalls would watch another one.
     const int processor = find_processor();
@@ -154,7 +141,7 @@ Verdict run(const Request& request) {
     get_surroundings().clock = &clock;
     get_surroundings().deeds = &deeds;
     get_surroundings().mutex = &inversion.get_mutex();
-    get_surroundings().late_ends = &late_ends;
+    get_surroundings().ends = &ends;
     const Right right = combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
                                 ports::posix_rt::set_processor(pthread_self(), processor));
     static GuardedHost host{threads, clock, {kWindowPriority, processor}};
@@ -175,7 +162,7 @@ Verdict run(const Request& request) {
         clock.wait_until(clock.get_now() + kTick);
     }
     add_deeds(course);
-    add_late_ends(course);
+    course.ends = ends;
     verdict = judge(make_plan(), course);
     verdict.frames = request.frame_count;
     verdict.requested = request.injection_count;

@@ -41,7 +41,8 @@ Introspection& get_introspection() noexcept {
 Status Victim::on_execute(ContextHandle handle) noexcept {
     meter_.look();
     do_as_told();
-    note_late_end(handle.now);
+    const Surroundings& around = get_surroundings();
+    around.ends->set(place_, handle.now, around.clock->get_now());
     return Status::kOk;
 }
 
@@ -67,18 +68,6 @@ void Victim::do_as_told() noexcept {
         }
     }
     deed.end_ns.store(around.clock->get_now().ns, std::memory_order_release);
-}
-
-void Victim::note_late_end(Instant release) const noexcept {
-    Surroundings& around = get_surroundings();
-    const Instant end = around.clock->get_now();
-    if (end < release + kBudget) {
-        return;
-    }
-    const std::size_t place = around.late_end_count.fetch_add(1U, std::memory_order_relaxed);
-    if (place < around.late_ends->size()) {
-        (*around.late_ends)[place] = {place_, release, end};
-    }
 }
 
 }  // namespace mamori::time_faults

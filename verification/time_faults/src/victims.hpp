@@ -37,9 +37,8 @@ struct Surroundings {
     const ports::posix_rt::FrameClock* clock{nullptr};
     std::vector<Doing>* deeds{nullptr};  ///< room for all of the run
     std::mutex* mutex{nullptr};
-    std::vector<LateEnd>* late_ends{nullptr};  ///< likewise; what has no room is not written down
+    Ends* ends{nullptr};
     std::atomic<std::size_t> deed_count{0U};
-    std::atomic<std::size_t> late_end_count{0U};
 };
 Surroundings& get_surroundings() noexcept;
 
@@ -59,7 +58,6 @@ class Victim final : public Component {
 
   private:
     void do_as_told() noexcept;
-    void note_late_end(Instant release) const noexcept;
 
     std::size_t place_;
     Way way_{Way::kCompute};

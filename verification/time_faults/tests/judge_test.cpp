@@ -101,20 +101,38 @@ TEST(JudgeTest, AReportWithoutAFaultIsInventedUnlessTheMachineTookHalfABudgetAwa
 
 TEST(JudgeTest, AReportThatTheComponentsOwnClockConfirmsIsNotInvented) {
     verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
-    const auto judge_ends = [](const std::vector<LateEnd>& late_ends) {
-        return judge({{overrun(0U, 0U, 8000, 8010, 8225)}, {}, {}, {}, {}, {}, late_ends});
+    const auto judge_report = [](const Report& report, std::int64_t end_us) {
+        Ends ends{2U, 9U};
+        ends.set(0U, report.release, at(end_us));
+        return judge({{report}, {}, {}, {}, {}, {}, ends});
     };
-    EXPECT_EQ(judge_ends({{0U, at(8000), at(8211)}}).confirmed, 1U);
-    EXPECT_EQ(judge_ends({{0U, at(8000), at(8211)}}).invented, 0U);
-    EXPECT_EQ(judge_ends({{0U, at(8000), at(8210)}}).invented, 1U) << "at its deadline";
-    EXPECT_EQ(judge_ends({{0U, at(7000), at(8211)}}).invented, 1U) << "of another frame";
-    EXPECT_EQ(judge_ends({{1U, at(8000), at(8211)}}).invented, 1U) << "another component";
+    const auto judge_end = [](std::size_t component, std::int64_t release_us, std::int64_t end_us) {
+        Ends ends{2U, 9U};
+        ends.set(0U, at(8000), at(8050));
+        ends.set(component, at(release_us), at(end_us));
+        return judge({{overrun(0U, 0U, 8000, 8010, 8225)}, {}, {}, {}, {}, {}, ends});
+    };
+    EXPECT_EQ(judge_end(0U, 8000, 8211).confirmed, 1U);
+    EXPECT_EQ(judge_end(0U, 8000, 8211).invented, 0U);
+    EXPECT_EQ(judge_end(0U, 8000, 8210).invented, 1U) << "at its deadline";
+    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8010, 8210), 8211).confirmed, 1U);
+    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8010, 8209), 8211).invented, 1U)
+        << "told before it was late";
+    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8150, 8301), 8301).confirmed, 1U)
+        << "its window closes first";
+    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8150, 8301), 8300).invented, 1U);
+    EXPECT_EQ(judge_end(0U, 7000, 8211).invented, 1U) << "of another frame";
+    EXPECT_EQ(judge_end(1U, 8000, 8211).invented, 1U) << "another component";
+    EXPECT_EQ(judge({{overrun(0U, 0U, 8000, 8010, 8225)}, {}, {}, {}, {}, {}, Ends{2U, 9U}}).confirmed, 1U)
+        << "it never ran";
+    EXPECT_EQ(judge({{late(0U, 8000, 9100)}, {}, {}, {}, {}, {}, Ends{2U, 9U}}).invented, 1U)
+        << "a late release is none of the component's";
 }
 
 TEST(JudgeTest, LateEndsWithoutAnotherReasonAreRareOrTheRunIsNoTest) {
     verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
     Verdict verdict;
-    verdict.frames = 20'000U;
+    verdict.frames = 40'000U;
     verdict.confirmed = 2U;
     EXPECT_TRUE(verdict.are_reports_well());
     verdict.confirmed = 3U;
@@ -157,6 +175,8 @@ TEST(JudgeTest, AStuckGuardMayReportLateButMustNameItsComponentAndExplainsWhatIs
         << "its own window opened late";
     EXPECT_EQ(judge({{overrun(0U, 0U, 6000, 6101, 6815)}, {deed}, {}, {}}).unseen, 1U)
         << "another one that did";
+    EXPECT_EQ(judge({{overrun(1U, 1U, 6300, 6401, 6815)}, {deed}, {}, {}}).unseen, 1U)
+        << "of the frame after";
 }
 
 TEST(JudgeTest, AComponentThatWasLockedOutIsCountedAndMustBeNamed) {

@@ -18,21 +18,27 @@
 
 namespace mamori::verification {
 
-/// Thread safety: get_foreign() after stop(). Memory: heap.
+/// Thread safety: knows() from any thread, get_foreign() after stop(). Memory: heap, 64 MB of addresses taken
+/// in the constructor, so that nothing grows beside what is measured.
 class OccupancyWatch final {
   public:
-    /// Begins at once. @param[in] clock of Linux's monotonic clock.
+    /// Begins at once. @param[in] clock of Linux's monotonic clock; must outlive this object.
+    /// @param[in] processor its number, 0, 1, ...
     OccupancyWatch(const ports::posix_rt::FrameClock& clock, int processor);
     OccupancyWatch(const OccupancyWatch&) = delete;
     OccupancyWatch& operator=(const OccupancyWatch&) = delete;
     ~OccupancyWatch();
 
-    /// False when the kernel refuses (it has no such events, or this process no right to them: root has it,
-    /// and anyone with perf_event_paranoid 0 or less), or lost some of what it wrote: nothing is known then.
-    bool knows() const noexcept { return knows_; }
+    /// False when nothing is known: the kernel refuses (it has no such events, or this process no right to
+    /// those of a processor and to 4 MiB of locked memory: root has both), it lost some of what it wrote,
+    /// more came than there is room for, or this process is in a container, from where other programs look
+    /// like nobody.
+    bool knows() const noexcept { return knows_.load(std::memory_order_relaxed); }
+    /// Takes what is left and ends, within some milliseconds; once more does nothing.
     void stop();
     /// From each exchange that gave the processor to a thread of another process, one of the kernel included,
-    /// to the next exchange; in the order of their instants.
+    /// to the next exchange; in the order of their instants. Until the first exchange that is seen another
+    /// process counts as there.
     const std::vector<Stall>& get_foreign() const noexcept { return foreign_; }
 
   private:
@@ -40,15 +46,16 @@ class OccupancyWatch final {
     void follow();
     void take_what_came();
     void take(const Record& record);
+    void end_stretch(Instant at);
 
     const ports::posix_rt::FrameClock& clock_;
     std::vector<Stall> foreign_{};
     std::byte* ring_{nullptr};  ///< a page of the kernel's, and its records
     int descriptor_{-1};
     pid_t own_;
-    bool knows_{false};
-    bool is_foreign_{false};
-    Instant since_{};
+    std::atomic<bool> knows_{false};
+    bool is_foreign_{true};
+    Instant since_;
     std::atomic<bool> is_ending_{false};
     std::thread thread_{};
 };
