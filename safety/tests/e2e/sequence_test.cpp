@@ -197,6 +197,46 @@ TEST(HardenedSequenceTest, RunMakesABaselineWhereThatIsAllowed) {
     EXPECT_TRUE(sut.is_synchronised());
 }
 
+TEST(HardenedSequenceTest, RunBeginsWithTheFirstWholeFrameAfterAFault) {
+    verifies("SWR-E2E-008", Technique::kBoundaryValues, Polarity::kViolation);
+    HardenedSequence sut{{1U, 2U}, 255U};
+    ASSERT_EQ(judge(sut, {5U}), Statuses{kWrong});
+
+    sut.note_fault();
+    ASSERT_EQ(judge(sut, {6U}), Statuses{kWrong});
+    EXPECT_FALSE(sut.is_synchronised()) << "5 and 6 had a frame that was not whole between them";
+    ASSERT_EQ(judge(sut, {7U, 8U}), (Statuses{kWrong, kOk}));
+}
+
+TEST(CheckStatusTest, NumbersAreThoseOfTheStandard) {
+    verifies("SWR-E2E-006", Technique::kBoundaryValues);
+    const auto number = [](CheckStatus status) { return static_cast<unsigned>(status); };
+    EXPECT_EQ(number(kOk), 0x00U);
+    EXPECT_EQ(number(CheckStatus::kNoNewData), 0x01U);
+    EXPECT_EQ(number(CheckStatus::kError), 0x02U);
+    EXPECT_EQ(number(kSync), 0x03U);
+    EXPECT_EQ(number(kInitial), 0x04U);
+    EXPECT_EQ(number(kRepeated), 0x08U);
+    EXPECT_EQ(number(kLost), 0x20U);
+    EXPECT_EQ(number(kWrong), 0x40U);
+}
+
+TEST(E2eCheckerTest, ACheckWithoutAFrameLetsTheNextOneStepFurther) {
+    verifies("SWR-E2E-006", Technique::kBoundaryValues);
+    constexpr NibbleCounterChannel kChannel{0x0123U, DataIdMode::kBoth, 8U};
+    const auto check = [&kChannel](bool is_silent) {
+        E2eChecker<E2eProfile01<>> sut{kChannel, {1U, 14U, 0U}};
+        static_cast<void>(sut.check(rig::view(rig::protect<E2eProfile01<>>(kChannel, 3U, 8U))));
+        if (is_silent) {
+            EXPECT_EQ(sut.check_silence(), CheckStatus::kNoNewData);
+        }
+        return sut.check(rig::view(rig::protect<E2eProfile01<>>(kChannel, 6U, 8U)));
+    };
+
+    EXPECT_EQ(check(false), kWrong) << "a step of 3, where each check allows one more than 1";
+    EXPECT_EQ(check(true), kLost);
+}
+
 TEST(HardenedSequenceTest, RunIsBrokenByEveryOtherFrame) {
     verifies("SWR-E2E-008", Technique::kErrorGuessing, Polarity::kViolation);
     HardenedSequence sut{{1U, 3U, Resynchronisation::kByRun}, 255U};
