@@ -70,6 +70,18 @@ TEST(E2eStateTest, SilenceIsCountedAndEndsValidity) {
     EXPECT_EQ(ends.sut.get_checker().get_count(FrameCause::kSilence), 3U);
 }
 
+TEST(E2eStateTest, AHeldValueIsWrittenWhateverStoodThere) {
+    verifies("SWR-E2E-033", Technique::kErrorGuessing);
+    Strict ends{kSafe};
+    ends.synchronise();
+    ASSERT_EQ(ends.send({1.0, Gear::kDrive}), E2eWorth::kNew);
+
+    ends.value = {99.0, Gear::kPark};
+    EXPECT_EQ(ends.read(), E2eWorth::kHeld);
+    EXPECT_EQ(ends.value.rad_s, 1.0);
+    EXPECT_EQ(ends.value.gear, Gear::kDrive);
+}
+
 TEST(E2eStateTest, SilenceFromTheStartGivesTheSubstitute) {
     verifies("SWR-E2E-033", Technique::kErrorGuessing);
     Strict ends{kSafe};

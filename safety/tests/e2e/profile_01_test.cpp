@@ -56,6 +56,7 @@ TEST(E2eProfile01Test, Profile11WritesTheSameBytes) {
 
 TEST(E2eProfile01Test, LengthsOutsideTheLimitsAreRefused) {
     verifies("SWR-E2E-009", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(E2eProfile01<>::kFirstCounter, 0U);
     const auto find = [](std::size_t length) {
         return E2eProfile01<>::find_fault({1U, DataIdMode::kBoth, length});
     };

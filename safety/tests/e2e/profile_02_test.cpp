@@ -48,6 +48,18 @@ TEST(E2eProfile02Test, Profile22WritesItsHeaderAtItsOffset) {
     EXPECT_EQ(show<E2eProfile22<>>(channel, 15U, 16U), fill(fill("", 8U) + " c2 0f", 16U));
 }
 
+TEST(E2eProfile02Test, TheHalfByteBesideTheCounterStaysThePayloads) {
+    verifies("SWR-E2E-003", Technique::kBoundaryValues);
+    rig::Frame frame(8U);
+    frame[1] = std::byte{0xA5U};
+    frame[2] = std::byte{0x5AU};
+    E2eProtector<E2eProfile02<>> sut{rig::P02::make(8U)};
+
+    ASSERT_EQ(sut.protect(rig::edit(frame)), Status::kOk);
+    EXPECT_EQ(frame[1], std::byte{0xA1U});
+    EXPECT_EQ(frame[2], std::byte{0x5AU});
+}
+
 TEST(E2eProfile02Test, FirstCounterSentIsOne) {
     verifies("SWR-E2E-003", Technique::kBoundaryValues);
     rig::Frame frame(8U);

@@ -106,6 +106,7 @@ void expect_limits() {
 TEST(E2eProfile04Test, ChannelsOutsideTheLimitsAreRefused) {
     verifies("SWR-E2E-009", Technique::kBoundaryValues, Polarity::kViolation);
 
+    EXPECT_EQ(E2eProfile04<>::kFirstCounter, 0U);
     EXPECT_EQ(E2eProfile04<>::kLengthMax, 4096U);
     EXPECT_EQ(E2eProfile07<>::kLengthMax, 4194304U);
     EXPECT_EQ(E2eProfile08<>::kLengthMax, 4194304U);

@@ -42,6 +42,7 @@ TEST(E2eProfile05Test, ChannelsOutsideTheLimitsAreRefused) {
     verifies("SWR-E2E-009", Technique::kBoundaryValues, Polarity::kViolation);
 
     EXPECT_EQ(E2eProfile05<>::find_fault({1U, 3U, 3U}), ChannelFault::kNone);
+    EXPECT_EQ(E2eProfile05<>::kFirstCounter, 0U);
     EXPECT_EQ(E2eProfile05<>::find_fault({1U, 4096U, 4096U, 4093U}), ChannelFault::kNone);
     EXPECT_EQ(E2eProfile05<>::find_fault({1U, 2U, 2U}), ChannelFault::kLength);
     EXPECT_EQ(E2eProfile05<>::find_fault({1U, 4097U, 4097U}), ChannelFault::kLength);

@@ -208,6 +208,23 @@ TEST(HardenedSequenceTest, RunBeginsWithTheFirstWholeFrameAfterAFault) {
     ASSERT_EQ(judge(sut, {7U, 8U}), (Statuses{kWrong, kOk}));
 }
 
+TEST(E2eCheckerTest, AFrameThatIsNotWholeBreaksTheRunOfAHardenedChannel) {
+    verifies("SWR-E2E-008", Technique::kFaultInjection, Polarity::kViolation);
+    HardenedE2eChecker<E2eProfile04<>> sut{rig::P04::make(16U), {1U, 2U, Resynchronisation::kByReset}};
+    const auto check = [&sut](std::uint32_t counter, std::byte damage) {
+        rig::Frame frame = rig::protect<E2eProfile04<>>(rig::P04::make(16U), counter, 16U);
+        frame[14] ^= damage;
+        return sut.check(rig::view(frame));
+    };
+
+    ASSERT_EQ(check(5U, std::byte{0U}), kWrong);
+    ASSERT_EQ(check(6U, std::byte{1U}), CheckStatus::kError);
+    ASSERT_EQ(check(6U, std::byte{0U}), kWrong);
+    EXPECT_FALSE(sut.get_order().is_synchronised());
+    ASSERT_EQ(check(7U, std::byte{0U}), kWrong);
+    EXPECT_TRUE(sut.get_order().is_synchronised());
+}
+
 TEST(CheckStatusTest, NumbersAreThoseOfTheStandard) {
     verifies("SWR-E2E-006", Technique::kBoundaryValues);
     const auto number = [](CheckStatus status) { return static_cast<unsigned>(status); };
