@@ -103,6 +103,27 @@ void expect_limits() {
     EXPECT_EQ(Profile::find_fault({0U, kHeader, kHeader, ~std::size_t{0U}}), ChannelFault::kOffset);
 }
 
+/// A frame with its header behind `offset` bytes of payload is read there.
+template <typename Profile>
+void expect_header_at(std::size_t offset) {
+    const SentIdChannel channel{kId, 40U, 40U, offset};
+    rig::Frame frame = rig::protect<Profile>(channel, 7U, 40U);
+    std::uint32_t counter = 0U;
+    EXPECT_EQ(Profile::read(channel, rig::view(frame), counter), FrameCause::kGood);
+    EXPECT_EQ(counter, 7U);
+    frame[0] ^= std::byte{1U};
+    EXPECT_EQ(Profile::read(channel, rig::view(frame), counter), FrameCause::kChecksum);
+}
+
+TEST(E2eProfile04Test, HeaderIsReadAtItsOffset) {
+    verifies("SWR-E2E-004", Technique::kBoundaryValues);
+
+    expect_header_at<E2eProfile04<>>(8U);
+    expect_header_at<E2eProfile07<>>(20U);
+    expect_header_at<E2eProfile08<>>(3U);
+    expect_header_at<E2eProfile44<>>(28U);
+}
+
 TEST(E2eProfile04Test, ChannelsOutsideTheLimitsAreRefused) {
     verifies("SWR-E2E-009", Technique::kBoundaryValues, Polarity::kViolation);
 

@@ -38,6 +38,33 @@ TEST(E2eProfile05Test, Profile06WritesTheBytesOfOthers) {
     EXPECT_EQ(show<E2eProfile06<>>(kOffset, 1U, 16U), fill(fill("", 8U) + " 0b 17 00 10 01", 16U));
 }
 
+TEST(E2eProfile05Test, HeaderIsReadAtItsOffset) {
+    verifies("SWR-E2E-004", Technique::kBoundaryValues);
+    constexpr KnownIdChannel kChannel{0x1234U, 16U, 16U, 8U};
+    std::uint32_t counter = 0U;
+
+    EXPECT_EQ(
+        E2eProfile05<>::read(kChannel, rig::view(rig::protect<E2eProfile05<>>(kChannel, 255U, 16U)), counter),
+        FrameCause::kGood);
+    EXPECT_EQ(counter, 255U);
+    EXPECT_EQ(
+        E2eProfile06<>::read(kChannel, rig::view(rig::protect<E2eProfile06<>>(kChannel, 9U, 16U)), counter),
+        FrameCause::kGood);
+    EXPECT_EQ(counter, 9U);
+}
+
+TEST(E2eProfile05Test, CounterWrapsBehind255) {
+    verifies("SWR-E2E-003", Technique::kBoundaryValues);
+    constexpr KnownIdChannel kChannel{0x1234U, 8U, 8U};
+    rig::Frame frame(8U);
+    E2eProtector<E2eProfile05<>> sut{kChannel, 255U};
+
+    ASSERT_EQ(sut.protect(rig::edit(frame)), Status::kOk);
+    EXPECT_EQ(frame[2], std::byte{255U});
+    EXPECT_EQ(sut.get_counter(), 0U);
+    EXPECT_EQ(E2eProfile05<>::kCounterMax, 255U);
+}
+
 TEST(E2eProfile05Test, ChannelsOutsideTheLimitsAreRefused) {
     verifies("SWR-E2E-009", Technique::kBoundaryValues, Polarity::kViolation);
 

@@ -225,6 +225,67 @@ TEST(E2eCheckerTest, AFrameThatIsNotWholeBreaksTheRunOfAHardenedChannel) {
     EXPECT_TRUE(sut.get_order().is_synchronised());
 }
 
+TEST(PlainSequenceTest, LostFramesAreThoseBeforeTheLastAcceptedOneAndForgottenByARestart) {
+    verifies("SWR-E2E-006", Technique::kStateTransition);
+    PlainSequence sut{{3U}, 255U};
+    EXPECT_EQ(sut.get_lost_count(), 0U);
+    ASSERT_EQ(judge(sut, {0U, 2U}), (Statuses{kOk, kLost}));
+    EXPECT_EQ(sut.get_lost_count(), 1U);
+
+    sut.restart();
+    EXPECT_EQ(sut.get_lost_count(), 0U);
+}
+
+TEST(HardenedSequenceTest, LostFramesAreForgottenByWhateverIsNotAccepted) {
+    verifies("SWR-E2E-007", Technique::kStateTransition);
+    HardenedSequence sut{{3U, 2U}, 255U};
+    EXPECT_EQ(sut.get_lost_count(), 0U);
+    ASSERT_EQ(judge(sut, {0U, 1U, 3U}), (Statuses{kWrong, kWrong, kLost}));
+    ASSERT_EQ(sut.get_lost_count(), 1U);
+    ASSERT_EQ(judge(sut, {3U}), Statuses{kRepeated});
+    EXPECT_EQ(sut.get_lost_count(), 0U);
+
+    ASSERT_EQ(judge(sut, {5U}), Statuses{kLost});
+    sut.restart();
+    EXPECT_EQ(sut.get_lost_count(), 0U);
+}
+
+TEST(HardenedSequenceTest, GapsAndARestartBreakARun) {
+    verifies("SWR-E2E-008", Technique::kFaultInjection, Polarity::kViolation);
+    HardenedSequence sut{{1U, 3U}, 255U};
+    ASSERT_EQ(judge(sut, {0U, 2U, 4U, 6U, 8U}), Statuses(5U, kWrong));
+    EXPECT_FALSE(sut.is_synchronised());
+    EXPECT_EQ(sut.get_resync_count(), 0U);
+
+    ASSERT_EQ(judge(sut, {9U}), Statuses{kWrong});
+    sut.restart();
+    ASSERT_EQ(judge(sut, {10U, 11U}), Statuses(2U, kWrong));
+    EXPECT_FALSE(sut.is_synchronised()) << "the third frame of a run, but not since the restart";
+    ASSERT_EQ(judge(sut, {12U, 13U}), (Statuses{kWrong, kOk}));
+}
+
+TEST(SynchronisingSequenceTest, ARefusedFrameBeginsTheToleranceAnew) {
+    verifies("SWR-E2E-006", Technique::kBoundaryValues, Polarity::kViolation);
+    SynchronisingSequence proven{{1U, 14U, 1U}, 14U};
+    EXPECT_EQ(proven.get_lost_count(), 0U);
+    EXPECT_EQ(judge(proven, {0U, 5U, 8U}), (Statuses{kInitial, kWrong, kWrong}))
+        << "a step of 3, where 2 are allowed after a refused one";
+
+    SynchronisingSequence quiet{{1U, 1U, 0U}, 14U};
+    ASSERT_EQ(judge(quiet, {0U}), Statuses{kInitial});
+    quiet.note_silence();
+    quiet.note_silence();
+    EXPECT_EQ(judge(quiet, {10U, 1U}), (Statuses{kWrong, kOk})) << "10 was news, if not good ones";
+}
+
+TEST(SynchronisingSequenceTest, LimitsThatNothingIsSaidOfAreTheStrictestThatWork) {
+    verifies("SWR-E2E-009", Technique::kBoundaryValues);
+    constexpr SynchronisingLimits kLimits{};
+    EXPECT_EQ(kLimits.max_delta_init, 1U);
+    EXPECT_EQ(kLimits.max_no_new_or_repeated, 1U);
+    EXPECT_EQ(kLimits.sync_init, 1U);
+}
+
 TEST(CheckStatusTest, NumbersAreThoseOfTheStandard) {
     verifies("SWR-E2E-006", Technique::kBoundaryValues);
     const auto number = [](CheckStatus status) { return static_cast<unsigned>(status); };

@@ -146,10 +146,12 @@ TEST_F(ChannelStateMachineTest, DemandsOutsideTheWindowAreRefused) {
 TEST_F(ChannelStateMachineTest, RestartForgetsEverything) {
     verifies("SWR-E2E-010", Technique::kStateTransition);
     make_valid();
+    ASSERT_EQ(check(ProfileStatus::kError), ChannelState::kValid);
 
     sut_.restart();
     EXPECT_EQ(sut_.get_state(), ChannelState::kNoData);
     EXPECT_EQ(sut_.get_ok_count(), 0U);
+    EXPECT_EQ(sut_.get_error_count(), 0U);
     EXPECT_EQ(check(ProfileStatus::kOk), ChannelState::kInit);
     EXPECT_EQ(sut_.get_ok_count(), 1U);
 }
