@@ -45,6 +45,19 @@ TEST(E2eProfile01Test, HeaderMayLieBehindThePayload) {
     EXPECT_EQ(show<E2eProfile11<>>(kNibble, 1U, 16U), fill(fill("", 8U) + " 20 11", 16U));
 }
 
+TEST(E2eProfile01Test, HeaderBehindThePayloadIsReadThere) {
+    verifies("SWR-E2E-004", Technique::kBoundaryValues);
+    constexpr Channel kNibble{0x0123U, DataIdMode::kNibble, 16U, 64U, 72U, 76U};
+    for (std::uint32_t sent = 0U; sent <= E2eProfile01<>::kCounterMax; ++sent) {
+        rig::Frame frame = rig::protect<E2eProfile01<>>(kNibble, sent, 16U);
+        std::uint32_t counter = 99U;
+        EXPECT_EQ(E2eProfile01<>::read(kNibble, rig::view(frame), counter), FrameCause::kGood);
+        EXPECT_EQ(counter, sent);
+        frame[0] ^= std::byte{1U};
+        EXPECT_EQ(E2eProfile01<>::read(kNibble, rig::view(frame), counter), FrameCause::kChecksum);
+    }
+}
+
 TEST(E2eProfile01Test, Profile11WritesTheSameBytes) {
     verifies("SWR-E2E-003", Technique::kBackToBack);
 
