@@ -227,6 +227,13 @@ Course make_order() {
     }
     return course;
 }
+/// The same, and the third window was cut off 300 us after its release.
+Course make_overrun() {
+    Course course = make_order();
+    course.openings[2U].is_overrun = true;
+    course.openings[2U].end = course.openings[2U].opening.release + 300_us;
+    return course;
+}
 
 TEST(PartitionJudgeTest, WindowsInTheOrderOfVirtualTimeAreWell) {
     verifies("SWR-PRT-018");
@@ -297,10 +304,8 @@ TEST(PartitionJudgeTest, AWindowHasNotMovedWhenTheMachineTookHalfOfItsBudgetAway
 
 TEST(PartitionJudgeTest, AWindowInASlowStretchOfTheMachineMovedBecauseOfIt) {
     verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
-    Course course = make_order();
-    course.openings[2U].is_overrun = true;
+    Course course = make_overrun();
     const std::int64_t release = course.openings[2U].opening.release.ns / 1000;
-    course.openings[2U].end = at(release + 300);
 
     // Looks that end before the frame before do not count; those in the window, less than half of its budget,
     // do.
@@ -316,10 +321,8 @@ TEST(PartitionJudgeTest, AWindowInASlowStretchOfTheMachineMovedBecauseOfIt) {
 
 TEST(PartitionJudgeTest, AWindowThatMovedWhileNobodyElseRanIsNotTheDoingOfThePartition) {
     verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
-    Course course = make_order();
-    course.openings[2U].is_overrun = true;
+    Course course = make_overrun();
     const std::int64_t release = course.openings[2U].opening.release.ns / 1000;
-    course.openings[2U].end = at(release + 300);
     EXPECT_EQ(judge(course).moved.size(), 1U) << "nobody looked";
 
     course.knows_foreign = true;
