@@ -20,8 +20,9 @@ from mamori.verification.command.campaign_table import summarise_campaign
 from mamori.verification.command.environment import write_environment
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
 from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
-from mamori.verification.command.steps import Context, Outcome, all_passed, run_steps, total
+from mamori.verification.command.steps import FAILURES_SHOWN, Context, Outcome, all_passed, run_steps, total
 
+FAILURE_LENGTH = 2000  # characters of a failed result in the closing lines
 
 def demo(jobs: int, motion: Path | None, scenarios: tuple[str, ...], instants: int | None) -> int:
     """The main job. @return exit status."""
@@ -121,6 +122,12 @@ def show_steps(outcomes: Sequence[Outcome], context: Context) -> None:
     context.screen.say(f"logs: {context.project.logs}")
 
 
+def show_failures(outcome: Outcome, context: Context) -> None:
+    """The failed results of a step with all that they say: where only the end of the screen is kept, it must be there."""
+    for text in outcome.failures[:FAILURES_SHOWN]:
+        context.screen.say(f"{outcome.name}: {text[:FAILURE_LENGTH]}")
+
+
 def show_campaign(context: Context) -> None:
     """The table of all scenarios; nothing when no campaign was run."""
     path = context.project.evidence / "campaign" / "campaign.json"
@@ -135,8 +142,10 @@ def finish(outcomes: Sequence[Outcome], context: Context) -> int:
     context.screen.say()
     if any(one.name == plans.REPORT and one.verdict == "passed" for one in outcomes):
         context.screen.say(f"report: {context.project.report}")
-    failed = [one.name for one in outcomes if one.verdict == "failed"]
+    failed = [one for one in outcomes if one.verdict == "failed"]
+    for one in failed:
+        show_failures(one, context)
     if failed:
-        context.screen.say(f"failed: {', '.join(failed)}", style="bold red")
+        context.screen.say(f"failed: {', '.join(one.name for one in failed)}", style="bold red")
     context.screen.say(str(total(outcomes)))
     return EXIT_OK if all_passed(outcomes) else EXIT_FAILED

@@ -11,7 +11,7 @@ from mamori.verification.command import jobs, plans
 from mamori.verification.command.errors import UsageError
 from mamori.verification.command.main import main, make_parser
 from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
-from mamori.verification.command.steps import Context, run_steps
+from mamori.verification.command.steps import Context, Step, run_steps
 
 
 @pytest.mark.parametrize(
@@ -80,6 +80,21 @@ def test_each_step_of_the_plans_is_named_once_and_needs_earlier_ones_only(quick:
             assert step.name not in seen
             assert set(step.needs) <= set(seen)
             seen.append(step.name)
+
+
+@pytest.mark.verifies("SWR-CLI-007", technique="boundary_values", polarity="violation")
+def test_the_closing_lines_say_all_of_each_failed_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    facts = "x" * (jobs.FAILURE_LENGTH - len("time.late: "))
+    results = f'<testsuite><testcase classname="time" name="late"><failure message="{facts}!"/></testcase></testsuite>'
+    step = Step("tests", (("sh", "-c", f"echo '{results}' >{{result}}; exit 1"),), result="tests.xml")
+    context = jobs.begin(Project(tmp_path), 1, (RELEASE,))
+    outcomes = run_steps([step], context)
+    capsys.readouterr()
+
+    assert jobs.finish(outcomes, context) == 1
+
+    said = capsys.readouterr().out
+    assert f"tests: time.late: {facts}\nfailed: tests\n0 passed, 1 failed, 0 skipped\n" in said
 
 
 @pytest.mark.parametrize(
