@@ -39,6 +39,9 @@ class Judge final {
                 is_misnamed = true;
             }
         }
+        if (first == nullptr && deed.cause == Cause::kLock && deed.end - deed.begin <= plan_.budget) {
+            return;  // the machine stood still until the mutex was free again
+        }
         ++verdict.injected;
         verdict.locked_out += deed.cause == Cause::kLock ? 1U : 0U;
         if (first == nullptr) {

@@ -21,7 +21,7 @@ inline constexpr Duration kTick{1'000'000};
 /// is reported about it: half of the budget. The components need a few microseconds of that.
 inline constexpr Duration kLossMin{100'000};
 
-/// Frames, at least, for each late end that nothing but the component's own clock explains.
+/// Frames for each late end, behind a first one, that nothing but the component's own clock explains.
 inline constexpr std::uint64_t kConfirmedOneIn{20'000U};
 
 /// Page faults that need no disk, of all threads of the windows together, in a run with locked memory: the
@@ -90,8 +90,7 @@ class Ends final {
 };
 
 /// What became of a run. All is well when nearly all faults took effect, each was seen, and nothing was
-/// misnamed, unseen, tardy or invented, and
-/// few were confirmed by nothing but a component's own clock.
+/// misnamed, unseen, tardy or invented, and few were confirmed by nothing but a component's own clock.
 struct Verdict {
     std::uint64_t frames{0U};
     std::uint64_t requested{0U};      ///< faults
@@ -103,8 +102,8 @@ struct Verdict {
     std::uint64_t tardy_by_host{0U};  ///< likewise, while the machine stood still
     std::uint64_t invented{0U};       ///< reported without a fault, though the machine took nothing away
     std::uint64_t by_host{0U};        ///< reported without a fault; the machine took kLossMin or more away
-    std::uint64_t confirmed{
-        0U};  ///< likewise; nothing was seen to be taken, but the component did not end in time
+    /// Likewise; nothing was seen to be taken, but the component did not end in time.
+    std::uint64_t confirmed{0U};
     std::uint64_t stalls{0U};  ///< times at which the machine stood still for a tenth of a tick or more
     Duration longest_stall{};
     std::vector<std::int64_t> detection_ns{};  ///< from the deadline of each overrun to its report
@@ -125,7 +124,7 @@ struct Verdict {
     /// Components that often end too late by themselves are none either.
     bool are_reports_well() const noexcept {
         return 20U * injected >= 19U * requested && seen == injected &&
-               misnamed + unseen + tardy + invented == 0U && confirmed * kConfirmedOneIn <= frames;
+               misnamed + unseen + tardy + invented == 0U && confirmed <= 1U + frames / kConfirmedOneIn;
     }
     /// Without locked memory nothing is asked.
     bool are_pages_well() const noexcept {

@@ -25,8 +25,7 @@ using verification::find_processor;
 using verification::StallWatch;
 
 constexpr Duration kLead{500'000'000};
-constexpr std::int64_t kLooksPerFrame = 20;
-constexpr std::size_t kLateLooksPerFrame = 8U;  ///< room for them; a machine that needs more is of no use
+constexpr std::size_t kLooksPerFrame = 20U;
 constexpr int kStallPriority = 90;
 constexpr int kWatchPriority = 85;
 constexpr int kRunnerPriority = 80;
@@ -66,9 +65,9 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
     runner.set_observer(beats.data());
     director.set_watch(&watch);
     StallWatch stalls{clock,
-                      Duration{kTick.ns / kLooksPerFrame},
+                      Duration{kTick.ns / std::int64_t{kLooksPerFrame}},
                       {kStallPriority, processor},
-                      request.frame_count * kLateLooksPerFrame};
+                      request.frame_count * kLooksPerFrame};  // none may be missing: they are excuses
     if (watch.open() == Status::kOk) {
         beats[0].expect(Instant{0});
         runner.run(request.frame_count);

@@ -131,12 +131,16 @@ TEST(JudgeTest, AReportThatTheComponentsOwnClockConfirmsIsNotInvented) {
 
 TEST(JudgeTest, LateEndsWithoutAnotherReasonAreRareOrTheRunIsNoTest) {
     verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
-    Verdict verdict;
-    verdict.frames = 40'000U;
-    verdict.confirmed = 2U;
-    EXPECT_TRUE(verdict.are_reports_well());
-    verdict.confirmed = 3U;
-    EXPECT_FALSE(verdict.are_reports_well());
+    const auto is_well = [](std::uint64_t frames, std::uint64_t confirmed) {
+        Verdict verdict;
+        verdict.frames = frames;
+        verdict.confirmed = confirmed;
+        return verdict.are_reports_well();
+    };
+    EXPECT_TRUE(is_well(19'999U, 1U));
+    EXPECT_FALSE(is_well(19'999U, 2U));
+    EXPECT_TRUE(is_well(40'000U, 3U));
+    EXPECT_FALSE(is_well(40'000U, 4U));
 }
 
 TEST(JudgeTest, WorkThatIsOutOneFrameAfterTheMachineStoodStillIsItsDoingToo) {
@@ -187,6 +191,22 @@ TEST(JudgeTest, AComponentThatWasLockedOutIsCountedAndMustBeNamed) {
     EXPECT_EQ(named.locked_out, 1U);
     EXPECT_EQ(named.locked_out_seen, 1U);
     EXPECT_EQ(judge({{overrun(1U, 2U, 5300, 5310, 5515)}, {deed}, {}, {}}).locked_out_seen, 0U);
+}
+
+TEST(JudgeTest, AComponentThatFoundTheMutexFreeWasNotLockedOut) {
+    verifies("SWR-PRT-035", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto judge_wait = [](Duration wait, const std::vector<Report>& reports) {
+        return judge({reports, {{1U, at(5310), at(5310) + wait, Cause::kLock}}, {}, {}});
+    };
+    const Duration budget{200'000};
+
+    EXPECT_EQ(judge_wait(budget, {}).injected, 0U);
+    EXPECT_EQ(judge_wait(budget, {}).unseen, 0U);
+    EXPECT_EQ(judge_wait(budget + Duration{1}, {}).unseen, 1U);
+    EXPECT_EQ(judge_wait(budget, {overrun(1U, 1U, 5300, 5305, 5506)}).locked_out_seen, 1U)
+        << "its window had begun before it";
+    const Deed work{1U, at(5310), at(5310) + budget};
+    EXPECT_EQ(judge({{}, {work}, {}, {}}).unseen, 1U) << "work takes as long as it is told to";
 }
 
 TEST(JudgeTest, WhatTheWatchDidNotSeeIsNotWellAndAClockThatItSawIsAFaultOfTheRun) {
