@@ -44,6 +44,7 @@ void ExecutionContext::run_turns(std::size_t first, std::size_t count, Follower*
         }
         const Status answer = component.on_execute(handle);
         // One question for both, since each is 0 in all but a few turns.
+        static_assert(Phase::kInCycle == Phase{} && Status::kOk == Status{});
         const Phase phase = phase_.load(std::memory_order_relaxed);
         if ((static_cast<unsigned>(phase) | static_cast<unsigned>(answer)) != 0U) {
             judge_execution(i, answer);
