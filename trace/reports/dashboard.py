@@ -76,7 +76,7 @@ def list_finding_bars(findings: list[Finding], count_max: int = 8) -> list[Bar]:
     rules = sorted(counts, key=lambda rule: (severities[rule] != ERROR, -counts[rule], order.index(rule)))[:count_max]
     most = max(counts.values(), default=1)
     return [
-        Bar(rule, counts[rule], severities[rule], _address("findings", rule=rule),
+        Bar(rule, counts[rule], severities[rule] + ("" if counts[rule] == 1 else "s"), _address("findings", rule=rule),
             (Share(severities[rule], counts[rule], round(100 * counts[rule] / most, 2), _address("findings", rule=rule)),))
         for rule in rules
     ]  # fmt: skip

@@ -20,8 +20,10 @@ from mamori.trace.model.code import Function
 from mamori.trace.model.coverage import Condition, CoverageRun, FileCoverage
 from mamori.trace.model.finding import Place
 from mamori.trace.model.technique import Technique
+from mamori.trace.model.verdict import calc_verdicts
 from mamori.trace.readers.item_history import CHANGES_MAX, find_changes, read_item_history
 from mamori.trace.readers.project import read_project
+from mamori.trace.reports import v_overview
 from mamori.trace.reports.chromium import BrowserError
 from mamori.trace.reports.html import write_report
 from mamori.trace.reports.inline_json import format_inline
@@ -69,6 +71,23 @@ def test_boxes_of_the_v_and_bars_of_the_dashboard_lead_to_their_rows(page: Calla
     for part in ('href="#matrix" data-query="level=STK&amp;level=HAZ"', 'href="#tests" data-query="kind=unit"',
                  'href="#matrix" data-query="level=SYS&amp;verdict=verified"', 'href="#tests" data-query="kind=unit&amp;status=passed"'):  # fmt: skip
         assert part in text, part
+
+
+@pytest.mark.parametrize("layout", v_overview.LAYOUTS)
+@pytest.mark.verifies("SWR-TRC-060", technique="boundary_values", polarity="violation")
+def test_one_failure_among_thousands_is_seen_in_the_bar_of_the_v(tmp_path: Path, layout: v_overview.Layout) -> None:
+    project = make_large_project(tmp_path, 100, 3000)
+    for result in project.results:
+        result.status = "passed"
+        result.kind = "unit"
+    project.results[0].status = "failed"
+
+    box = next(box for box in v_overview.make_boxes(project, calc_verdicts(project), layout) if box.name == "Unit tests")
+
+    assert (box.count, box.detail) == ("3,000", "1 failed")
+    assert [segment.css for segment in box.segments] == ["passed", "failed"]
+    assert min(segment.width for segment in box.segments) >= 4
+    assert sum(segment.width for segment in box.segments) == pytest.approx(layout.bar_width, abs=0.02)
 
 
 @pytest.mark.verifies("SWR-TRC-061", technique="requirements_based", polarity="nominal")

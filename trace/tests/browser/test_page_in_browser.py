@@ -180,6 +180,34 @@ def test_colours_follow_the_system_until_the_button_chooses(page: Any, small_fil
         assert page.ask(colour) == expected
 
 
+@pytest.mark.parametrize("width", [1280, 1001, 768, 400])
+@pytest.mark.verifies("SWR-TRC-068", technique="boundary_values", polarity="nominal")
+def test_a_tile_holds_ten_thousand_of_ten_thousand_in_one_line(page: Any, small_file: Path, width: int) -> None:
+    page.open(small_file, width=width)
+    line_px = "Math.max(...[...document.querySelectorAll('.tile b')].map(b => b.offsetHeight))"
+    before = page.ask(line_px)
+
+    page.ask("document.querySelectorAll('.tile b').forEach(b => { b.innerHTML = '10,000<small> / 10,000</small>' })")
+
+    assert page.ask(line_px) == before
+    assert page.ask("[...document.querySelectorAll('.tile b')].filter(b => b.scrollWidth > b.clientWidth).length") == 0
+
+
+@pytest.mark.parametrize("width", [1280, 768, 400])
+@pytest.mark.verifies("SWR-TRC-068", technique="boundary_values", polarity="nominal")
+def test_letters_of_the_v_are_large_enough_to_be_read_and_stay_in_their_boxes(page: Any, large_file: Path, width: int) -> None:
+    page.open(large_file, width=width)
+
+    boxes = page.ask("""[...document.querySelectorAll('svg.v')].filter(svg => svg.checkVisibility()).flatMap(svg => [...svg.querySelectorAll('a')].map(a => {
+        const [box, name, count, detail] = ['.box', '.name', '.count', '.detail'].map(part => a.querySelector(part).getBoundingClientRect());
+        const scale = svg.getScreenCTM().a;
+        return [Math.max(name.right, count.right, detail.right) < box.right, name.bottom <= count.top + 3 && count.bottom < detail.top, detail.bottom < box.bottom, parseFloat(getComputedStyle(a.querySelector('.detail')).fontSize) * scale];
+    }))""")
+
+    assert len(boxes) == 7
+    assert [box for box in boxes if box[:3] != [True, True, True] or box[3] < 10.5] == []
+
+
 @pytest.mark.verifies("SWR-TRC-066", technique="boundary_values", polarity="nominal")
 def test_searching_ten_thousand_items_takes_at_most_a_tenth_of_a_second(page: Any, large_file: Path, record_property: Any) -> None:
     page.open(large_file)
