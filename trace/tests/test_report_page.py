@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 from large_project import make_large_project
-from trace_sample import Sample
+from trace_sample import Sample, format_waiver
 
 from mamori.trace.checks import list_rule_ids
 from mamori.trace.model.code import Function
@@ -100,6 +100,20 @@ def test_everything_stands_in_plain_rows_for_those_without_scripts(sample: Sampl
                  "result-failed", 'href="#case-1-encoder_freeze-1"'):  # fmt: skip
         assert part in text, part
     assert text.count("<noscript>") == text.count("</noscript>") >= 4
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_findings_of_one_waiver_stand_together_below_its_reason(sample: Sample, page: Callable[[], str]) -> None:
+    sample.replace("requirements/system/system.md", "The tool shall run", "The tool runs")
+    sample.replace("requirements/system/system.md", "The kernel shall supervise", "The kernel supervises")
+    sample.review()
+    sample.write("requirements/waivers.toml", format_waiver("shall-count", file="requirements/system/system.md"))
+
+    text = page()
+
+    waived = text[text.index("<h2>Waived</h2>") :].split("</ul>")[0]
+    assert waived.count("It is so.") == 1 and 'Accepted by Sample Reviewer: <code class="place">requirements/waivers.toml:3</code>' in waived
+    assert [name for name in ("SYS-001", "SYS-002", "SYS-003") if f"#item/{name}" in waived] == ["SYS-001", "SYS-003"]
 
 
 @pytest.mark.parametrize("text", HOSTILE)
@@ -195,7 +209,7 @@ def test_waived_findings_stand_on_the_page_with_their_reasons(sample: Sample, pa
 
     text = page()
 
-    assert "the hazard is being &lt;written&gt;, the maintainers" in text
+    assert "<p>the hazard is being &lt;written&gt;</p>" in text and "Accepted by the maintainers: " in text
     assert "unknown-id" not in read_data(text)["findings"]["rule"]
 
 
@@ -225,6 +239,16 @@ def test_techniques_are_counted_from_results_where_the_project_offers_none(page:
 
     assert "<td>requirements based</td><td>3 passed results</td>" in text
     assert "<td>interface</td><td>2 passed results</td>" in text
+
+
+@pytest.mark.verifies("SWR-TRC-064", technique="error_guessing", polarity="violation")
+def test_a_technique_whose_test_failed_says_how_many_and_is_not_passed(sample: Sample, page: Callable[[], str]) -> None:
+    sample.replace("build/host-release/evidence/junit/tools.xml", 'name="test_no_connection[b]" time="0.001">',
+                   'name="test_no_connection[b]" time="0.001"><failure message="no"/>')  # fmt: skip
+
+    text = page()
+
+    assert '<td>interface</td><td>1 passed result, 1 failed</td><td><span class="badge failed">failed</span></td>' in text
 
 
 @pytest.mark.verifies("SWR-TRC-065", technique="fault_injection", polarity="violation")

@@ -208,6 +208,22 @@ def test_letters_of_the_v_are_large_enough_to_be_read_and_stay_in_their_boxes(pa
     assert [box for box in boxes if box[:3] != [True, True, True] or box[3] < 10.5] == []
 
 
+@pytest.mark.verifies("SWR-TRC-068", technique="requirements_based", polarity="nominal")
+def test_verdicts_in_the_chain_are_told_by_signs_and_not_by_colour_alone(page: Any, small_file: Path) -> None:
+    page.open(small_file, "#item/SYS-003")
+
+    signs = page.ask("[...document.querySelectorAll('#items .chain .id')].map(e => [e.textContent, getComputedStyle(e, '::after').content])")
+
+    assert {name: sign[2] for name, sign in signs} == {"STK-001": "✕", "SYS-003": "✕", "SWR-TLS-001": "✕"}
+
+
+@pytest.mark.verifies("SWR-TRC-068", technique="boundary_values", polarity="nominal")
+def test_tables_of_the_campaign_need_no_scrolling_on_a_desk(page: Any, small_file: Path) -> None:
+    page.open(small_file, "#campaign")
+
+    assert page.ask("[...document.querySelectorAll('#campaign .scroll')].filter(e => e.checkVisibility() && e.scrollWidth > e.clientWidth).length") == 0
+
+
 @pytest.mark.verifies("SWR-TRC-066", technique="boundary_values", polarity="nominal")
 def test_searching_ten_thousand_items_takes_at_most_a_tenth_of_a_second(page: Any, large_file: Path, record_property: Any) -> None:
     page.open(large_file)
