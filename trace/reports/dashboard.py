@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Counts for the first view: verdicts by level, findings by rule, results by kind.
+"""Counts for the first view: verdicts by level and by SIL, findings by rule, results by kind.
 
 @satisfies SWR-TRC-060      Design: docs/design/trace_report.md#views
 """
@@ -50,6 +50,20 @@ def list_level_bars(project: Project, verdicts: Mapping[str, Verdict]) -> list[B
             shares = _make_shares(words, tuple(reversed(WORST_FIRST)), "matrix", level=level.key)
             bars.append(Bar(level.name, words[VERIFIED], f"of {words.total():,} verified", _address("matrix", level=level.key), shares))
     return bars
+
+
+def list_sil_bars(project: Project, verdicts: Mapping[str, Verdict]) -> list[Bar]:
+    """Verdicts of each safety integrity level that has items, the highest first; nothing where there is only one."""
+    groups: dict[str, Counter] = {sil: Counter() for sil in (*reversed(project.schema.sil), "")}
+    for key, verdict in verdicts.items():
+        groups.setdefault(project.items[key].sil, Counter())[verdict.word] += 1
+    bars = []
+    for sil, words in groups.items():
+        if words:
+            shares = _make_shares(words, tuple(reversed(WORST_FIRST)), "matrix", sil=sil or "none")
+            name = f"SIL {sil}" if sil.isdecimal() else sil or "no SIL"
+            bars.append(Bar(name, words[VERIFIED], f"of {words.total():,} verified", _address("matrix", sil=sil or "none"), shares))
+    return bars if len(bars) > 1 else []
 
 
 def list_result_bars(project: Project) -> list[Bar]:

@@ -108,6 +108,7 @@ def _make_context(project: Project) -> dict[str, Any]:
         "requirements": _count_requirements(project, verdicts),
         "results": Counter("failed" if result.failing else result.status for result in project.results),
         "level_bars": dashboard.list_level_bars(project, verdicts),
+        "sil_bars": dashboard.list_sil_bars(project, verdicts),
         "finding_bars": dashboard.list_finding_bars(findings),
         "result_bars": dashboard.list_result_bars(project),
         "data": Markup(format_inline(make_page_data(project, verdicts, findings, anchors, history))),

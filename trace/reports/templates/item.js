@@ -30,7 +30,7 @@ function drawTrail(number, [before, after]) {
 
 function drawFacts(number) {
   const fact = (text) => make("span", { class: "badge plain" }, text);
-  return [items.sil[number] && fact(items.sil[number] === "QM" ? "QM" : `SIL ${items.sil[number]}`), fact(items.status[number] || "no status"),
+  return [items.sil[number] && fact(/^\d/.test(items.sil[number]) ? `SIL ${items.sil[number]}` : items.sil[number]), fact(items.status[number] || "no status"),
     fact(`verify: ${items.verify[number].join(", ") || "–"}`), fact(`polarity: ${items.polarity[number].join(", ") || "–"}`),
     items.design[number] && code(items.design[number]), code(placeOf(items, number))].filter(Boolean);
 }
