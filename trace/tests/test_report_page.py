@@ -91,6 +91,19 @@ def test_one_failure_among_thousands_is_seen_in_the_bar_of_the_v(tmp_path: Path,
     assert sum(segment.width for segment in box.segments) == pytest.approx(layout.bar_width, abs=0.02)
 
 
+@pytest.mark.verifies("SWR-TRC-060", technique="equivalence_classes", polarity="violation")
+def test_the_first_line_tells_errors_and_what_was_not_run(sample: Sample, trace: Callable) -> None:
+    sample.replace("build/host-release/evidence/junit/tools.xml", 'name="test_no_connection[b]" time="0.001">',
+                   'name="test_no_connection[b]" time="0.001"><failure message="no"/>')  # fmt: skip
+    (sample.evidence / "junit" / "safety.xml").unlink()
+
+    trace("report", "--root", sample.root, "--allow-missing")
+
+    text = (sample.root / "report" / "index.html").read_text()
+    lead = text[text.index('<p class="lead">') :].split("</p>")[0]
+    assert "1 error</strong> stands against" in lead and "items were not run." in lead
+
+
 @pytest.mark.verifies("SWR-TRC-061", technique="requirements_based", polarity="nominal")
 def test_everything_stands_in_plain_rows_for_those_without_scripts(sample: Sample, page: Callable[[], str]) -> None:
     sample.replace("build/host-release/evidence/junit/safety.xml", 'result="completed" time="0.001" classname="Limits/LateTest">',
