@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Counts for the first view: verdicts by level, findings by rule, results by kind.
+"""Counts for the first view: verdicts by level and by SIL, findings by rule, results by kind.
 
 @satisfies SWR-TRC-060      Design: docs/design/trace_report.md#views
 """
@@ -52,6 +52,20 @@ def list_level_bars(project: Project, verdicts: Mapping[str, Verdict]) -> list[B
     return bars
 
 
+def list_sil_bars(project: Project, verdicts: Mapping[str, Verdict]) -> list[Bar]:
+    """Verdicts of each safety integrity level that has items, the highest first; nothing where there is only one."""
+    groups: dict[str, Counter] = {sil: Counter() for sil in (*reversed(project.schema.sil), "")}
+    for key, verdict in verdicts.items():
+        groups.setdefault(project.items[key].sil, Counter())[verdict.word] += 1
+    bars = []
+    for sil, words in groups.items():
+        if words:
+            shares = _make_shares(words, tuple(reversed(WORST_FIRST)), "matrix", sil=sil or "none")
+            name = f"SIL {sil}" if sil.isdecimal() else sil or "no SIL"
+            bars.append(Bar(name, words[VERIFIED], f"of {words.total():,} verified", _address("matrix", sil=sil or "none"), shares))
+    return bars if len(bars) > 1 else []
+
+
 def list_result_bars(project: Project) -> list[Bar]:
     """Results of each kind of test."""
     bars = []
@@ -76,7 +90,7 @@ def list_finding_bars(findings: list[Finding], count_max: int = 8) -> list[Bar]:
     rules = sorted(counts, key=lambda rule: (severities[rule] != ERROR, -counts[rule], order.index(rule)))[:count_max]
     most = max(counts.values(), default=1)
     return [
-        Bar(rule, counts[rule], severities[rule], _address("findings", rule=rule),
+        Bar(rule, counts[rule], severities[rule] + ("" if counts[rule] == 1 else "s"), _address("findings", rule=rule),
             (Share(severities[rule], counts[rule], round(100 * counts[rule] / most, 2), _address("findings", rule=rule)),))
         for rule in rules
     ]  # fmt: skip

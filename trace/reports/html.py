@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import re
 from collections import Counter, defaultdict
 from collections.abc import Callable
 from pathlib import Path
@@ -34,6 +35,7 @@ from mamori.trace.reports.view import describe_environment, group_tags, make_sui
 from mamori.trace.write import write_whole_bytes
 
 PAPER_ITEMS_MAX = 2000
+_WORD_START = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLES = ("base.css", "frame.css", "cards.css", "matrix.css", "item.css", "campaign.css", "print.css")
 _SCRIPTS = ("data.js", "parts.js", "matrix.js", "item.js", "lists.js", "search.js", "frame.js")
@@ -52,6 +54,10 @@ GLOSSARY = (
     ("nominal", "Shows that the wanted thing happens."),
     ("violation", "Shows that the unwanted thing is stopped: the test violates the rule on purpose."),
     ("suspect link", "One of its ends changed since a person last looked at both together."),
+    ("waived", "A finding that the project accepts for a stated reason; it does not count."),
+    ("described", "Of a technique: a document tells how it is used, and no test or item shows that it was."),
+    ("SIL, QM", "Safety integrity level of IEC 61508, from 1 to 4; QM: quality management is enough, safety does not rest on it."),
+    ("Ss1, Sto", "Reactions of an arm. Safe stop 1: brake to standstill, then cut the torque. Safe torque off: cut it at once."),
     ("finding", "A broken link, a missing proof or an unfinished text. An error makes the check fail, a warning does not."),
 )  # fmt: skip
 
@@ -102,6 +108,7 @@ def _make_context(project: Project) -> dict[str, Any]:
         "requirements": _count_requirements(project, verdicts),
         "results": Counter("failed" if result.failing else result.status for result in project.results),
         "level_bars": dashboard.list_level_bars(project, verdicts),
+        "sil_bars": dashboard.list_sil_bars(project, verdicts),
         "finding_bars": dashboard.list_finding_bars(findings),
         "result_bars": dashboard.list_result_bars(project),
         "data": Markup(format_inline(make_page_data(project, verdicts, findings, anchors, history))),
@@ -136,6 +143,7 @@ def _make_environment() -> jinja2.Environment:
     script = f'\n(() => {{\n"use strict";\n{_read_templates(_SCRIPTS)}}})();\n'
     environment.filters["css"] = lambda word: word.replace(" ", "-")
     environment.filters["to"] = _make_link
+    environment.filters["camel"] = lambda name: Markup("<wbr>").join(_WORD_START.split(name))
     environment.filters["n"] = lambda number: f"{number:,}"
     environment.globals["style"] = Markup(_read_templates(_STYLES))
     environment.globals["first_script"] = Markup(_FIRST_SCRIPT)

@@ -60,7 +60,7 @@ class StaticView:
 
     def _format_item(self, item: Item) -> str:
         verdict = self.verdicts[item.id]
-        facts = ", ".join(filter(None, (f"SIL {item.sil}" if item.sil else "", item.status, f"verify: {', '.join(item.verify) or '–'}",
+        facts = ", ".join(filter(None, (_name_sil(item.sil), item.status, f"verify: {', '.join(item.verify) or '–'}",
                                         f"polarity: {', '.join(item.polarity) or '–'}", f"design: {item.design or '–'}")))  # fmt: skip
         rows = (
             ("Statement", escape(item.statement)),
@@ -126,6 +126,11 @@ def _format_change(change: Change) -> str:
 
 
 @cache
+def _name_sil(sil: str) -> str:
+    """QM is no safety integrity level."""
+    return f"SIL {sil}" if sil.isdecimal() else sil
+
+
 def format_badge(word: str) -> str:
     return f'<span class="badge {word.replace(" ", "-")}">{escape(word)}</span>'
 

@@ -16,12 +16,13 @@ from mamori.trace.model.verdict import FAILED, NOT_RUN, VERIFIED, WORST_FIRST, V
 
 @dataclass(frozen=True, slots=True)
 class TechniqueRow:
-    """One technique. `demand` says what asks for it, `word` is a word of the badges."""
+    """One technique. `demand` says what asks for it, `items` and `shown_by` what shows it, `word` is a word of the badges."""
 
     name: str
     demand: str
     shown_by: str
     word: str
+    items: tuple[str, ...] = ()
 
 
 def list_techniques(project: Project) -> list[TechniqueRow]:
@@ -29,32 +30,34 @@ def list_techniques(project: Project) -> list[TechniqueRow]:
     if project.techniques is not None:
         verdicts = calc_verdicts(project) if any(each.items for each in project.techniques) else {}
         return [_make_row(project, each, verdicts) for each in project.techniques]
+    failing = Counter(result.technique or "requirements_based" for result in project.results if result.failing)
     passed = Counter(result.technique or "requirements_based" for result in project.results if result.status == "passed")
     written = Counter(test.technique for test in project.tests)
     return [
-        TechniqueRow(name.replace("_", " "), "", _describe(passed[name], written[name]), "passed" if passed[name] else "not run")
+        TechniqueRow(name.replace("_", " "), "", _describe(passed[name], written[name], failing[name]),
+                     "failed" if failing[name] else "passed" if passed[name] else "not run")
         for name in project.schema.technique
-        if passed[name] or written[name]
-    ]
+        if passed[name] or failing[name] or written[name]
+    ]  # fmt: skip
 
 
 def _make_row(project: Project, technique: Technique, verdicts: dict[str, Verdict]) -> TechniqueRow:
     """The state is the worst of its items and tests; a technique that only documents show is described, no more."""
     words = [verdicts[name].word for name in technique.items if name in verdicts]
-    parts = [", ".join(technique.items)] if technique.items else []
+    parts: list[str] = []
     for name in technique.tests:
         results = [result for result in project.results if result.technique == name]
         passed = sum(result.status == "passed" for result in results)
         written = sum(test.technique == name for test in project.tests)
-        failing = any(result.failing for result in results)
+        failing = sum(result.failing for result in results)
         words.append(FAILED if failing else VERIFIED if passed else NOT_RUN)
-        parts.append(f"{name.replace('_', ' ')}: {_describe(passed, written)}")
+        parts.append(f"{name.replace('_', ' ')}: {_describe(passed, written, failing)}")
     parts += technique.documents
     word = min(words, key=WORST_FIRST.index) if words else "described"
-    return TechniqueRow(technique.name, f"{technique.clause}; {technique.phase}", "; ".join(parts), word)
+    return TechniqueRow(technique.name, f"{technique.clause}; {technique.phase}", "; ".join(parts), word, tuple(technique.items))
 
 
-def _describe(passed: int, written: int) -> str:
-    if passed:
-        return f"{passed} passed result{'' if passed == 1 else 's'}"
-    return f"{written} test{'' if written == 1 else 's'}, none executed"
+def _describe(passed: int, written: int, failing: int) -> str:
+    if passed or failing:
+        return f"{passed:,} passed result{'' if passed == 1 else 's'}" + (f", {failing:,} failed" if failing else "")
+    return f"{written:,} test{'' if written == 1 else 's'}, none executed"

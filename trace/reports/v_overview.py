@@ -14,27 +14,33 @@ from mamori.trace.model.evidence import CAMPAIGN, FAILED, INTEGRATION, PASSED, S
 from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import WORST_FIRST, Verdict
 
-BOX_HEIGHT = 92
-HEIGHT = 478
-_STEP_Y = 124
+BOX_HEIGHT = 106
+HEIGHT = 522
+_STEP_Y = 136
 _TOP = 4
+_SEGMENT_MIN = 4.0
+"""Of a bar, in drawing units: what is there is seen."""
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Widths of a drawing, in its own units. `step_x` moves each row inwards, which makes the V."""
+    """Widths of a drawing, in its own units. `step_x` moves each row inwards, which makes the V.
+
+    `detail_letters` is what the last line of a box holds.
+    """
 
     css: str
     width: int
     box_width: int
     step_x: int
+    detail_letters: int
 
     @property
     def bar_width(self) -> int:
         return self.box_width - 28
 
 
-LAYOUTS = (Layout("wide", 960, 250, 58), Layout("narrow", 372, 180, 0))
+LAYOUTS = (Layout("wide", 960, 250, 58, 24), Layout("narrow", 372, 180, 0, 20))
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +72,8 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
     cases = [PASSED if case.passed else FAILED for case in project.evidence.cases]
     cases = cases or [result.status for result in project.results if result.kind == CAMPAIGN]
     files = len({tag.place.file for tag in project.tags})
-    left = (("Needs and hazards", ("STK", "HAZ")), ("System requirements", ("SYS", "AOU")), ("Software requirements", ("SWR",)))
+    system = "System, assumptions" if any(item.level == "AOU" for item in project.items.values()) else "System requirements"
+    left = (("Needs and hazards", ("STK", "HAZ")), (system, ("SYS", "AOU")), ("Software requirements", ("SWR",)))
     right = (("Fault campaign", cases, "cases", "#campaign"), ("Integration tests", results[INTEGRATION], "tests", "#tests?kind=integration"),
              ("Unit tests", results[UNIT], "tests", "#tests?kind=unit"))  # fmt: skip
     boxes: list[Box] = []
@@ -75,31 +82,39 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
         x = row * layout.step_x
         words = [verdict.word for key, verdict in verdicts.items() if project.items[key].level in levels]
         bar = _make_segments(words, reversed(WORST_FIRST), x, layout)
-        detail = _describe(words, WORST_FIRST, "verified")
-        boxes.append(Box(name, str(len(words)), detail, x, y, "#matrix?" + "&".join(f"level={level}" for level in levels), bar))
+        detail = _describe(words, WORST_FIRST, "verified", layout)
+        boxes.append(Box(name, f"{len(words):,}", detail, x, y, "#matrix?" + "&".join(f"level={level}" for level in levels), bar))
         x = layout.width - layout.box_width - x
         words = [FAILED if status not in (PASSED, SKIPPED) else status for status in statuses]
         bar = _make_segments(words, (PASSED, SKIPPED, FAILED), x, layout)
-        detail = _describe(words, (FAILED, SKIPPED), "passed") if words else f"no {noun} run"
-        boxes.append(Box(test_name, str(len(words)), detail, x, y, target, bar))
-    detail = f"tags in {files} file{'' if files == 1 else 's'}"
-    boxes.append(Box("Code", str(len(project.tags)), detail, (layout.width - layout.box_width) // 2, _TOP + 3 * _STEP_Y, "#code", ()))
+        detail = _describe(words, (FAILED, SKIPPED), "passed", layout) if words else f"no {noun} run"
+        boxes.append(Box(test_name, f"{len(words):,}", detail, x, y, target, bar))
+    detail = f"tags in {files:,} file{'' if files == 1 else 's'}"
+    boxes.append(Box("Code", f"{len(project.tags):,}", detail, (layout.width - layout.box_width) // 2, _TOP + 3 * _STEP_Y, "#code", ()))
     return boxes
 
 
-def _describe(words: list[str], worst_first: Iterable[str], good: str) -> str:
+def _describe(words: list[str], worst_first: Iterable[str], good: str, layout: Layout) -> str:
+    """The two worst, or the worst alone where there is no room for both."""
     counts = Counter(words)
-    bad = [f"{counts[word]} {word}" for word in worst_first if counts[word] and word != good]
-    return ", ".join(bad[:2]) if bad else f"all {good}" if words else "none"
+    bad = [f"{counts[word]:,} {word}" for word in worst_first if counts[word] and word != good]
+    if not bad:
+        return f"all {good}" if words else "none"
+    both = ", ".join(bad[:2])
+    return both if len(both) <= layout.detail_letters else bad[0]
 
 
 def _make_segments(words: list[str], order: Iterable[str], x: int, layout: Layout) -> tuple[Segment, ...]:
     counts = Counter(words)
+    present = [word for word in order if counts[word]]
+    # One failure among thousands is a sliver that no eye finds; the longer pieces give way for it.
+    lengths = [max(_SEGMENT_MIN, layout.bar_width * counts[word] / len(words)) for word in present]
+    excess = sum(lengths) - layout.bar_width
+    spare = sum(length - _SEGMENT_MIN for length in lengths)
     segments: list[Segment] = []
     at = float(x + (layout.box_width - layout.bar_width) / 2)
-    for word in order:
-        if counts[word]:
-            width = round(layout.bar_width * counts[word] / len(words), 2)
-            segments.append(Segment(word.replace(" ", "-"), round(at, 2), width))
-            at += width
+    for word, length in zip(present, lengths):
+        width = length - (excess * (length - _SEGMENT_MIN) / spare if spare else 0.0)
+        segments.append(Segment(word.replace(" ", "-"), round(at, 2), round(width, 2)))
+        at += width
     return tuple(segments)

@@ -107,7 +107,7 @@ def test_a_technique_that_is_shown_stands_in_the_project_and_on_the_page(sample:
     assert (outcome.status, technique.phase, technique.items) == (0, "design", ("SWR-SUP-001",))
     page = (sample.root / "report" / "index.html").read_text()
     assert "<td>Looking twice</td><td>Annex Z; needs the bought text; design</td>" in page
-    assert "SWR-SUP-001; interface: 2 passed results; docs/design/arm.md#hazards" in page
+    assert '<td><a class="id" href="#item/SWR-SUP-001">SWR-SUP-001</a>; interface: 2 passed results; docs/design/arm.md#hazards</td>' in page
 
 
 @pytest.mark.parametrize(

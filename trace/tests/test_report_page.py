@@ -13,15 +13,17 @@ from typing import Any
 
 import pytest
 from large_project import make_large_project
-from trace_sample import Sample
+from trace_sample import Sample, format_waiver
 
 from mamori.trace.checks import list_rule_ids
 from mamori.trace.model.code import Function
 from mamori.trace.model.coverage import Condition, CoverageRun, FileCoverage
 from mamori.trace.model.finding import Place
 from mamori.trace.model.technique import Technique
+from mamori.trace.model.verdict import calc_verdicts
 from mamori.trace.readers.item_history import CHANGES_MAX, find_changes, read_item_history
 from mamori.trace.readers.project import read_project
+from mamori.trace.reports import v_overview
 from mamori.trace.reports.chromium import BrowserError
 from mamori.trace.reports.html import write_report
 from mamori.trace.reports.inline_json import format_inline
@@ -67,8 +69,39 @@ def test_boxes_of_the_v_and_bars_of_the_dashboard_lead_to_their_rows(page: Calla
     text = page()
 
     for part in ('href="#matrix" data-query="level=STK&amp;level=HAZ"', 'href="#tests" data-query="kind=unit"',
-                 'href="#matrix" data-query="level=SYS&amp;verdict=verified"', 'href="#tests" data-query="kind=unit&amp;status=passed"'):  # fmt: skip
+                 'href="#matrix" data-query="level=SYS&amp;verdict=verified"', 'href="#tests" data-query="kind=unit&amp;status=passed"',
+                 'data-query="sil=2">SIL 2</a> <span class="note"><b>5</b> of 5 verified', 'data-query="sil=QM">QM</a> <span class="note"><b>3</b> of 3 verified'):  # fmt: skip
         assert part in text, part
+
+
+@pytest.mark.parametrize("layout", v_overview.LAYOUTS)
+@pytest.mark.verifies("SWR-TRC-060", technique="boundary_values", polarity="violation")
+def test_one_failure_among_thousands_is_seen_in_the_bar_of_the_v(tmp_path: Path, layout: v_overview.Layout) -> None:
+    project = make_large_project(tmp_path, 100, 3000)
+    for result in project.results:
+        result.status = "passed"
+        result.kind = "unit"
+    project.results[0].status = "failed"
+
+    box = next(box for box in v_overview.make_boxes(project, calc_verdicts(project), layout) if box.name == "Unit tests")
+
+    assert (box.count, box.detail) == ("3,000", "1 failed")
+    assert [segment.css for segment in box.segments] == ["passed", "failed"]
+    assert min(segment.width for segment in box.segments) >= 4
+    assert sum(segment.width for segment in box.segments) == pytest.approx(layout.bar_width, abs=0.02)
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="equivalence_classes", polarity="violation")
+def test_the_first_line_tells_errors_and_what_was_not_run(sample: Sample, trace: Callable) -> None:
+    sample.replace("build/host-release/evidence/junit/tools.xml", 'name="test_no_connection[b]" time="0.001">',
+                   'name="test_no_connection[b]" time="0.001"><failure message="no"/>')  # fmt: skip
+    (sample.evidence / "junit" / "safety.xml").unlink()
+
+    trace("report", "--root", sample.root, "--allow-missing")
+
+    text = (sample.root / "report" / "index.html").read_text()
+    lead = text[text.index('<p class="lead">') :].split("</p>")[0]
+    assert "1 error</strong> stands against" in lead and "items were not run." in lead
 
 
 @pytest.mark.verifies("SWR-TRC-061", technique="requirements_based", polarity="nominal")
@@ -81,6 +114,20 @@ def test_everything_stands_in_plain_rows_for_those_without_scripts(sample: Sampl
                  "result-failed", 'href="#case-1-encoder_freeze-1"'):  # fmt: skip
         assert part in text, part
     assert text.count("<noscript>") == text.count("</noscript>") >= 4
+
+
+@pytest.mark.verifies("SWR-TRC-060", technique="requirements_based", polarity="nominal")
+def test_findings_of_one_waiver_stand_together_below_its_reason(sample: Sample, page: Callable[[], str]) -> None:
+    sample.replace("requirements/system/system.md", "The tool shall run", "The tool runs")
+    sample.replace("requirements/system/system.md", "The kernel shall supervise", "The kernel supervises")
+    sample.review()
+    sample.write("requirements/waivers.toml", format_waiver("shall-count", file="requirements/system/system.md"))
+
+    text = page()
+
+    waived = text[text.index("<h2>Waived</h2>") :].split("</ul>")[0]
+    assert waived.count("It is so.") == 1 and 'Accepted by Sample Reviewer: <code class="place">requirements/waivers.toml:3</code>' in waived
+    assert [name for name in ("SYS-001", "SYS-002", "SYS-003") if f"#item/{name}" in waived] == ["SYS-001", "SYS-003"]
 
 
 @pytest.mark.parametrize("text", HOSTILE)
@@ -176,7 +223,7 @@ def test_waived_findings_stand_on_the_page_with_their_reasons(sample: Sample, pa
 
     text = page()
 
-    assert "the hazard is being &lt;written&gt;, the maintainers" in text
+    assert "<p>the hazard is being &lt;written&gt;</p>" in text and "Accepted by the maintainers: " in text
     assert "unknown-id" not in read_data(text)["findings"]["rule"]
 
 
@@ -206,6 +253,16 @@ def test_techniques_are_counted_from_results_where_the_project_offers_none(page:
 
     assert "<td>requirements based</td><td>3 passed results</td>" in text
     assert "<td>interface</td><td>2 passed results</td>" in text
+
+
+@pytest.mark.verifies("SWR-TRC-064", technique="error_guessing", polarity="violation")
+def test_a_technique_whose_test_failed_says_how_many_and_is_not_passed(sample: Sample, page: Callable[[], str]) -> None:
+    sample.replace("build/host-release/evidence/junit/tools.xml", 'name="test_no_connection[b]" time="0.001">',
+                   'name="test_no_connection[b]" time="0.001"><failure message="no"/>')  # fmt: skip
+
+    text = page()
+
+    assert '<td>interface</td><td>1 passed result, 1 failed</td><td><span class="badge failed">failed</span></td>' in text
 
 
 @pytest.mark.verifies("SWR-TRC-065", technique="fault_injection", polarity="violation")

@@ -11,7 +11,7 @@ function drawItem(number, neighbours) {
     make("div", { class: "badges" }, drawFacts(number)),
     make("p", { class: "statement" }, items.statement[number]),
     items.rationale[number] ? make("p", { class: "quiet" }, items.rationale[number]) : null,
-    reasons.length ? make("div", { class: `against ${css(word)}` }, make("h2", {}, `Why it is ${word}`), make("ul", {}, drawSome(reasons, 8, (reason) => make("li", {}, reason)))) : null,
+    reasons.length ? make("div", { class: `against ${css(word)}` }, make("h2", {}, `Why the verdict is “${word}”`), make("ul", {}, drawSome(reasons, 8, (reason) => make("li", {}, reason)))) : null,
     make("h2", {}, "Chain from hazard to result"),
     drawChain(number),
     drawItemTests(number),
@@ -30,7 +30,7 @@ function drawTrail(number, [before, after]) {
 
 function drawFacts(number) {
   const fact = (text) => make("span", { class: "badge plain" }, text);
-  return [items.sil[number] && fact(`SIL ${items.sil[number]}`), fact(items.status[number] || "no status"),
+  return [items.sil[number] && fact(/^\d/.test(items.sil[number]) ? `SIL ${items.sil[number]}` : items.sil[number]), fact(items.status[number] || "no status"),
     fact(`verify: ${items.verify[number].join(", ") || "–"}`), fact(`polarity: ${items.polarity[number].join(", ") || "–"}`),
     items.design[number] && code(items.design[number]), code(placeOf(items, number))].filter(Boolean);
 }

@@ -58,7 +58,7 @@ function drawTests(rows) {
   const draw = ([group, word]) => {
     const fold = make("details", { class: "fold" }, make("summary", {},
       make("span", { class: "grow" }, group[0].suite, " ", quiet(group[0].kind)),
-      quiet(`${group.length.toLocaleString("en")} in ${group.reduce((sum, result) => sum + result.time, 0).toFixed(2)} s`), badge(word)));
+      quiet(group.length.toLocaleString("en"), group[0].row < 0 ? "" : ` in ${group.reduce((sum, result) => sum + result.time, 0).toFixed(2)} s`), badge(word)));
     const fill = later(() => fold.append(make("div", { class: "body" }, growing(
       make("table", { class: "rows small" }, heads(["Test", "Verifies", "Polarity", "Technique", "Result"]), make("tbody")), group, 100, drawResultRow, "test"))) || true);
     fold.addEventListener("toggle", fill);

@@ -71,11 +71,11 @@ function drawFacet(facet, all, chosen, counts) {
   if (values.length < 2 && !chosen.size) return null;
   if (values.length > FEW || facet.select) {
     return make("label", { class: "pick" }, facet.label, make("select", { name: facet.name }, make("option", { value: "" }, `any (${values.length})`),
-      values.map((value) => make("option", { value, selected: chosen.has(value) }, `${value} (${counts.get(value) || 0})`))));
+      values.map((value) => make("option", { value, selected: chosen.has(value) }, `${value} (${(counts.get(value) || 0).toLocaleString("en")})`))));
   }
   return make("fieldset", {}, make("legend", {}, facet.label), values.map((value) =>
     make("label", { class: `chip${counts.get(value) ? "" : " none"}`, title: facet.title && facet.title(value) },
-      make("input", { type: "checkbox", name: facet.name, value, checked: chosen.has(value) }), make("span", {}, value, make("b", {}, counts.get(value) || 0)))));
+      make("input", { type: "checkbox", name: facet.name, value, checked: chosen.has(value) }), make("span", {}, value, make("b", {}, (counts.get(value) || 0).toLocaleString("en"))))));
 }
 
 // A view of filtered rows: keeps the text field under the hands of the user while everything else is drawn anew.

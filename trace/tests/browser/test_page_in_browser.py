@@ -10,6 +10,22 @@ import pytest
 VIEWS = ("#overview", "#matrix", "#findings", "#tests", "#campaign", "#timing", "#code", "#techniques", "#glossary", "#item/SWR-SUP-001",
          "#item/SYS-003", "#case-1-encoder_freeze-1")  # fmt: skip
 ROWS = "[...document.querySelectorAll('#matrix .rows tbody a.id')].filter(a => a.closest('td').className === 'title').map(a => a.textContent)"
+# Texts whose contrast to what lies behind them is below 4.5, which is what WCAG 2 demands of plain letters.
+FAINT = """(() => {
+    const canvas = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
+    const read = (colour) => { canvas.clearRect(0, 0, 1, 1); canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1); return [...canvas.getImageData(0, 0, 1, 1).data].map(v => v / 255); };
+    const mix = (under, [r, g, b, alpha]) => [r, g, b].map((v, i) => v * alpha + under[i] * (1 - alpha));
+    const light = (rgb) => { const [r, g, b] = rgb.map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+    const listUp = (element) => element ? [...listUp(element.parentElement), element] : [];
+    return [...document.querySelectorAll('body *')].filter(e => !e.closest('svg') && e.checkVisibility() && [...e.childNodes].some(n => n.nodeType === 3 && n.data.trim())).filter(e => {
+        const line = listUp(e);
+        const ground = line.reduce((under, each) => mix(under, read(getComputedStyle(each).backgroundColor)), [1, 1, 1]);
+        const opacity = line.reduce((product, each) => product * getComputedStyle(each).opacity, 1);
+        const [r, g, b, alpha] = read(getComputedStyle(e).color);
+        const [dark, bright] = [light(ground), light(mix(ground, [r, g, b, alpha * opacity]))].sort((x, y) => x - y);
+        return (bright + 0.05) / (dark + 0.05) < 4.5;
+    }).map(e => e.outerHTML.slice(0, 100));
+})()"""
 SHOWN = "[...document.querySelectorAll('section.view')].filter(s => getComputedStyle(s).display !== 'none').map(s => s.id)"
 
 
@@ -178,6 +194,62 @@ def test_colours_follow_the_system_until_the_button_chooses(page: Any, small_fil
     for expected in (light, dark, dark):  # light, dark, as the system
         page.ask("document.getElementById('theme').click()")
         assert page.ask(colour) == expected
+
+
+@pytest.mark.parametrize("width", [1280, 1001, 768, 400])
+@pytest.mark.verifies("SWR-TRC-068", technique="boundary_values", polarity="nominal")
+def test_a_tile_holds_ten_thousand_of_ten_thousand_in_one_line(page: Any, small_file: Path, width: int) -> None:
+    page.open(small_file, width=width)
+    line_px = "Math.max(...[...document.querySelectorAll('.tile b')].map(b => b.offsetHeight))"
+    before = page.ask(line_px)
+
+    page.ask("document.querySelectorAll('.tile b').forEach(b => { b.innerHTML = '10,000<small> / 10,000</small>' })")
+
+    assert page.ask(line_px) == before
+    assert page.ask("[...document.querySelectorAll('.tile b')].filter(b => b.scrollWidth > b.clientWidth).length") == 0
+
+
+@pytest.mark.parametrize("width", [1280, 768, 400])
+@pytest.mark.verifies("SWR-TRC-068", technique="boundary_values", polarity="nominal")
+def test_letters_of_the_v_are_large_enough_to_be_read_and_stay_in_their_boxes(page: Any, large_file: Path, width: int) -> None:
+    page.open(large_file, width=width)
+
+    boxes = page.ask("""[...document.querySelectorAll('svg.v')].filter(svg => svg.checkVisibility()).flatMap(svg => [...svg.querySelectorAll('a')].map(a => {
+        const [box, name, count, detail] = ['.box', '.name', '.count', '.detail'].map(part => a.querySelector(part).getBoundingClientRect());
+        const scale = svg.getScreenCTM().a;
+        return [Math.max(name.right, count.right, detail.right) < box.right, name.bottom <= count.top + 3 && count.bottom < detail.top, detail.bottom < box.bottom, parseFloat(getComputedStyle(a.querySelector('.detail')).fontSize) * scale];
+    }))""")
+
+    assert len(boxes) == 7
+    assert [box for box in boxes if box[:3] != [True, True, True] or box[3] < 10.5] == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("fragment", [*VIEWS, "#tests?status=failed"])
+@pytest.mark.verifies("SWR-TRC-068", technique="boundary_values", polarity="nominal")
+def test_letters_stand_out_from_their_ground(page: Any, small_file: Path, fragment: str, scheme: str) -> None:
+    page.open(small_file, fragment, scheme=scheme)
+    if fragment == "#overview":
+        page.press("/")
+        page.type("supervision")
+
+    assert page.ask(FAINT) == []
+
+
+@pytest.mark.verifies("SWR-TRC-068", technique="requirements_based", polarity="nominal")
+def test_verdicts_in_the_chain_are_told_by_signs_and_not_by_colour_alone(page: Any, small_file: Path) -> None:
+    page.open(small_file, "#item/SYS-003")
+
+    signs = page.ask("[...document.querySelectorAll('#items .chain .id')].map(e => [e.textContent, getComputedStyle(e, '::after').content])")
+
+    assert {name: sign[2] for name, sign in signs} == {"STK-001": "✕", "SYS-003": "✕", "SWR-TLS-001": "✕"}
+
+
+@pytest.mark.verifies("SWR-TRC-068", technique="boundary_values", polarity="nominal")
+def test_tables_of_the_campaign_need_no_scrolling_on_a_desk(page: Any, small_file: Path) -> None:
+    page.open(small_file, "#campaign")
+
+    assert page.ask("[...document.querySelectorAll('#campaign .scroll')].filter(e => e.checkVisibility() && e.scrollWidth > e.clientWidth).length") == 0
 
 
 @pytest.mark.verifies("SWR-TRC-066", technique="boundary_values", polarity="nominal")
