@@ -18,3 +18,8 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     for test in project.tests_without_result:
         message = f"test {test.title} ({test.requirement}) has no result in {shown}"
         yield test.place, message, test.requirement
+    for test in project.tests:
+        if not test.name and test.requirement in project.items and test.requirement not in project.results_of:
+            what = f"no test is known at this tag of {test.requirement}, and no result in {shown} names it"
+            message = f"{what}; put the tag right above its test, or name the id in a property of the result"
+            yield test.place, message, test.requirement

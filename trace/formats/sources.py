@@ -17,6 +17,7 @@ import tree_sitter
 import tree_sitter_cpp
 
 from mamori.trace.formats.files import read_whole
+from mamori.trace.formats.test_heads import Head, list_heads
 from mamori.trace.model.code import CodeBase
 from mamori.trace.model.evidence import CodeTag, SourceTest
 from mamori.trace.model.finding import Place, Problem
@@ -28,9 +29,7 @@ _CPP = (".c", ".h", ".hpp", ".hh", ".hxx", ".cpp", ".cc", ".cxx", ".ipp")
 _PYTHON = (".py",)
 _OTHERS = (".rs", ".java", ".kt", ".go", ".js", ".ts", ".cs", ".swift", ".sh", ".cmake", "CMakeLists.txt", ".lua", ".sql")
 _LEADER = re.compile(r"^\s*(?://|/\*|\*|#|--|;|%)|//|/\*")
-_CPP_TEST = re.compile(r"^[ \t]*(?:TYPED_)?TEST(?:_F|_P)?\s*\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
 _CPP_CALL = re.compile(r"""\b(?:verifies\(\s*|RecordProperty\(\s*"(?:requirement|\w*[Vv]erifies)"\s*,\s*)"([^"]+)"([^;]*);""")
-_PYTHON_TEST = re.compile(r"^(?P<indent>[ \t]*)(?:async[ \t]+)?def[ \t]+(?P<name>test\w*)|^class[ \t]+(?P<group>\w+)", re.MULTILINE)
 _PYTHON_MARK = re.compile(r"""^[ \t]*@pytest\.mark\.verifies\(\s*["']([^"']+)["']""", re.MULTILINE)
 _POLARITY = re.compile(r"k?(Violation|violation)\b")
 
@@ -102,7 +101,7 @@ def _name_python_lines(text: str) -> dict[int, str]:
 
 def _read_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest]:
     """A tag belongs to the test whose head stands below its comment, or around it. Without a test it keeps an empty name."""
-    heads = _list_python_heads(text, shown) if shown.endswith(_PYTHON) else _list_cpp_heads(text)
+    heads = list_heads(text, shown)
     named = [(number, word.requirement, "nominal") for number, word in words]
     pattern = _PYTHON_MARK if shown.endswith(_PYTHON) else _CPP_CALL
     for match in pattern.finditer(text):
@@ -118,23 +117,7 @@ def _read_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest
     return tests
 
 
-def _list_cpp_heads(text: str) -> list[tuple[int, str, str]]:
-    return [(text.count("\n", 0, match.start(1)) + 1, match[1], match[2]) for match in _CPP_TEST.finditer(text)]
-
-
-def _list_python_heads(text: str, shown: str) -> list[tuple[int, str, str]]:
-    module = shown.rpartition("/")[2].removesuffix(".py")
-    heads, group = [], ""
-    for match in _PYTHON_TEST.finditer(text):
-        if match["group"]:
-            group = match["group"]
-        else:
-            suite = f"{module}.{group}" if group and match["indent"] else module
-            heads.append((text.count("\n", 0, match.start("name")) + 1, suite, match["name"]))
-    return heads
-
-
-def _find_head(line: int, lines: list[str], heads: list[tuple[int, str, str]], starts: list[int]) -> tuple[str, str] | None:
+def _find_head(line: int, lines: list[str], heads: list[Head], starts: list[int]) -> tuple[str, str] | None:
     above = bisect_left(starts, line)
     if above < len(heads) and all(_is_lead(each) for each in lines[line - 1 : starts[above] - 1]):
         return heads[above][1:]

@@ -245,9 +245,9 @@ def list_result_keys(result: TestResult) -> list[tuple[str, str, str]]:
     """Keys under which a source test may look for this result.
 
     GoogleTest adds instance names and numbers (`Instance/Suite/0`, `Name/3`), pytest adds packages (`a.b.test_c.TestD`)
-    and parameters (`name[value]`).
+    and parameters (`name[value]`), JUnit 5 a list of types (`name(int)[1]`).
     """
-    name = result.name.partition("[")[0].partition("/")[0]
+    name = result.name.partition("[")[0].partition("/")[0].partition("(")[0]
     dotted = result.suite.split(".")
     suites = result.suite.split("/") if "/" in result.suite else [dotted[-1], ".".join(dotted[-2:])]
     return [(suite, name, result.requirement) for suite in suites]
