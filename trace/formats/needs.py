@@ -65,6 +65,7 @@ def _read_content(content: Any, text: str, shown: str, root: Path, project: Fore
     begin = lines.find_key("needs", max(start, 0), opens="{")
     found: dict[str, str] = {}
     dense = text.count("\n") < len(needs.pairs)
+    links = _LINK_FIELDS | _list_link_fields(version)
     offsets = _find_offsets([key for key, _ in needs.pairs], lines, begin + len('"needs"'))
     for index, (key, value) in enumerate(needs.pairs):
         place = Place(shown, lines.get_line(offsets[index]))
@@ -72,7 +73,7 @@ def _read_content(content: Any, text: str, shown: str, root: Path, project: Fore
             problems.append(Problem(UNREADABLE, place, f"need '{key}' is no table"))
             continue
         end = offsets[index + 1] if index + 1 < len(offsets) else None
-        item = _make_item(key, value, place, lines, offsets[index], end)
+        item = _make_item(key, value, place, lines, (offsets[index], end), links)
         source = _place_in_source(value, shown, root, found) if dense else None
         project.items.append(_move(item, source) if source else item)
 
@@ -88,16 +89,24 @@ def _find_offsets(keys: list[str], lines: Lines, cursor: int) -> list[int]:
     return offsets
 
 
-def _make_item(key: str, need: dict[str, Any], place: Place, lines: Lines, start: int, end: int | None) -> ForeignItem:
+def _list_link_fields(version: dict[str, Any]) -> set[str]:
+    """The link types of the project, as the version describes its own fields. Where default values were left out, nothing else tells them."""
+    schema = version.get("needs_schema")
+    fields = schema.get("properties") if isinstance(schema, dict) else None
+    rows = fields.items() if isinstance(fields, dict) else ()
+    return {name for name, row in rows if isinstance(row, dict) and row.get("field_type") == "links"}
+
+
+def _make_item(key: str, need: dict[str, Any], place: Place, lines: Lines, span: tuple[int, int | None], links: set[str]) -> ForeignItem:
     item = ForeignItem(str(need.get("id", key)), str(need.get("title", "")), place, kind=str(need.get("type", "")))
     item.document = str(need.get("docname", ""))
     own = "content" if "content" in need else "description"
     item.statement = str(need[own]) if own in need else None
     item.rationale = str(need.get("rationale") or "")
     for name, value in need.items():
-        offset = lines.find_key(name, start, end)
+        offset = lines.find_key(name, *span)
         item.lines[name] = lines.get_line(offset) if offset >= 0 else place.line
-        if name in _LINK_FIELDS or (isinstance(value, list) and f"{name}_back" in need and name not in _DERIVED):
+        if name in links or (isinstance(value, list) and f"{name}_back" in need and name not in _DERIVED):
             targets = value if isinstance(value, list) else [value] if value else []
             item.relations += [Relation(name, str(target), item.lines[name]) for target in targets]
         elif name not in _DERIVED and not name.endswith("_back") and value not in (None, "", [], {}):

@@ -19,13 +19,15 @@ TITLE = "OpenFastTrace"
 SUFFIXES = (".md", ".markdown")
 
 _ID = r"[A-Za-z]+~[A-Za-z][\w.\-]*~\d+"
-_ITEM = re.compile(rf"\s*(?:<a id=\"[^\"]*\">\s*</a>\s*)?`?({_ID})`?\s*")
+_ITEM = re.compile(rf"\s*(?:<a id=\"[^\"]*\">\s*</a>\s*)?`?({_ID})`?\s*|`?({_ID})`?(?![\w~.\-]).*")
+"""OpenFastTrace takes a line that begins with an id for an item, whatever follows."""
 _BROKEN = re.compile(r"\s*`([A-Za-z]+~[^`]*)`\s*")
 _HEADING = re.compile(r" {0,3}#+\s+(.*?)\s*#*")
 _SECTION = re.compile(r"(Covers|Depends|Rationale|Comment|Description):\s*(.*)")
 _WORDS = re.compile(r"(Status|Needs|Tags):\s*(.*)")
 _ENTRY = re.compile(r"\s*[*+-]\s+(.*?)\s*")
 _LINKED = re.compile(rf"`?({_ID})`?|\[[^\]]*\]\(#({_ID})\)")
+_WORD = re.compile(r"[A-Za-z]+")
 _FORWARD = re.compile(rf"\s*\w+\s*-->\s*\w+(?:\s*,\s*\w+)*\s*:\s*({_ID})\s*")
 
 
@@ -71,8 +73,9 @@ class _File:
             self._heading = heading[1]
         elif start:
             self._close()
-            kind = start[1].partition("~")[0]
-            self._item = ForeignItem(start[1], self._heading, Place(self._shown, number), "", number, kind=kind, needs=())
+            named = start[1] or start[2]
+            kind = named.partition("~")[0]
+            self._item = ForeignItem(named, self._heading, Place(self._shown, number), "", number, kind=kind, needs=())
             self._section = "Description"
         elif _FORWARD.fullmatch(line):
             self._project.losses.append(Loss(Place(self._shown, number), f"forwarding: {line.strip()}"))
@@ -89,11 +92,13 @@ class _File:
             if words[1] == "Needs":
                 item.needs = tuple(filter(None, (word.strip() for word in words[2].split(","))))
             item.attributes[words[1]] = words[2].strip()
-            self._section = "Description" if words[1] == "Status" else ""
+            self._section = "Description" if words[1] == "Status" else "" if words[2].strip() else words[1]
         elif section:
             self._section = section[1]
             item.lines[section[1]] = number
             self._texts.setdefault(section[1], []).append(section[2])
+        elif self._section in ("Needs", "Tags") and entry:
+            self._take_listed(item, entry[1])
         elif self._section in ("Covers", "Depends") and entry:
             linked = _LINKED.search(entry[1])
             item.relations.append(Relation(self._section, (linked[1] or linked[2]) if linked else entry[1], number))
@@ -103,6 +108,13 @@ class _File:
             self._texts.setdefault(self._section, []).append(line.strip())
         elif line.strip():
             self._project.losses.append(Loss(Place(self._shown, number), f"text after the keywords of {item.id}"))
+
+    def _take_listed(self, item: ForeignItem, entry: str) -> None:
+        """One word of `Needs` or `Tags` where each has a line of its own."""
+        words = _WORD.findall(entry) if self._section == "Needs" else [entry]
+        if words:
+            item.needs = (*(item.needs or ()), words[-1]) if self._section == "Needs" else item.needs
+            item.attributes[self._section] = ", ".join(filter(None, (item.attributes[self._section], words[-1])))
 
     def _close(self) -> None:
         item, texts = self._item, {name: "\n".join(lines).strip() for name, lines in self._texts.items()}

@@ -23,7 +23,7 @@ SUFFIXES = (".trlc",)
 
 _TOKEN = re.compile(
     r"""(?P<space>\s+|//[^\n]*|/\*.*?\*/)|(?P<text>\'\'\'.*?\'\'\'|\"\"\".*?\"\"\"|"(?:\\.|[^"\\\n])*")|(?P<number>-?\d[\d_.]*)"""
-    r"""|(?P<name>[A-Za-z]\w*(?:\.[A-Za-z]\w*)?)|(?P<mark>[{}=\[\](),@;:])""",
+    r"""|(?P<name>[A-Za-z]\w*(?:\.[A-Za-z]\w*){0,2})|(?P<mark>[{}=\[\](),@;:])""",
     re.DOTALL,
 )
 _ENUM = re.compile(r"^\s*enum\s+(\w+)", re.MULTILINE)
@@ -72,11 +72,11 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 def _finish(record: _Record, enums: set[str]) -> ForeignItem:
-    """A name is a word of an enumeration, or else a reference; without a package it is one of the record's own."""
+    """A name is a word of an enumeration, perhaps behind its package, or else a reference; without a package it is one of the record's own."""
     item = record.item
     for attribute, name, line in record.names:
-        head, dot, word = name.partition(".")
-        if dot and head in enums:
+        head, dot, word = name.rpartition(".")
+        if dot and head.rpartition(".")[2] in enums:
             item.attributes[attribute] = f"{item.attributes[attribute]}, {word}" if attribute in item.attributes else word
         else:
             item.relations.append(Relation(attribute, name if dot else f"{record.package}.{name}", line))

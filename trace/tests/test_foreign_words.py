@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: every spelling that another tool accepts for a demand, an item or a link is read as that tool reads it.
+# Method: small files as those tools write them, given to the command.
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+
+def check(trace: Callable, name: str, folder: Path, file: str, text: str):
+    (folder / file).write_text(text, encoding="utf-8")
+    return trace("check", "--format", name, folder, "--output", "json", "--allow-missing")
+
+
+def list_rows(outcome, rule: str) -> list[tuple[str, int]]:
+    return [(row["item"], row["line"]) for row in outcome.content["findings"] if row["rule"] == rule]
+
+
+@pytest.mark.parametrize("needs", ["Needs: impl, utest", "Needs:\n* impl\n* utest", "Needs:\n\n  - impl\n  + utest\n\nTags:\n* one"])
+@pytest.mark.verifies("SWR-TRC-046", technique="equivalence_classes", polarity="violation")
+def test_what_an_openfasttrace_item_needs_may_stand_in_a_list(needs: str, trace: Callable, tmp_path: Path) -> None:
+    outcome = check(trace, "oft", tmp_path, "a.md", f"# Stop\n`req~stop~1`\n\nThe arm shall stop.\n\n{needs}\n")
+
+    assert outcome.rules == {"code-missing", "test-missing"}
+    assert outcome.get_verdict("req~stop~1") != "verified"
+
+
+@pytest.mark.parametrize("head", ["`req~stop~1`", "req~stop~1", "`req~stop~1` stops the arm", "req~stop~1: stop"])
+@pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="nominal")
+def test_an_openfasttrace_item_begins_where_a_line_begins_with_its_id(head: str, trace: Callable, tmp_path: Path) -> None:
+    outcome = check(trace, "oft", tmp_path, "a.md", f"# Stop\n{head}\n\nThe arm shall stop.\n\nCovers:\n* [feat~safe~1](#safe)\n")
+
+    assert [row["id"] for row in outcome.content["items"]] == ["req~stop~1"]
+    assert list_rows(outcome, "unknown-id") == [("feat~safe~1", 7)]
+
+
+@pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="violation")
+def test_link_types_of_sphinx_needs_are_those_that_its_schema_names(trace: Callable, tmp_path: Path) -> None:
+    """Without default values a need has no empty list of links that lead back to it, which would tell the type."""
+    fields = {"shows": {"field_type": "links"}, "shows_back": {"field_type": "backlinks"}, "tags": {"field_type": "core"}}
+    needs = {"R_1": {"id": "R_1", "type": "req", "content": "It shall stop.", "tags": ["a"], "shows": ["R_9"]}}
+    version = {"needs_defaults_removed": True, "needs_schema": {"properties": fields}, "needs": needs}
+
+    outcome = check(trace, "needs", tmp_path, "needs.json", json.dumps({"current_version": "1", "versions": {"1": version}}, indent=1))
+
+    assert [item for item, _ in list_rows(outcome, "unknown-id")] == ["R_9"]
+
+
+@pytest.mark.parametrize("schema", [None, 3, {"properties": []}, {"properties": {"shows": 3}}])
+@pytest.mark.verifies("SWR-TRC-048", technique="error_guessing", polarity="violation")
+def test_a_schema_of_sphinx_needs_that_is_none_names_no_link_type(schema: object, trace: Callable, tmp_path: Path) -> None:
+    needs = {"R_1": {"id": "R_1", "type": "req", "content": "It shall stop.", "links": ["R_9"]}}
+
+    outcome = check(trace, "needs", tmp_path, "needs.json", json.dumps({"versions": {"1": {"needs_schema": schema, "needs": needs}}}))
+
+    assert (outcome.status, [item for item, _ in list_rows(outcome, "unknown-id")]) == (1, ["R_9"])
+
+
+@pytest.mark.parametrize("word", ["Sil.QM", "Arm.Sil.QM"])
+@pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="nominal")
+def test_a_trlc_enumeration_may_stand_behind_its_package(word: str, trace: Callable, tmp_path: Path) -> None:
+    (tmp_path / "a.rsl").write_text("package Arm\nenum Sil { QM }\n", encoding="utf-8")
+
+    outcome = check(trace, "trlc", tmp_path, "a.trlc", f'package Arm\nReq stop {{ description = "It shall stop." sil = {word} }}\n')
+
+    (item,) = outcome.content["items"]
+    assert (item["sil"], list_rows(outcome, "unknown-id")) == ("QM", [])
