@@ -122,6 +122,7 @@ def _read_item(text: str, uid: str, prefix: str, shown: str, markdown: bool, pro
         item.document += " (derived)"
     item.rationale = item.attributes.pop("rationale", "")
     _take_links(item, members.get("links"), shown, offset)
+    _take_files(item, members.get("references"), offset)
     for name in ("references", "ref", "reviewed"):
         if name in members and _get_text(members[name]):
             project.losses.append(Loss(Place(shown, item.lines[name]), f"{uid}: {name}"))
@@ -148,3 +149,11 @@ def _take_links(item: ForeignItem, links: yaml.Node | None, shown: str, offset: 
         target = next(iter(_get_members(each)), "") if isinstance(each, yaml.MappingNode) else _get_text(each)
         if target:
             item.relations.append(Relation("links", target, each.start_mark.line + 1 + offset))
+
+
+def _take_files(item: ForeignItem, references: yaml.Node | None, offset: int) -> None:
+    """`- path: src/a.c`, with the line of the path."""
+    for each in references.value if isinstance(references, yaml.SequenceNode) else ():
+        path = _get_members(each).get("path")
+        if path is not None and _get_text(path):
+            item.files.append(Relation("references", _get_text(path), path.start_mark.line + 1 + offset))

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from mamori.trace.formats.file_links import add_file_links
 from mamori.trace.formats.items import Converted, convert
 from mamori.trace.formats.mapping import read_mapping
 from mamori.trace.formats.registry import read_format
@@ -70,6 +71,7 @@ def read_in_place(given: ForeignInput, rules: Sequence[str]) -> Project:
     project.code_schema = read_code_schema(root)
     base = CodeBase()
     tags, tests = read_sources(given.sources or folder, root, problems, base if project.code_schema.traced or given.evidence else None)
+    add_file_links(foreign.items, [root, folder, given.sources or folder], tags, tests, problems)
     base.scopes = [scope._replace(requirements=_resolve_all(scope.requirements, converted)) for scope in base.scopes]
     project.functions = base.bind()
     code = [CodeTag(target, item.place, item.id) for item in converted.code_items for target in converted.stands_for[item.id]]

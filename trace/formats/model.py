@@ -27,7 +27,7 @@ class ForeignItem:
     """One requirement as its own tool keeps it.
 
     `statement` is None where the format gives no place for one. `kind` and `document` group items into levels; `attributes` are all
-    others, under their own names. `needs` are the kinds of coverage that the item itself asks for, None where it cannot say.
+    others, under their own names. `files` are links to files of code and tests. `needs` are the kinds of coverage that the item itself asks for, None where it cannot say.
     """
 
     id: str
@@ -42,6 +42,7 @@ class ForeignItem:
     lines: dict[str, int] = field(default_factory=dict)
     relations: list[Relation] = field(default_factory=list)
     needs: tuple[str, ...] | None = None
+    files: list[Relation] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)

@@ -146,6 +146,7 @@ class _Document:
         for each in relations:
             kind, (target, line) = each.get("TYPE", ("", 0))[0], each.get("VALUE", ("", place.line))
             if kind == "File":
+                item.files += [Relation(kind, target, line)] if target else []
                 self._project.losses.append(Loss(Place(place.file, line), f"{item.id}: relation to the file {target}"))
             else:
                 item.relations.append(Relation(kind, target, line, each.get("ROLE", ("", 0))[0]))

@@ -28,6 +28,7 @@ from mamori.trace.readers.tag_text import ANY_ID, VERIFIES, TagWord, find_words,
 _CPP = (".c", ".h", ".hpp", ".hh", ".hxx", ".cpp", ".cc", ".cxx", ".ipp")
 _PYTHON = (".py",)
 _OTHERS = (".rs", ".java", ".kt", ".go", ".js", ".ts", ".cs", ".swift", ".sh", ".cmake", "CMakeLists.txt", ".lua", ".sql")
+SUFFIXES = (*_CPP, *_PYTHON, *_OTHERS)
 _LEADER = re.compile(r"^\s*(?://|/\*|\*|#|--|;|%)|//|/\*")
 _CPP_CALL = re.compile(r"""\b(?:verifies\(\s*|RecordProperty\(\s*"(?:requirement|\w*[Vv]erifies)"\s*,\s*)"([^"]+)"([^;]*);""")
 _PYTHON_MARK = re.compile(r"""^[ \t]*@pytest\.mark\.verifies\(\s*["']([^"']+)["']""", re.MULTILINE)
@@ -44,7 +45,7 @@ def read_sources(
     parser = tree_sitter.Parser(tree_sitter.Language(tree_sitter_cpp.language()))
     tags: list[CodeTag] = []
     tests: list[SourceTest] = []
-    for path, relative in walk_sources(folder, (*_CPP, *_PYTHON, *_OTHERS), problems):
+    for path, relative in walk_sources(folder, SUFFIXES, problems):
         shown = get_shown_path(path, root)
         text = read_whole(path, shown, problems)
         in_test = is_test_file(relative)

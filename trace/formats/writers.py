@@ -45,17 +45,20 @@ def format_needs(project: ForeignProject) -> str:
 
 
 def format_oft(project: ForeignProject) -> str:
-    """Specification items of revision 1. What OpenFastTrace has no keyword for becomes a comment."""
+    """Specification items of revision 1. Its own keywords stay what they were; what it has none for becomes a comment."""
     names = {item.id: _make_oft_id(item) for item in project.items}
     blocks = [f"# {_PROJECT}\n"]
     for item in project.items:
         parts = [f"## {item.title or item.id}", f"`{names[item.id]}`", item.statement or ""]
         parts += [f"Rationale:\n\n{item.rationale}"] if item.rationale else []
-        parts += ["Comment:\n\n" + ", ".join(f"{name}: {value}" for name, value in item.attributes.items() if value)]
+        others = [f"{name}: {value}" for name, value in item.attributes.items() if value and name not in ("Needs", "Tags")]
+        parts += ["Comment:\n\n" + ", ".join(others)] if others else []
         covers = "\n".join(f"- `{names.get(each.target, each.target)}`" for each in item.relations)
         parts += [f"Covers:\n\n{covers}"] if covers else []
         kind = names[item.id].partition("~")[0]
-        parts += [f"Needs: {dict(feat='req', req='dsn').get(kind, 'impl, utest')}"]
+        parts += [f"Tags: {item.attributes['Tags']}"] if item.attributes.get("Tags") else []
+        needs = item.attributes.get("Needs") if "Needs" in item.attributes else dict(feat="req", req="dsn").get(kind, "impl, utest")
+        parts += [f"Needs: {needs}"] if needs else []
         blocks.append("\n\n".join(parts) + "\n")
     return "\n".join(blocks)
 

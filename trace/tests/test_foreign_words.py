@@ -68,3 +68,15 @@ def test_a_trlc_enumeration_may_stand_behind_its_package(word: str, trace: Calla
 
     (item,) = outcome.content["items"]
     assert (item["sil"], list_rows(outcome, "unknown-id")) == ("QM", [])
+
+
+@pytest.mark.verifies("SWR-TRC-050", technique="interface", polarity="violation")
+def test_an_openfasttrace_item_comes_back_with_its_own_needs_and_tags(trace: Callable, tmp_path: Path) -> None:
+    (tmp_path / "a.md").write_text("# Stop\n`req~stop~1`\n\nThe arm shall stop.\n\nTags: one, two\n\nNeeds: impl, utest\n", encoding="utf-8")
+    steps = [("reqif", "oft", "a.md", "b.reqif"), ("oft", "reqif", "b.reqif", "b.md")]
+    sent = [trace("export", to, "--format", name, tmp_path / source, "--out", tmp_path / out).status for to, name, source, out in steps]
+
+    outcome = trace("check", "--format", "oft", tmp_path / "b.md", "--output", "json", "--allow-missing")
+
+    assert (sent, outcome.rules) == ([0, 0], {"code-missing", "test-missing"})
+    assert "\nTags: one, two\n\nNeeds: impl, utest\n" in (tmp_path / "b.md").read_text(encoding="utf-8")
