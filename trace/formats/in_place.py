@@ -22,10 +22,10 @@ from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.project import Project, attach_sources, list_result_keys
 from mamori.trace.model.rule_pack import Grades
 from mamori.trace.readers.code_schema import read_code_schema
-from mamori.trace.readers.files import InputError, get_shown_path, list_paths, note_unreadable
+from mamori.trace.readers.files import InputError, get_shown_path, list_paths
 from mamori.trace.readers.git import read_head
 from mamori.trace.readers.ids import read_ids
-from mamori.trace.readers.junit import parse_junit
+from mamori.trace.readers.junit import read_junit_file
 from mamori.trace.readers.lock import read_lock
 from mamori.trace.readers.project import read_evidence, read_judgement
 
@@ -114,13 +114,7 @@ def _read_evidence(given: ForeignInput, project: Project) -> Evidence:
         if not files and not project.problems:
             raise InputError(f"{path}: holds no result file (*.xml); run the tests first")
         for file in files:
-            shown = get_shown_path(file, project.root)
-            try:
-                data = file.read_bytes()
-            except OSError as error:
-                note_unreadable(error, shown, project.problems)
-                continue
-            evidence.results += parse_junit(data, shown, UNIT, project.root, project.problems)
+            evidence.results += read_junit_file(file, get_shown_path(file, project.root), UNIT, project.root, project.problems)
     return evidence
 
 

@@ -27,7 +27,8 @@ class ForeignItem:
     """One requirement as its own tool keeps it.
 
     `statement` is None where the format gives no place for one. `kind` and `document` group items into levels; `attributes` are all
-    others, under their own names. `files` are links to files of code and tests. `needs` are the kinds of coverage that the item itself asks for, None where it cannot say.
+    others, under their own names. `files` are links to files of code and tests. `needs` are the kinds of coverage that the item itself
+    asks for, None where it cannot say.
     """
 
     id: str

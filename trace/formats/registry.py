@@ -49,6 +49,8 @@ def _guess_others(name: str, path: Path) -> list[str]:
     """Formats other than `name` that files below `path` look like, the most frequent first."""
     counts: dict[str, int] = {}
     for file in islice(list_files(path, ("",), path, []), _PEEK_FILES):
+        if not file.is_file():  # a pipe would never end
+            continue
         try:
             with file.open("rb") as stream:
                 text = stream.read(_PEEK_BYTES).decode("utf-8-sig", errors="replace")

@@ -9,17 +9,19 @@ A document type definition is refused unread, as entities can be made to fill an
 from __future__ import annotations
 
 import xml.parsers.expat
+import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from mamori.trace.formats.files import list_files
 from mamori.trace.formats.model import ForeignItem, ForeignProject, Loss, Relation
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.files import UNREADABLE, get_shown_path, note_unreadable
+from mamori.trace.readers.files import UNREADABLE, get_shown_path
+from mamori.trace.readers.xml_file import Refused, feed_file
 
 NAME = "reqif"
 TITLE = "ReqIF"
-SUFFIXES = (".reqif",)
+SUFFIXES = (".reqif", ".reqifz")
 
 _ID = ("ReqIF.ForeignID", "UID", "ID", "Identifier")
 _NAME = ("ReqIF.Name", "TITLE", "Title", "Name", "ReqIF.ChapterName")
@@ -27,10 +29,7 @@ _TEXT = ("ReqIF.Text", "STATEMENT", "Statement", "Text", "Description")
 _RATIONALE = ("RATIONALE", "Rationale", "ReqIF.Rationale")
 _OWNERS = {"SPEC-OBJECT", "SPEC-RELATION", "SPECIFICATION", "SPEC-OBJECT-TYPE", "SPEC-RELATION-TYPE", "SPECIFICATION-TYPE", "SPEC-HIERARCHY"}
 _DEPTH_MAX = 1000
-
-
-class _Refused(Exception):
-    """The document holds what a requirements file never needs."""
+_REMEDY = "export it again"
 
 
 @dataclass(slots=True)
@@ -55,19 +54,10 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
     """All objects of all files that a relation, a specification or an id of its own makes a requirement."""
     project = ForeignProject(NAME)
     for file in list_files(path, SUFFIXES, root, problems):
-        shown = get_shown_path(file, root)
-        try:
-            collector = _Collector()
-            with file.open("rb") as stream:
-                collector.parser.ParseFile(stream)
-        except OSError as error:
-            note_unreadable(error, shown, problems)
-        except _Refused as error:
-            problems.append(Problem(UNREADABLE, Place(shown, collector.parser.CurrentLineNumber), str(error)))
-        except xml.parsers.expat.ExpatError as error:
-            reason = xml.parsers.expat.ErrorString(error.code)
-            problems.append(Problem(UNREADABLE, Place(shown, error.lineno), f"is not whole XML ({reason}); export it again"))
-        else:
+        shown, collector = get_shown_path(file, root), _Collector()
+        if file.is_file() and zipfile.is_zipfile(file):
+            problems.append(Problem(UNREADABLE, Place(shown, 1), "is a packed archive (.reqifz); unpack it, and name the .reqif that it holds"))
+        elif feed_file(collector.parser, file, shown, _REMEDY, problems):
             _join(collector, shown, project, problems)
     return project
 
@@ -96,13 +86,13 @@ class _Collector:
         self.parser.CharacterDataHandler = self._text.append
 
     def _refuse_doctype(self, *_: object) -> None:
-        raise _Refused("holds a document type definition (DTD, entities), which no ReqIF needs; refused unread")
+        raise Refused("holds a document type definition (DTD, entities), which no ReqIF needs; refused unread")
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         tag = name.rpartition(" ")[2]
         self._path.append(tag)
         if len(self._path) > _DEPTH_MAX:
-            raise _Refused("is nested more than a thousand elements deep; refused")
+            raise Refused("is nested more than a thousand elements deep; refused")
         self.is_reqif = self.is_reqif or tag == "REQ-IF"
         if tag.startswith("ATTRIBUTE-VALUE-"):
             self._value = [attributes["THE-VALUE"]] if "THE-VALUE" in attributes else []

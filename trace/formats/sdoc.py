@@ -7,6 +7,8 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 
 from mamori.trace.formats.files import read_texts
@@ -33,9 +35,21 @@ def looks_alike(name: str, text: str) -> bool:
 def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
     """Every node with a UID below `path`."""
     project = ForeignProject(NAME)
+    nameless: list[tuple[str, Place]] = []
     for shown, text in read_texts(path, SUFFIXES, root, problems):
-        _Document(shown, project, problems).take_all(text)
+        document = _Document(shown, project, problems)
+        document.take_all(text)
+        nameless += document.nameless
+    problems += _demand_uids(nameless, Counter(item.kind for item in project.items))
     return project
+
+
+def _demand_uids(nameless: list[tuple[str, Place]], named: Counter[str]) -> Iterator[Problem]:
+    """A node without a UID could be missed by all rules. Where most nodes of its kind have one, it was forgotten."""
+    counts = Counter(tag for tag, _ in nameless)
+    for tag, place in nameless:
+        if named[tag] >= counts[tag]:
+            yield Problem("malformed-item", place, f"{tag} has no UID, so no rule can judge it; give it one (strictdoc manage auto-uid)")
 
 
 class _Document:
@@ -52,6 +66,7 @@ class _Document:
         self._relations: list[dict[str, tuple[str, int]]] = []
         self._text: list[str] | None = None
         self._in_relations = False
+        self.nameless: list[tuple[str, Place]] = []
 
     def take_all(self, text: str) -> None:
         lines = text.splitlines()
@@ -129,6 +144,7 @@ class _Document:
             return
         if not values.get("UID"):
             self._project.losses.append(Loss(place, f"{tag} without UID: {values.get('TITLE', '')}"))
+            self.nameless.append((tag, place))
             return
         self._project.items.append(self._make_item(tag, place, fields, values, relations))
 

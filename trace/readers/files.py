@@ -27,7 +27,9 @@ class InputError(Exception):
 def get_shown_path(path: Path, root: Path) -> str:
     """`path` relative to the project root, or whole where it lies outside."""
     try:
-        return path.resolve().relative_to(root.resolve()).as_posix()
+        lost = path.is_symlink() and not path.exists()  # the link can be mended, not what it leads to
+        whole = path.parent.resolve() / path.name if lost else path.resolve()
+        return whole.relative_to(root.resolve()).as_posix()
     except (OSError, RuntimeError):  # a loop of links, or a name that is too long
         return os.path.relpath(path, root).replace(os.sep, "/")
     except ValueError:

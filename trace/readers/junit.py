@@ -35,10 +35,14 @@ def read_junit(folder: Path, root: Path, problems: list[Problem]) -> list[TestRe
     results: list[TestResult] = []
     for path in list_paths(folder, "*.xml", root, problems):
         kind = CAMPAIGN if path.name == "campaign.xml" else UNIT
-        collector = _Collector(get_shown_path(path, root), kind, root)
-        if feed_file(collector.parser, path, collector.shown, _REMEDY, problems):
-            results.extend(collector.results)
+        results += read_junit_file(path, get_shown_path(path, root), kind, root, problems)
     return results
+
+
+def read_junit_file(path: Path, shown: str, kind: str, root: Path, problems: list[Problem]) -> list[TestResult]:
+    """Results of one file, or none and one problem."""
+    collector = _Collector(shown, kind, root)
+    return collector.results if feed_file(collector.parser, path, shown, _REMEDY, problems) else []
 
 
 def parse_junit(data: bytes, shown: str, kind: str, root: Path, problems: list[Problem]) -> list[TestResult]:

@@ -80,3 +80,15 @@ def test_an_openfasttrace_item_comes_back_with_its_own_needs_and_tags(trace: Cal
 
     assert (sent, outcome.rules) == ([0, 0], {"code-missing", "test-missing"})
     assert "\nTags: one, two\n\nNeeds: impl, utest\n" in (tmp_path / "b.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("named", "expected"), [(1, [9]), (0, [])], ids=["most-have-one", "none-has-one"])
+@pytest.mark.verifies("SWR-TRC-046", technique="equivalence_classes", polarity="violation")
+def test_a_strictdoc_requirement_without_a_uid_is_told_where_others_have_one(
+    named: int, expected: list[int], trace: Callable, tmp_path: Path
+) -> None:
+    text = "[DOCUMENT]\nTITLE: Arm\n\n[{}]\nUID: SWR-1\nSTATEMENT: It shall stop.\n\n\n[REQUIREMENT]\nSTATEMENT: It shall stay.\n"
+
+    outcome = check(trace, "strictdoc", tmp_path, "a.sdoc", text.format("REQUIREMENT" if named else "RULE"))
+
+    assert [line for _, line in list_rows(outcome, "malformed-item")] == expected
