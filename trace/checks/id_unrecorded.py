@@ -22,4 +22,5 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
         for name in key:
             if name not in told:
                 told.add(name)
-                yield Place(project.lock.file, line), f"{name} is defined no more; record that its id is given up: `mamori trace review {name}`", name
+                cure = f"`{project.review_command} {name}`"
+                yield Place(project.lock.file, line), f"{name} is defined no more; record that its id is given up: {cure}", name

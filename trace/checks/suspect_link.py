@@ -25,11 +25,11 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     ]
     if project.lock is None:
         if links and project.review_needed:
-            message = f"is missing: none of the {len(links)} links was reviewed; record it with `mamori trace review --all`"
+            message = f"is missing: none of the {len(links)} links was reviewed; record it with `{project.review_command} --all`"
             yield Place(LOCK, 1), message, ""
         return
     for item, parent in links:
         suspicion = project.lock.describe_suspicion(item.id, parent, project.fingerprints)
         if suspicion:
-            cure = f"look again, then `mamori trace review {item.id}`"
+            cure = f"look again, then `{project.review_command} {item.id}`"
             yield item.find_place("Parents"), f"{suspicion}; {cure}", item.id

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -67,6 +68,7 @@ def read_in_place(given: ForeignInput, rules: Sequence[str]) -> Project:
     project.lock = read_lock(root, problems, folder / LOCK_NAME)
     project.former_ids = read_ids(root, problems)
     project.review_needed = project.lock is not None
+    project.review_command += f" --format {given.format} {shlex.quote(str(given.path))}"
     project.head = read_head(folder)
     project.code_schema = read_code_schema(root)
     base = CodeBase()

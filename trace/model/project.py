@@ -55,6 +55,7 @@ class Project:
     kinds: KindSchema = field(default_factory=KindSchema)
     date: str = ""
     review_needed: bool = True
+    review_command: str = "mamori trace review"
 
     @cached_property
     def items(self) -> dict[str, Item]:

@@ -98,7 +98,7 @@ def parse(text: str) -> list[Step]:
         elif _is_sign(token, ")"):
             _close(waiting, steps, token)
         else:
-            raise QueryError(token.column, f"'{token.text}' where 'and', 'or' or the end is expected")
+            raise QueryError(token.column, f"'{token.text}' where 'and', 'or' or the end is expected; a value with signs stands in quotation marks")
     if wants_operand:
         raise QueryError(end.column, "a comparison is expected, for example level=SWR")
     _pop_while(waiting, steps, 0)

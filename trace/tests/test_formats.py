@@ -329,6 +329,7 @@ def test_links_of_a_foreign_project_are_reviewed_beside_it(trace: Callable, tmp_
     after = trace("check", *chosen, "--results", tmp_path / "results")
 
     assert (before.status, changed.rules, again.status, after.status) == (0, {"suspect-link"}, 0, 0)
+    assert f"`mamori trace review --format strictdoc {tmp_path} " in changed.content["findings"][0]["message"]
     assert (tmp_path / "trace.lock").is_file()
 
 

@@ -118,3 +118,10 @@ def test_depth_and_length_have_limits() -> None:
     for text in ("(" * (MAX_DEPTH + 1) + "sil=1" + ")" * (MAX_DEPTH + 1), "not " * (MAX_DEPTH + 1) + "sil=1", "x" * (MAX_LENGTH + 1)):
         with pytest.raises(QueryError):
             parse(text)
+
+
+@pytest.mark.verifies("SWR-TRC-080", technique="error_guessing", polarity="violation")
+def test_a_sign_in_a_value_is_told_how_to_be_written(sample: Sample, trace: Callable) -> None:
+    outcome = trace("query", "id=req~stop~1", "--root", sample.root)
+
+    assert (outcome.status, outcome.err.count("\n"), "quotation marks" in outcome.err) == (2, 1, True)
