@@ -44,8 +44,9 @@ def convert(project: ForeignProject, mapping: Mapping, problems: list[Problem]) 
     """Items in file order. What an item lacks is a problem at its place."""
     all_groups = group_items(project.items, mapping)
     aside = {*mapping.lists["test_groups"], *mapping.lists["code_groups"]}
-    kept = [(item, group) for item, group in zip(project.items, all_groups, strict=True) if not {item.kind, group} & aside]
-    helpers = [(item, group) for item, group in zip(project.items, all_groups, strict=True) if {item.kind, group} & aside]
+    grouped = list(zip(project.items, all_groups, strict=True))
+    kept = [(item, group) for item, group in grouped if not item.heading and not {item.kind, group} & aside]
+    helpers = [(item, group) for item, group in grouped if not item.heading and {item.kind, group} & aside]
     items, groups = [item for item, _ in kept], [group for _, group in kept]
     revisions = {_REVISION.sub("", item.id): item.id for item in items} if project.format == "oft" else {}
     parents = _link(items, mapping, revisions, {item.id for item, _ in helpers}, project, problems)

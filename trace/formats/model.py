@@ -28,7 +28,7 @@ class ForeignItem:
 
     `statement` is None where the format gives no place for one. `kind` and `document` group items into levels; `attributes` are all
     others, under their own names. `files` are links to files of code and tests. `needs` are the kinds of coverage that the item itself
-    asks for, None where it cannot say.
+    asks for, None where it cannot say. `heading`: it only names what stands below it, so no rule judges it.
     """
 
     id: str
@@ -44,6 +44,7 @@ class ForeignItem:
     relations: list[Relation] = field(default_factory=list)
     needs: tuple[str, ...] | None = None
     files: list[Relation] = field(default_factory=list)
+    heading: bool = False
 
 
 @dataclass(frozen=True, slots=True)

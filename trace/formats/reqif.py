@@ -25,6 +25,7 @@ SUFFIXES = (".reqif", ".reqifz")
 
 _ID = ("ReqIF.ForeignID", "UID", "ID", "Identifier")
 _NAME = ("ReqIF.Name", "TITLE", "Title", "Name", "ReqIF.ChapterName")
+_CHAPTER = "ReqIF.ChapterName"
 _TEXT = ("ReqIF.Text", "STATEMENT", "Statement", "Text", "Description")
 _RATIONALE = ("RATIONALE", "Rationale", "ReqIF.Rationale")
 _OWNERS = {"SPEC-OBJECT", "SPEC-RELATION", "SPECIFICATION", "SPEC-OBJECT-TYPE", "SPEC-RELATION-TYPE", "SPECIFICATION-TYPE", "SPEC-HIERARCHY"}
@@ -167,6 +168,14 @@ def _join(collector: _Collector, shown: str, project: ForeignProject, problems: 
             _take_relation(owner, collector, shown, names, items, project, problems)
         elif owner.tag == "SPECIFICATION" and owner.values:
             project.headers[owner.name] = owner.values[0][1]
+    _find_headings(list(items.values()))
+
+
+def _find_headings(items: list[ForeignItem]) -> None:
+    """An object with the name of a chapter, without a text and without a link is a heading. A link makes it more."""
+    linked = {each.target for item in items for each in item.relations}
+    for item in items:
+        item.heading = item.heading and not (item.statement or item.relations or item.id in linked)
 
 
 def _make_item(owner: _Owner, collector: _Collector, shown: str, names: dict[str, str], documents: dict[str, str]) -> ForeignItem:
@@ -188,6 +197,7 @@ def _make_item(owner: _Owner, collector: _Collector, shown: str, names: dict[str
     item.rationale = take(_RATIONALE)[0]
     item.document = documents.get(owner.id, "")
     item.attributes = {name: value for name, (value, _) in values.items() if name not in taken}
+    item.heading = bool(values.get(_CHAPTER, ("", 0))[0])
     item.lines = {name: line for name, (_, line) in values.items()}
     return item
 

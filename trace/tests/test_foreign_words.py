@@ -92,3 +92,54 @@ def test_a_strictdoc_requirement_without_a_uid_is_told_where_others_have_one(
     outcome = check(trace, "strictdoc", tmp_path, "a.sdoc", text.format("REQUIREMENT" if named else "RULE"))
 
     assert [line for _, line in list_rows(outcome, "malformed-item")] == expected
+
+
+_REQIF = """<REQ-IF xmlns="http://www.omg.org/spec/ReqIF/20110401/reqif.xsd"><SPEC-TYPES>
+<ATTRIBUTE-DEFINITION-STRING IDENTIFIER="c" LONG-NAME="ReqIF.ChapterName"/><ATTRIBUTE-DEFINITION-STRING IDENTIFIER="t" LONG-NAME="ReqIF.Text"/>
+</SPEC-TYPES><SPEC-OBJECTS>
+{}
+</SPEC-OBJECTS><SPEC-RELATIONS>{}</SPEC-RELATIONS></REQ-IF>
+"""
+_REF = "<SPEC-OBJECT-REF>{}</SPEC-OBJECT-REF>"
+_LINK = f"<SPEC-RELATION><SOURCE>{_REF.format('R-2')}</SOURCE><TARGET>{_REF.format('R-1')}</TARGET></SPEC-RELATION>"
+
+
+def format_object(name: str, **values: str) -> str:
+    cells = "".join(
+        f'<ATTRIBUTE-VALUE-STRING THE-VALUE="{value}"><DEFINITION><ATTRIBUTE-DEFINITION-STRING-REF>{key}</ATTRIBUTE-DEFINITION-STRING-REF>'
+        "</DEFINITION></ATTRIBUTE-VALUE-STRING>"
+        for key, value in values.items()
+    )
+    return f'<SPEC-OBJECT IDENTIFIER="{name}"><VALUES>{cells}</VALUES></SPEC-OBJECT>'
+
+
+@pytest.mark.parametrize(
+    ("values", "links", "judged"),
+    [
+        ({"c": "Stops"}, "", ["R-2"]),
+        ({"c": "Stops", "t": ""}, "", ["R-2"]),
+        ({"c": "", "t": ""}, "", ["R-1", "R-2"]),
+        ({"c": "Stops", "t": "It shall stop."}, "", ["R-1", "R-2"]),
+        ({"c": "Stops"}, _LINK, ["R-1", "R-2"]),
+    ],
+    ids=["chapter", "empty-text", "no-name", "text", "linked"],
+)
+@pytest.mark.verifies("SWR-TRC-046", technique="equivalence_classes", polarity="violation")
+def test_a_chapter_of_reqif_is_no_requirement(values: dict[str, str], links: str, judged: list[str], trace: Callable, tmp_path: Path) -> None:
+    objects = [format_object("R-1", **values), format_object("R-2", c="", t="It shall stay.")]
+
+    outcome = check(trace, "reqif", tmp_path, "a.reqif", _REQIF.format("\n".join(objects), links))
+
+    assert [row["id"] for row in outcome.content["items"]] == judged
+
+
+@pytest.mark.verifies("SWR-TRC-045", technique="interface", polarity="violation")
+def test_results_that_are_named_twice_all_count(trace: Callable, tmp_path: Path) -> None:
+    (tmp_path / "a.md").write_text("# Stop\n`req~stop~1`\n\nThe arm shall stop.\n\nNeeds: utest\n", encoding="utf-8")
+    for name, inner in (("a", '<failure message="late"/>'), ("b", "")):
+        case = f'<testcase name="{name}"><properties><property name="Verifies" value="req~stop~1"/></properties>{inner}</testcase>'
+        (tmp_path / f"{name}.xml").write_text(f"<testsuite>{case}</testsuite>", encoding="utf-8")
+
+    outcome = trace("check", "--format", "oft", tmp_path, "--results", tmp_path / "a.xml", "--results", tmp_path / "b.xml", "--output", "json")
+
+    assert (outcome.status, outcome.get_verdict("req~stop~1")) == (1, "failed")
