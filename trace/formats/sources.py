@@ -27,7 +27,9 @@ from mamori.trace.readers.tag_text import ANY_ID, VERIFIES, TagWord, find_words,
 
 _CPP = (".c", ".h", ".hpp", ".hh", ".hxx", ".cpp", ".cc", ".cxx", ".ipp")
 _PYTHON = (".py",)
-_OTHERS = (".rs", ".java", ".kt", ".go", ".js", ".ts", ".cs", ".swift", ".sh", ".cmake", "CMakeLists.txt", ".lua", ".sql")
+_OTHERS = (".rs", ".java", ".kt", ".go", ".js", ".ts", ".cs", ".swift", ".sh", ".cmake", "CMakeLists.txt", ".lua", ".sql",
+           ".scala", ".groovy", ".rb", ".pl", ".pm", ".php", ".m", ".mm", ".cu", ".ino", ".inl", ".adb", ".ads", ".vhd", ".sv", ".proto",
+           ".tsx", ".jsx")  # fmt: skip
 SUFFIXES = (*_CPP, *_PYTHON, *_OTHERS)
 _LEADER = re.compile(r"^\s*(?://|/\*|\*|#|--|;|%)|//|/\*")
 _CPP_CALL = re.compile(r"""\b(?:verifies\(\s*|RecordProperty\(\s*"(?:requirement|\w*[Vv]erifies)"\s*,\s*)"([^"]+)"([^;]*);""")

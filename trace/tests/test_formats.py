@@ -277,6 +277,9 @@ def test_items_of_no_level_of_the_table_are_told(trace: Callable, tmp_path: Path
         ("// lobster-trace: SWR-1", "src/a.hpp", "stop"),
         ("// @need-ids: SWR-1", "src/a.c", "stop"),
         ("// @relation(SWR-1)", "src/a.rs", "file"),
+        ("// @relation(SWR-1)", "src/a.scala", "file"),
+        ("# @relation(SWR-1)", "src/a.rb", "file"),
+        ("-- @relation(SWR-1)", "src/a.adb", "file"),
     ],
 )
 @pytest.mark.verifies("SWR-TRC-047", technique="equivalence_classes", polarity="nominal")
