@@ -27,6 +27,7 @@ _ACTIONS = {
     "show": "show",
     "review": "review",
     "impact": "impact",
+    "init": "init",
     "new": "new",
     "query": "query",
     "bundle": "bundle",

@@ -12,10 +12,11 @@ from pathlib import Path
 from mamori.trace.actions.common import EXIT_CLEAN, add_root
 from mamori.trace.formats.mapping import read_mapping
 from mamori.trace.formats.registry import FORMATS, read_format
-from mamori.trace.formats.take_over import Takeover, take_back, take_over, write_takeover
+from mamori.trace.formats.take_over import Takeover, find_earlier, take_back, take_over, write_takeover
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.lock import ReviewLock
 from mamori.trace.readers.files import InputError
+from mamori.trace.readers.history import read_texts
 from mamori.trace.readers.lock import write_lock
 from mamori.trace.readers.project import read_requirements
 
@@ -28,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("source", choices=list(FORMATS), metavar="FORMAT", help=", ".join(FORMATS))
     parser.add_argument("path", type=Path, metavar="PATH", help="file or folder of the other tool")
     parser.add_argument("--into", type=Path, required=True, metavar="FOLDER", help="folder below requirements/; nothing in it is overwritten")
-    parser.add_argument("--area", default="IMP", metavar="WORD", help="area of new ids: SWR-WORD-001 (default: IMP)")
+    parser.add_argument("--area", default="IMP", metavar="WORD", help="area of new ids: SWR-WORD-001, or the next free number (default: IMP)")
     parser.add_argument("--schema", type=Path, metavar="FILE", help="what the words and levels of the project mean")
 
 
@@ -42,7 +43,11 @@ def run(arguments: argparse.Namespace) -> int:
     unread = [problem for problem in problems if problem.rule == "unreadable-input"]
     if unread:
         raise InputError(f"{unread[0].place}: {unread[0].message}; nothing was taken over")
-    outcome = take_over(foreign, read_mapping(arguments.source, arguments.schema), project.schema, arguments.area, problems)
+    mapping = read_mapping(arguments.source, arguments.schema)
+    outcome = take_over(foreign, mapping, project.schema, arguments.area, list(read_texts(arguments.root)), problems)
+    earlier = find_earlier(outcome, _read_maps(arguments.root))
+    if earlier:
+        raise InputError(f"{earlier}; nothing was taken over")
     taken = sorted(set(outcome.ids.values()) & set(project.items))
     if taken:
         raise InputError(f"{project.items[taken[0]].place}: {taken[0]} is there already, and ids are never reused; nothing was taken over")
@@ -57,6 +62,12 @@ def run(arguments: argparse.Namespace) -> int:
             raise
     _tell(outcome, written, problems)
     return EXIT_CLEAN
+
+
+def _read_maps(root: Path) -> dict[str, str]:
+    """The maps of earlier imports, by the path that a user knows them by."""
+    paths = (path for path in (root / "requirements").rglob(MAP_NAME) if path.is_file())
+    return {path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace") for path in paths}
 
 
 def _tell(outcome: Takeover, written: list[Path], problems: list[Problem]) -> None:

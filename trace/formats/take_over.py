@@ -11,6 +11,7 @@ import io
 import os
 import re
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from mamori.trace.formats.own import ATTRIBUTES, format_block
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.item import Item, Schema
 from mamori.trace.model.lock import Review
+from mamori.trace.model.new_item import find_highest
 from mamori.trace.readers.files import InputError
 from mamori.trace.system_error import explain
 
@@ -40,8 +42,13 @@ class Takeover:
     losses: list[Loss] = field(default_factory=list)
 
 
-def take_over(foreign: ForeignProject, mapping: Mapping, schema: Schema, area: str, problems: list[Problem]) -> Takeover:
-    """What is to be written. Raises InputError where ids cannot be given; `problems` are what the checks would say."""
+def take_over(
+    foreign: ForeignProject, mapping: Mapping, schema: Schema, area: str, used: Sequence[str], problems: list[Problem]
+) -> Takeover:
+    """What is to be written. New ids come after all that stand anywhere in the texts `used`.
+
+    Raises InputError where ids cannot be given; `problems` are what the checks would say.
+    """
     converted = convert(foreign, mapping, problems)
     judged = {item.id: item for item in reversed(converted.items)}
     outcome = Takeover(losses=list(foreign.losses))
@@ -52,7 +59,7 @@ def take_over(foreign: ForeignProject, mapping: Mapping, schema: Schema, area: s
     for item in foreign.items:
         if item.id not in judged:
             outcome.losses.append(Loss(item.place, f"{item.id}: the whole item, as {item.kind or 'its group'} is no requirement"))
-    outcome.ids = _map_ids(kept, judged, list(converted.schema.levels), schema, area)
+    outcome.ids = _map_ids(kept, judged, list(converted.schema.levels), schema, area, used)
     outcome.places = {item.id: item.place for item in kept}
     blocks: dict[str, list[str]] = {}
     for item in kept:
@@ -72,19 +79,22 @@ def _name_file(item: ForeignItem, foreign: ForeignProject) -> str:
     return (re.sub(r"\W+", "_", source.lower()).strip("_") or "items") + ".md"
 
 
-def _map_ids(kept: list[ForeignItem], judged: dict[str, Item], order: list[str], schema: Schema, area: str) -> dict[str, str]:
+def _map_ids(
+    kept: list[ForeignItem], judged: dict[str, Item], order: list[str], schema: Schema, area: str, used: Sequence[str]
+) -> dict[str, str]:
     if all(schema.find_level(item.id) for item in kept):
         return {item.id: item.id for item in kept}
-    used = [level for level in order if any(item.level == level for item in judged.values())]
-    targets = _LEVELS.get(len(used))
+    levels = [level for level in order if any(item.level == level for item in judged.values())]
+    targets = _LEVELS.get(len(levels))
     if targets is None:
-        raise InputError(f"the project has {len(used)} levels ({', '.join(used)}), and 3 can be taken over; name them with --schema")
-    counts: Counter[str] = Counter()
+        raise InputError(f"the project has {len(levels)} levels ({', '.join(levels)}), and 3 can be taken over; name them with --schema")
+    prefixes = {target: f"SWR-{area}-" if target == "SWR" else f"{target}-" for target in targets}
+    counts = Counter({target: find_highest(prefix, used) for target, prefix in prefixes.items()})
     ids = {}
     for item in kept:
-        target = targets[used.index(judged[item.id].level)]
+        target = targets[levels.index(judged[item.id].level)]
         counts[target] += 1
-        ids[item.id] = f"SWR-{area}-{counts[target]:03}" if target == "SWR" else f"{target}-{counts[target]:03}"
+        ids[item.id] = f"{prefixes[target]}{counts[target]:03}"
         if counts[target] > _NUMBER_MAX or schema.find_level(ids[item.id]) is None:
             raise InputError(f"{item.place}: {item.id} would become {ids[item.id]}, which is no id here; give another --area, or split the project")
     return ids
@@ -151,6 +161,15 @@ def format_map(outcome: Takeover) -> str:
     writer.writerow(["old", "new", "file", "line"])
     writer.writerows([old, new, outcome.places[old].file, outcome.places[old].line] for old, new in outcome.ids.items())
     return out.getvalue()
+
+
+def find_earlier(outcome: Takeover, maps: dict[str, str]) -> str:
+    """Tells of an item of the same file that is in one of `maps`, texts of earlier imports by their names. @return "" for none."""
+    for name, text in sorted(maps.items()):
+        for line, row in enumerate(csv.reader(io.StringIO(text)), start=1):
+            if len(row) == 4 and row[0] in outcome.ids and row[2] == outcome.places[row[0]].file:
+                return f"{name}:{line}: {row[0]} of {row[2]} was taken over before, as {row[1]}; leave it out, or take that map away to have it twice"
+    return ""
 
 
 def write_takeover(outcome: Takeover, folder: Path, map_name: str) -> list[Path]:

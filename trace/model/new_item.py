@@ -61,6 +61,14 @@ def find_prefix(project: Project, wish: Wish) -> tuple[Level, str]:
 
 def allocate(prefix: str, texts: Iterable[str]) -> str:
     """The id above all that occur anywhere in `texts`. Raises NewItemError when no number is left."""
+    highest = find_highest(prefix, texts)
+    if highest >= _LAST:
+        raise NewItemError(f"no number is left above {prefix}{highest}; begin another area")
+    return f"{prefix}{highest + 1:03d}"
+
+
+def find_highest(prefix: str, texts: Iterable[str]) -> int:
+    """The greatest number that stands behind `prefix` anywhere in `texts`; 0 without one."""
     highest = 0
     for text in texts:
         position = text.find(prefix)
@@ -69,9 +77,7 @@ def allocate(prefix: str, texts: Iterable[str]) -> str:
             if match:
                 highest = max(highest, int(match[1]))
             position = text.find(prefix, position + len(prefix))
-    if highest >= _LAST:
-        raise NewItemError(f"no number is left above {prefix}{highest}; begin another area")
-    return f"{prefix}{highest + 1:03d}"
+    return highest
 
 
 def format_draft(project: Project, level: Level, item_id: str, wish: Wish) -> str:

@@ -64,7 +64,7 @@ def _list_evidence(root: Path) -> list[Path]:
 def read_requirements(root: Path) -> Project:
     """Items and review lock alone, without code and evidence. Raises InputError where there is no requirements folder."""
     if not (root / "requirements").is_dir():
-        raise InputError(f"{root}: no folder 'requirements' here; run in the project's folder, or name it with --root")
+        raise InputError(f"{root}: no folder 'requirements' here; run in the project's folder, name it with --root, or begin one with `mamori trace init`")
     project = Project(root, read_schema(root))
     project.all_items = read_items(root, project.schema, project.problems)
     project.lock = read_lock(root, project.problems)

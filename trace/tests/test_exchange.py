@@ -172,7 +172,6 @@ def test_an_import_overwrites_nothing_and_leaves_nothing_behind(sample: Sample, 
     before = {path: path.read_bytes() for path in sample.root.rglob("*") if path.is_file()}
 
     outcomes = [
-        trace("import", "oft", tmp_path / "old", "--into", "requirements/system", "--root", sample.root),  # ids are taken
         trace("import", "reqif", tmp_path / "own.reqif", "--into", "requirements/again", "--root", sample.root),
         trace("import", "oft", tmp_path / "cut.md", "--into", "requirements/new", "--root", sample.root),
         trace("import", "oft", tmp_path / "old", "--into", "../elsewhere", "--root", sample.root),
@@ -182,6 +181,32 @@ def test_an_import_overwrites_nothing_and_leaves_nothing_behind(sample: Sample, 
 
     assert [(each.status, each.out, each.err.count("\n")) for each in outcomes] == [(2, "", 1)] * len(outcomes)
     assert {path: path.read_bytes() for path in sample.root.rglob("*") if path.is_file()} == before
+
+
+@pytest.mark.verifies("SWR-TRC-049", technique="equivalence_classes", polarity="nominal")
+def test_an_import_goes_on_behind_the_ids_that_were_ever_used(sample: Sample, trace: Callable, tmp_path: Path) -> None:
+    generate("oft", "", tmp_path / "old")
+    (sample.root / "requirements" / "notes.md").write_text("SYS-041 was given up.\n")
+
+    outcome = trace("import", "oft", tmp_path / "old", "--into", "requirements/taken", "--area", "SUP", "--root", sample.root)
+
+    assert outcome.status == 0, outcome.err
+    new = {row.split(",")[1] for row in (sample.root / "requirements/taken/import_map.csv").read_text().splitlines()[1:]}
+    assert {"SYS-042", "SWR-SUP-003"} <= new  # SWR-SUP-002 is an item of the sample
+    assert not {"SYS-001", "SYS-041", "SWR-SUP-001", "SWR-SUP-002"} & new
+
+
+@pytest.mark.verifies("SWR-TRC-049", technique="error_guessing", polarity="violation")
+def test_what_was_taken_over_is_not_taken_over_again(trace: Callable, tmp_path: Path) -> None:
+    generate("oft", "", tmp_path / "old")
+    empty = _make_empty(tmp_path / "new")
+    assert trace("import", "oft", tmp_path / "old", "--into", "requirements/taken", "--root", empty).status == 0
+
+    again = trace("import", "oft", tmp_path / "old", "--into", "requirements/more", "--area", "MORE", "--root", empty)
+
+    assert (again.status, again.err.count("\n")) == (2, 1)
+    assert "requirements/taken/import_map.csv:2: " in again.err and "was taken over before, as " in again.err
+    assert not (empty / "requirements" / "more").exists()
 
 
 @pytest.mark.verifies("SWR-TRC-049", technique="fault_injection", polarity="violation")
