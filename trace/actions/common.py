@@ -56,6 +56,15 @@ def read_input(arguments: argparse.Namespace) -> Project:
     return read_project(arguments.root, arguments.evidence, list_rule_ids(), arguments.allow_missing, arguments.date or "")
 
 
+def warn_of_gap(root: Path) -> None:
+    """Tells on standard error what the choice of a new id could not look at."""
+    from mamori.trace.readers.history import describe_gap  # runs git, which most actions do not
+
+    gap = describe_gap(root)
+    if gap:
+        print(f"mamori trace: {gap}; an id that only it knows could be allocated again", file=sys.stderr)
+
+
 def find_item(project: Project, name: str) -> Item:
     """The item of that id. Raises InputError, which names the nearest ids."""
     item = project.items.get(name)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from mamori.trace.actions.common import EXIT_CLEAN, add_root
+from mamori.trace.actions.common import EXIT_CLEAN, add_root, warn_of_gap
 from mamori.trace.formats.mapping import read_mapping
 from mamori.trace.formats.registry import FORMATS, read_format
 from mamori.trace.formats.take_over import Takeover, find_earlier, take_back, take_over, write_takeover
@@ -60,6 +60,8 @@ def run(arguments: argparse.Namespace) -> int:
         except InputError:
             take_back(written)
             raise
+    if any(old != new for old, new in outcome.ids.items()):
+        warn_of_gap(arguments.root)
     _tell(outcome, written, problems)
     return EXIT_CLEAN
 

@@ -4,10 +4,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
-from mamori.trace.actions.common import EXIT_CLEAN, add_root, demand_readable
+from mamori.trace.actions.common import EXIT_CLEAN, add_root, demand_readable, warn_of_gap
 from mamori.trace.readers.files import InputError
 
 HELP = "allocate an id that was never used, and print or append the draft of an item"
@@ -27,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from mamori.trace.model.new_item import NewItemError, Wish, allocate, find_prefix, format_draft
-    from mamori.trace.readers.history import describe_gap, read_texts
+    from mamori.trace.readers.history import read_texts
     from mamori.trace.readers.new_item import append_block, check_block, check_file
     from mamori.trace.readers.project import read_requirements
 
@@ -45,9 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     except NewItemError as error:
         raise InputError(f"new: {error}") from None
     check_block(block, item_id, project.schema)
-    gap = describe_gap(arguments.root)
-    if gap:
-        print(f"mamori trace: {gap}; an id that only it knows could be allocated again", file=sys.stderr)
+    warn_of_gap(arguments.root)
     if arguments.file is None:
         print(block, end="")
     else:
