@@ -114,8 +114,9 @@ class Judge final {
     bool is_cut_short(const Report& report) const {
         return report.woke + plan_.budget > report.release + plan_.window_lengths[report.window];
     }
-    /// By its own reading of the clock the component did not end its first pass in time, or it never ran; and
-    /// the report did not come before that could be known.
+    /// By its own reading of the clock the component did not end its first pass in time, or it never ran, or
+    /// more than half of the budget was gone when it ended, of which it needs a few microseconds: then not
+    /// much had to be taken behind that reading. And the report did not come before that could be known.
     bool is_confirmed(const Report& report) const {
         if (!report.is_overrun || !ends_.covers(report.release)) {
             return false;
@@ -123,7 +124,8 @@ class Judge final {
         const Instant close = report.release + plan_.window_lengths[report.window];
         const Instant deadline = std::min(report.woke + plan_.budget, close);
         const Instant end = ends_.get(report.component, report.release);
-        return report.at >= deadline && (end == Ends::kNone || end > deadline);
+        return report.at >= deadline &&
+               (end == Ends::kNone || end > std::min(deadline, report.woke + kLossMin));
     }
     static bool is_of_frame(const Report& report, Instant at) {
         return report.release <= at && at < report.release + kTick;

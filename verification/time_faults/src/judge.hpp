@@ -102,7 +102,7 @@ struct Verdict {
     std::uint64_t tardy_by_host{0U};  ///< likewise, while the machine stood still
     std::uint64_t invented{0U};       ///< reported without a fault, though the machine took nothing away
     std::uint64_t by_host{0U};        ///< reported without a fault; the machine took kLossMin or more away
-    /// Likewise; nothing was seen to be taken, but the component did not end in time.
+    /// Likewise; nothing was seen to be taken, but the component's own clock tells of it.
     std::uint64_t confirmed{0U};
     std::uint64_t stalls{0U};  ///< times at which the machine stood still for a tenth of a tick or more
     Duration longest_stall{};

@@ -114,13 +114,14 @@ TEST(JudgeTest, AReportThatTheComponentsOwnClockConfirmsIsNotInvented) {
     };
     EXPECT_EQ(judge_end(0U, 8000, 8211).confirmed, 1U);
     EXPECT_EQ(judge_end(0U, 8000, 8211).invented, 0U);
-    EXPECT_EQ(judge_end(0U, 8000, 8210).invented, 1U) << "at its deadline";
+    EXPECT_EQ(judge_end(0U, 8000, 8111).confirmed, 1U) << "half of its budget was gone";
+    EXPECT_EQ(judge_end(0U, 8000, 8110).invented, 1U);
     EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8010, 8210), 8211).confirmed, 1U);
     EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8010, 8209), 8211).invented, 1U)
         << "told before it was late";
-    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8150, 8301), 8301).confirmed, 1U)
+    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8250, 8301), 8301).confirmed, 1U)
         << "its window closes first";
-    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8150, 8301), 8300).invented, 1U);
+    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8250, 8301), 8300).invented, 1U);
     EXPECT_EQ(judge_end(0U, 7000, 8211).invented, 1U) << "of another frame";
     EXPECT_EQ(judge_end(1U, 8000, 8211).invented, 1U) << "another component";
     EXPECT_EQ(judge({{overrun(0U, 0U, 8000, 8010, 8225)}, {}, {}, {}, {}, {}, Ends{2U, 9U}}).confirmed, 1U)
