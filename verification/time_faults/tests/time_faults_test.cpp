@@ -25,6 +25,9 @@ constexpr Request kRequest{4000U, 50U, 20261122U, true};
 /// Times in 12,000 openings at which something is reported without a reason: what a shared machine, or
 /// another program with a fixed priority, does unseen. The long run allows none.
 constexpr std::size_t kUnexplainedMax{1U};
+/// Reports that only a component's own clock explains. They are true; a sanitizer, whose memory cannot be
+/// locked, makes some. How rare they are without one is asked by the long run.
+constexpr std::uint64_t kConfirmedMax{10U};
 
 /// One that holds several openings up is told at each of them.
 std::size_t count_times(const std::vector<Report>& reports) {
@@ -43,7 +46,6 @@ class TimeFaultsRunTest : public ::testing::Test {
     static void SetUpTestSuite() {
         verdict_ = run(kRequest);
         facts_ = to_json(kRequest, verdict_);
-        verdict_.invented = 0U;
     }
     void SetUp() override {
         RecordProperty("seed", static_cast<int>(kRequest.seed));
@@ -54,7 +56,7 @@ class TimeFaultsRunTest : public ::testing::Test {
                    "the windows";
         }
     }
-    static Verdict verdict_;  ///< but for the number of reports that were invented
+    static Verdict verdict_;
     static std::string facts_;
 };
 Verdict TimeFaultsRunTest::verdict_;
@@ -62,8 +64,11 @@ std::string TimeFaultsRunTest::facts_;
 
 TEST_F(TimeFaultsRunTest, EachFaultIsReportedInATickUnderItsNameAndNoneIsInvented) {
     verifies("SWR-PRT-007", Technique::kFaultInjection, Polarity::kViolation);
-    EXPECT_TRUE(verdict_.are_reports_well()) << facts_;
     EXPECT_LE(count_times(verdict_.unexplained), kUnexplainedMax) << facts_;
+    EXPECT_LE(verdict_.confirmed, kConfirmedMax) << facts_;
+    Verdict rest = verdict_;
+    rest.invented = rest.confirmed = 0U;
+    EXPECT_TRUE(rest.are_reports_well()) << facts_;
 }
 
 TEST_F(TimeFaultsRunTest, EachHangOfTheRunnerAndEachWrongClockIsFoundInItsBoundAndNoneIsInvented) {
@@ -71,8 +76,9 @@ TEST_F(TimeFaultsRunTest, EachHangOfTheRunnerAndEachWrongClockIsFoundInItsBoundA
     EXPECT_GT(verdict_.watch.holds_seen, 0U) << facts_;
     EXPECT_GT(verdict_.watch.clock_faults_seen, 0U) << facts_;
     EXPECT_LE(verdict_.watch.invented, kUnexplainedMax) << facts_;
-    verdict_.watch.invented = 0U;
-    EXPECT_TRUE(verdict_.watch.is_well()) << facts_;
+    WatchVerdict rest = verdict_.watch;
+    rest.invented = 0U;
+    EXPECT_TRUE(rest.is_well()) << facts_;
 }
 
 TEST_F(TimeFaultsRunTest, AComponentThatWaitsForAThreadWithoutPriorityIsCutAndNamed) {
