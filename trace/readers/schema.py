@@ -26,7 +26,8 @@ def read_schema(root: Path) -> Schema:
         lists |= {name: tuple(str(word) for word in table[name]) for name in _MAYBE_LISTS if name in table}
         return Schema(levels=levels, **lists)
     except FileNotFoundError:
-        raise InputError(f"{path}: missing; a project keeps the words and levels of its items there; `mamori trace init` writes one in an empty folder, to copy") from None
+        remedy = "`mamori trace init` in an empty folder writes one to copy"
+        raise InputError(f"{path}: missing; a project keeps the words and levels of its items there; {remedy}") from None
     except KeyError as error:
         raise InputError(f"{path}: entry {error} is missing") from None
     except (re.error, TypeError, AttributeError) as error:
