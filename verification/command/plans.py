@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 from mamori.verification.command.project import CHECKED_LAYERS, RELEASE, ROOT, SANITIZED, Project
+from mamori.verification.command.project_run import run_project_tests
 from mamori.verification.command.records import record_evidence
 from mamori.verification.command.steps import Action, Step
 
@@ -284,11 +285,6 @@ def build_plan(project: Project) -> tuple[Step, ...]:
 
 
 def verify_plan(project: Project) -> tuple[Step, ...]:
-    """A project of the user's. Its GoogleTest programs write their results because the environment tells them to."""
-    tests = Step(
-        name="tests of the project",
-        commands=(("env", "GTEST_OUTPUT=xml:{junit}/", "ctest", "--test-dir", "{build}", "--output-on-failure",
-                   "--parallel", "{jobs}", "--no-tests=error"),),
-        needs=(BUILD_USER,),
-    )  # fmt: skip
+    """A project of the user's."""
+    tests = Step(name="tests of the project", function=run_project_tests, needs=(BUILD_USER,))
     return (*build_plan(project), tests, *trace_steps())

@@ -21,6 +21,7 @@ from mamori.trace.readers.sources import calc_sources
 from mamori.verification.command.errors import StepError
 from mamori.verification.command.process import Tick
 from mamori.verification.command.project import Project
+from mamori.verification.command.project_run import find_program
 from mamori.verification.command.steps import Context
 
 _SKIPPED = ("CMakeFiles", "_deps", "evidence")
@@ -72,7 +73,7 @@ def _make_rows(project: Project, files: Iterable[Path], inputs: dict[str, str]) 
     programs = _find_programs(project.build)
     rows: dict[str, dict[str, str | None]] = {}
     for path in files:
-        program = programs.get(path.stem) if path.parent == project.junit else None
+        program = (find_program(project, path) or programs.get(path.stem)) if path.parent == project.junit else None
         binary = hash_file(program) if program is not None else None
         rows[path.relative_to(project.evidence).as_posix()] = {"sha256": hash_file(path), **inputs, "binary": binary}
     return rows
