@@ -117,8 +117,9 @@ def show_steps(outcomes: Sequence[Outcome], context: Context) -> None:
     rows = []
     for one in outcomes:
         numbers = (str(number) for number in (one.counts.passed, one.counts.failed, one.counts.skipped))
-        rows.append((one.name, one.verdict, f"{one.seconds:.1f} s", *numbers))
-    context.screen.print_table(("step", "result", "time", "passed", "failed", "skipped"), rows)
+        rows.append((one.name, one.verdict, f"{one.seconds:.1f} s", f"{one.cpu_s:.0f} s", *numbers))
+    context.screen.print_table(("step", "result", "time", "CPU", "passed", "failed", "skipped"), rows)
+    context.screen.say(f"CPU time of all steps: {sum(one.cpu_s for one in outcomes):.0f} s")
     context.screen.say(f"logs: {context.project.logs}")
 
 
