@@ -218,7 +218,6 @@ def demo_plan(campaign: Action) -> tuple[Step, ...]:
     return (
         build_step(RELEASE),
         ctest_step(RELEASE),
-        HOST_TOOLS,
         # What only `./mamori test` runs may be missing here; what ran and failed may not.
         campaign_step(campaign),
         timing_step(),
