@@ -240,6 +240,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         proof_step("stack proof", "stack", needs=()),
         proof_step("loop proof", "loops", needs=()),
         proof_step("consumer proof", "consumer"),
+        proof_step("plain CMake proof", "plain_cmake"),
         proof_step("scale proof", "scale"),
         benchmark_step(),
         comparison_step(),
