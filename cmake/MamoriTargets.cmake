@@ -82,6 +82,7 @@ function(mamori_test name)
     set_tests_properties(${name} PROPERTIES TIMEOUT 600)
 endfunction()
 
+# @satisfies SWR-PRF-039      Design: docs/design/launcher.md#consumer-proof
 function(mamori_install_package)
     set(mamori_model_dir "${CMAKE_INSTALL_DATADIR}/mamori/models")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/simbody_sim/models/" DESTINATION ${mamori_model_dir})

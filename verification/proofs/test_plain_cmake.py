@@ -39,8 +39,9 @@ def find_blocks(project: Project) -> dict[str, str]:
 
 def write_project(project: Project, folder: Path, *blocks: str) -> Path:
     folder.mkdir()
-    for name in ("main.cpp", "robot_test.cpp"):
-        shutil.copy(project.root / "verification" / "consumer" / name, folder)
+    consumer = project.root / "verification" / "consumer"
+    shutil.copy(consumer / "main.cpp", folder)
+    shutil.copy(consumer / "robot_test.cpp.in", folder / "robot_test.cpp")  # names a requirement of a user's project, not of this one
     (folder / "CMakeLists.txt").write_text(HEAD + "".join(blocks), encoding="utf-8")
     return folder
 
