@@ -9,10 +9,12 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
+from mamori.verification.command.new_project import new
 from mamori.verification.command.project import Project
 
 BUILD_TIMEOUT_S = 600
@@ -209,3 +211,32 @@ def test_warnings_are_no_errors_where_the_option_is_off(project: Project, tmp_pa
     assert configure(project.root, tmp_path / "build", *options).returncode == 0
     commands = json.loads((tmp_path / "build" / "compile_commands.json").read_text(encoding="utf-8"))
     assert commands and not any("-Werror" in one["command"] for one in commands)
+
+
+@pytest.mark.verifies("SWR-CLI-024", technique="interface")
+def test_new_project_builds_by_plain_cmake_and_its_tests_find_a_brake_that_is_late(prefix: Path, tmp_path: Path) -> None:
+    assert new(tmp_path / "robot") == 0
+    folder, build = tmp_path / "robot", tmp_path / "robot" / "build"
+    junit = tmp_path / "evidence" / "junit"
+    test = ("env", f"GTEST_OUTPUT=xml:{junit}/", "ctest", "--test-dir", build, "--output-on-failure", "--no-tests=error")
+
+    configured = configure(folder, build, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")
+    assert configured.returncode == 0, configured.stderr
+    built = run("cmake", "--build", build)
+    assert built.returncode == 0, built.stdout
+    assert run(build / "robot").stdout.startswith("after  40 ms: 4 rad/s, brake off")
+    tested = run(*test)
+    assert tested.returncode == 0, tested.stdout
+    checked = run(sys.executable, "-P", "-m", "mamori.verification.command", "trace", "check", "--root", folder,
+                  "--evidence", tmp_path / "evidence", "--allow-missing")  # fmt: skip
+    assert checked.returncode == 0, checked.stdout
+    assert "3 test results" in checked.stdout
+
+    components = folder / "src" / "components.hpp"
+    text = components.read_text(encoding="utf-8")
+    assert text.count("8.0") == 1
+    components.write_text(text.replace("8.0", "10.0"), encoding="utf-8")
+    assert run("cmake", "--build", build, "--target", "robot_test").returncode == 0
+    failed = run(*test)
+    assert failed.returncode != 0
+    assert failed.stdout.count("[  FAILED  ] SystemTest.") >= 3
