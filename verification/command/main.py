@@ -77,6 +77,7 @@ def make_parser(with_trace: bool = False) -> Parser:
     add("test").add_argument("--quick", action="store_true")
     add("build", with_project=True).add_argument("--preset", default=RELEASE, metavar="NAME")
     add("verify", with_project=True)
+    commands.add_parser("new", allow_abbrev=False).add_argument("path", type=Path, metavar="NAME")
     recorder_log.add_arguments(commands.add_parser("log", allow_abbrev=False))
     table_dump.add_arguments(commands.add_parser("table", allow_abbrev=False))
     bench = add("bench")
@@ -137,6 +138,10 @@ def run(argv: list[str]) -> int:
             return jobs.build(arguments.jobs, arguments.project, arguments.preset)
         case "verify":
             return jobs.verify(arguments.jobs, arguments.project)
+        case "new":
+            from mamori.verification.command.new_project import new
+
+            return new(arguments.path)
         case "log":
             return recorder_log.run(arguments)
         case "table":

@@ -21,13 +21,13 @@ REPORT = "report"
 TIMING_CYCLES = "2000"
 
 
-def build_step(preset: str, slow: bool = False) -> Step:
-    """Mamori itself."""
+def build_step(preset: str, slow: bool = False, target: str = "all") -> Step:
+    """Mamori itself, or one target of it."""
     return Step(
         name=f"build {preset}",
         commands=(
             ("cmake", "-S", str(ROOT), "--preset", preset),
-            ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}"),
+            ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}", "--target", target),
         ),
         slow=slow,
     )
@@ -240,6 +240,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         proof_step("stack proof", "stack", needs=()),
         proof_step("loop proof", "loops", needs=()),
         proof_step("consumer proof", "consumer"),
+        proof_step("plain CMake proof", "plain_cmake"),
         proof_step("scale proof", "scale"),
         benchmark_step(),
         comparison_step(),
@@ -259,9 +260,9 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
 
 def build_plan(project: Project) -> tuple[Step, ...]:
     """`project` is Mamori itself, or one of the user's, which is built against the installed package."""
-    shipped = build_step(project.preset)
     if project.root == ROOT:
-        return (shipped,)
+        return (build_step(project.preset),)
+    shipped = build_step(project.preset, target="mamori_package")
     prefix = str(ROOT / "build" / "install")
     return (
         shipped,

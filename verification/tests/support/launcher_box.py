@@ -14,6 +14,9 @@ from pathlib import Path
 
 from mamori.verification.command.project import ROOT
 
+PACKAGES_OF_BUILD = ("python3 python3-venv g++ cmake ninja-build libsimbody-dev liborocos-kdl-dev libeigen3-dev "
+                     "libyaml-cpp-dev libgtest-dev relacy-dev libcli11-dev nlohmann-json3-dev").split()  # fmt: skip
+APT_INSTALL = "apt-get -q -y --no-remove --no-install-recommends install"
 SYSTEM_PROGRAMS = "bash cat cp cut date dirname env flock grep head mkdir paste readlink rm sed sha256sum sleep sort tail tr true".split()
 
 TOOLS = {
