@@ -302,7 +302,7 @@ Verdict run(const CampaignRequest& request) {
     system_log = &log;
     OpeningLog openings{clock, frames * kWindowCount};
     static_cast<void>(lock_memory(256U * 1024U));
-    if (!link.open() || host.open() != Status::kOk || executive.initialize() != Status::kOk ||
+    if (!link.open() || host.open(kRunnerPriority) != Status::kOk || executive.initialize() != Status::kOk ||
         executive.start() != Status::kOk) {
         return refuse("the safety system does not start");
     }
