@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/ports/posix_rt/grid_watch.hpp"
 
+#include "failure_order.hpp"
 #include "mamori/kernel/assert.hpp"
 
 namespace mamori::ports::posix_rt {
@@ -66,6 +67,7 @@ Status GridWatch::open() noexcept {
     if (own_priority != 0 && place_.priority <= own_priority) {
         return Status::kBadParameter;
     }
+    detail::install_failure_gate();
     is_ending_.store(false, std::memory_order_relaxed);
     ThreadRights rights;
     if (start_thread(thread_, &GridWatch::serve, this, place_, rights) != Status::kOk) {

@@ -3,6 +3,7 @@
 
 #include <cerrno>
 
+#include "failure_order.hpp"
 #include "mamori/kernel/assert.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
 
@@ -106,6 +107,7 @@ Status GuardedHost::open(int runner_priority) noexcept {
     if (runner_priority != 0 && !is_guarded(place_.priority, runner_priority)) {
         return Status::kBadParameter;
     }
+    detail::install_failure_gate();
     priority_right_ = {true, 0};
     processor_right_ = {true, 0};
     window_priority_ = 0;

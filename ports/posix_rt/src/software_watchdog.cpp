@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "failure_order.hpp"
 #include "mamori/ports/posix_rt/crash_handlers.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
 #include "mamori/safety/elapsed.hpp"
@@ -41,6 +42,7 @@ Status SoftwareWatchdog::open(ThreadPlace place, WatchdogDevice* device) noexcep
     if (own_priority != 0 && place.priority <= own_priority) {
         return Status::kBadParameter;
     }
+    detail::install_failure_gate();
     MAMORI_ENSURE(4, sem_init(&changed_, 0, 0U) == 0);
     device_ = device;
     device_due_ = clock_.get_now();
