@@ -306,7 +306,7 @@ TEST_F(GridWatchTest, ARunInTimeIsNotReportedAndAnEndOnPurposeNeither) {
     sut.close();
 }
 
-TEST(GridWatchRightsTest, ItsThreadGetsItsPriorityOrSaysWhyNot) {
+TEST(GridWatchRightsTest, ItsThreadGetsItsPriority) {
     verifies("SWR-PRT-031", Technique::kErrorGuessing);
     const FrameClock clock = FrameClock::starting_in(0_ms);
     const TestSystem system;
@@ -314,8 +314,13 @@ TEST(GridWatchRightsTest, ItsThreadGetsItsPriorityOrSaysWhyNot) {
     const OutputGate gate{[](void*) noexcept {}, nullptr};
     GridWatch sut{beats, clock, get_raw_clock(), kLimits, gate, {5, ThreadPlace::kAnyProcessor}};
     ASSERT_EQ(sut.open(), Status::kOk);
-    EXPECT_EQ(sut.get_right().system_error, sut.get_right().is_granted ? 0 : EPERM);
+    const Right right = sut.get_right();
     sut.close();
+    if (!right.is_granted) {
+        ASSERT_EQ(right.system_error, EPERM);
+        GTEST_SKIP() << "this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
+    }
+    EXPECT_EQ(right.system_error, 0);
 }
 
 }  // namespace

@@ -309,11 +309,33 @@ TEST(WatchSchedulingTest, GridWatchMustBeAboveTheFixedPriorityOfItsOpener) {
     });
 }
 
-/// Started by start_thread(): stores what it is.
-void* store_scheduling(void* result) noexcept {
-    *static_cast<Scheduling*>(result) = Scheduling::read(0);
-    return nullptr;
-}
+/// A thread of start_thread() that stores what it is once its scheduling is set.
+struct Started {
+    Status status{Status::kError};
+    ThreadRights rights{};
+    Scheduling seen{};
+
+    explicit Started(ThreadPlace place) noexcept {
+        pthread_t thread{};
+        status = start_thread(thread, &Started::run, this, place, rights);
+        is_set_ = true;
+        if (status == Status::kOk && pthread_join(thread, nullptr) != 0) {
+            status = Status::kError;
+        }
+    }
+
+  private:
+    static void* run(void* self) noexcept {
+        auto& started = *static_cast<Started*>(self);
+        const FrameClock clock = FrameClock::starting_in(0_ms);
+        while (!started.is_set_) {
+            clock.wait_until(clock.get_now() + 1_ms);
+        }
+        started.seen = Scheduling::read(0);
+        return nullptr;
+    }
+    std::atomic<bool> is_set_{false};
+};
 
 TEST(StartThreadTest, ThreadIsOrdinaryOrHasItsOwnPriorityWhateverItsMakerHas) {
     verifies("SWR-PRT-040", Technique::kEquivalenceClasses);
@@ -321,20 +343,19 @@ TEST(StartThreadTest, ThreadIsOrdinaryOrHasItsOwnPriorityWhateverItsMakerHas) {
         GTEST_SKIP() << kNoPrivilege;
     }
     run_as_runner(kRunnerPriority, [] {
-        Scheduling seen;
-        pthread_t thread{};
-        ThreadRights rights;
-        ASSERT_EQ(start_thread(thread, &store_scheduling, &seen, {}, rights), Status::kOk);
-        ASSERT_EQ(pthread_join(thread, nullptr), 0);
-        EXPECT_EQ(seen, kOrdinary);
-        EXPECT_TRUE(rights.priority.is_granted);
-        EXPECT_TRUE(rights.processor.is_granted);
+        const Started ordinary{{}};
+        EXPECT_EQ(ordinary.status, Status::kOk);
+        EXPECT_EQ(ordinary.seen, kOrdinary);
+        EXPECT_TRUE(ordinary.rights.priority.is_granted);
+        EXPECT_TRUE(ordinary.rights.processor.is_granted);
+        const Started fixed{{kRunnerPriority + 1, kAny}};
+        EXPECT_EQ(fixed.seen, (Scheduling{SCHED_FIFO, kRunnerPriority + 1}));
 
-        ASSERT_EQ(start_thread(thread, &store_scheduling, &seen, {100, 100'000}, rights), Status::kOk);
-        ASSERT_EQ(pthread_join(thread, nullptr), 0);
-        EXPECT_EQ(seen, kOrdinary) << "a priority that Linux does not have";
-        EXPECT_EQ(rights.priority.system_error, EINVAL);
-        EXPECT_EQ(rights.processor.system_error, EINVAL);
+        const Started invalid{{100, 100'000}};
+        EXPECT_EQ(invalid.status, Status::kOk);
+        EXPECT_EQ(invalid.seen, kOrdinary) << "a priority that Linux does not have";
+        EXPECT_EQ(invalid.rights.priority.system_error, EINVAL);
+        EXPECT_EQ(invalid.rights.processor.system_error, EINVAL);
     });
 }
 
@@ -345,15 +366,11 @@ int start_thread_from_idle() {
         (geteuid() == 0U && setresuid(65534, 65534, 65534) != 0) || !set_idle(pthread_self()).is_granted) {
         return 2;
     }
-    Scheduling seen;
-    pthread_t thread{};
-    ThreadRights rights;
-    if (start_thread(thread, &store_scheduling, &seen, {5, kAny}, rights) != Status::kOk ||
-        pthread_join(thread, nullptr) != 0) {
-        return 3;
-    }
-    const bool is_reported = !rights.priority.is_granted && rights.priority.system_error == EPERM;
-    return is_reported && seen.policy == SCHED_IDLE && !may_leave_idle() ? 0 : 1;
+    const Started started{{5, kAny}};
+    const Right& priority = started.rights.priority;
+    const bool is_reported = !priority.is_granted && priority.system_error == EPERM;
+    const bool is_started = started.status == Status::kOk && started.seen.policy == SCHED_IDLE;
+    return is_reported && is_started && !may_leave_idle() ? 0 : 1;
 }
 
 TEST(StartThreadTest, WithoutAnyPrivilegeAThreadStartsAllTheSameAndItsDenialIsReported) {
