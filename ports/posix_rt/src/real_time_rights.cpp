@@ -40,6 +40,9 @@ std::size_t calc_free_stack(std::uintptr_t frame) noexcept {
 [[gnu::noinline]] void touch_stack(std::size_t size) noexcept {
     const std::size_t free = calc_free_stack(reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)));
     const std::size_t touched = size < free ? size : free;
+    if (touched == 0U) {
+        return;
+    }
     auto* const stack = static_cast<volatile std::uint8_t*>(__builtin_alloca(touched));
     for (std::size_t i = 0U; i < touched; i += kPage) {
         stack[touched - 1U - i] = 0U;

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cerrno>
 #include <functional>
+#include <ostream>
 #include <thread>
 
 #include "mamori/kernel/executive.hpp"
@@ -66,8 +67,8 @@ struct Scheduling {
     friend bool operator==(Scheduling a, Scheduling b) {
         return a.policy == b.policy && a.priority == b.priority;
     }
-    friend void PrintTo(Scheduling scheduling, std::ostream* out) {
-        *out << "policy " << scheduling.policy << " priority " << scheduling.priority;
+    friend std::ostream& operator<<(std::ostream& out, Scheduling scheduling) {
+        return out << "policy " << scheduling.policy << " priority " << scheduling.priority;
     }
 };
 
