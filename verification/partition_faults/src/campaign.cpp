@@ -34,7 +34,6 @@ constexpr Duration kPatience = 20_s;
 /// A partition that has not done what it was told by then does not come to it.
 constexpr Duration kDeedPatience = 2_s;
 constexpr int kStartTries{20};
-constexpr std::uint64_t kForEver{1'000'000'000'000U};
 /// Frames for which there is room in the logs: some five times what a fault takes, and a slow start.
 constexpr std::size_t kFramesPerFault{1000U};
 constexpr std::size_t kFramesBeside{60'000U};
@@ -302,7 +301,7 @@ Verdict run(const CampaignRequest& request) {
     system_log = &log;
     OpeningLog openings{clock, frames * kWindowCount};
     static_cast<void>(lock_memory(256U * 1024U));
-    if (!link.open() || host.open() != Status::kOk || executive.initialize() != Status::kOk ||
+    if (!link.open() || host.open(kRunnerPriority) != Status::kOk || executive.initialize() != Status::kOk ||
         executive.start() != Status::kOk) {
         return refuse("the safety system does not start");
     }
@@ -318,7 +317,7 @@ Verdict run(const CampaignRequest& request) {
     std::thread thread{[&runner, &right] {
         right =
             combine(set_priority(pthread_self(), kRunnerPriority), set_processor(pthread_self(), processor));
-        runner.run(kForEver);
+        runner.run_until_stopped();
     }};
     // What one fault takes at most, its starts included, still has to fit in behind.
     const Instant last{static_cast<std::int64_t>(frames) * kFrame.ns - 2 * kPatience.ns};

@@ -50,12 +50,13 @@ TEST(OccupancyWatchTest, AnotherProcessOnTheProcessorIsSeenAndOurOwnThreadsAreNo
     ASSERT_TRUE(watch.knows());
     const std::vector<Stall>& foreign = watch.get_foreign();
     EXPECT_GE(calc_loss(foreign, begin, between), Duration{kWork.ns / 4});
-    if (has_priority) {
-        EXPECT_LE(calc_loss(foreign, alone, end), Duration{kWork.ns / 4});
-    }
     for (std::size_t i = 1U; i < foreign.size(); ++i) {
         EXPECT_LE(foreign[i - 1U].end, foreign[i].begin);
     }
+    if (!has_priority) {
+        GTEST_SKIP() << "no fixed priority: any thread of the host may run beside the one that must be alone";
+    }
+    EXPECT_LE(calc_loss(foreign, alone, end), Duration{kWork.ns / 4});
 }
 
 TEST(OccupancyWatchTest, AProcessorThatIsNotThereIsNotWatched) {
