@@ -79,6 +79,7 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
     Course course = director.get_course();
     course.stalls = stalls.get_stalls();
     course.late_looks = stalls.get_late_looks();
+    course.host = stalls.get_figures();
     return course;
 }
 
@@ -141,6 +142,7 @@ Verdict run(const Request& request) {
     get_surroundings().deeds = &deeds;
     get_surroundings().mutex = &inversion.get_mutex();
     get_surroundings().ends = &ends;
+    get_surroundings().defect = request.defect;
     const Right right = combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
                                 ports::posix_rt::set_processor(pthread_self(), processor));
     static GuardedHost host{threads, clock, {kWindowPriority, processor}};
