@@ -30,10 +30,11 @@ using verification::Defect;
 using verification::StallWatch;
 using namespace literals;  // NOLINT: units of the table below
 
-constexpr int kStallPriority = 95;
-constexpr int kWatchdogPriority = 90;
-constexpr int kRunnerPriority = 80;
-constexpr int kWindowPriority = 70;
+/// Above what other programs use, as far as possible.
+constexpr int kStallPriority = 98;
+constexpr int kWatchdogPriority = 97;
+constexpr int kRunnerPriority = 96;
+constexpr int kWindowPriority = 95;
 constexpr safety::WatchdogWindow kWatchdogWindow{200_us, kServiceTimeout};
 /// Narrower, by the jitter of the window.
 constexpr safety::WatchdogWindow kGateWindow{300_us, 4_ms};

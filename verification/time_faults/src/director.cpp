@@ -27,11 +27,17 @@ Director::Director(const Stage& stage, std::vector<Injection> injections)
     course_.watch.holds.reserve(injections_.size());
     course_.watch.clock_faults.reserve(injections_.size());
     course_.watch.found.reserve(kReportRoom);
+    course_.runner_delays.reserve(kReportRoom);
 }
 
 void Director::before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept {
     release_ = opening.release;
     woke_ = woke;
+    kept_off_ = meter_.take();
+    if (is_runner_kept_off(kept_off_, woke - opening.release) &&
+        course_.runner_delays.size() < course_.runner_delays.capacity()) {
+        course_.runner_delays.push_back({opening.release - kept_off_, woke});
+    }
     reads_under_way_ += stage_.is_reading.load(std::memory_order_relaxed) ? 1U : 0U;
     if (is_sleep_held_) {
         note_held_sleep(opening);
@@ -191,12 +197,12 @@ void Director::on_budget_overrun(std::size_t window, std::size_t component, Inst
     if (get_surroundings().defect == Defect::kWrongName) {
         component = (component + 1U) % kComponentCount;
     }
-    add({true, window, component, release_, woke_, now, Duration{0}});
+    add({true, window, component, release_, woke_, now, Duration{0}, kept_off_});
 }
 
 void Director::on_late_release(std::size_t window, Duration lateness, Instant now) noexcept {
     if (lateness > kTick) {
-        add({false, window, kNoIndex, release_, woke_, now, lateness});
+        add({false, window, kNoIndex, release_, woke_, now, lateness, kept_off_});
     }
 }
 

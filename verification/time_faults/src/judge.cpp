@@ -83,15 +83,18 @@ class Judge final {
     /// reported for one reason: its work was not back yet.
     void judge_rest(Verdict& verdict) {
         Instant told{-1};
+        Instant covered{-1};  // up to here the host is the cause: what was due before is late with it
         for (std::size_t i = 0U; i < reports_.size(); ++i) {
             const Report& report = reports_[i];
             if (explained_[i] || is_aftermath(i)) {
                 explained_[i] = true;
             } else if (calc_longest_loss(late_looks_, report.release, report.at) >= kLossMin) {
                 explained_[i] = true;
+                covered = report.at;
                 ++verdict.by_host;
-            } else if (is_suspected(report)) {
+            } else if (is_suspected(report) || report.release <= covered) {
                 explained_[i] = true;
+                covered = report.at;
                 ++verdict.suspected;
             } else {
                 ++verdict.invented;
@@ -117,10 +120,12 @@ class Judge final {
     bool is_cut_short(const Report& report) const {
         return report.woke + plan_.budget > report.release + plan_.window_lengths[report.window];
     }
-    /// The host took half of the budget in pieces, or a whole budget since the frame before; or the component
-    /// was ready for half of its budget and did not run, and the report did not come too early for that.
+    /// The host took half of the budget in pieces, or kept the ready runner off for as long, or a whole
+    /// budget since the frame before; or the component was ready for half of its budget and did not run, and
+    /// the report did not come too early for that.
     bool is_suspected(const Report& report) const {
-        if (calc_loss(late_looks_, report.release, report.at) >= kLossMin ||
+        if (is_runner_kept_off(report.kept_off, report.woke - report.release) ||
+            calc_loss(late_looks_, report.release, report.at) >= kLossMin ||
             calc_loss(late_looks_, report.release - kTick, report.at) >= plan_.budget) {
             return true;
         }
@@ -198,7 +203,11 @@ Verdict judge(const Plan& plan, const Course& course) {
         judge.judge(delay, verdict);
     }
     judge.judge_rest(verdict);
-    verdict.watch = judge_watch(plan.watch, course.watch, course.stalls);
+    std::vector<Stall> stalls = course.stalls;
+    stalls.insert(stalls.end(), course.runner_delays.begin(), course.runner_delays.end());
+    std::sort(stalls.begin(), stalls.end(),
+              [](const Stall& left, const Stall& right) { return left.end < right.end; });
+    verdict.watch = judge_watch(plan.watch, course.watch, stalls);
     verdict.injected += verdict.watch.clock_faults_seen;
     verdict.seen += verdict.watch.clock_faults_seen;
     return verdict;

@@ -35,7 +35,14 @@ struct Report {
     Instant woke{};
     Instant at{};
     Duration lateness{};  ///< of a late release
+    Duration kept_off{};  ///< time that the runner was ready and did not run, since the opening before
 };
+
+/// The runner was ready and did not run for half of the time that it is late, and for kLossMin. The threads
+/// that watch it take a little of its time themselves.
+constexpr bool is_runner_kept_off(Duration kept_off, Duration lateness) noexcept {
+    return kept_off >= kLossMin && kept_off + kept_off >= lateness;
+}
 
 /// Why a component took too long.
 enum class Cause : std::uint8_t {
@@ -168,6 +175,8 @@ struct Course {
     std::vector<Stall> late_looks{};  ///< of whoever tells of stalls
     Ends ends{};
     verification::HostFigures host{};
+    /// The runner was ready and did not run, for kLossMin or more: from the planned opening to the wake-up.
+    std::vector<Stall> runner_delays{};
 };
 
 /// @return the counts from `injected` to `host`, and all from `detection_ns` to `watch`; the rest is

@@ -26,10 +26,11 @@ using verification::StallWatch;
 
 constexpr Duration kLead{500'000'000};
 constexpr std::size_t kLooksPerFrame = 20U;
-constexpr int kStallPriority = 90;
-constexpr int kWatchPriority = 85;
-constexpr int kRunnerPriority = 80;
-constexpr int kWindowPriority = 70;
+/// Above what other programs use, as far as possible.
+constexpr int kStallPriority = 98;
+constexpr int kWatchPriority = 97;
+constexpr int kRunnerPriority = 96;
+constexpr int kWindowPriority = 95;
 constexpr int kMiddlePriority = 60;
 
 std::array<WindowThread, kWindowCount> threads;

@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <ctime>
 
 namespace mamori::time_faults {
@@ -67,9 +68,10 @@ Status Victim::on_execute(ContextHandle handle) noexcept {
     const Instant end = around.clock->get_now();
     const ThreadTimes after = read_thread_times();
     // Who waits or computes takes the time itself. A guard that demotes it later keeps it off as well.
+    const Duration delay = delay_meter_.take();
     const Duration used = after.processor - before.processor;
     const bool is_own = after.voluntary_switches != before.voluntary_switches || used >= kLossMin;
-    around.ends->set(place_, handle.now, end, is_own ? Duration{0} : end - begin - used);
+    around.ends->set(place_, handle.now, end, is_own ? Duration{0} : std::max(end - begin - used, delay));
     return Status::kOk;
 }
 

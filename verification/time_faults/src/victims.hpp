@@ -17,6 +17,7 @@
 #include "mamori/kernel/introspection.hpp"
 #include "mamori/kernel/system.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/verification/run_delay.hpp"
 #include "page_storm.hpp"
 #include "time_faults.hpp"
 
@@ -68,6 +69,7 @@ class Victim final : public Component {
     Cause cause_{Cause::kWork};
     std::atomic<std::int64_t> size_ns_{0};
     PageMeter meter_;
+    verification::RunDelayMeter delay_meter_{};
 };
 
 inline constexpr std::size_t kComponentCount = 4U;

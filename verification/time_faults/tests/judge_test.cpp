@@ -19,10 +19,11 @@ constexpr Instant at(std::int64_t us) noexcept {
 }
 Report overrun(std::size_t window, std::size_t component, std::int64_t release_us, std::int64_t woke_us,
                std::int64_t at_us) {
-    return {true, window, component, at(release_us), at(woke_us), at(at_us), Duration{0}};
+    return {true, window, component, at(release_us), at(woke_us), at(at_us), Duration{0}, Duration{0}};
 }
 Report late(std::size_t window, std::int64_t release_us, std::int64_t at_us) {
-    return {false, window, kNoIndex, at(release_us), at(at_us), at(at_us), at(at_us) - at(release_us)};
+    return {false,      window, kNoIndex, at(release_us), at(at_us), at(at_us), at(at_us) - at(release_us),
+            Duration{0}};
 }
 /// Windows of 300 us with a budget of 200 us at 0 and 300; the first runs component 0, the second 1 and 2.
 Verdict judge(const Course& course) {
@@ -124,6 +125,35 @@ TEST(JudgeTest, AReportOfAComponentThatWasReadyAndDidNotRunForHalfItsBudgetIsSus
     EXPECT_EQ(judge_kept(late(0U, 8000, 9100), 0U, 8000, 100).invented, 1U) << "a late release";
     EXPECT_EQ(judge({{report}, {}, {}, {}, {}, {}, Ends{2U, 9U}}).invented, 1U)
         << "it never ran: nothing shows that the host kept it";
+}
+
+TEST(JudgeTest, AReportIsSuspectedWhenTheRunnerWasReadyAndDidNotRunForHalfOfItsLateness) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto judge_kept = [](std::int64_t kept_off_us, std::int64_t woke_us) {
+        Report report = late(0U, 8000, woke_us);
+        report.kept_off = Duration{kept_off_us * 1000};
+        return judge(
+            {{report, late(1U, woke_us, woke_us + 1), late(0U, woke_us + 2, woke_us + 1200)}, {}, {}, {}});
+    };
+    EXPECT_EQ(judge_kept(700, 9400).suspected, 2U)
+        << "and what was due before its report, not what came later";
+    EXPECT_EQ(judge_kept(700, 9400).invented, 1U);
+    EXPECT_EQ(judge_kept(699, 9400).suspected, 0U);
+    EXPECT_EQ(judge_kept(100, 8200).suspected, 2U);
+    EXPECT_EQ(judge_kept(99, 8198).suspected, 0U);
+}
+
+TEST(JudgeTest, AFindingOfTheWatchWhileTheRunnerWasKeptOffIsSetAside) {
+    verifies("SWR-PRT-034", Technique::kFaultInjection, Polarity::kViolation);
+    using ports::posix_rt::GridFault;
+    Course course;
+    course.watch.found = {{{GridFault::kOverdue, 0U, at(8000), at(8400)}, at(9000)}};
+    EXPECT_EQ(judge(course).watch.invented, 1U);
+    course.runner_delays = {{at(8000), at(9400)}};
+    EXPECT_EQ(judge(course).watch.invented, 0U);
+    EXPECT_EQ(judge(course).watch.by_host, 1U);
+    course.runner_delays = {{at(8401), at(9400)}};
+    EXPECT_EQ(judge(course).watch.invented, 1U);
 }
 
 TEST(JudgeTest, AnInventedReportFailsTheRunAndASuspectedOneMakesItInconclusive) {
