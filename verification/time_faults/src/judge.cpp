@@ -83,17 +83,21 @@ class Judge final {
     /// reported for one reason: its work was not back yet.
     void judge_rest(Verdict& verdict) {
         Instant told{-1};
-        Instant covered{-1};  // up to here the host is the cause: what was due before is late with it
+        Instant covered{-1};  // up to here the host is the cause: what was due before shares it
+        bool is_aside = false;
         for (std::size_t i = 0U; i < reports_.size(); ++i) {
             const Report& report = reports_[i];
             if (explained_[i] || is_aftermath(i)) {
                 explained_[i] = true;
-            } else if (calc_longest_loss(late_looks_, report.release, report.at) >= kLossMin) {
+            } else if (calc_longest_loss(late_looks_, report.release, report.at) >= kLossMin ||
+                       (is_aside && report.release <= covered)) {
                 explained_[i] = true;
+                is_aside = true;
                 covered = report.at;
                 ++verdict.by_host;
             } else if (is_suspected(report) || report.release <= covered) {
                 explained_[i] = true;
+                is_aside = false;
                 covered = report.at;
                 ++verdict.suspected;
             } else {

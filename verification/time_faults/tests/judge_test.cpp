@@ -143,6 +143,16 @@ TEST(JudgeTest, AReportIsSuspectedWhenTheRunnerWasReadyAndDidNotRunForHalfOfItsL
     EXPECT_EQ(judge_kept(99, 8198).suspected, 0U);
 }
 
+TEST(JudgeTest, WhatWasDueBeforeAReportThatIsSetAsideIsSetAsideToo) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    const std::vector<Stall> late_looks{{at(8000), at(9390)}};
+    const std::vector<Report> near{late(0U, 8000, 9400), late(1U, 9400, 10'700)};
+    EXPECT_EQ(judge_late(near, late_looks).by_host, 2U);
+    const std::vector<Report> far{near[0U], late(1U, 9401, 10'700)};
+    EXPECT_EQ(judge_late(far, {{at(8000), at(8150)}}).by_host, 1U);
+    EXPECT_EQ(judge_late(far, {{at(8000), at(8150)}}).invented, 1U);
+}
+
 TEST(JudgeTest, AFindingOfTheWatchWhileTheRunnerWasKeptOffIsSetAside) {
     verifies("SWR-PRT-034", Technique::kFaultInjection, Polarity::kViolation);
     using ports::posix_rt::GridFault;
