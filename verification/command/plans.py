@@ -12,6 +12,7 @@ from mamori.verification.command.steps import Action, Step
 
 PYTHON = ("{python}", "-P", "-m")
 PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
+REPEAT = (*PYTHON, "mamori.verification.real_time.repeat")
 COMMAND = (*PYTHON, "mamori.verification.command")
 
 BUILD = f"build {RELEASE}"
@@ -36,7 +37,7 @@ def build_step(preset: str, slow: bool = False, target: str = "all") -> Step:
 def ctest_step(preset: str, slow: bool = False) -> Step:
     return Step(
         name=f"tests {preset}",
-        commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error"),),
+        commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error"), (*REPEAT, preset)),
         needs=(f"build {preset}",),
         junit=f"build/{preset}/evidence/junit",
         slow=slow,
@@ -59,7 +60,7 @@ def race_steps() -> tuple[Step, ...]:
     )
     run = Step(
         name=f"tests {preset}",
-        commands=(("ctest", "--preset", preset, "--no-tests=error", "--tests-regex", "|".join(targets)),),
+        commands=(("ctest", "--preset", preset, "--no-tests=error", "--tests-regex", "|".join(targets)), (*REPEAT, preset, *targets)),
         needs=(build.name,),
         junit=f"build/{preset}/evidence/junit",
         slow=True,

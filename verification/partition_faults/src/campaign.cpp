@@ -38,6 +38,10 @@ constexpr int kStartTries{20};
 constexpr std::size_t kFramesPerFault{1000U};
 constexpr std::size_t kFramesBeside{60'000U};
 
+/// Troubles that the host causes.
+constexpr const char* kTooSlow = "the machine is too slow: what is written down has no room";
+constexpr const char* kNoTime = "the machine gives the partition no time";
+
 /// The memory between the processes, all of it created by this one.
 struct Link {
     SharedMemory requests{};
@@ -72,9 +76,20 @@ struct Link {
 /// Takes down each opening, on the thread that runs the windows.
 class OpeningLog final : public OpeningObserver {
   public:
-    OpeningLog(const FrameClock& clock, std::size_t room) : clock_(clock) { openings.reserve(room); }
+    OpeningLog(const FrameClock& clock, std::size_t room, verification::Defect defect)
+        : clock_(clock), defect_(defect) {
+        openings.reserve(room);
+    }
 
-    void before_opening(const FrameSchedule::Opening&, Instant woke) noexcept override { woke_ = woke; }
+    void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override {
+        woke_ = woke;
+        const auto frame = static_cast<std::uint64_t>(opening.release.ns / kFrame.ns);
+        if (defect_ == verification::Defect::kLateRelease && opening.window == 1U &&
+            frame % verification::kDefectEvery == 0U) {
+            while (clock_.get_now() < opening.release + kFrame) {
+            }
+        }
+    }
     void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override {
         if (openings.size() < openings.capacity()) {
             openings.push_back({{opening.window, opening.release},
@@ -89,6 +104,7 @@ class OpeningLog final : public OpeningObserver {
 
   private:
     const FrameClock& clock_;
+    verification::Defect defect_;
     Instant woke_{};
 };
 
@@ -126,7 +142,7 @@ class Director final {
 
     const char* carry_out(const Fault& fault, std::size_t number) {
         if (clock_.get_now() > last_) {
-            return "the machine is too slow: what is written down has no room";
+            return kTooSlow;
         }
         if (!start(number)) {
             return describe(partition_.get_error());
@@ -142,7 +158,7 @@ class Director final {
                       good_count.load(std::memory_order_relaxed) > 0U;
         }
         if (!is_well) {
-            return "the machine gives the partition no time";
+            return kNoTime;
         }
         Deed deed = commit(fault.kind);
         static_cast<void>(wait([] { return is_stopped.load(std::memory_order_acquire); }, kDeedPatience));
@@ -298,8 +314,9 @@ Verdict run(const CampaignRequest& request) {
     log.looks.reserve(frames);
     log.reactions.reserve(frames);
     log.clock = &clock;
+    log.defect = request.defect;
     system_log = &log;
-    OpeningLog openings{clock, frames * kWindowCount};
+    OpeningLog openings{clock, frames * kWindowCount, request.defect};
     static_cast<void>(lock_memory(256U * 1024U));
     if (!link.open() || host.open(kRunnerPriority) != Status::kOk || executive.initialize() != Status::kOk ||
         executive.start() != Status::kOk) {
@@ -342,6 +359,8 @@ Verdict run(const CampaignRequest& request) {
     Verdict verdict = judge(course);
     verdict.frames = course.openings.size() / kWindowCount;
     verdict.requested = request.fault_count;
+    verdict.host = stalls.get_figures();
+    verdict.is_too_slow = trouble == kTooSlow || trouble == kNoTime;
     verdict.trouble = is_closed ? trouble : "work of a safety window hangs";
     verdict.has_run = *verdict.trouble == '\0';
     verdict.has_priority =
