@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-OUTSIDE = "../sha" "red"
+OUTSIDE = "/".join(("..", "shared"))
 LAYERS = ("kernel", "safety", "ports", "simbody_sim", "examples", "profiles", "trace", "verification")
 
 
