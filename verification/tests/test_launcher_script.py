@@ -237,7 +237,7 @@ def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004")
-@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench", "timing", "cost", "e2e", "table", "prove"])
+@pytest.mark.parametrize("command", ["", "demo", "run", "test", "build", "verify", "trace", "log", "bench", "timing", "cost", "e2e", "table", "prove"])
 def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
     bare = box.folder / "bare"
     bare.mkdir()
@@ -252,7 +252,7 @@ def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
-@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench", "timing", "cost", "e2e", "table", "prove"])
+@pytest.mark.parametrize("command", ["demo", "run", "test", "build", "verify", "log", "bench", "timing", "cost", "e2e", "table", "prove"])
 def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
     subparsers = next(action for action in make_parser()._actions if action.dest == "command")
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}
