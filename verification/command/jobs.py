@@ -30,8 +30,10 @@ def demo(jobs: int, motion: Path | None, scenarios: tuple[str, ...], instants: i
     """The main job. @return exit status."""
     project = Project(ROOT)
     request = CampaignRequest(motion or project.motion, scenarios, instants)
-    request.check(project)
+    notes = request.check(project)
     context = begin(project, jobs, (RELEASE,))
+    for note in notes:
+        context.screen.say(f"note: {request.motion.name}: {note}")
     plan = plans.demo_plan(request.run)
     outcomes = run_steps(plan, context)
     show_campaign(context)

@@ -48,6 +48,8 @@ def run_case(jobs: int, motion_file: Path | None, fault: str | None) -> int:
     log = folder / "campaign" / case.id / "program.log"
     if not result.run and f"exit status {REJECTED_INPUT}" in result.failure:
         raise UsageError("run: " + log.read_text(encoding="utf-8").strip().splitlines()[-1].removeprefix("safe_arm: "))
+    for note in motion.notes:
+        context.screen.say(f"note: {motion.source_name}: {note}")
     for line in summarise(result):
         context.screen.say(line)
     for line in _write_page(result, folder):

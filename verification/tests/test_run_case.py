@@ -4,12 +4,14 @@ ends in the state that the test wants, for the exit status."""
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from mamori.profiles.motion import Motion, load_limits, read_motion
+from mamori.profiles.motion import Motion, load_limits, read_motion, write_canonical
+from mamori.trace.readers.series import read_series
 from mamori.verification.campaign import Plan, load_plan, resolve
 from mamori.verification.campaign.fault import KINDS
 from mamori.verification.command import plans, run_case
@@ -157,6 +159,47 @@ def test_one_screen_shows_states_reaction_and_stopping_figures_and_names_the_pag
                   "Safe (scenario power_loss of the fault plan)", str(page)):  # fmt: skip
         assert words in said
     assert "<svg" in page.read_text(encoding="utf-8")
+
+
+@pytest.mark.verifies("SWR-MOT-009", technique="interface")
+def test_what_the_motion_has_that_is_not_used_is_one_note(command, capsys: pytest.CaptureFixture[str]) -> None:  # type: ignore[no-untyped-def]
+    motion = ROOT / "profiles" / "tests" / "data" / "arm_with_fingers.yaml"
+
+    assert command("Safe", "--motion", str(motion), "--fault", "power_loss,at=0.002") == 0
+    notes = [line for line in capsys.readouterr().out.splitlines() if line.startswith("note: ")]
+    assert notes == ["note: arm_with_fingers.yaml: not used: parts 8 to 9 (no arm joints); components not used: LinkPosition"]
+
+
+def follow(motion_file: Path, folder: Path) -> tuple[Motion, list[float]]:
+    """Lets the built arm follow a motion. @return the motion, and where the joints end [rad]."""
+    project = Project(ROOT)
+    if not project.safe_arm.exists():
+        pytest.skip(f"{project.safe_arm} is not built")
+    motion = read_motion(motion_file, load_limits(project.model))
+    write_canonical(motion, folder / "motion.txt")
+    done = subprocess.run([project.safe_arm, "run", "--model", project.model, "--motion", folder / "motion.txt", "--out", folder / "out"],
+                          capture_output=True, text=True, check=False, timeout=60)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    series = read_series(folder / "out" / "series.csv")
+    assert series.state[-1] == "Operational"
+    return motion, [joint[-1] for joint in series.position_rad]
+
+
+@pytest.mark.verifies("SWR-MOT-009", technique="interface")
+def test_the_arm_follows_a_motion_with_more_parts_to_its_last_posture(tmp_path: Path) -> None:
+    motion, end = follow(ROOT / "profiles" / "tests" / "data" / "arm_with_fingers.yaml", tmp_path)
+
+    assert end == pytest.approx(motion.position_rad[-1].tolist(), abs=1e-3)
+
+
+PREDECESSORS = ROOT / "../shared/data/motion/seed_pa10/pa10_example.yaml"
+
+
+@pytest.mark.skipif(not PREDECESSORS.exists(), reason=f"{PREDECESSORS} is absent")
+def test_the_arm_follows_the_example_of_the_predecessors_to_its_last_posture(tmp_path: Path) -> None:
+    motion, end = follow(PREDECESSORS, tmp_path)
+
+    assert end == pytest.approx(motion.position_rad[-1].tolist(), abs=1e-3)
 
 
 @pytest.mark.verifies("SWR-CLI-013", technique="fault_injection", polarity="violation")
