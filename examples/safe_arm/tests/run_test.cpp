@@ -291,6 +291,13 @@ TEST_F(RunTest, FaultIsInjectedBeforeTheEndOfTheMotionOnly) {
         expect_one_line("is not before the end of the motion at 1.0 s");
         EXPECT_FALSE(fs::exists(folder_ / "out")) << at;
     }
+}
+
+TEST_F(RunTest, FaultJustBeforeTheEndOfTheMotionIsInjectedAndNoFaultNeedsNoInstant) {
+    verifies("SWR-SAF-024", Technique::kBoundaryValues);
+
+    ASSERT_EQ(run(arguments("--frames 1600 --fault kind=power_loss,at=0.999")), 0) << messages_;
+    EXPECT_EQ(read_summary()["detected_fault"], "PowerLost");
     EXPECT_EQ(run(arguments("--frames 700 --fault kind=power_loss,at=0.999999999")), 0) << messages_;
     EXPECT_EQ(run(arguments("--frames 700 --fault kind=none")), 0) << messages_;
 }
