@@ -146,6 +146,8 @@ def _draw(series: Series, marks: Marks, span: tuple[float, float] | None, shaded
     with matplotlib.rc_context(_STYLE):
         figure = Figure(figsize=(_WIDTH_INCHES, _HEIGHT_INCHES), dpi=_DPI)
         states, positions, speeds = figure.subplots(3, 1, sharex=True, height_ratios=(0.34, 2.0, 2.0))
+        for axes in (states, positions, speeds):
+            axes.set_title("", y=1.0)  # a place of its own: without one each drawing measures all labels for a title
         figure.subplots_adjust(left=_LEFT, right=_RIGHT, top=0.885, bottom=0.105, hspace=0.24)
         _draw_states(states, series, (first, last))
         _draw_positions(positions, series, marks, span is not None)
