@@ -74,6 +74,9 @@ def make_parser(with_trace: bool = False) -> Parser:
     demo.add_argument("--motion", type=Path, metavar="FILE")
     demo.add_argument("--scenario", nargs="+", default=[], metavar="NAME", action="extend")
     demo.add_argument("--instants", type=at_least_one, metavar="N")
+    one = add("run")
+    one.add_argument("--motion", type=Path, metavar="FILE")
+    one.add_argument("--fault", metavar="FAULT")
     add("test").add_argument("--quick", action="store_true")
     add("build", with_project=True).add_argument("--preset", default=RELEASE, metavar="NAME")
     add("verify", with_project=True)
@@ -132,6 +135,10 @@ def run(argv: list[str]) -> int:
     match arguments.command:
         case "demo":
             return jobs.demo(arguments.jobs, arguments.motion, tuple(arguments.scenario), arguments.instants)
+        case "run":
+            from mamori.verification.command.run_case import run_case
+
+            return run_case(arguments.jobs, arguments.motion, arguments.fault)
         case "test":
             return jobs.test(arguments.jobs, arguments.quick)
         case "build":

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tables of steps behind `demo`, `test` and `verify`. A new check is a new row.
 
-@satisfies SWR-CLI-006      Design: docs/design/launcher.md#steps
+@satisfies SWR-CLI-006, SWR-CLI-012      Design: docs/design/launcher.md#steps
 """
 
 from __future__ import annotations
@@ -20,15 +20,16 @@ INSTALL = "install the package"
 BUILD_USER = "build the project"
 REPORT = "report"
 TIMING_CYCLES = "2000"
+EXAMPLE_TARGET = "safe_arm"
 
 
-def build_step(preset: str, slow: bool = False, target: str = "all") -> Step:
-    """Mamori itself, or one target of it."""
+def build_step(preset: str, slow: bool = False, targets: tuple[str, ...] = ("all",)) -> Step:
+    """Mamori itself, or only its `targets` and what they need."""
     return Step(
         name=f"build {preset}",
         commands=(
             ("cmake", "-S", str(ROOT), "--preset", preset),
-            ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}", "--target", target),
+            ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}", "--target", *targets),
         ),
         slow=slow,
     )
@@ -216,6 +217,23 @@ def cost_step() -> Step:
 
 
 def demo_plan(campaign: Action) -> tuple[Step, ...]:
+    """The arm at once: its program alone is built, and no test is run. What only other plans run may be missing here."""
+    return (
+        build_step(RELEASE, targets=(EXAMPLE_TARGET,)),
+        campaign_step(campaign),
+        timing_step(),
+        *trace_steps("--allow-missing"),
+    )
+
+
+def find_not_run(plan: tuple[Step, ...], whole: tuple[Step, ...]) -> list[str]:
+    """Names of the steps of `whole` that are not in `plan`, in their order."""
+    names = {step.name for step in plan}
+    return [step.name for step in whole if step.name not in names]
+
+
+def verify_own_plan(campaign: Action) -> tuple[Step, ...]:
+    """Mamori itself: tests, campaign and report."""
     return (
         build_step(RELEASE),
         ctest_step(RELEASE),
@@ -263,7 +281,7 @@ def build_plan(project: Project) -> tuple[Step, ...]:
     """`project` is Mamori itself, or one of the user's, which is built against the installed package."""
     if project.root == ROOT:
         return (build_step(project.preset),)
-    shipped = build_step(project.preset, target="mamori_package")
+    shipped = build_step(project.preset, targets=("mamori_package",))
     prefix = str(ROOT / "build" / "install")
     return (
         shipped,

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdlib>
@@ -158,7 +159,7 @@ TEST_F(RunTest, PathThatLeavesTheRangeIsStoppedInsideTheMechanicalRange) {
 TEST_F(RunTest, TrackingIsJudgedBehindAToleratedFaultToo) {
     verifies("SWR-SAF-016", Technique::kFaultInjection);
     const std::string bias = "--fault kind=encoder_bias,joint=7,channel=a,magnitude=0.0038,at=";
-    ASSERT_EQ(run(arguments(bias + "1.2 --frames 1650")), 0) << messages_;
+    ASSERT_EQ(run(arguments("--frames 1650")), 0) << messages_;
     const double before = read_summary()["physics"]["max_tracking_error_rad"];
     ASSERT_EQ(run(arguments(bias + "0.6 --frames 1800")), 0) << messages_;
 
@@ -281,6 +282,41 @@ TEST_F(RunTest, BrokenInputGivesOneLineAndNoRecord) {
     std::ofstream{folder_ / "motion.dat"} << "0 0 0 0 0 0 0 0\n1 0 0 nan 0 0 0 0\n";
     EXPECT_EQ(run(arguments("")), 2);
     expect_one_line("motion.dat:2:");
+}
+
+TEST_F(RunTest, FaultIsInjectedBeforeTheEndOfTheMotionOnly) {
+    verifies("SWR-SAF-024", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const char* const at : {"1", "1.001", "99"}) {
+        EXPECT_EQ(run(arguments(std::string{"--frames 700 --fault kind=power_loss,at="} + at)), 2) << at;
+        expect_one_line("is not before the end of the motion at 1.0 s");
+        EXPECT_FALSE(fs::exists(folder_ / "out")) << at;
+    }
+}
+
+TEST_F(RunTest, FaultJustBeforeTheEndOfTheMotionIsInjectedAndNoFaultNeedsNoInstant) {
+    verifies("SWR-SAF-024", Technique::kBoundaryValues);
+
+    ASSERT_EQ(run(arguments("--frames 1600 --fault kind=power_loss,at=0.999")), 0) << messages_;
+    EXPECT_EQ(read_summary()["detected_fault"], "PowerLost");
+    EXPECT_EQ(run(arguments("--frames 700 --fault kind=power_loss,at=0.999999999")), 0) << messages_;
+    EXPECT_EQ(run(arguments("--frames 700 --fault kind=none")), 0) << messages_;
+}
+
+TEST_F(RunTest, HelpListsTheKindsOfFaultsAndAWrongKindListsThemToo) {
+    verifies("SWR-SIM-015", Technique::kErrorGuessing, Polarity::kViolation);
+    const std::string wrong = arguments("--fault kind=nonsense,at=0.3");
+
+    ASSERT_EQ(run("run --help"), 0);
+    std::string help = messages_;
+    help.erase(std::remove_if(help.begin(), help.end(), [](char c) { return c == '\n' || c == ' '; }),
+               help.end());
+    ASSERT_EQ(run(wrong), 2);
+    for (const char* const kind :
+         {"none", "encoder_freeze", "encoder_bit_flip", "encoder_bias", "torque_runaway", "power_loss",
+          "brake_fade", "controller_hang", "message_lost", "message_late", "supervisor_hang"}) {
+        EXPECT_NE(help.find(kind), std::string::npos) << kind;
+        expect_one_line(kind);
+    }
 }
 
 TEST_F(RunTest, FolderThatCannotBeWrittenGivesOneLine) {
