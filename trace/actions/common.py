@@ -37,6 +37,7 @@ def add_input(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--evidence", type=Path, metavar="DIR", help="default: build/host-release/evidence, or the only one")
     add_foreign(parser)
     parser.add_argument("--allow-missing", action="store_true", help="results that are missing (not failing) are no errors")
+    parser.add_argument("--release", action="store_true", help="what this host could not show is an error, too")
     parser.add_argument("--date", type=_parse_date, metavar="DAY",
                         help="day by which waivers expire, as 2026-11-30 (default: of the commit, or else of the evidence)")  # fmt: skip
 
@@ -48,12 +49,17 @@ def add_output(parser: argparse.ArgumentParser, *more: str) -> None:
 
 def read_input(arguments: argparse.Namespace) -> Project:
     """The project that `add_input` chose. Raises InputError."""
+    if arguments.release and arguments.allow_missing:
+        raise InputError("--release and --allow-missing contradict each other; give one of them")
     foreign = get_foreign(arguments)
     if foreign is not None:
         from mamori.trace.formats.in_place import read_in_place  # loads much that a project of Mamori's own format does not need
 
-        return read_in_place(foreign, list_rule_ids())
-    return read_project(arguments.root, arguments.evidence, list_rule_ids(), arguments.allow_missing, arguments.date or "")
+        project = read_in_place(foreign, list_rule_ids())
+    else:
+        project = read_project(arguments.root, arguments.evidence, list_rule_ids(), arguments.allow_missing, arguments.date or "")
+    project.release = arguments.release
+    return project
 
 
 def warn_of_gap(root: Path) -> None:

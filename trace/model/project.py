@@ -29,7 +29,7 @@ from mamori.trace.model.waiver import Waived, Waiver
 class Project:
     """All that was read. `all_items` keeps every definition in file order; `items` the first one of each id.
 
-    `sources` is the hash of the sources where the evidence tells one, too. `date` is the day of the state that is judged (ISO 8601), or empty where nothing needs or tells it. `run_checks` sets `waived`.
+    `sources` is the hash of the sources where the evidence tells one, too. `date` is the day of the state that is judged (ISO 8601), or empty where nothing needs or tells it. `run_checks` sets `waived`, and `told`: (rule, item) of all findings.
     """
 
     root: Path
@@ -45,9 +45,11 @@ class Project:
     sources: str = ""
     problems: list[Problem] = field(default_factory=list)
     allow_missing: bool = False
+    release: bool = False
     pack: RulePack = field(default_factory=RulePack)
     waivers: list[Waiver] = field(default_factory=list)
     waived: list[Waived] = field(default_factory=list)
+    told: frozenset[tuple[str, str]] = frozenset()
     decomposition: list[Decomposition] = field(default_factory=list)
     reviews: list[ReviewRecord] = field(default_factory=list)
     former_ids: dict[str, FormerId] = field(default_factory=dict)

@@ -140,6 +140,7 @@ def read_evidence(folder: Path, project: Project) -> Evidence:
     read_timing(folder, project.root, evidence, project.problems)
     read_cost(folder, project.root, evidence, project.problems)
     read_evidence_records(folder, project.root, evidence, project.problems)
+    evidence.unbind()
     names = SourceNames(project.root, {function.file for function in project.functions})
     read_coverage(folder, project.root, names, evidence, project.problems)
     read_analysis(folder, names, project.root, evidence, project.problems)
