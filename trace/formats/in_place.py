@@ -140,7 +140,7 @@ def _link_results(results: list[TestResult], tests: list[SourceTest], converted:
         own = [word.strip() for word in result.requirement.split(",") if word.strip()]
         targets = [(each, result.polarity) for word in own for each in _resolve(word, result.place, converted, problems)]
         if not targets:
-            sources = [test for suite, name, _ in list_result_keys(result) for test in known.get((suite, name), ())]
+            sources = next((known[key] for key in list_result_keys(result) if key in known), [])
             targets = [(test.requirement, result.polarity or test.polarity) for test in sources]
         for requirement, polarity in dict.fromkeys(targets or [("", "")]):
             linked.append(replace(result, requirement=requirement, polarity=polarity))

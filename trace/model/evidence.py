@@ -25,6 +25,11 @@ INTEGRATION = "integration"
 CAMPAIGN = "campaign"
 
 
+WHOLE_SUITE = "(whole suite)"
+ANY_SUITE = "*"
+"""Of a test whose source does not tell under which suite its result is written."""
+
+
 class CodeTag(NamedTuple):
     """`@satisfies`: the code at `place` realises `requirement`. `symbol` is the class or function, or `file`."""
 
@@ -47,12 +52,13 @@ class SourceTest(NamedTuple):
 
     @property
     def title(self) -> str:
-        return f"{self.suite}.{self.name}" if self.name else self.suite
+        return f"{self.suite}.{self.name}" if self.name and self.suite not in ("", ANY_SUITE) else self.name or self.suite
 
 
 @dataclass(slots=True)
 class TestResult:
-    """One executed test case. `requirement` is empty when the test names none; `flaky`: it passed, but not at the first try."""
+    """One executed test case. `requirement` is empty when the test names none; `flaky`: it passed, but not at the first try; `bound_to`: suite and name
+    of its test in the sources."""
 
     __test__: ClassVar[bool] = False  # pytest would take the class for a group of tests
 
@@ -68,6 +74,7 @@ class TestResult:
     source: Place | None = None
     kind: str = UNIT
     flaky: bool = False
+    bound_to: tuple[str, str] | None = None
 
     @property
     def title(self) -> str:

@@ -14,7 +14,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from mamori.trace.model.evidence import CAMPAIGN, ERRORED, FAILED, NOT_SHOWN, PASSED, SKIPPED, UNIT, TestResult
+from mamori.trace.model.evidence import CAMPAIGN, ERRORED, FAILED, NOT_SHOWN, PASSED, SKIPPED, UNIT, WHOLE_SUITE, TestResult
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import get_shown_path, list_paths
 from mamori.trace.readers.tag_text import RESULT_PROPERTIES
@@ -92,7 +92,7 @@ class _Collector:
         if self._case is None and tag == "skipped":
             return
         if self._case is None:
-            self._case = self._open_case({"classname": self._suites[-1], "name": "(whole suite)"})
+            self._case = self._open_case({"classname": self._suites[-1], "name": WHOLE_SUITE})
         self._case.status = min(self._case.status, _OUTCOMES[tag], key=_WORST_FIRST.index)
         self._case.message = self._case.message or attributes.get("message", "")[:_MESSAGE_CHARACTERS_MAX]
         self._takes_text = not self._case.message.strip()
@@ -100,7 +100,7 @@ class _Collector:
     def _end(self, tag: str) -> None:
         if tag in _OUTCOMES:
             self._takes_text = False
-        if self._case is not None and (tag == "testcase" or (tag in _OUTCOMES and self._case.name == "(whole suite)")):
+        if self._case is not None and (tag == "testcase" or (tag in _OUTCOMES and self._case.name == WHOLE_SUITE)):
             self._close_case(self._case)
             self._case = None
         if tag in _ROOTS:

@@ -17,6 +17,7 @@ sys.path.insert(0, str(Path(__file__).parent))  # pytest's importlib mode does n
 
 import trace_sample  # noqa: E402
 from mamori.trace.command import main  # noqa: E402
+from mamori.trace.readers.evidence_records import list_recorded  # noqa: E402
 from mamori.trace.readers.files import InputError  # noqa: E402
 
 
@@ -73,6 +74,6 @@ def _record_all(words: list[str]) -> None:
         end = next((at for at, word in enumerate(given) if word.startswith("--")), len(given))
         for path in map(Path, given[:end]):
             folder = path if path.is_dir() else path.parent
-            files = sorted(folder.glob("*.xml"))
-            if files:
+            files = sorted({*folder.glob("*.xml"), *list_recorded(folder)})
+            if any(path.suffix == ".xml" for path in files):
                 trace_sample.record(folder, files)
