@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes `records.json`: the hash of each evidence file and of what it was made from (docs/design/evidence.md).
 
-@satisfies SWR-TRC-036      Design: docs/design/trace_cover.md#records
+@satisfies SWR-TRC-036, SWR-TRC-103      Design: docs/design/trace_cover.md#records
 """
 
 from __future__ import annotations
