@@ -71,6 +71,8 @@ def _list_filters(root: Path | str) -> list[str]:
         if not pending:
             break
         path = pending.pop()
+        if not path.is_file():
+            continue
         try:
             text = path.read_text(encoding="utf-8", errors="replace")
         except OSError:

@@ -25,6 +25,8 @@ def hash_text(text: str) -> str:
 
 def read_rows(folder: Path) -> Rows:
     """Rows of the records of an evidence folder; none where there is no whole file."""
+    if not (folder / NAME).is_file():  # a pipe would never end
+        return {}
     try:
         rows = json.loads((folder / NAME).read_text(encoding="utf-8"))["files"]
         return rows if isinstance(rows, dict) else {}

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What several actions share: the arguments that choose the input, the exit status, the printing of an outcome."""
+"""What several actions share: the arguments that choose the input, the exit status, the printing of an outcome.
+
+@satisfies SWR-TRC-108      Design: docs/design/trace.md#command
+"""
 
 from __future__ import annotations
 
@@ -45,6 +48,7 @@ def add_input(parser: argparse.ArgumentParser) -> None:
 def add_output(parser: argparse.ArgumentParser, *more: str) -> None:
     """How to print: as text, JSON, or one of `more`."""
     parser.add_argument("--output", choices=("text", "json", *more), default="text", help="how to print (default: text)")
+    parser.add_argument("--json", dest="output", action="store_const", const="json", help="the same as --output json")
 
 
 def read_input(arguments: argparse.Namespace) -> Project:

@@ -62,7 +62,7 @@ def _judge(project: Project, item: Item, verdicts: dict[str, Verdict]) -> Verdic
         failed = [child.id for child in children if verdicts[child.id].word == FAILED]
         objections += [(FAILED, f"{child} failed") for child in failed]
         for method in item.verify:
-            objections += _judge_method(project, item, method, children, verdicts)
+            objections += judge_method(project, item, method, children, verdicts)
     if not objections:
         return Verdict(VERIFIED)
     objections.sort(key=lambda objection: WORST_FIRST.index(objection[0]))
@@ -97,9 +97,10 @@ def _judge_children(children: list[Item], verdicts: dict[str, Verdict]) -> list[
     ]
 
 
-def _judge_method(
+def judge_method(
     project: Project, item: Item, method: str, children: list[Item], verdicts: dict[str, Verdict]
 ) -> list[_Objection]:
+    """What is against the item by one method that it demands."""
     if method == "campaign":
         passed = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, []) if case.passed}  # bound or not: told above
         absent = NOT_RUN if project.allow_missing else INCOMPLETE

@@ -74,6 +74,6 @@ def _record_all(words: list[str]) -> None:
         end = next((at for at, word in enumerate(given) if word.startswith("--")), len(given))
         for path in map(Path, given[:end]):
             folder = path if path.is_dir() else path.parent
-            files = sorted({*folder.glob("*.xml"), *list_recorded(folder)})
+            files = sorted({*filter(Path.is_file, folder.glob("*.xml")), *list_recorded(folder)})
             if any(path.suffix == ".xml" for path in files):
                 trace_sample.record(folder, files)
