@@ -66,6 +66,18 @@ void Executive::attach_inputs() noexcept {
     }
 }
 
+/// What an input holds, or what waits for it, is of an earlier run. Inputs have as source the one whose
+/// connection holds in the current mode: it is cleared last.
+void Executive::clear_inputs() noexcept {
+    for (const bool is_now_held : {false, true}) {
+        for (const ConnectionRow& connection : view_.connections) {
+            if (is_own(connection.sink_window) && is_held(connection, held_modes_) == is_now_held) {
+                connection.operations.clear(*connection.source, *connection.sink, connection.crossing);
+            }
+        }
+    }
+}
+
 Status Executive::initialize() noexcept {
     if (is_initialized_ || is_busy_) {
         return Status::kPreconditionNotMet;
@@ -95,12 +107,17 @@ Status Executive::initialize() noexcept {
 
 Status Executive::start_all() noexcept {
     for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
+        if (is_own(w)) {
+            // What was written on the way to the last stop belongs to that run.
+            discard_outputs(w);
+        }
+    }
+    clear_inputs();
+    for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
         ExecutionContext& context = windows_[w].context;
         if (!is_own(w)) {
             continue;
         }
-        // What was written on the way to the last stop belongs to that run.
-        discard_outputs(w);
         const Status result = context.start(last_release_);
         if (result != Status::kOk) {
             failed_component_ =

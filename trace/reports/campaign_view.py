@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mamori.trace.model.evidence import CampaignCase
+from mamori.trace.model.evidence import PASSED, CampaignCase
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.project import Project
 from mamori.trace.readers.files import UNREADABLE, get_shown_path
@@ -71,7 +71,7 @@ class ScenarioView:
 
     @property
     def passed(self) -> int:
-        return sum(view.case.passed for view in self.cases)
+        return sum(view.case.status == PASSED for view in self.cases)
 
 
 def make_scenario_views(project: Project, problems: list[Problem]) -> list[ScenarioView]:

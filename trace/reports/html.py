@@ -37,6 +37,8 @@ GLOSSARY = (
     ("verified", "Every demanded test and campaign case was executed and passed, from each demanded side."),
     ("failed", "A test or campaign case that names the item failed or ended in an error, or an item below it failed."),
     ("incomplete", "Nothing failed, but something that is demanded is absent or was skipped."),
+    ("unbound", "The results passed, but no evidence record tells what produced them."),
+    ("not shown here", "This host cannot produce a result: a privilege is missing, or the measurement was inconclusive."),
     ("not run", "The demanded tests exist and this run left them out, which was allowed for it."),
     ("draft", "The item is not approved yet; it proves nothing and nothing is demanded of it."),
     ("nominal", "Shows that the wanted thing happens."),

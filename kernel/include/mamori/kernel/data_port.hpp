@@ -32,6 +32,9 @@ enum class PortStatus : std::uint32_t {
 /// Age limit of an input whose connection declares none.
 inline constexpr Duration kNoAgeLimit{std::numeric_limits<std::int64_t>::max()};
 
+/// An instant before every other one.
+inline constexpr Instant kBeforeAll{std::numeric_limits<std::int64_t>::min()};
+
 /// Must an input be fed by a connection? The system table refuses a mandatory one that is not.
 enum class Need : std::uint8_t { kMandatory, kOptional };
 
@@ -147,8 +150,11 @@ class InPortBase {
     }
     /// For the executive, after the owner's cycle.
     void mark_read() noexcept { is_new_ = false; }
-    /// Instant of the last restart(); before the first one before every other instant.
+    /// Instant of the last restart(); before the first one, and after one without an instant, before every
+    /// other instant.
     Instant get_restarted_at() const noexcept { return restarted_at_; }
+    /// Number of restarts (wraps at 2^32). Code that keeps a value of its own compares it and drops the value.
+    std::uint32_t get_restart_count() const noexcept { return restart_count_; }
     /// For the executive. @param[in] age_max limit of the connection that feeds this input, > 0.
     void set_age_max(Duration age_max) noexcept { age_max_ = age_max; }
 
@@ -163,6 +169,7 @@ class InPortBase {
     void restart(Instant boundary, std::uint64_t revision) noexcept {
         restarted_at_ = boundary;
         revision_ = revision;
+        ++restart_count_;
         has_value_ = false;
         is_new_ = false;
     }
@@ -170,8 +177,9 @@ class InPortBase {
     const char* name_;
     Instant published_at_{};
     Duration age_max_{kNoAgeLimit};
-    Instant restarted_at_{std::numeric_limits<std::int64_t>::min()};
+    Instant restarted_at_{kBeforeAll};
     std::uint64_t revision_{0U};  ///< write of the source that is held here
+    std::uint32_t restart_count_{0U};
     bool has_value_{false};
     bool is_new_{false};
 };

@@ -83,7 +83,8 @@ class Executive {
     ///         refused.
     Status initialize() noexcept;
 
-    /// Starts every context, then activates every component that the current mode runs, in table order. After
+    /// Empties every input of its core, with queues and buffers before it: only values that are published
+    /// from here on reach them. Then starts every context and activates every component that the current mode runs, in table order. After
     /// a refusal everything is stopped again, as by stop().
     /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is not alive, in
     ///         Error or Active already, other cores are switching modes, or called from an action);
@@ -157,6 +158,7 @@ class Executive {
     Status initialize_components() noexcept;
     Status attach_contexts() noexcept;
     void attach_inputs() noexcept;
+    void clear_inputs() noexcept;
     Status start_all() noexcept;
     Status stop_all() noexcept;
     void prepare_work() noexcept;

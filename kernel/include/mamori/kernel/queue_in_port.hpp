@@ -100,13 +100,22 @@ class QueueInPort final : public InPortBase {
         was_read_ = false;
     }
 
+    /// For connections, before the owner's context starts: every waiting value is dropped, also one of a later
+    /// instant than those of the run that begins. Values that the source appends meanwhile may stay.
+    void clear() noexcept {
+        restart(kBeforeAll, 0U);
+        opening_ = kBeforeAll;
+        for (std::size_t i = 0U; i < kEntriesMax && buffer_.peek() != Status::kPreconditionNotMet; ++i) {
+            buffer_.drop();
+        }
+    }
+
     /// For connections, at the opening of the owner's window: what is published later waits for a later one.
     /// What was published up to the last restart() is of another mode and goes. A value that is handed on in
     /// the new mode at that very instant stays: it comes after the first opening since.
     void open(Instant opening) noexcept {
         const bool is_first = !is_open();
         opening_ = opening;
-        constexpr std::size_t kEntriesMax = kCapacity + 1U;  // besides those that wait, one may be held
         for (std::size_t i = 0U; i < kEntriesMax && is_front_of_another_mode(is_first); ++i) {
             buffer_.drop();
         }
@@ -124,6 +133,7 @@ class QueueInPort final : public InPortBase {
     }
 
   private:
+    static constexpr std::size_t kEntriesMax = kCapacity + 1U;  ///< besides those that wait, one may be held
     struct Entry {
         T value{};
         Instant published_at{};
