@@ -73,6 +73,10 @@ class ScenarioView:
     def passed(self) -> int:
         return sum(view.case.status == PASSED for view in self.cases)
 
+    @property
+    def is_bad(self) -> bool:
+        return self.passed < len(self.cases)
+
 
 def make_scenario_views(project: Project, problems: list[Problem]) -> list[ScenarioView]:
     """Scenarios and cases in the order of the campaign. A series that cannot be drawn becomes a problem."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the report: one HTML file without network, the same bytes for the same inputs.
 
-@satisfies SWR-TRC-011, SWR-TRC-013, SWR-TRC-061, SWR-TRC-062, SWR-TRC-066, SWR-TRC-067, SWR-TRC-068      Design: docs/design/trace_report.md
+@satisfies SWR-TRC-011, SWR-TRC-013, SWR-TRC-061, SWR-TRC-062, SWR-TRC-066, SWR-TRC-067, SWR-TRC-068, SWR-TRC-069      Design: docs/design/trace_report.md
 """
 
 from __future__ import annotations
@@ -16,9 +16,10 @@ from markupsafe import Markup
 from mamori.trace.checks import list_rules, run_checks
 from mamori.trace.model.finding import ERROR, Finding, Rule
 from mamori.trace.model.project import Project
-from mamori.trace.model.verdict import VERIFIED, Verdict, calc_verdicts
+from mamori.trace.model.verdict import VERIFIED, WORST_FIRST, Verdict, calc_verdicts
 from mamori.trace.readers.item_history import read_item_history
 from mamori.trace.reports import dashboard, v_overview
+from mamori.trace.reports.answers import LINES_MAX, make_answers
 from mamori.trace.reports.campaign_view import find_slowest, list_filled, make_scenario_views
 from mamori.trace.reports.cost_view import make_cost_views
 from mamori.trace.reports.inline_json import format_inline
@@ -76,7 +77,7 @@ def _render(context: dict[str, Any]) -> bytes:
 def _make_context(project: Project) -> dict[str, Any]:
     """Everything that the templates name."""
     scenarios = make_scenario_views(project, project.problems)
-    timing = make_timing_views(project, project.problems)
+    timing, costs = make_timing_views(project, project.problems), make_cost_views(project)
     findings = run_checks(project)
     verdicts = calc_verdicts(project)
     words = Counter(verdict.word for verdict in verdicts.values())
@@ -114,7 +115,10 @@ def _make_context(project: Project) -> dict[str, Any]:
         "anchors": anchors,
         "slowest": find_slowest(scenarios),
         "timing": timing,
-        "costs": make_cost_views(project),
+        "costs": costs,
+        "answers": make_answers(project, verdicts, findings, scenarios, [*timing, *costs]),
+        "answer_lines_max": LINES_MAX,
+        "verdict_words": tuple(reversed(WORST_FIRST)),
         "techniques": list_techniques(project),
         "drawings": [(layout, v_overview.make_boxes(project, verdicts, layout)) for layout in v_overview.LAYOUTS],
         "v": v_overview,

@@ -29,7 +29,7 @@ PICTURES = (
 )
 PICTURES_BYTES_MAX = 700_000
 """Of all pictures in the page, so that it stays small however many systems were measured."""
-_EXIT_RESULTS = {0: ("nothing to complain about", "verified"), 1: ("findings", "failed"), 4: ("without all real-time rights", "warning"),
+_EXIT_RESULTS = {0: ("no findings", "verified"), 1: ("findings", "failed"), 4: ("without all real-time rights", "warning"),
                  130: ("stopped", "incomplete")}  # fmt: skip
 
 

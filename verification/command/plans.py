@@ -277,8 +277,8 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
     return tuple(step for step in steps if not (quick and step.slow))
 
 
-def build_plan(project: Project) -> tuple[Step, ...]:
-    """`project` is Mamori itself, or one of the user's, which is built against the installed package."""
+def build_plan(project: Project, target: str = "all") -> tuple[Step, ...]:
+    """`project` is Mamori itself, or one of the user's, of which `target` is built against the installed package."""
     if project.root == ROOT:
         return (build_step(project.preset),)
     shipped = build_step(project.preset, targets=("mamori_package",))
@@ -295,7 +295,7 @@ def build_plan(project: Project) -> tuple[Step, ...]:
             commands=(
                 ("cmake", "-S", "{root}", "-B", "{build}", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
                  "-DCMAKE_BUILD_TYPE=Release"),
-                ("cmake", "--build", "{build}", "--parallel", "{jobs}"),
+                ("cmake", "--build", "{build}", "--target", target, "--parallel", "{jobs}"),
             ),
             needs=(INSTALL,),
         ),

@@ -18,6 +18,7 @@
 #include "mamori/verification/verifies.hpp"
 #include "run_recorder.hpp"
 #include "safety_supervisor.hpp"
+#include "timing_command.hpp"
 
 namespace safe_arm {
 namespace {
@@ -343,6 +344,28 @@ TEST_F(RunTest, TimingLeavesTheTimesOfEveryWindowOfEveryFrame) {
     ASSERT_EQ(facts["notes"].size(), 2U);
     EXPECT_EQ(facts["notes"][0].get<std::string>().find("the arm ended in state "), 0U) << facts["notes"];
     EXPECT_NE(messages_.find("the simulated arm was not ready for "), std::string::npos) << messages_;
+}
+
+TEST_F(RunTest, TimingOfAnArmThatOperatesOrHasNotBegunHasNoFinding) {
+    verifies("SWR-TIM-005");
+    using mamori::safety::SafeState;
+    for (const SafeState state : {SafeState::kSelfTest, SafeState::kStandby, SafeState::kOperational}) {
+        EXPECT_TRUE(make_findings(state, 0U).empty()) << static_cast<int>(state);
+    }
+}
+
+TEST_F(RunTest, TimingOfAnArmThatLeftItsOperatingStateIsAFinding) {
+    verifies("SWR-TIM-005", Technique::kFaultInjection, Polarity::kViolation);
+    using mamori::safety::SafeState;
+    for (auto state = static_cast<int>(SafeState::kDegraded);
+         state <= static_cast<int>(SafeState::kLockedOut); ++state) {
+        EXPECT_EQ(make_findings(static_cast<SafeState>(state), kArmFaultCount).size(), 1U) << state;
+    }
+    EXPECT_EQ(make_findings(SafeState::kLockedOut, 0U).front(),
+              std::string{"the arm left its operating state and ended in LockedOut, first fault "} +
+                  kArmFaultNames[0]);
+    EXPECT_EQ(make_findings(SafeState::kLockedOut, kArmFaultCount).front(),
+              "the arm left its operating state and ended in LockedOut");
 }
 
 TEST_F(RunTest, TimingOfNoCyclesIsRefused) {

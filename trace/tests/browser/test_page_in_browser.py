@@ -76,6 +76,19 @@ def test_no_cell_is_cut_and_no_column_is_empty(page: Any, full_file: Path, fragm
     assert page.ask(EMPTY) == []
 
 
+@pytest.mark.parametrize("width", [1280, 768, 400])
+@pytest.mark.verifies("SWR-TRC-069", technique="boundary_values", polarity="nominal")
+def test_the_first_screen_holds_the_three_answers(page: Any, small_file: Path, width: int) -> None:
+    page.open(small_file, width=width)
+
+    answers = page.ask("[...document.querySelectorAll('.answer')].map(e => [e.querySelector('h2').textContent, e.getBoundingClientRect().bottom])")
+    assert [question for question, _ in answers] == ["Is it safe?", "Is it complete?", "What is wrong?"]
+    assert max(bottom for _, bottom in answers) <= 900
+    for target in page.ask("[...document.querySelectorAll('.answer a')].map(a => a.getAttribute('href') + (a.dataset.query ? '?' + a.dataset.query : ''))"):
+        page.open(small_file, target, width=width)
+        assert page.ask(SHOWN) == [target[1:].split("?")[0] if "case-" not in target else "campaign"]
+
+
 @pytest.mark.verifies("SWR-TRC-111", technique="boundary_values", polarity="nominal")
 def test_drawings_of_a_case_are_read_on_400_pixels(page: Any, full_file: Path) -> None:
     page.open(full_file, "#case-1-encoder_freeze-1", width=400)

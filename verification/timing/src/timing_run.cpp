@@ -343,6 +343,9 @@ TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& o
     if (options.tell_notes) {
         facts.notes = options.tell_notes();
     }
+    if (options.tell_findings) {
+        facts.findings = options.tell_findings();
+    }
     problem = write_all(*session, options, facts);
     if (!is_closed) {
         keep_for_ever(std::move(session));
