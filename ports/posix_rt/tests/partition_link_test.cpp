@@ -71,6 +71,17 @@ class PartitionLinkTest : public ::testing::Test {
     OutPort<Message> source_{"source"};
 };
 
+TEST_F(PartitionLinkTest, AMessageOfAnEarlierRunDoesNotComeOut) {
+    verifies("SWR-PRT-013", Technique::kStateTransition);
+    ASSERT_EQ(send({7U, 1.5, Colour::kGreen}, Instant{1000}), Status::kOk);
+
+    EXPECT_EQ(receiver_.on_startup({0, Instant{5000}}), Status::kOk);
+    EXPECT_FALSE(receive(Instant{5300}));
+    EXPECT_EQ(get_news().outcome, FrameOutcome::kNothingNew);
+    ASSERT_EQ(send({8U, 2.5, Colour::kGreen}, Instant{6000}), Status::kOk);
+    EXPECT_TRUE(receive(Instant{6300}));
+}
+
 TEST_F(PartitionLinkTest, AMessageComesOutOnceWithTheAgeItHasInTheOtherPartition) {
     verifies("SWR-PRT-013");
     EXPECT_FALSE(receive(Instant{500}));

@@ -216,6 +216,29 @@ TYPED_TEST(E2eModeTest, ValueOfAnotherModeIsNotHeld) {
     EXPECT_EQ(this->ends_.sut.get_state(), ChannelState::kValid);
 }
 
+TYPED_TEST(E2eModeTest, ValueOfAnEarlierRunIsNotHeld) {
+    verifies("SWR-E2E-041", Technique::kStateTransition, Polarity::kViolation);
+    for (int run = 0; run < 2; ++run) {
+        ASSERT_EQ(this->ends_.send({1.0, Gear::kDrive}), E2eWorth::kNew);
+        ASSERT_EQ(this->ends_.read(), E2eWorth::kHeld);
+
+        // As each start of an executive does: with one and the same instant.
+        this->ends_.in.restart(mamori::kBeforeAll, this->ends_.revision);
+        EXPECT_EQ(this->ends_.read(), E2eWorth::kSubstitute);
+        EXPECT_EQ(this->ends_.value.rad_s, kSafe.rad_s);
+    }
+}
+
+TYPED_TEST(E2eModeTest, FrameAtAnInstantOfAnEarlierRunIsSeen) {
+    verifies("SWR-E2E-041", Technique::kErrorGuessing);
+    const Instant first = this->ends_.now;
+    ASSERT_EQ(this->ends_.send({1.0, Gear::kDrive}), E2eWorth::kNew);
+    this->ends_.in.restart(mamori::kBeforeAll, this->ends_.revision);
+
+    this->ends_.now = first;  // the time line of the new run begins again
+    EXPECT_EQ(this->ends_.send({2.0, Gear::kDrive}), E2eWorth::kNew);
+}
+
 TYPED_TEST(E2eModeTest, RefusedFrameOfTheNewModeDoesNotBringTheOldValueBack) {
     verifies("SWR-E2E-041", Technique::kFaultInjection, Polarity::kViolation);
     const auto repeated = this->ends_.out.get_published();

@@ -84,9 +84,10 @@ class E2eInPort final {
     /// @param[out] value always written: never anything but a value that may be used now, or the substitute.
     /// @return which of them it is.
     [[nodiscard]] E2eWorth read(Instant now, Value& value) noexcept {
-        if (source_.get_restarted_at() != restarted_at_) {
-            restarted_at_ = source_.get_restarted_at();
-            has_value_ = false;  // whatever this reading brings: what is held is of another mode
+        if (source_.get_restart_count() != restart_count_) {
+            restart_count_ = source_.get_restart_count();
+            source_.forget();
+            has_value_ = false;  // whatever this reading brings: what is held is of another mode or run
         }
         outcome_ = has_frame() ? judge_frame(now) : note_silence();
         if (!machine_.is_valid()) {
@@ -165,8 +166,8 @@ class E2eInPort final {
     ChannelStateMachine machine_{window_, kLimits.demands};
     Value substitute_;
     Value value_;
-    Instant origin_{};        ///< from which the age of value_ counts
-    Instant restarted_at_{};  ///< of the connection, as the last reading found it
+    Instant origin_{};                 ///< from which the age of value_ counts
+    std::uint32_t restart_count_{0U};  ///< of the input, as the last reading found it
     E2eOutcomeCounts counts_{};
     E2eOutcome outcome_{E2eOutcome::kSilent};
     bool has_value_{false};
