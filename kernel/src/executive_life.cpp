@@ -61,7 +61,7 @@ Status Executive::attach_contexts() noexcept {
 void Executive::attach_inputs() noexcept {
     for (const ConnectionRow& connection : view_.connections) {
         if (is_own(connection.sink_window)) {
-            connection.sink->set_age_max(connection.age_max);
+            connection.sink->set_age_limits(connection.age_max, connection.lead_max);
         }
     }
 }

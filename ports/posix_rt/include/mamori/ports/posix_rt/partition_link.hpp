@@ -73,9 +73,11 @@ class PartitionReceiver final : public Component {
   public:
     static constexpr std::size_t kCapacity = PartitionSender<T>::kCapacity;
 
-    /// @param[in] reader opened with kCapacity before the executive is initialised; must have static storage.
-    constexpr PartitionReceiver(const char* name, FrameReader& reader) noexcept
-        : Component(name), reader_(reader) {}
+    /// @param[in] reader   opened with kCapacity before the executive is initialised; must have static
+    /// storage.
+    /// @param[in] lead_max how far the instant of a message may be after now, >= 0; a later one is malformed.
+    constexpr PartitionReceiver(const char* name, FrameReader& reader, Duration lead_max = {}) noexcept
+        : Component(name), reader_(reader), lead_max_(lead_max) {}
 
     OutPort<T> out{"out"};
     OutPort<PartitionNews> news{"news"};
@@ -114,7 +116,7 @@ class PartitionReceiver final : public Component {
 
     bool accept(const FrameFacts& facts, Instant now) noexcept {
         const std::int64_t at = facts.published_at.ns;
-        const bool is_instant = at > -kFarthest && at < kFarthest;
+        const bool is_instant = at > -kFarthest && at < kFarthest && facts.published_at - now <= lead_max_;
         if (!is_instant || decode({buffer_.data(), facts.length}, kFrameOrder, value_) != Status::kOk) {
             return false;
         }
@@ -126,6 +128,7 @@ class PartitionReceiver final : public Component {
     }
 
     FrameReader& reader_;
+    Duration lead_max_;
     std::array<std::byte, kCapacity> buffer_{};
     T value_{};
     PartitionNews state_{};
