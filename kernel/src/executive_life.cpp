@@ -61,19 +61,21 @@ Status Executive::attach_contexts() noexcept {
 void Executive::attach_inputs() noexcept {
     for (const ConnectionRow& connection : view_.connections) {
         if (is_own(connection.sink_window)) {
-            connection.sink->set_age_max(connection.age_max);
+            connection.sink->set_age_limits(connection.age_max, connection.lead_max);
         }
     }
 }
 
-/// What an input holds, or what waits for it, is of an earlier run. Inputs have as source the one whose
-/// connection holds in the current mode: it is cleared last.
-void Executive::clear_inputs() noexcept {
-    for (const bool is_now_held : {false, true}) {
-        for (const ConnectionRow& connection : view_.connections) {
-            if (is_own(connection.sink_window) && is_held(connection, held_modes_) == is_now_held) {
-                connection.operations.clear(*connection.source, *connection.sink, connection.crossing);
-            }
+/// Every value that a port holds, or that waits for an input, is of an earlier run.
+void Executive::clear_ports() noexcept {
+    for (const PortRow& port : view_.ports) {
+        if (port.output != nullptr && is_own(port.window)) {
+            port.output->begin_run();
+        }
+    }
+    for (const ConnectionRow& connection : view_.connections) {
+        if (is_own(connection.sink_window)) {
+            connection.operations.clear(*connection.source, *connection.sink, connection.crossing);
         }
     }
 }
@@ -106,13 +108,7 @@ Status Executive::initialize() noexcept {
 }
 
 Status Executive::start_all() noexcept {
-    for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
-        if (is_own(w)) {
-            // What was written on the way to the last stop belongs to that run.
-            discard_outputs(w);
-        }
-    }
-    clear_inputs();
+    clear_ports();
     for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
         ExecutionContext& context = windows_[w].context;
         if (!is_own(w)) {

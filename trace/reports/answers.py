@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from urllib.parse import urlencode
 
+from mamori.trace.model.evidence import PASSED
 from mamori.trace.model.finding import ERROR, Finding
 from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import FAILED, VERIFIED, WORST_FIRST, Verdict
@@ -56,11 +57,12 @@ def _answer_safe(project: Project, verdicts: Mapping[str, Verdict], scenarios: l
     """By the fault campaign and the items with a safety integrity level; a claim needs both, without an exception."""
     items = {key: verdict.word for key, verdict in verdicts.items() if project.items[key].sil.isdecimal()}
     cases = project.evidence.cases
-    good = sum(case.passed for case in cases)
+    good = sum(case.status == PASSED for case in cases)
+    failed = sum(case.status == FAILED for case in cases)
     words = Counter(items.values())
     lines = []
     if cases:
-        lines.append(Line(f"{good:,} of {len(cases):,} campaign cases ended as expected", "#campaign", "failed" if good < len(cases) else ""))
+        lines.append(Line(f"{good:,} of {len(cases):,} campaign cases ended as expected", "#campaign", "failed" if failed else ""))
     else:
         lines.append(Line("no fault campaign was run", "#campaign", "not-run"))
     if items:
@@ -69,9 +71,9 @@ def _answer_safe(project: Project, verdicts: Mapping[str, Verdict], scenarios: l
         lines.append(Line(f"{words[VERIFIED]:,} of {len(items):,} items with a SIL verified", target, "failed" if words[FAILED] else ""))
     if slowest := find_slowest(scenarios):
         lines.append(Line(f"slowest reaction: {slowest.reaction_time}", f"#{slowest.anchor}", "failed" if (slowest.share or 0) > 1 else ""))
-    if good < len(cases) or words[FAILED]:
+    if failed or words[FAILED]:
         return Answer("Is it safe?", "No", "failed", tuple(lines))
-    if cases and words[VERIFIED] == len(items):
+    if cases and good == len(cases) and words[VERIFIED] == len(items):
         return Answer("Is it safe?", "Yes, as far as shown", "verified", tuple(lines))
     return Answer("Is it safe?", "Not fully shown", "incomplete", tuple(lines))
 
@@ -93,7 +95,7 @@ def _answer_wrong(project: Project, findings: Sequence[Finding], measured: Seque
     lines = []
     if count := len({result.title for result in project.results if result.failing}):
         lines.append(Line(f"{count:,} failed {_plural(count, 'test')}", "#tests?status=failed", "failed"))
-    if count := sum(not case.passed for case in project.evidence.cases):
+    if count := sum(case.status == FAILED for case in project.evidence.cases):
         lines.append(Line(f"{count:,} failed campaign {_plural(count, 'case')}", "#campaign", "failed"))
     lines += [Line(f"{view.title}: {view.result[0]}", f"#{view.anchor}", "failed") for view in measured if view.result[1] == "failed"]
     rules = Counter((finding.severity != ERROR, finding.rule) for finding in findings)

@@ -49,7 +49,7 @@ def race_steps() -> tuple[Step, ...]:
     """What two cores share, under the thread sanitizer: these programs alone, since nothing else has threads."""
     preset = "host-tsan"
     targets = ("kernel_abandon_stress_test", "kernel_crossing_test", "kernel_introspection_stress_test", "kernel_mode_stress_test",
-               "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test", "supervision_log_test",
+               "kernel_stimulus_stress_test", "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test", "supervision_log_test",
                "timing_test")  # fmt: skip
     build = Step(
         name=f"build {preset}",

@@ -177,7 +177,8 @@ class Drive final : public Component {
 Witness ask_witness{"ask_witness", 0U};
 Asker asker;
 Witness protect_witness{"protect_witness", 1U};
-ports::posix_rt::PartitionReceiver<Answer> receiver{"receiver", answer_reader};
+/// Its window may open late by its length, and then finds an answer of this frame.
+ports::posix_rt::PartitionReceiver<Answer> receiver{"receiver", answer_reader, 240_us};
 Guard guard;
 Witness act_witness{"act_witness", 2U};
 Drive drive;

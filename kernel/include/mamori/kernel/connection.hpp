@@ -3,7 +3,7 @@
 /// How a connection moves values: at the opening of the sink's window, within a window, and, where it leaves
 /// a core or a partition, through a buffer that neither side waits for.
 ///
-/// @satisfies SWR-KRN-016, SWR-KRN-026      Design: docs/design/kernel.md#connections
+/// @satisfies SWR-KRN-016, SWR-KRN-026, SWR-KRN-039      Design: docs/design/kernel.md#connections
 #ifndef MAMORI_KERNEL_CONNECTION_HPP
 #define MAMORI_KERNEL_CONNECTION_HPP
 
@@ -58,12 +58,12 @@ class Crossing final : public CrossingBase {
         }
     }
 
-    /// For the executive of the reading core, before it starts: the value in the buffer is of an earlier run.
-    /// The sink takes later writes only. Instants do not decide: a run may begin before the end of the last.
+    /// For the executive of the reading core, before it starts: drops the value in the buffer, which is of an
+    /// earlier run. Instants do not decide: the time line of a run may begin before the end of the last run.
     template <typename Sink>
     void clear(Sink& sink) noexcept {
-        static_cast<void>(buffer_.update());
-        sink.restart(kBeforeAll, buffer_.get_read_slot().revision);
+        buffer_.drop();
+        sink.restart(kBeforeAll, 0U);
     }
 
   private:
@@ -117,8 +117,8 @@ struct LatestConnection {
         const bool is_of_new_mode = published != 0U && source.get_published_at() > boundary;
         static_cast<Sink&>(sink).restart(boundary, is_of_new_mode ? published - 1U : published);
     }
-    static void clear(OutPortBase& source, InPortBase& sink, CrossingBase*) noexcept {
-        static_cast<Sink&>(sink).restart(kBeforeAll, source.get_published_revision());
+    static void clear(OutPortBase&, InPortBase& sink, CrossingBase*) noexcept {
+        static_cast<Sink&>(sink).restart(kBeforeAll, 0U);  // its source is on the same core: begin_run()
     }
     static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, &restart,
                                                       &clear,  false,  true,     true};

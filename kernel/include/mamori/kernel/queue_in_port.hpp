@@ -4,8 +4,9 @@
 /// policies of OpenRTM. The source may run on another core: entries count by their planned instants, so what
 /// a cycle can read does not depend on which core was faster.
 ///
-/// @satisfies SWR-KRN-028, SWR-KRN-029, SWR-KRN-037      Design: docs/design/kernel.md#connections
-/// Source:   OpenRTM-aist, buffer.write.full_policy and buffer.read.empty_policy of a data port
+/// @satisfies SWR-KRN-028, SWR-KRN-029, SWR-KRN-037, SWR-KRN-039      Design:
+/// docs/design/kernel.md#connections Source:   OpenRTM-aist, buffer.write.full_policy and
+/// buffer.read.empty_policy of a data port
 #ifndef MAMORI_KERNEL_QUEUE_IN_PORT_HPP
 #define MAMORI_KERNEL_QUEUE_IN_PORT_HPP
 
@@ -100,13 +101,15 @@ class QueueInPort final : public InPortBase {
         was_read_ = false;
     }
 
-    /// For connections, before the owner's context starts: every waiting value is dropped, also one of a later
-    /// instant than those of the run that begins. Values that the source appends meanwhile may stay.
+    /// For connections, before the owner's context starts: every waiting value is dropped, also one of a
+    /// later instant than those of the run that begins. Values that the source appends meanwhile may stay.
     void clear() noexcept {
         restart(kBeforeAll, 0U);
         opening_ = kBeforeAll;
-        for (std::size_t i = 0U; i < kEntriesMax && buffer_.peek() != Status::kPreconditionNotMet; ++i) {
-            buffer_.drop();
+        for (std::size_t i = 0U; i < kEntriesMax; ++i) {
+            if (buffer_.peek() == Status::kOk) {
+                buffer_.drop();
+            }
         }
     }
 
