@@ -3,6 +3,22 @@ include_guard(GLOBAL)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# A compiler cache, unless the caller has chosen a compiler launcher (an empty one too).
+function(mamori_use_ccache)
+    if(MAMORI_USE_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+        find_program(MAMORI_CCACHE ccache)
+        mark_as_advanced(MAMORI_CCACHE)
+        if(MAMORI_CCACHE)
+            set(CMAKE_CXX_COMPILER_LAUNCHER "${MAMORI_CCACHE}" PARENT_SCOPE)
+        endif()
+    endif()
+endfunction()
+
+# mamori/version.hpp, from the version of the project.
+function(mamori_version_header)
+    configure_file("${PROJECT_SOURCE_DIR}/cmake/version.hpp.in" "${PROJECT_BINARY_DIR}/generated/mamori/version.hpp" @ONLY)
+endfunction()
+
 # Flags that every C++ target of the project has.
 #   -ffp-contract=off: the same bytes everywhere (a fused multiply-add rounds once where two operations round twice).
 #   -UNDEBUG: assertions stay on in every configuration, and Debian's Simbody headers need it to match its library.
@@ -11,7 +27,7 @@ function(mamori_common_flags target)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
     target_compile_options(${target} PRIVATE
         -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
-        -Woverloaded-virtual -Wdouble-promotion -Werror -ffp-contract=off -UNDEBUG)
+        -Woverloaded-virtual -Wdouble-promotion $<$<BOOL:${MAMORI_WARNINGS_AS_ERRORS}>:-Werror> -ffp-contract=off -UNDEBUG)
 endfunction()
 
 # mamori_library(<layer> [TARGET_SUBSET] [COMPONENT name] SOURCES ... DEPENDS ... PRIVATE_DEPENDS ...)
@@ -29,14 +45,43 @@ function(mamori_library layer)
     target_link_libraries(${target} PUBLIC ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
     if(arg_TARGET_SUBSET)
         target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics)
+        # The check `vptr` of the undefined-behaviour sanitizer reads type information, which this layer does not have.
+        target_compile_options(${target} INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-fno-sanitize=vptr>)
     endif()
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${layer})
-    set(export mamoriTargets)
-    if(arg_COMPONENT)
-        set(export mamori_${arg_COMPONENT}Targets)
+    mamori_install_target(${target} "${arg_COMPONENT}")
+endfunction()
+
+# mamori_install_target(<target> <component or "">): the target and the headers in include/ become part of the package.
+function(mamori_install_target target component)
+    if(NOT MAMORI_INSTALL)
+        return()
     endif()
+    set(export mamoriTargets)
+    if(component)
+        set(export mamori_${component}Targets)
+    endif()
+    if(NOT TARGET mamori_package) # all that `cmake --install` needs, without tests and examples
+        add_custom_target(mamori_package)
+    endif()
+    add_dependencies(mamori_package ${target})
     install(TARGETS ${target} EXPORT ${export} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
     install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# Compiles gtest.h once for all test programs: reading it costs each test file half a second. Not with a compiler launcher, since
+# ccache keeps the objects anyway, and misses them with precompiled headers.
+function(mamori_precompile_gtest target)
+    if(CMAKE_CXX_COMPILER_LAUNCHER)
+        return()
+    endif()
+    if(NOT TARGET mamori_gtest_prefix)
+        add_library(mamori_gtest_prefix OBJECT "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/gtest_prefix.cpp")
+        mamori_common_flags(mamori_gtest_prefix)
+        target_link_libraries(mamori_gtest_prefix PRIVATE GTest::gtest)
+        target_precompile_headers(mamori_gtest_prefix PRIVATE <gtest/gtest.h>)
+    endif()
+    target_precompile_headers(${target} REUSE_FROM mamori_gtest_prefix)
 endfunction()
 
 # mamori_test(<name> SOURCES ... DEPENDS ...)
@@ -50,11 +95,14 @@ function(mamori_test name)
     add_executable(${name} ${arg_SOURCES})
     mamori_common_flags(${name})
     target_link_libraries(${name} PRIVATE ${arg_DEPENDS} GTest::gtest GTest::gtest_main)
+    target_link_libraries(${name} PRIVATE mamori::verifies)
+    mamori_precompile_gtest(${name})
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/verification/support/include)
     add_test(NAME ${name} COMMAND ${name} --gtest_output=xml:${PROJECT_BINARY_DIR}/evidence/junit/${name}.xml)
     set_tests_properties(${name} PROPERTIES TIMEOUT 600)
 endfunction()
 
+# @satisfies SWR-PRF-039      Design: docs/design/launcher.md#consumer-proof
 function(mamori_install_package)
     set(mamori_model_dir "${CMAKE_INSTALL_DATADIR}/mamori/models")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/simbody_sim/models/" DESTINATION ${mamori_model_dir})
@@ -65,6 +113,8 @@ function(mamori_install_package)
         VERSION ${PROJECT_VERSION} COMPATIBILITY SameMinorVersion)
     install(FILES "${PROJECT_BINARY_DIR}/mamoriConfig.cmake" "${PROJECT_BINARY_DIR}/mamoriConfigVersion.cmake"
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)
+    install(FILES "${PROJECT_BINARY_DIR}/generated/mamori/version.hpp" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mamori)
+    install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/mamori)
     install(EXPORT mamoriTargets NAMESPACE mamori:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)
     if(MAMORI_WITH_SIMBODY_SIM)
         install(EXPORT mamori_simbody_simTargets NAMESPACE mamori:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mamori)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`mamori trace ACTION`: hands over to the module of the action.
 
-Exit status: 0 clean, 1 findings of severity error, 2 wrong usage or input that could not be read.
+Exit status: 0 clean, 1 findings of severity error, 2 wrong usage or input that could not be read; of `record` that of its command.
 
 @satisfies SWR-TRC-010, SWR-TRC-008      Design: docs/design/trace.md#command
 """
@@ -32,6 +32,7 @@ _ACTIONS = {
     "query": "query",
     "bundle": "bundle",
     "verify": "verify",
+    "record": "record",
     "import": "import_items",
     "export": "export_items",
 }

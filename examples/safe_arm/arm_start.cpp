@@ -9,6 +9,17 @@ namespace safe_arm {
 using mamori::Instant;
 using mamori::Status;
 
+namespace {
+
+/// Seconds to the microsecond, without zeros at the end.
+std::string show_seconds(double seconds) {
+    std::string text = std::to_string(seconds);
+    text.erase(text.find_last_not_of('0') + 1U);
+    return (text.back() == '.' ? text + "0" : text) + " s";
+}
+
+}  // namespace
+
 std::string load_inputs(const std::string& model_path, const std::string& motion_path,
                         mamori::sim::LoadedModel& loaded, MotionTrack& track) {
     loaded = mamori::sim::load_arm_model(model_path);
@@ -24,6 +35,15 @@ std::string load_inputs(const std::string& model_path, const std::string& motion
         return error;
     }
     return {};
+}
+
+std::string check_fault_instant(const mamori::sim::FaultPlan& fault, const MotionTrack& track) {
+    const double end_s = track.get_duration_s();
+    if (fault.kind == mamori::sim::FaultKind::kNone || static_cast<double>(fault.at.ns) < end_s * 1.0e9) {
+        return {};
+    }
+    return "at=" + show_seconds(static_cast<double>(fault.at.ns) / 1.0e9) +
+           " is not before the end of the motion at " + show_seconds(end_s) + "; choose an earlier instant";
 }
 
 std::string start_system(const mamori::sim::ArmModel& model, const MotionTrack& track,

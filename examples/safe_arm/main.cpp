@@ -37,6 +37,10 @@ int run_scenario(const safe_arm::RunOptions& options) {
     if (!refusal.empty()) {
         return fail(kExitUsage, refusal);
     }
+    const std::string misplaced = safe_arm::check_fault_instant(options.fault, track);
+    if (!misplaced.empty()) {
+        return fail(kExitUsage, "--fault: " + misplaced);
+    }
     const std::string unwritable = safe_arm::claim_folder(options.out);
     if (!unwritable.empty()) {
         return fail(kExitUsage, unwritable);

@@ -72,8 +72,11 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
     run->add_option("--motion", options.motion, "Motion table: lines of time and 7 joint angles [s, rad]")
         ->required();
     run->add_option("--out", options.out, "Folder for run.json, series.csv and events.csv")->required();
-    run->add_option("--fault", options.fault_text,
-                    "Fault plan, e.g. kind=encoder_freeze,joint=2,channel=a,at=2.0 (at: seconds of motion)");
+    run->add_option(
+        "--fault", options.fault_text,
+        "Fault plan, e.g. kind=encoder_freeze,joint=2,channel=a,at=2.0 (at: seconds of the motion, "
+        "before its end). Kinds: " +
+            mamori::sim::list_fault_kinds());
     run->add_option("--seed", options.seed, "Seed that the record names")
         ->check(check_not_negative)
         ->capture_default_str();

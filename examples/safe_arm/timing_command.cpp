@@ -33,6 +33,18 @@ std::vector<std::string> make_notes(const RealTimeMachine& machine) {
 
 }  // namespace
 
+std::vector<std::string> make_findings(mamori::safety::SafeState state, std::size_t first_fault) {
+    using mamori::safety::SafeState;
+    if (state == SafeState::kSelfTest || state == SafeState::kStandby || state == SafeState::kOperational) {
+        return {};
+    }
+    std::string finding = std::string{"the arm left its operating state and ended in "} + get_name(state);
+    if (first_fault < kArmFaultCount) {
+        finding += std::string{", first fault "} + kArmFaultNames[first_fault];
+    }
+    return {finding};
+}
+
 int run_timing_command(const RunOptions& options) {
     // Static: work that hangs when the run is over may still use them.
     static mamori::sim::LoadedModel loaded;
@@ -55,6 +67,7 @@ int run_timing_command(const RunOptions& options) {
     timing.out = options.out;
     timing.save_table = save_table;
     timing.tell_notes = [&machine] { return make_notes(machine); };
+    timing.tell_findings = [] { return make_findings(supervisor.get_state(), supervisor.get_first_fault()); };
     const mamori::timing::TimingResult result =
         mamori::timing::run_timing({{executive, threads, &machine}}, timing);
     if (!result.message.empty()) {

@@ -77,6 +77,11 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
         release_participants(participants);
         return verdict;
     }
+    for (Component* component : participants) {
+        if (component->machine_ != nullptr) {
+            component->machine_->context_id_.store(id, std::memory_order_relaxed);
+        }
+    }
     id_ = id;
     plan_ = plan;
     period_ = plan.period;
@@ -115,6 +120,9 @@ Status ExecutionContext::judge_machines(Span<Component* const> participants,
 void ExecutionContext::release_participants(Span<Component* const> participants) noexcept {
     for (Component* component : participants) {
         component->context_ = nullptr;
+        if (component->machine_ != nullptr) {
+            component->machine_->context_id_.store(-1, std::memory_order_relaxed);
+        }
         component->turn_ &= Component::kNotActive;
         if (component->mode_switch_ != nullptr) {
             // Nobody is left who could wait for it.

@@ -61,7 +61,21 @@ Status Executive::attach_contexts() noexcept {
 void Executive::attach_inputs() noexcept {
     for (const ConnectionRow& connection : view_.connections) {
         if (is_own(connection.sink_window)) {
-            connection.sink->set_age_max(connection.age_max);
+            connection.sink->set_age_limits(connection.age_max, connection.lead_max);
+        }
+    }
+}
+
+/// Every value that a port holds, or that waits for an input, is of an earlier run.
+void Executive::clear_ports() noexcept {
+    for (const PortRow& port : view_.ports) {
+        if (port.output != nullptr && is_own(port.window)) {
+            port.output->begin_run();
+        }
+    }
+    for (const ConnectionRow& connection : view_.connections) {
+        if (is_own(connection.sink_window)) {
+            connection.operations.clear(*connection.source, *connection.sink, connection.crossing);
         }
     }
 }
@@ -94,13 +108,12 @@ Status Executive::initialize() noexcept {
 }
 
 Status Executive::start_all() noexcept {
+    clear_ports();
     for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
         ExecutionContext& context = windows_[w].context;
         if (!is_own(w)) {
             continue;
         }
-        // What was written on the way to the last stop belongs to that run.
-        discard_outputs(w);
         const Status result = context.start(last_release_);
         if (result != Status::kOk) {
             failed_component_ =

@@ -38,6 +38,28 @@ bool is_blank(Span<const std::byte> region) noexcept {
     return true;
 }
 
+/// Whether the first format of a region of zeros never began or ended in the middle: format() stores the
+/// header from its end on, so a part of it is missing in front, and nothing follows it.
+bool is_never_formatted(Span<const std::byte> region) noexcept {
+    if (region.size() < flight::kHeaderSize) {
+        return is_blank(region);
+    }
+    const Span<const std::byte> records =
+        region.subspan(flight::kHeaderSize, region.size() - flight::kHeaderSize);
+    const flight::HeaderBytes header =
+        flight::encode_header(static_cast<std::uint32_t>(flight::calc_capacity(region.size())));
+    std::size_t missing = 0U;
+    while (missing < header.size() && region[missing] == std::byte{0U}) {
+        ++missing;
+    }
+    for (std::size_t i = missing; i < header.size(); ++i) {
+        if (region[i] != std::byte{header[i]}) {
+            return false;
+        }
+    }
+    return missing > 0U && is_blank(records);
+}
+
 /// The newest session, whether header or records tell of it, with the newest note of the header. Number 0:
 /// neither tells of any.
 FlightSession find_newest(const FlightReader& reader) noexcept {
@@ -88,7 +110,8 @@ Status FlightRecorder::format(Span<std::byte> region) noexcept {
     if (capacity == 0U || capacity > std::numeric_limits<std::uint32_t>::max()) {
         return Status::kBadParameter;
     }
-    // The beginning goes first and comes last: a region that was left half-way is taken for no recorder.
+    // The beginning goes first and comes last: a region that was left half-way is taken for no recorder, and
+    // one that held zeros only is formatted by the next open().
     for (std::byte& place : region) {
         store(place, 0U);
     }
@@ -105,7 +128,7 @@ Status FlightRecorder::open(Span<std::byte> region) noexcept {
         return Status::kPreconditionNotMet;
     }
     const Span<const std::byte> bytes{region.data(), region.size()};
-    if (is_blank(bytes)) {
+    if (is_never_formatted(bytes)) {
         const Status formatted = format(region);
         if (formatted != Status::kOk) {
             return formatted;

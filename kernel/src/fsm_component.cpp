@@ -10,15 +10,18 @@ Status FsmComponent::send_stimulus(FsmIndex message, ContextHandle context, std:
     if (message >= get_fsm_structure().messages.size()) {
         return Status::kBadParameter;
     }
-    const std::int32_t own_id = context_ == nullptr ? -1 : context_->get_id();
+    // Any thread may be here while the machine is attached, detached or activated again: what is asked is
+    // atomic. The epoch comes first, so that an event for one activation is not served in the next.
+    const std::uint32_t epoch = get_queue().get_epoch();
+    const std::int32_t own_id = fsm_.get_context_id();
     if (context.id != -1 && context.id != own_id) {
         return Status::kBadParameter;
     }
     // Only an event-driven context takes a state machine, so its kind needs no further test.
-    if (context_ == nullptr || get_state() != LifecycleState::kActive) {
+    if (own_id == -1 || get_state() != LifecycleState::kActive) {
         return Status::kPreconditionNotMet;
     }
-    return fsm_.post({message, argument});
+    return fsm_.post({message, argument}, epoch);
 }
 
 Result<FsmIndex> FsmComponent::find_message(const char* name) const noexcept {

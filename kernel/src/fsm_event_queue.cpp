@@ -27,7 +27,7 @@ void FsmEventQueue::set_turn(FsmEventCell& cell, std::uint32_t position, std::ui
     cell.turn.store(turn - calc_index(position, cells_.size()), std::memory_order_release);
 }
 
-Status FsmEventQueue::post(const FsmEvent& event) noexcept {
+Status FsmEventQueue::post(const FsmEvent& event, std::uint32_t epoch) noexcept {
     std::uint32_t position = write_position_.load(std::memory_order_relaxed);
     // Each failed exchange is one success of another sender, and there are at most capacity of those.
     for (std::size_t attempt = 0U; attempt <= cells_.size(); ++attempt) {
@@ -41,6 +41,7 @@ Status FsmEventQueue::post(const FsmEvent& event) noexcept {
         } else if (write_position_.compare_exchange_strong(position, position + 1U,
                                                            std::memory_order_relaxed)) {
             cell.event = event;
+            cell.epoch = epoch;
             set_turn(cell, position, position + 1U);
             raise_high_water(position + 1U - read_position_.load(std::memory_order_relaxed));
             return Status::kOk;
@@ -50,22 +51,39 @@ Status FsmEventQueue::post(const FsmEvent& event) noexcept {
     return Status::kOutOfResources;
 }
 
-Result<FsmEvent> FsmEventQueue::take() noexcept {
+/// @return false when there is no event, or its sender has not filled its place yet.
+bool FsmEventQueue::take_front(FsmEvent& event, std::uint32_t& epoch) noexcept {
     const std::uint32_t position = read_position_.load(std::memory_order_relaxed);
     FsmEventCell& cell = get_cell(position);
     if (get_turn(cell, position) != position + 1U) {
-        return Status::kPreconditionNotMet;
+        return false;
     }
-    const FsmEvent event = cell.event;
+    event = cell.event;
+    epoch = cell.epoch;
     read_position_.store(position + 1U, std::memory_order_relaxed);
     set_turn(cell, position, position + static_cast<std::uint32_t>(cells_.size()));
-    return event;
+    return true;
+}
+
+Result<FsmEvent> FsmEventQueue::take() noexcept {
+    FsmEvent event{};
+    std::uint32_t epoch = 0U;
+    // Those of an earlier epoch were in the middle of post() when the queue was cleared.
+    for (std::size_t i = 0U; i <= cells_.size() && take_front(event, epoch); ++i) {
+        if (epoch == epoch_.load(std::memory_order_relaxed)) {
+            return event;
+        }
+    }
+    return Status::kPreconditionNotMet;
 }
 
 void FsmEventQueue::clear() noexcept {
     // At most the events that are there now; later ones are not older than the call.
     const std::size_t count = get_size();
-    for (std::size_t i = 0U; i < count && take().has_value(); ++i) {
+    epoch_.fetch_add(1U, std::memory_order_acq_rel);
+    FsmEvent event{};
+    std::uint32_t epoch = 0U;
+    for (std::size_t i = 0U; i < count && take_front(event, epoch); ++i) {
     }
 }
 

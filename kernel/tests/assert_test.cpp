@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 
 #include "mamori/verification/verifies.hpp"
 
@@ -108,6 +111,76 @@ TEST(AssertDeathTest, ACheckThatFailsInTheHandlerHaltsInsteadOfCallingItAgain) {
             MAMORI_REQUIRE(1, false);
         },
         "^handler 1;$");
+}
+
+std::atomic<bool> handler_runs{false};
+
+void close_slowly(const AssertionRecord& record) noexcept {
+    handler_runs = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds{150});
+    std::fprintf(stderr, "outputs closed by check %u;", static_cast<unsigned>(record.id));
+    std::_Exit(3);
+}
+
+void close_slowly_and_return(const AssertionRecord& record) noexcept {
+    handler_runs = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds{150});
+    std::fprintf(stderr, "outputs closed by check %u;", static_cast<unsigned>(record.id));
+}
+
+void hang(const AssertionRecord&) noexcept {
+    handler_runs = true;
+    std::fprintf(stderr, "handler hangs;");
+    for (;;) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+}
+
+/// A check fails on one thread, and others fail while its handler runs.
+void fail_on_several_threads(AssertionHandler handler) {
+    set_assertion_handler(handler);
+    std::thread first{[] { MAMORI_REQUIRE(1, false); }};
+    while (!handler_runs) {
+        std::this_thread::yield();
+    }
+    std::thread second{[] { MAMORI_REQUIRE(2, false); }};
+    std::thread third{[] { MAMORI_REQUIRE(3, false); }};
+    first.join();
+    second.join();
+    third.join();
+}
+
+TEST(AssertDeathTest, LaterFailuresOfOtherThreadsWaitUntilTheHandlerHasClosedTheOutputs) {
+    verifies("SWR-PRT-045", Technique::kFaultInjection, Polarity::kViolation);
+    EXPECT_EXIT(fail_on_several_threads(&close_slowly), ::testing::ExitedWithCode(3),
+                "^outputs closed by check 1;$");
+    EXPECT_DEATH(fail_on_several_threads(&close_slowly_and_return), "^outputs closed by check 1;$");
+}
+
+TEST(AssertDeathTest, LaterFailuresOfOtherThreadsEndTheProgramWhenTheHandlerHangs) {
+    verifies("SWR-PRT-045", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_DEATH(fail_on_several_threads(&hang), "^handler hangs;$");
+}
+
+void print_gate(const AssertionRecord& record) noexcept {
+    std::fprintf(stderr, "gate %u;", static_cast<unsigned>(record.id));
+}
+
+TEST(AssertDeathTest, AGateTakesEachRecordBeforeTheHandlerAndDoesTheWaiting) {
+    verifies("SWR-PRT-045", Technique::kInterface, Polarity::kViolation);
+    EXPECT_DEATH(
+        {
+            set_assertion_gate(&print_gate);
+            set_assertion_handler(&fail_again);
+            MAMORI_REQUIRE(7, false);
+        },
+        "^gate 7;handler 7;gate 8;$");
+    EXPECT_DEATH(
+        {
+            set_assertion_gate(&print_gate);
+            MAMORI_REQUIRE(7, false);
+        },
+        "^gate 7;$");
 }
 
 }  // namespace

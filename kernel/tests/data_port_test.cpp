@@ -2,6 +2,7 @@
 // Goal: a written value is seen by others only when it was published or handed on, once, with its age.
 // Method: one output and one input, moved by hand as the executive does it.
 #include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/system.hpp"
 
 #include <gtest/gtest.h>
 
@@ -275,7 +276,7 @@ TEST_F(DataPortTest, NothingIsHandedOnWhenNothingWasWritten) {
 
 TEST_F(DataPortTest, AValueIsTooOldOnceItIsOlderThanTheLimit) {
     verifies("SWR-KRN-016", Technique::kBoundaryValues, Polarity::kViolation);
-    in_.set_age_max(Duration{50});
+    in_.set_age_limits(Duration{50}, {});
     EXPECT_EQ(in_.calc_status(Instant{0}), PortStatus::kBufferEmpty);
     out_.write(5);
     ASSERT_TRUE(out_.publish(Instant{100}));
@@ -283,6 +284,27 @@ TEST_F(DataPortTest, AValueIsTooOldOnceItIsOlderThanTheLimit) {
 
     EXPECT_EQ(in_.calc_status(Instant{150}), PortStatus::kOk);
     EXPECT_EQ(in_.calc_status(Instant{151}), PortStatus::kBufferTimeout);
+}
+
+TEST_F(DataPortTest, AValueOfAnInstantToComeIsNotFresh) {
+    verifies("SWR-KRN-040", Technique::kBoundaryValues, Polarity::kViolation);
+    out_.write(5);
+    ASSERT_TRUE(out_.publish(Instant{100}));
+    in_.take(out_.get_published_sample());
+
+    EXPECT_EQ(in_.calc_status(Instant{100}), PortStatus::kOk);
+    EXPECT_EQ(in_.calc_status(Instant{99}), PortStatus::kBufferTimeout) << "also without an age limit";
+    in_.set_age_limits(Duration{50}, Duration{7});
+    EXPECT_EQ(in_.calc_status(Instant{93}), PortStatus::kOk);
+    EXPECT_EQ(in_.calc_status(Instant{92}), PortStatus::kBufferTimeout);
+}
+
+TEST_F(DataPortTest, TheToleranceOfAConnectionReachesItsRow) {
+    verifies("SWR-KRN-040");
+    const auto part = connect(out_, in_, fresh_within(Duration{50}, Duration{7}));
+    EXPECT_EQ(part.row.age_max, Duration{50});
+    EXPECT_EQ(part.row.lead_max, Duration{7});
+    EXPECT_EQ(connect(out_, in_, fresh_within(Duration{50})).row.lead_max, Duration{0});
 }
 
 TEST_F(DataPortTest, ACrossingThatNothingWentThroughBringsNoValue) {

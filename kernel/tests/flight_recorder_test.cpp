@@ -333,6 +333,44 @@ TEST_F(FlightRecorderTest, RecorderWithoutItsHeaderIsRefusedAndLeftAsItWas) {
     EXPECT_EQ(memory_, before);
 }
 
+TEST_F(FlightRecorderTest, PartOfAHeaderIsFormattedAgainOnlyWhenNothingElseIsThere) {
+    verifies("SWR-REC-015", Technique::kBoundaryValues, Polarity::kViolation);
+    const flight::HeaderBytes header = flight::encode_header(kCapacity);
+    for (std::size_t missing = 0U; missing <= flight::kHeaderSize; ++missing) {
+        for (const std::size_t changed :
+             {std::size_t{0U}, flight::kHeaderSize - 1U, flight::kHeaderSize, memory_.size() - 1U}) {
+            for (const bool is_changed : {false, true}) {
+                for (std::size_t i = 0U; i < memory_.size(); ++i) {
+                    memory_[i] = std::byte{i >= missing && i < header.size() ? header[i] : std::uint8_t{0U}};
+                }
+                if (is_changed) {
+                    memory_[changed] = static_cast<std::byte>(memory_[changed] ^ std::byte{0x40U});
+                }
+                const std::vector<std::byte> before = memory_;
+                FlightRecorder recorder;
+                if (!is_changed) {
+                    EXPECT_EQ(recorder.open(region()), Status::kOk) << missing;
+                    EXPECT_EQ(recorder.get_session(), 1U) << missing;
+                } else if (missing > 0U || changed < flight::kSessionOffsets[0]) {
+                    EXPECT_EQ(recorder.open(region()), Status::kError) << missing << " " << changed;
+                    EXPECT_EQ(memory_, before);
+                }
+            }
+        }
+    }
+}
+
+TEST_F(FlightRecorderTest, AnIntactRecorderWithoutItsFirstByteIsRefused) {
+    verifies("SWR-REC-007", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(region()), Status::kOk);
+    memory_[0] = std::byte{0U};
+    const std::vector<std::byte> before = memory_;
+
+    FlightRecorder second;
+    EXPECT_EQ(second.open(region()), Status::kError) << "its session is still there";
+    EXPECT_EQ(memory_, before);
+}
+
 TEST_F(FlightRecorderTest, RegionOfAnotherSizeIsRefused) {
     verifies("SWR-REC-007", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(FlightRecorder::format(region()), Status::kOk);

@@ -221,6 +221,31 @@ TEST_F(FlightStepTest, HalfFormattedRegionIsNoRecorder) {
     EXPECT_EQ(reader.calc_newest_sequence(), 0U);
 }
 
+TEST_F(FlightStepTest, AFirstFormatThatEndsAfterAnyInstructionIsDoneAgain) {
+    verifies("SWR-REC-015", Technique::kFaultInjection, Polarity::kViolation);
+    for (std::byte& byte : region_) {
+        byte = std::byte{0U};
+    }
+    before_ = Bytes(kSize);
+    const std::vector<Bytes> contents = step_through([this] {
+        FlightRecorder first;
+        static_cast<void>(first.open(region_));
+    });
+    if (contents.empty()) {
+        GTEST_SKIP() << "this machine does not let one process lead another (ptrace)";
+    }
+
+    ASSERT_GT(contents.size(), flight::kSessionOffsets[0] / 2U) << "bytes of the header that are not 0";
+    for (std::size_t i = 0U; i < contents.size(); ++i) {
+        Bytes bytes = contents[i];
+        FlightRecorder next;
+        ASSERT_EQ(next.open(view(bytes)), Status::kOk) << i;
+        EXPECT_EQ(next.get_next_sequence(), 1U) << i;
+        write_next(next);
+        EXPECT_TRUE(holds(bytes, 1U)) << i;
+    }
+}
+
 TEST_F(FlightStepTest, WriteThatEndedIsWhole) {
     verifies("SWR-REC-003");
     write_next(recorder_);

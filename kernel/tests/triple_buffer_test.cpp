@@ -67,6 +67,20 @@ TEST_F(TripleBufferTest, OfSeveralWritesTheLastIsTaken) {
     EXPECT_EQ(value.first, 7U);
 }
 
+TEST_F(TripleBufferTest, WhatIsDroppedIsNotRead) {
+    verifies("SWR-KRN-039", Technique::kStateTransition, Polarity::kViolation);
+    sut_.write({1U, 1U});
+    ASSERT_TRUE(sut_.update());
+    sut_.write({2U, 2U});
+
+    sut_.drop();
+    EXPECT_FALSE(sut_.update());
+    EXPECT_EQ(sut_.get_read_slot().first, 0U);
+    sut_.write({3U, 3U});
+    ASSERT_TRUE(sut_.update());
+    EXPECT_EQ(sut_.get_read_slot().first, 3U);
+}
+
 TEST_F(TripleBufferTest, ASlotInPlaceIsSeenWhenItIsPublishedAndNotBefore) {
     verifies("SWR-BUF-001", Technique::kInterface, Polarity::kViolation);
     sut_.get_write_slot() = {1U, 1U};

@@ -5,7 +5,7 @@
     motion = read_motion(Path("walk.yaml"), limits)      # InputError: one line with file and line number
     write_canonical(motion, Path("motion.txt"))
 
-@satisfies SWR-MOT-001, SWR-MOT-002, SWR-MOT-003, SWR-MOT-004, SWR-MOT-005, SWR-MOT-006, SWR-MOT-007, SWR-MOT-008
+@satisfies SWR-MOT-001, SWR-MOT-002, SWR-MOT-003, SWR-MOT-004, SWR-MOT-005, SWR-MOT-006, SWR-MOT-007, SWR-MOT-008, SWR-MOT-009
 Design: docs/design/motion.md
 """
 

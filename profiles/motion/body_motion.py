@@ -42,8 +42,9 @@ class _Component:
         return (self.header.get("content") or self.header.get("purpose") or ("", 0))[0]
 
 
-def read_body_motion(source: SourceText, joints: int) -> Samples:
-    """Reads the joint positions of `joints` joints; other components (root link, ZMP) are left out with a note.
+def read_body_motion(source: SourceText, joints: int, surplus: int = 0) -> Samples:
+    """Reads the joint positions of `joints` joints. One note names what is not used: `surplus` parts after the joints, which a
+    file has or not (`motion_columns_ignored` of the arm), and other components (root link, ZMP).
 
     Raises InputError: no BodyMotion, newer format, no or two joint components, frameRate or numFrames missing or
     senseless, wrong number of joints, a frame that is cut, no number, not finite.
@@ -56,11 +57,32 @@ def read_body_motion(source: SourceText, joints: int) -> Samples:
     if len(chosen) > 1:
         raise InputError(f"a second component {chosen[1].content}; keep one", source.path, chosen[1].line)
     inherited = {key: header[key] for key in _INHERITED if key in header}
-    samples = _take_joints(source, chosen[0], inherited | chosen[0].header, joints)
+    parts = _count_parts(source, chosen[0], joints, surplus)
+    samples = _take_joints(source, chosen[0], inherited | chosen[0].header, joints, parts)
+    notes = [f"not used: parts {joints + 1} to {parts} (no arm joints)"] if parts > joints else []
     others = [component.content or "without content" for component in components if component is not chosen[0]]
     if others:
-        samples.notes.append(f"components not used: {', '.join(others)}")
+        notes.append(f"components not used: {', '.join(others)}")
+    if notes:
+        samples.notes.append("; ".join(notes))
     return samples
+
+
+def _count_parts(source: SourceText, component: _Component, joints: int, surplus: int) -> int:
+    """Parts per frame: those that the component declares, else those of its first frame."""
+    text, line = component.header.get("numParts", ("", 0))
+    frames = component.frames or []
+    if text:
+        parts = int(text) if text.isdecimal() else 0
+    elif frames:
+        parts, line = len(frames[0][1]), frames[0][0]
+    else:
+        return joints
+    if parts not in (joints, joints + surplus):
+        what = f"numParts {text}" if text else f"{parts} joints per frame"
+        more = f" (or {joints + surplus} parts with those the model ignores)" if surplus else ""
+        raise InputError(f"{what}, the arm has {joints} joints{more}; give a motion of this arm", source.path, line)
+    return parts
 
 
 def _check_kind(source: SourceText, header: Header) -> None:
@@ -74,7 +96,7 @@ def _check_kind(source: SourceText, header: Header) -> None:
                          source.path, version_line)
 
 
-def _take_joints(source: SourceText, component: _Component, header: Header, joints: int) -> Samples:
+def _take_joints(source: SourceText, component: _Component, header: Header, joints: int, parts: int) -> Samples:
     path = source.path
     kind, kind_line = header.get("type", ("", component.line))
     if kind != "MultiValueSeq":
@@ -85,19 +107,19 @@ def _take_joints(source: SourceText, component: _Component, header: Header, join
         raise InputError("the joint component has no frames; add them", path, component.line)
     rate_hz = _frame_rate(source, component, header)
     frames = component.frames
-    _check_counts(source, component, header, joints)
+    _check_counts(source, component, header)
     if len(frames) > 1 and (len(frames) - 1) / rate_hz > MAX_DURATION_S:
         raise InputError(f"{len(frames)} frames at {rate_hz:g} Hz last {(len(frames) - 1) / rate_hz:g} s, "
                          f"limit {MAX_DURATION_S:g} s; cut the motion into parts", path, frames[0][0])
     samples = Samples(path, source.sha256)
     for number, (line, words) in enumerate(frames, start=1):
-        if len(words) != joints:
-            raise InputError(f"frame {number} has {len(words)} values, {joints} wanted; the frame is cut or has too "
+        if len(words) != parts:
+            raise InputError(f"frame {number} has {len(words)} values, {parts} wanted; the frame is cut or has too "
                              "many, write it again", path, line)
         samples.lines.append(line)
         samples.time_s.append((number - 1) / rate_hz)
-        samples.rows.append([parse_number(word, path, line, f"frame {number}, joint {joint}")
-                             for joint, word in enumerate(words, start=1)])
+        values = [parse_number(word, path, line, f"frame {number}, joint {joint}") for joint, word in enumerate(words, start=1)]
+        samples.rows.append(values[:joints])
     return samples
 
 
@@ -111,14 +133,8 @@ def _frame_rate(source: SourceText, component: _Component, header: Header) -> fl
     return rate_hz
 
 
-def _check_counts(source: SourceText, component: _Component, header: Header, joints: int) -> None:
+def _check_counts(source: SourceText, component: _Component, header: Header) -> None:
     frames = component.frames or []
-    parts, line = header.get("numParts", ("", 0))
-    if parts and parts != str(joints):
-        raise InputError(f"numParts {parts}, the arm has {joints} joints; give a motion of this arm", source.path, line)
-    if frames and not parts and len(frames[0][1]) != joints:
-        raise InputError(f"{len(frames[0][1])} joints per frame, the arm has {joints}; give a motion of this arm",
-                         source.path, frames[0][0])
     declared, line = header.get("numFrames", ("", 0))
     if declared and declared != str(len(frames)):
         raise InputError(f"numFrames {declared}, but {len(frames)} frames follow; the file is cut or the number is "

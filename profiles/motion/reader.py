@@ -21,7 +21,7 @@ def read_motion(path: Path | str, limits: ArmLimits) -> Motion:
     """Reads and checks a motion. Raises InputError, one line with file and line number, for the first fault found."""
     source = read_text(path, "motion file")
     if is_body_motion(source):
-        samples = read_body_motion(source, len(limits.joints))
+        samples = read_body_motion(source, len(limits.joints), limits.ignored_columns)
     else:
         samples = read_table(source, len(limits.joints), limits.ignored_columns)
     check_samples(samples, limits)

@@ -10,7 +10,11 @@ import pytest
 from mamori.profiles.input_error import InputError
 from mamori.profiles.motion import ArmLimits, JointLimits, load_limits, read_motion
 
-SHARED = Path(__file__).resolve().parents[2] / "../shared/data/motion/sr1"
+PROJECT = Path(__file__).resolve().parents[2]
+SHARED = PROJECT / "../shared/data/motion/sr1"
+PREDECESSORS = PROJECT / "../shared/data/motion/seed_pa10/pa10_example.yaml"
+ARM = PROJECT / "simbody_sim/models/pa10_like.yaml"
+FINGERS = Path(__file__).parent / "data" / "arm_with_fingers.yaml"
 
 GOOD = """\
 type: BodyMotion
@@ -51,6 +55,39 @@ def test_joint_positions_are_read_with_times_from_the_frame_rate(tmp_path: Path,
 @pytest.mark.verifies("SWR-MOT-001")
 def test_other_components_are_left_out_with_a_note(tmp_path: Path, limits: ArmLimits) -> None:
     assert read_motion(write(tmp_path, GOOD), limits).notes == ("components not used: ZMP",)
+
+
+@pytest.mark.verifies("SWR-MOT-009")
+def test_parts_after_the_joints_and_a_link_position_are_named_in_one_note() -> None:
+    motion = read_motion(FINGERS, load_limits(ARM))
+
+    assert motion.position_rad.shape == (6, 7)
+    assert motion.position_rad[-1].tolist() == [0.0005, 0.8005, -0.0005, 0.7995, 0.0005, 0.7995, 1.5695]
+    assert motion.notes == ("not used: parts 8 to 9 (no arm joints); components not used: LinkPosition",)
+
+
+@pytest.mark.parametrize(("parts", "fits"), [(6, False), (7, True), (8, False), (9, True), (10, False)])
+@pytest.mark.parametrize("declared", [True, False])
+@pytest.mark.verifies("SWR-MOT-009", technique="boundary_values", polarity="violation")
+def test_only_the_joints_or_all_parts_of_the_model_fit(tmp_path: Path, limits: ArmLimits, parts: int, fits: bool,
+                                                       declared: bool) -> None:
+    frames = "".join(f"      - [ {', '.join(['0'] * parts)} ]\n" for _ in range(3))
+    start, end = GOOD.index("      - [ 0, 0"), GOOD.index("  -\n    type: Vector3Seq")
+    text = (GOOD[:start] + frames + GOOD[end:]).replace("    numParts: 7\n", f"    numParts: {parts}\n" if declared else "")
+
+    if fits:
+        assert read_motion(write(tmp_path, text), limits).position_rad.shape == (3, 7)
+    else:
+        with pytest.raises(InputError, match="the arm has 7 joints"):
+            read_motion(write(tmp_path, text), limits)
+
+
+@pytest.mark.verifies("SWR-MOT-009", technique="error_guessing", polarity="violation")
+def test_a_part_that_is_not_used_is_read_as_a_number_too(tmp_path: Path, limits: ArmLimits) -> None:
+    text = FINGERS.read_text().replace("-0.02, 0.02 ]", "-0.02, .nan ]", 1)
+
+    with pytest.raises(InputError, match="frame 1, joint 9 is .nan"):
+        read_motion(write(tmp_path, text), limits)
 
 
 @pytest.mark.verifies("SWR-MOT-001")
@@ -156,11 +193,9 @@ def test_no_tag_constructs_an_object(tmp_path: Path, limits: ArmLimits) -> None:
     assert not marker.exists()
 
 
-def verifies_with(path: Path, requirement: str, **how: str) -> pytest.MarkDecorator:
-    """Where the public file is absent the test is skipped, and then it is no evidence, for or against the requirement."""
-    if path.exists():
-        return pytest.mark.verifies(requirement, **how)
-    return pytest.mark.skip(reason=f"{path} is absent")
+def needs(path: Path) -> pytest.MarkDecorator:
+    """A file beside the project is no evidence for a requirement: these tests carry no tag. They are skipped where it is absent."""
+    return pytest.mark.skipif(not path.exists(), reason=f"{path} is absent")
 
 
 def make_wide_limits(tmp_path: Path, joints: int) -> ArmLimits:
@@ -171,7 +206,7 @@ def make_wide_limits(tmp_path: Path, joints: int) -> ArmLimits:
     ("SR1WalkPattern2_v1.yaml", 7146, ("components not used: LinkPosition, ZMP",)),
     ("SR1WalkPattern1.seq", 6701, ()),
 ])
-@verifies_with(SHARED, "SWR-MOT-001", technique="interface")
+@needs(SHARED)
 def test_public_walks_are_read(tmp_path: Path, name: str, frames: int, notes: tuple[str, ...]) -> None:
     motion = read_motion(SHARED / name, make_wide_limits(tmp_path, 29))
 
@@ -181,7 +216,17 @@ def test_public_walks_are_read(tmp_path: Path, name: str, frames: int, notes: tu
 
 
 @pytest.mark.parametrize("name", ["SR1WalkPattern2_v1.yaml", "SR1WalkPattern1.seq"])
-@verifies_with(SHARED, "SWR-MOT-003", technique="interface", polarity="violation")
+@needs(SHARED)
 def test_public_walks_do_not_fit_the_arm(model: Path, name: str) -> None:
     with pytest.raises(InputError, match="numParts 29, the arm has 7 joints"):
         read_motion(SHARED / name, load_limits(model))
+
+
+@needs(PREDECESSORS)
+def test_the_example_of_the_predecessors_is_read_to_its_last_posture() -> None:
+    motion = read_motion(PREDECESSORS, load_limits(ARM))
+
+    assert motion.position_rad.shape == (11, 7)
+    assert motion.position_rad[-1].tolist() == [
+        -9.23578975e-09, 0.800324833, -4.8402442e-08, 0.799990442, 2.71328608e-07, 0.799794315, 1.56999985]  # fmt: skip
+    assert motion.notes == ("not used: parts 8 to 9 (no arm joints); components not used: LinkPosition",)

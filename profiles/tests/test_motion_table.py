@@ -57,14 +57,12 @@ def test_a_missing_last_line_end_is_noted(tmp_path: Path, limits: ArmLimits) -> 
     assert "line end" in read_motion(write(tmp_path, GOOD.rstrip("\n")), limits).notes[0]
 
 
-def verifies_with(path: Path, requirement: str, **how: str) -> pytest.MarkDecorator:
-    """Where the public file is absent the test is skipped, and then it is no evidence, for or against the requirement."""
-    if path.exists():
-        return pytest.mark.verifies(requirement, **how)
-    return pytest.mark.skip(reason=f"{path} is absent")
+def needs(path: Path) -> pytest.MarkDecorator:
+    """A file beside the project is no evidence for a requirement: these tests carry no tag. They are skipped where it is absent."""
+    return pytest.mark.skipif(not path.exists(), reason=f"{path} is absent")
 
 
-@verifies_with(ANGLES, "SWR-MOT-002", technique="interface")
+@needs(ANGLES)
 def test_the_public_pick_up_motion_is_read(model: Path) -> None:
     motion = read_motion(ANGLES, load_limits(model))
 

@@ -33,6 +33,14 @@ constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel:
 /// Times in a plan end here, so that they stay far from the range of Instant.
 constexpr double kLatestSeconds = 1.0e6;
 
+std::string join(const std::vector<std::string_view>& names) {
+    std::string text;
+    for (const std::string_view name : names) {
+        text += (text.empty() ? "" : ", ") + std::string(name);
+    }
+    return text;
+}
+
 Pairs split(std::string_view text) {
     const std::vector<std::string_view> keys{"kind",     "joint",     "channel", "at",
                                              "duration", "magnitude", "seed"};
@@ -47,7 +55,7 @@ Pairs split(std::string_view text) {
         const std::string key(pair.substr(0U, equal));
         if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
             throw PlanError("unknown key '" + key + "'; did you mean '" +
-                            std::string(find_nearest_name(key, keys)) + "'?");
+                            std::string(find_nearest_name(key, keys)) + "'? valid: " + join(keys));
         }
         if (!pairs.emplace(key, pair.substr(equal + 1U)).second) {
             throw PlanError(key + " is given twice");
@@ -70,7 +78,7 @@ Enum find_by_name(const char* key, const std::string& word, const std::array<Enu
         names.emplace_back(get_name(element));
     }
     throw PlanError("unknown " + std::string(key) + " '" + word + "'; did you mean '" +
-                    std::string(find_nearest_name(word, names)) + "'?");
+                    std::string(find_nearest_name(word, names)) + "'? valid: " + join(names));
 }
 
 /// Value of `key`, which must be there exactly when the kind uses it; empty otherwise.
@@ -209,6 +217,14 @@ std::string to_seconds_text(Duration time) {
 }
 
 }  // namespace
+
+std::string list_fault_kinds() {
+    std::vector<std::string_view> names;
+    for (const FaultKind kind : kKinds) {
+        names.emplace_back(get_name(kind));
+    }
+    return join(names);
+}
 
 ParsedFaultPlan parse_fault_plan(std::string_view text) {
     try {

@@ -77,11 +77,21 @@ TEST(FaultPlanTest, MisspeltWordsAreRefusedWithTheNearestOne) {
     EXPECT_EQ(
         get_error("kind=encoder_freze,joint=1,channel=a,at=2"),
         "fault plan 'kind=encoder_freze,joint=1,channel=a,at=2': unknown kind 'encoder_freze'; did you mean "
-        "'encoder_freeze'?");
-    EXPECT_NE(get_error("kind=power_loss,att=2").find("unknown key 'att'; did you mean 'at'?"),
+        "'encoder_freeze'? valid: " +
+            list_fault_kinds());
+    EXPECT_NE(get_error("kind=power_loss,att=2")
+                  .find("unknown key 'att'; did you mean 'at'? valid: kind, joint, channel, at, "),
               std::string::npos);
     EXPECT_NE(get_error("kind=encoder_freeze,joint=1,channel=bth,at=2").find("did you mean 'both'?"),
               std::string::npos);
+}
+
+TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
+    verifies("SWR-SIM-015");
+
+    EXPECT_EQ(list_fault_kinds(),
+              "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
+              "controller_hang, message_lost, message_late, supervisor_hang");
 }
 
 TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What several actions share: the arguments that choose the input, the exit status, the printing of an outcome."""
+"""What several actions share: the arguments that choose the input, the exit status, the printing of an outcome.
+
+@satisfies SWR-TRC-108      Design: docs/design/trace.md#command
+"""
 
 from __future__ import annotations
 
@@ -37,6 +40,7 @@ def add_input(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--evidence", type=Path, metavar="DIR", help="default: build/host-release/evidence, or the only one")
     add_foreign(parser)
     parser.add_argument("--allow-missing", action="store_true", help="results that are missing (not failing) are no errors")
+    parser.add_argument("--release", action="store_true", help="what this host could not show is an error, too")
     parser.add_argument("--date", type=_parse_date, metavar="DAY",
                         help="day by which waivers expire, as 2026-11-30 (default: of the commit, or else of the evidence)")  # fmt: skip
 
@@ -44,16 +48,22 @@ def add_input(parser: argparse.ArgumentParser) -> None:
 def add_output(parser: argparse.ArgumentParser, *more: str) -> None:
     """How to print: as text, JSON, or one of `more`."""
     parser.add_argument("--output", choices=("text", "json", *more), default="text", help="how to print (default: text)")
+    parser.add_argument("--json", dest="output", action="store_const", const="json", help="the same as --output json")
 
 
 def read_input(arguments: argparse.Namespace) -> Project:
     """The project that `add_input` chose. Raises InputError."""
+    if arguments.release and arguments.allow_missing:
+        raise InputError("--release and --allow-missing contradict each other; give one of them")
     foreign = get_foreign(arguments)
     if foreign is not None:
         from mamori.trace.formats.in_place import read_in_place  # loads much that a project of Mamori's own format does not need
 
-        return read_in_place(foreign, list_rule_ids())
-    return read_project(arguments.root, arguments.evidence, list_rule_ids(), arguments.allow_missing, arguments.date or "")
+        project = read_in_place(foreign, list_rule_ids())
+    else:
+        project = read_project(arguments.root, arguments.evidence, list_rule_ids(), arguments.allow_missing, arguments.date or "")
+    project.release = arguments.release
+    return project
 
 
 def warn_of_gap(root: Path) -> None:

@@ -30,12 +30,15 @@ from mamori.trace.checks import (
     link_kind,
     malformed_item,
     mcdc_gap,
+    not_verified,
     parent_missing,
     polarity_missing,
     result_failed,
     result_flaky,
     result_missing,
+    result_not_shown,
     result_skipped,
+    result_unbound,
     retired_id,
     review_missing,
     review_unused,
@@ -96,7 +99,9 @@ RULES = (
     suspect_link,
     result_failed,
     result_skipped,
+    result_not_shown,
     result_missing,
+    result_unbound,
     result_flaky,
     function_unexecuted,
     mcdc_gap,
@@ -106,6 +111,8 @@ RULES = (
     evidence_altered,
 )
 
+# It tells what the other rules leave untold.
+REST_RULES = (not_verified,)
 
 # They judge the waivers by what these waived, so they run when everything else has spoken.
 LATE_RULES = (waiver_without_reason, waiver_expired, waiver_unused)
@@ -113,7 +120,7 @@ LATE_RULES = (waiver_without_reason, waiver_expired, waiver_unused)
 
 def list_rules() -> list[Rule]:
     """All rules in the order in which a reader meets their subjects."""
-    return [module.RULE for module in RULES + LATE_RULES]
+    return [module.RULE for module in RULES + REST_RULES + LATE_RULES]
 
 
 def list_rule_ids() -> list[str]:
@@ -123,12 +130,14 @@ def list_rule_ids() -> list[str]:
 
 def describe_rules() -> dict[str, str]:
     """What each rule is after, in the first sentence of its module."""
-    return {module.RULE.id: (module.__doc__ or "").strip().partition("\n")[0] for module in RULES + LATE_RULES}
+    return {module.RULE.id: (module.__doc__ or "").strip().partition("\n")[0] for module in RULES + REST_RULES + LATE_RULES}
 
 
 def run_checks(project: Project) -> list[Finding]:
     """All findings of all rules that count, in order of file and line; those that are waived go to `project.waived`."""
-    findings, waived = split_waived(_run(RULES, project), project.waivers, project.date)
+    found = _run(RULES, project)
+    project.told = frozenset((finding.rule, finding.item) for finding in found)
+    findings, waived = split_waived(found + _run(REST_RULES, project), project.waivers, project.date)
     project.waived = sorted(waived, key=lambda each: each.finding.sort_key())
     return sorted(findings + _run(LATE_RULES, project), key=Finding.sort_key)
 
@@ -140,5 +149,6 @@ def _run(modules: tuple[ModuleType, ...], project: Project) -> list[Finding]:
         for place, message, item in module.check(project):
             severity = project.pack.get_severity(module.RULE, project.items.get(item))
             if severity != OFF:
+                severity = module.RULE.release if project.release and module.RULE.release else severity
                 findings.append(Finding(module.RULE.id, severity, place, message, item))
     return findings

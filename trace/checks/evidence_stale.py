@@ -21,20 +21,26 @@ _HASH = re.compile(r"[0-9a-f]{7,64}")
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
     evidence = project.evidence
-    if not evidence.present:
-        return
+    if evidence.present:
+        yield from _check_environment(project)
+    told = get_sources(evidence.environment)
+    for record in evidence.records.values():
+        now = record.now or project.sources
+        if now and record.sources not in ("", told, now):
+            yield Place(record.shown, 1), "was made from other sources than those that are here; run the tests again", ""
+
+
+def _check_environment(project: Project) -> Iterator[tuple[Place, str, str]]:
+    evidence = project.evidence
     if not evidence.environment:
         told = any(problem.place.file == evidence.environment_place.file for problem in project.problems)
-        if not project.allow_missing and not told:
+        recorded = evidence.records and all(record.sources for record in evidence.records.values())
+        if not project.allow_missing and not told and not recorded:
             yield evidence.environment_place, "is missing: nothing tells on which commit the evidence was made", ""
     else:
         yield from _compare(project, evidence.environment, evidence.environment_place)
     if evidence.has_campaign and evidence.campaign_environment:
         yield from _compare(project, evidence.campaign_environment, evidence.campaign_place)
-    told = get_sources(evidence.environment)
-    for record in evidence.records.values():
-        if project.sources and record.sources not in ("", told, project.sources):
-            yield Place(record.shown, 1), "was made from other sources than those that are here; run the tests again", ""
 
 
 def _compare(project: Project, environment: dict[str, Any], place: Place) -> Iterator[tuple[Place, str, str]]:

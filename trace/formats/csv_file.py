@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads and writes CSV: a head line with the names of the columns, one item per row.
 
-@satisfies SWR-TRC-045, SWR-TRC-048, SWR-TRC-050      Design: docs/design/trace_formats.md#formats
+@satisfies SWR-TRC-045, SWR-TRC-048, SWR-TRC-050, SWR-TRC-107      Design: docs/design/trace_formats.md#formats
 """
 
 from __future__ import annotations
@@ -25,7 +25,19 @@ _ID = ("id", "uid", "identifier", "requirement id", "key")
 _COLUMNS = {"title": ("title", "name", "summary"), "statement": ("statement", "text", "description", "content"),
             "rationale": ("rationale",), "kind": ("type", "kind"), "document": ("document",),
             "parents": ("parents", "parent", "links", "satisfies", "derived from")}  # fmt: skip
+_FORMULA = re.compile(r"'*[=+\-@\t\r\n]")
+_ESCAPED = re.compile(r"'+[=+\-@\t\r\n]")
 _SPLIT = re.compile(r"[,;\s]+")
+
+
+def escape_cell(cell: str) -> str:
+    """An apostrophe in front of what a spreadsheet would run as a formula, and of what looks escaped: nothing is lost."""
+    return f"'{cell}" if _FORMULA.match(cell) else cell
+
+
+def unescape_cell(cell: str) -> str:
+    """The cell as it was before `escape_cell`; what stands around a cell that is not escaped does not count."""
+    return cell[1:] if _ESCAPED.match(cell) else cell.strip()
 
 
 def looks_alike(name: str, text: str) -> bool:
@@ -48,7 +60,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 def _read_rows(reader, shown: str, project: ForeignProject, problems: list[Problem]) -> None:
-    names = [name.strip() for name in next(reader, [])]
+    names = [unescape_cell(name) for name in next(reader, [])]
     lowered = [name.lower() for name in names]
     id_column = next((lowered.index(name) for name in _ID if name in lowered), -1)
     if id_column < 0:
@@ -62,7 +74,7 @@ def _read_rows(reader, shown: str, project: ForeignProject, problems: list[Probl
                 what = f"has {len(row)} of {len(names)} cells" if len(row) != len(names) else "has no id"
                 problems.append(Problem(UNREADABLE, Place(shown, line), f"row {what}"))
             else:
-                project.items.append(_make_item([cell.strip() for cell in row], names, id_column, known, Place(shown, line)))
+                project.items.append(_make_item([unescape_cell(cell) for cell in row], names, id_column, known, Place(shown, line)))
         line = reader.line_num + 1
 
 
@@ -81,11 +93,15 @@ def _make_item(row: list[str], names: list[str], id_column: int, known: dict[str
 def format_csv(project: ForeignProject) -> str:
     """One row per item; parents are separated by blanks."""
     names = list(dict.fromkeys(name for item in project.items for name in item.attributes))
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["ID", "Title", "Statement", "Rationale", "Type", "Document", "Parents", *names])
+    rows = [["ID", "Title", "Statement", "Rationale", "Type", "Document", "Parents", *names]]
     for item in project.items:
         parents = " ".join(each.target for each in item.relations)
         row = [item.id, item.title, item.statement or "", item.rationale, item.kind, item.document, parents]
-        writer.writerow([*row, *(item.attributes.get(name, "") for name in names)])
-    return out.getvalue()
+        rows.append([*row, *(item.attributes.get(name, "") for name in names)])
+    return "".join(f"{','.join(map(_format_cell, row))}\n" for row in rows)
+
+
+def _format_cell(cell: str) -> str:
+    """Quoted where it must be; Python's writer leaves a carriage return bare, and its reader refuses that."""
+    cell = escape_cell(cell)
+    return '"' + cell.replace('"', '""') + '"' if any(sign in cell for sign in ',"\r\n') else cell

@@ -12,9 +12,9 @@ from pathlib import Path
 from mamori.trace.formats.files import read_whole
 from mamori.trace.formats.model import ForeignItem, Relation
 from mamori.trace.formats.sources import SUFFIXES
-from mamori.trace.formats.test_heads import list_heads
 from mamori.trace.model.evidence import CodeTag, SourceTest
 from mamori.trace.model.finding import Place, Problem
+from mamori.trace.readers.test_heads import list_heads
 from mamori.trace.readers.files import get_shown_path, is_test_file
 from mamori.trace.readers.tag_text import FILE_SYMBOL
 

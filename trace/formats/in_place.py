@@ -23,12 +23,14 @@ from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.project import Project, attach_sources, list_result_keys
 from mamori.trace.model.rule_pack import Grades
 from mamori.trace.readers.code_schema import read_code_schema
+from mamori.trace.readers.evidence_records import read_evidence_records
 from mamori.trace.readers.files import InputError, get_shown_path, list_paths
 from mamori.trace.readers.git import read_head
 from mamori.trace.readers.ids import read_ids
 from mamori.trace.readers.junit import read_junit_file
 from mamori.trace.readers.lock import read_lock
 from mamori.trace.readers.project import read_evidence, read_judgement
+from mamori.trace.readers.sources import calc_sources
 
 LOCK_NAME = "trace.lock"
 _REVISION = re.compile(r"~\d+$")
@@ -108,6 +110,7 @@ def _read_evidence(given: ForeignInput, project: Project) -> Evidence:
     if given.evidence is not None and not given.evidence.is_dir():
         raise InputError(f"{given.evidence}: no such evidence folder; run the tests first")
     evidence = read_evidence(given.evidence, project) if given.evidence else Evidence()
+    folders: list[Path] = []
     evidence.results_shown = ", ".join(get_shown_path(path, project.root) for path in given.results) or "--results, which names no file"
     for path in given.results:
         if not path.exists():
@@ -117,6 +120,13 @@ def _read_evidence(given: ForeignInput, project: Project) -> Evidence:
             raise InputError(f"{path}: holds no result file (*.xml); run the tests first")
         for file in files:
             evidence.results += read_junit_file(file, get_shown_path(file, project.root), UNIT, project.root, project.problems)
+            folders += [file.parent, file.parent.parent]
+    for folder in dict.fromkeys(folders):
+        if folder != given.evidence:
+            read_evidence_records(folder, project.root, evidence, project.problems)
+    evidence.unbind()
+    if evidence.tells_sources and not project.sources:
+        project.sources = calc_sources(given.root, read_code_schema(given.root).no_evidence)
     return evidence
 
 
@@ -130,7 +140,7 @@ def _link_results(results: list[TestResult], tests: list[SourceTest], converted:
         own = [word.strip() for word in result.requirement.split(",") if word.strip()]
         targets = [(each, result.polarity) for word in own for each in _resolve(word, result.place, converted, problems)]
         if not targets:
-            sources = [test for suite, name, _ in list_result_keys(result) for test in known.get((suite, name), ())]
+            sources = next((known[key] for key in list_result_keys(result) if key in known), [])
             targets = [(test.requirement, result.polarity or test.polarity) for test in sources]
         for requirement, polarity in dict.fromkeys(targets or [("", "")]):
             linked.append(replace(result, requirement=requirement, polarity=polarity))

@@ -10,20 +10,21 @@ import ast
 import io
 import re
 import tokenize
-from bisect import bisect_left, bisect_right
 from pathlib import Path
 
 import tree_sitter
 import tree_sitter_cpp
 
 from mamori.trace.formats.files import read_whole
-from mamori.trace.formats.test_heads import Head, list_heads
 from mamori.trace.model.code import CodeBase
 from mamori.trace.model.evidence import CodeTag, SourceTest
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.cpp_tags import FILE_SYMBOL, parse_cpp_tags
+from mamori.trace.readers.cpp_heads import list_cpp_heads
+from mamori.trace.readers.cpp_plain import Plain, find_dead_lines
 from mamori.trace.readers.files import get_shown_path, is_test_file, walk_sources
 from mamori.trace.readers.tag_text import ANY_ID, VERIFIES, TagWord, find_words, has_mark
+from mamori.trace.readers.test_heads import find_head, list_heads
 
 _CPP = (".c", ".h", ".hpp", ".hh", ".hxx", ".cpp", ".cc", ".cxx", ".ipp")
 _PYTHON = (".py",)
@@ -54,7 +55,9 @@ def read_sources(
         listed = code is not None and not in_test and relative.endswith(_CPP)
         if text is None or not (listed or has_mark(text) or "verifies" in text.lower()):
             continue
-        words = [(number, word) for number, line in enumerate(text.splitlines(), start=1) for word in find_words(line, ANY_ID)]
+        dead = find_dead_lines(text) if relative.endswith(_CPP) else frozenset()
+        lines = enumerate(text.splitlines(), start=1)
+        words = [(number, word) for number, line in lines if number not in dead for word in find_words(line, ANY_ID)]
         tests += _read_tests(text, shown, [(number, word) for number, word in words if in_test or word.role == VERIFIES])
         if not in_test:
             chosen = [(number, word) for number, word in words if word.role != VERIFIES]
@@ -104,6 +107,8 @@ def _name_python_lines(text: str) -> dict[int, str]:
 
 def _read_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest]:
     """A tag belongs to the test whose head stands below its comment, or around it. Without a test it keeps an empty name."""
+    if shown.endswith(_CPP):
+        return _read_cpp_tests(text, shown, words)
     heads = list_heads(text, shown)
     named = [(number, word.requirement, "nominal") for number, word in words]
     pattern = _PYTHON_MARK if shown.endswith(_PYTHON) else _CPP_CALL
@@ -112,22 +117,30 @@ def _read_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest
         polarity = "violation" if match.lastindex == 2 and _POLARITY.search(match[2]) else "nominal"
         named += [(line, word.strip(), polarity) for word in match[1].split(",")]
     lines = text.splitlines()
-    starts = [line for line, _, _ in heads]
     tests = []
     for line, requirement, polarity in sorted(set(named)):
-        suite, name = _find_head(line, lines, heads, starts) or (shown, "")
+        suite, name = find_head(line, lines, heads) or (shown, "")
         tests.append(SourceTest(requirement, suite, name, "requirements_based", polarity, Place(shown, line)))
     return tests
 
 
-def _find_head(line: int, lines: list[str], heads: list[Head], starts: list[int]) -> tuple[str, str] | None:
-    above = bisect_left(starts, line)
-    if above < len(heads) and all(_is_lead(each) for each in lines[line - 1 : starts[above] - 1]):
-        return heads[above][1:]
-    index = bisect_right(starts, line) - 1
-    return heads[index][1:] if index >= 0 else None
-
-
-def _is_lead(line: str) -> bool:
-    """Whether a line may stand between a tag and the test below: a comment or a decorator."""
-    return line.lstrip().startswith(("//", "/*", "*", "#", "@", '"""')) if line.strip() else False
+def _read_cpp_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest]:
+    """The same for C and C++: the test around the tag or the call, or the declaration below the tag."""
+    plain = Plain(text)
+    heads = list_cpp_heads(plain, shown)
+    ends = {}
+    for comment in plain.comments:
+        first = text.count("\n", 0, comment.start()) + 1
+        ends.update(dict.fromkeys(range(first, first + comment[0].count("\n") + 1), comment))
+    named = []
+    for number, word in words:
+        comment = ends.get(number)
+        head = comment and (heads.find_around(comment.start()) or heads.find_below(comment.end()))
+        named.append((number, word.requirement, "nominal", head))
+    for match in _CPP_CALL.finditer(plain.code):
+        if plain.shape[match.start()] != " ":
+            line = text.count("\n", 0, match.start()) + 1
+            polarity = "violation" if _POLARITY.search(match[2]) else "nominal"
+            named += [(line, word.strip(), polarity, heads.find_around(match.start())) for word in match[1].split(",")]
+    return [SourceTest(requirement, *((head.suite, head.name) if head else (shown, "")), "requirements_based", polarity, Place(shown, line))
+            for line, requirement, polarity, head in dict.fromkeys(sorted(named, key=lambda row: row[:3]))]  # fmt: skip

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from mamori.trace.formats.csv_file import escape_cell, unescape_cell
 from mamori.trace.formats.items import convert
 from mamori.trace.formats.mapping import Mapping
 from mamori.trace.formats.model import ForeignItem, ForeignProject, Loss
@@ -159,14 +160,16 @@ def format_map(outcome: Takeover) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["old", "new", "file", "line"])
-    writer.writerows([old, new, outcome.places[old].file, outcome.places[old].line] for old, new in outcome.ids.items())
+    rows = ([old, new, outcome.places[old].file, str(outcome.places[old].line)] for old, new in outcome.ids.items())
+    writer.writerows([escape_cell(cell) for cell in row] for row in rows)
     return out.getvalue()
 
 
 def find_earlier(outcome: Takeover, maps: dict[str, str]) -> str:
     """Tells of an item of the same file that is in one of `maps`, texts of earlier imports by their names. @return "" for none."""
     for name, text in sorted(maps.items()):
-        for line, row in enumerate(csv.reader(io.StringIO(text)), start=1):
+        for line, cells in enumerate(csv.reader(io.StringIO(text)), start=1):
+            row = [unescape_cell(cell) for cell in cells]
             if len(row) == 4 and row[0] in outcome.ids and row[2] == outcome.places[row[0]].file:
                 return f"{name}:{line}: {row[0]} of {row[2]} was taken over before, as {row[1]}; leave it out, or take that map away to have it twice"
     return ""

@@ -13,10 +13,21 @@ PASSED = "passed"
 FAILED = "failed"
 ERRORED = "error"
 SKIPPED = "skipped"
+NOT_SHOWN = "not shown here"
+"""This host cannot produce the result: a privilege is missing, or the measurement was inconclusive."""
+UNBOUND = "unbound"
+"""Passed, but no evidence record tells what produced the result."""
+
+STATUSES_WORST_FIRST = (ERRORED, FAILED, SKIPPED, UNBOUND, NOT_SHOWN, PASSED)
 
 UNIT = "unit"
 INTEGRATION = "integration"
 CAMPAIGN = "campaign"
+
+
+WHOLE_SUITE = "(whole suite)"
+ANY_SUITE = "*"
+"""Of a test whose source does not tell under which suite its result is written."""
 
 
 class CodeTag(NamedTuple):
@@ -41,12 +52,13 @@ class SourceTest(NamedTuple):
 
     @property
     def title(self) -> str:
-        return f"{self.suite}.{self.name}" if self.name else self.suite
+        return f"{self.suite}.{self.name}" if self.name and self.suite not in ("", ANY_SUITE) else self.name or self.suite
 
 
 @dataclass(slots=True)
 class TestResult:
-    """One executed test case. `requirement` is empty when the test names none; `flaky`: it passed, but not at the first try."""
+    """One executed test case. `requirement` is empty when the test names none; `flaky`: it passed, but not at the first try; `bound_to`: suite and name
+    of its test in the sources."""
 
     __test__: ClassVar[bool] = False  # pytest would take the class for a group of tests
 
@@ -62,6 +74,7 @@ class TestResult:
     source: Place | None = None
     kind: str = UNIT
     flaky: bool = False
+    bound_to: tuple[str, str] | None = None
 
     @property
     def title(self) -> str:
@@ -91,6 +104,7 @@ class CampaignCase:
     folder: str
     place: Place
     requirement_polarity: dict[str, str] = field(default_factory=dict)
+    bound: bool = True
 
     def get_polarity(self, requirement: str) -> str:
         """Which side of `requirement` the case shows."""
@@ -103,6 +117,11 @@ class CampaignCase:
     @property
     def passed(self) -> bool:
         return self.verdict == "pass" and not self.failed_checks
+
+    @property
+    def status(self) -> str:
+        """One of PASSED, FAILED and UNBOUND."""
+        return FAILED if not self.passed else PASSED if self.bound else UNBOUND
 
 
 @dataclass(slots=True)
@@ -134,10 +153,15 @@ class AnalysisFinding:
 
 @dataclass(frozen=True, slots=True)
 class FileRecord:
-    """What `records.json` says of one evidence file. `sources` is the hash of the sources that it was made from, or empty."""
+    """What `records.json` says of one evidence file. `sources` is the hash of the sources that it was made from, or empty.
+
+    `now` is that hash as it is now, where the record covers chosen folders only; `intact`: the file is as it was recorded.
+    """
 
     shown: str
     sources: str
+    now: str = ""
+    intact: bool = True
 
 
 @dataclass(slots=True)
@@ -166,6 +190,15 @@ class Evidence:
     @property
     def present(self) -> bool:
         return bool(self.folder)
+
+    def unbind(self) -> None:
+        """Takes the word `passed` from every result and case whose file has no intact record."""
+        bound = {record.shown for record in self.records.values() if record.intact}
+        for result in self.results:
+            if result.status == PASSED and result.place.file not in bound:
+                result.status = UNBOUND
+        for case in self.cases:
+            case.bound = case.place.file in bound
 
     @property
     def tells_sources(self) -> bool:

@@ -38,12 +38,14 @@ class Problem:
 class Rule:
     """A rule: `id` never changes its meaning; `about` says in one sentence what it demands.
 
-    `severity` holds where no rule pack says another; OFF is a rule that only speaks where a pack demands it.
+    `severity` holds where no rule pack says another; OFF is a rule that only speaks where a pack demands it. `release` replaces the
+    severity of what is judged for a release.
     """
 
     id: str
     severity: str
     about: str
+    release: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
@@ -13,7 +14,7 @@ from pathlib import Path
 from mamori.trace.model.code import CodeSchema, Function
 from mamori.trace.model.coverage import Coverage, CoverageRun, Reached
 from mamori.trace.model.decomposition import Decomposition
-from mamori.trace.model.evidence import CAMPAIGN, PASSED, CampaignCase, CodeTag, Evidence, SourceTest, TestResult
+from mamori.trace.model.evidence import ANY_SUITE, CAMPAIGN, PASSED, UNBOUND, WHOLE_SUITE, CampaignCase, CodeTag, Evidence, SourceTest, TestResult
 from mamori.trace.model.finding import Problem
 from mamori.trace.model.ids import FormerId
 from mamori.trace.model.item import Item, Schema
@@ -24,12 +25,22 @@ from mamori.trace.model.rule_pack import RulePack
 from mamori.trace.model.technique import Technique
 from mamori.trace.model.waiver import Waived, Waiver
 
+_SECTIONS_MAX = 8
+_DECORATIONS = (
+    (re.compile(r"(?<=\S)\[.*\]$"), ""),  # pytest, JUnit 5
+    (re.compile(r"(?<=\S)\([^()]*\)(?:\[[^\]]*\])?$"), ""),  # JUnit 5
+    (re.compile(r" - [^/]+$"), " - *"),  # Catch2
+    (re.compile(r"<.*>$"), "<*>"),  # doctest, Boost.Test
+)
+_BOOST_ROW = re.compile(r"_\d+")
+_CPP_FILES = (".cpp", ".cc", ".cxx", ".hpp", ".h")
+
 
 @dataclass
 class Project:
     """All that was read. `all_items` keeps every definition in file order; `items` the first one of each id.
 
-    `sources` is the hash of the sources where the evidence tells one, too. `date` is the day of the state that is judged (ISO 8601), or empty where nothing needs or tells it. `run_checks` sets `waived`.
+    `sources` is the hash of the sources where the evidence tells one, too. `date` is the day of the state that is judged (ISO 8601), or empty where nothing needs or tells it. `run_checks` sets `waived`, and `told`: (rule, item) of all findings.
     """
 
     root: Path
@@ -45,9 +56,11 @@ class Project:
     sources: str = ""
     problems: list[Problem] = field(default_factory=list)
     allow_missing: bool = False
+    release: bool = False
     pack: RulePack = field(default_factory=RulePack)
     waivers: list[Waiver] = field(default_factory=list)
     waived: list[Waived] = field(default_factory=list)
+    told: frozenset[tuple[str, str]] = frozenset()
     decomposition: list[Decomposition] = field(default_factory=list)
     reviews: list[ReviewRecord] = field(default_factory=list)
     former_ids: dict[str, FormerId] = field(default_factory=dict)
@@ -162,11 +175,13 @@ class Project:
 
     @cached_property
     def tests_without_result(self) -> list[SourceTest]:
-        """Tests that the sources hold and no result tells about."""
-        executed: set[tuple[str, str, str]] = set()
-        for result in self.results:
-            executed.update(list_result_keys(result))
-        return [test for test in self.tests if test.name and (test.suite, test.name, test.requirement) not in executed]
+        """Tests that the sources hold and no result tells about. A tag in a comment that is at no test has none either."""
+        executed = {(*result.bound_to, result.requirement, result.source.file) for result in self.results if result.bound_to and result.source}
+        return [
+            test
+            for test in self.tests
+            if (test.name or test.by_comment) and (test.suite, test.name, test.requirement, test.place.file) not in executed
+        ]
 
     @cached_property
     def unexecuted_of(self) -> dict[str, list[SourceTest]]:
@@ -193,8 +208,8 @@ class Project:
 def attach_sources(project: Project) -> None:
     """Gives each result the place of its test in the sources, which also tells unit tests from integration tests.
 
-    A result that did not pass and names no requirement takes that of its source: the test ended before it could name one. What the
-    source says in a comment, which no running test knows, holds for each result.
+    A result that did not pass counts for each requirement that its source names, also where the test ended before it could name it. What the
+    source says in a comment, which no running test knows, holds for each result. The failure of a whole suite counts for each of its tests.
     """
     tests: dict[tuple[str, str], list[SourceTest]] = defaultdict(list)
     for test in project.tests:
@@ -202,20 +217,40 @@ def attach_sources(project: Project) -> None:
             tests[(test.suite, test.name)].append(test)
     results: list[TestResult] = []
     for result in project.evidence.results:
-        keys = ((suite, name) for suite, name, _ in list_result_keys(result))
-        found = next((tests[key] for key in keys if key in tests), [])
+        found = _narrow(result, next((tests[key] for key in list_result_keys(result) if key in tests), []))
         results.append(result)
         if found:
             result.source = found[0].place
+            result.bound_to = (found[0].suite, found[0].name)
             results.extend(_name_requirements(result, found))
-    project.evidence.results = results
+    project.evidence.results = [*results, *_spread_failures(results)]
+
+
+def _narrow(result: TestResult, tests: list[SourceTest]) -> list[SourceTest]:
+    """Of tests with one name in several files, those of the file that the result tells, where it tells one."""
+    if len({test.place.file for test in tests}) < 2:
+        return tests
+    own = [test for test in tests if result.source is not None and test.place.file == result.source.file]
+    if own:
+        return own
+    near: dict[int, list[SourceTest]] = defaultdict(list)
+    parts = result.suite.split(".")
+    for test in tests:
+        folders = test.place.file.rpartition(".")[0].split("/")
+        count = next((size for size in range(len(folders), 0, -1) if _holds(parts, folders[-size:])), 0)
+        near[count].append(test)
+    return near[max(near)]
+
+
+def _holds(parts: list[str], inner: list[str]) -> bool:
+    return any(parts[at : at + len(inner)] == inner for at in range(len(parts) - len(inner) + 1))
 
 
 def _name_requirements(result: TestResult, tests: list[SourceTest]) -> list[TestResult]:
     """Fills in the first requirement, where there is none. @return a copy of the result for each other one."""
     wanted: dict[str, SourceTest] = {}
     for test in tests:
-        if test.by_comment or (not result.requirement and result.status != PASSED):
+        if test.by_comment or result.status not in (PASSED, UNBOUND):
             wanted.setdefault(test.requirement, test)
     copies = []
     for test in wanted.values():
@@ -223,10 +258,21 @@ def _name_requirements(result: TestResult, tests: list[SourceTest]) -> list[Test
             continue
         target = replace(result) if result.requirement else result
         target.requirement = test.requirement
-        target.technique = target.technique or test.technique
-        target.polarity = target.polarity or test.polarity
+        target.technique = test.technique if target is not result else target.technique or test.technique
+        target.polarity = test.polarity if target is not result else target.polarity or test.polarity
         if target is not result:
             copies.append(target)
+    return copies
+
+
+def _spread_failures(results: list[TestResult]) -> list[TestResult]:
+    """A copy of each failure that is of no single test, for each requirement of its suite; without a suite, of its file."""
+    copies = []
+    for bad in results:
+        if bad.failing and not bad.requirement and bad.name in ("", WHOLE_SUITE):
+            concerned = [one for one in results if one.place.file == bad.place.file and (not bad.suite or one.suite == bad.suite)]
+            named = {(one.requirement, one.polarity): one for one in concerned if one.requirement}
+            copies += [replace(bad, requirement=one.requirement, polarity=one.polarity, technique=one.technique) for one in named.values()]
     return copies
 
 
@@ -242,16 +288,29 @@ def _get_case_id(name: str) -> str:
     return name.partition("[")[0]
 
 
-def list_result_keys(result: TestResult) -> list[tuple[str, str, str]]:
-    """Keys under which a source test may look for this result.
+def list_result_keys(result: TestResult) -> list[tuple[str, str]]:
+    """Suites and names under which a source test may look for this result, the most exact first.
 
-    GoogleTest adds instance names and numbers (`Instance/Suite/0`, `Name/3`), pytest adds packages (`a.b.test_c.TestD`)
-    and parameters (`name[value]`), JUnit 5 a list of types (`name(int)[1]`).
+    GoogleTest adds instance names and numbers (`Instance/Suite/0`, `Name/3`), pytest adds packages (`a.b.test_c.TestD`) and parameters
+    (`name[value]`), JUnit 5 a list of types (`name(int)[1]`), Catch2 and doctest sections (`name/section`) and types (`name - int`,
+    `name<int>`), Boost.Test numbers below the name (`suite.name` and `_0`).
     """
-    name = result.name.partition("[")[0].partition("/")[0].partition("(")[0]
-    dotted = result.suite.split(".")
+    full = result.name.strip()
+    names = [full]
+    cut = full
+    for _ in range(_SECTIONS_MAX):
+        cut, mark, _rest = cut.rpartition("/")
+        names += [cut.strip()] if mark else []
+    for pattern, put in _DECORATIONS:
+        names += [changed for name in list(names) if (changed := pattern.sub(put, name)) != name]
+    dotted = re.split(r"\.|::", result.suite)
+    if _BOOST_ROW.fullmatch(full):
+        names, dotted = [dotted[-1]], dotted[:-1] or [""]
     suites = result.suite.split("/") if "/" in result.suite else [dotted[-1], ".".join(dotted[-2:])]
-    return [(suite, name, result.requirement) for suite in suites]
+    if result.suite.endswith(_CPP_FILES):
+        suites = [result.suite.rpartition("/")[2], "global"]
+    keys = [(suite, name) for name in names if name for suite in suites]
+    return list(dict.fromkeys([*keys, (ANY_SUITE, full)]))
 
 
 def _find_cycles(parents_of: dict[str, tuple[str, ...]]) -> list[list[str]]:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Judges each item by executed results, the worst first.
 
-@satisfies SWR-TRC-006, SWR-TRC-007, SWR-TRC-014      Design: docs/design/trace.md#verdict
+@satisfies SWR-TRC-006, SWR-TRC-007, SWR-TRC-014, SWR-TRC-101, SWR-TRC-102      Design: docs/design/trace.md#verdict
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from mamori.trace.model.evidence import CAMPAIGN, PASSED, SKIPPED
+from mamori.trace.model.evidence import CAMPAIGN, NOT_SHOWN, PASSED, SKIPPED, UNBOUND
 from mamori.trace.model.item import DRAFT, Item
 from mamori.trace.model.project import Project
 
@@ -19,7 +19,10 @@ INCOMPLETE = "incomplete"
 NOT_RUN = "not run"
 
 # Worst first: the verdict of an item is the worst of what speaks against it.
-WORST_FIRST = (FAILED, INCOMPLETE, NOT_RUN, DRAFT, VERIFIED)
+WORST_FIRST = (FAILED, INCOMPLETE, UNBOUND, NOT_RUN, NOT_SHOWN, DRAFT, VERIFIED)
+
+_OF_STATUS = {SKIPPED: (INCOMPLETE, "was skipped"), UNBOUND: (UNBOUND, "has no evidence record"),
+              NOT_SHOWN: (NOT_SHOWN, "cannot be shown on this host")}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +62,7 @@ def _judge(project: Project, item: Item, verdicts: dict[str, Verdict]) -> Verdic
         failed = [child.id for child in children if verdicts[child.id].word == FAILED]
         objections += [(FAILED, f"{child} failed") for child in failed]
         for method in item.verify:
-            objections += _judge_method(project, item, method, children, verdicts)
+            objections += judge_method(project, item, method, children, verdicts)
     if not objections:
         return Verdict(VERIFIED)
     objections.sort(key=lambda objection: WORST_FIRST.index(objection[0]))
@@ -72,11 +75,14 @@ def _list_bad_results(project: Project, item: Item) -> Iterable[_Objection]:
     for result in project.results_of.get(item.id, []):
         if result.failing:
             yield FAILED, f"test {result.title} failed"
-        elif result.status == SKIPPED:
-            yield INCOMPLETE, f"test {result.title} was skipped"
+        elif result.status in _OF_STATUS:
+            word, what = _OF_STATUS[result.status]
+            yield word, f"test {result.title} {what}"
     for case in project.cases_of.get(item.id, []):
         if not case.passed:
             yield FAILED, f"campaign case {case.id} failed"
+        elif case.status == UNBOUND:
+            yield UNBOUND, f"campaign case {case.id} has no evidence record"
     for test in project.unexecuted_of.get(item.id, []):
         yield absent, f"test {test.title} has no result"
 
@@ -91,11 +97,12 @@ def _judge_children(children: list[Item], verdicts: dict[str, Verdict]) -> list[
     ]
 
 
-def _judge_method(
+def judge_method(
     project: Project, item: Item, method: str, children: list[Item], verdicts: dict[str, Verdict]
 ) -> list[_Objection]:
+    """What is against the item by one method that it demands."""
     if method == "campaign":
-        passed = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, []) if case.passed}
+        passed = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, []) if case.passed}  # bound or not: told above
         absent = NOT_RUN if project.allow_missing else INCOMPLETE
         return [(absent, f"no passed {polarity} campaign case") for polarity in item.polarity if polarity not in passed]
     if method == "test":
@@ -107,10 +114,11 @@ def _judge_method(
 
 
 def _judge_own_tests(project: Project, item: Item) -> list[_Objection]:
+    executed = (PASSED, UNBOUND, NOT_SHOWN)  # of the last two `_list_bad_results` has told, with a word of their own
     passed = {
         result.polarity or "nominal"
         for result in project.results_of.get(item.id, [])
-        if result.status == PASSED and result.kind != CAMPAIGN
+        if result.status in executed and result.kind != CAMPAIGN
     }
     waiting = {test.polarity for test in project.unexecuted_of.get(item.id, [])} if project.allow_missing else set()
     return [

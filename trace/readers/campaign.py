@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from mamori.trace.model.evidence import CampaignCase, Evidence
@@ -45,7 +47,7 @@ def read_campaign(folder: Path, root: Path, evidence: Evidence, problems: list[P
     rows = content.get("cases")
     for index, row in enumerate(rows if isinstance(rows, list) else []):
         try:
-            evidence.cases.append(_make_case(row, evidence.campaign_place.file, lines))
+            evidence.cases.append(make_case(row, evidence.campaign_place.file, lines))
         except (KeyError, TypeError, ValueError) as error:
             message = f"case {index}: {type(error).__name__} {error}; run the campaign again"
             problems.append(Problem(UNREADABLE, evidence.campaign_place, message))
@@ -64,8 +66,10 @@ def _find_id_lines(text: str) -> dict[str, int]:
     return lines
 
 
-def _make_case(row: dict[str, Any], shown: str, lines: dict[str, int]) -> CampaignCase:
-    """Raises KeyError, TypeError or ValueError when the row does not keep to the contract."""
+def make_case(row: dict[str, Any], shown: str = "campaign/campaign.json", lines: Mapping[str, int] = MappingProxyType({})) -> CampaignCase:
+    """One row of campaign.json. `shown` names its file, `lines` the line of each id.
+
+    Raises KeyError, TypeError or ValueError when the row does not keep to the contract."""
     case_id = row["id"]
     run = row["run"]
     checks = row["checks"]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads `@satisfies` tags from C++ comments and binds each to the class or function below it (tree-sitter).
 
-@satisfies SWR-TRC-002      Design: docs/design/trace.md#code-tags
+@satisfies SWR-TRC-002, SWR-TRC-105      Design: docs/design/trace.md#code-tags
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from mamori.trace.model.code import CodeBase, Scope
 from mamori.trace.model.evidence import CodeTag
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.cpp_functions import Captures, FileFunctions, add_own_headers, capture, find_name, list_functions
+from mamori.trace.readers.cpp_plain import find_dead_lines
 from mamori.trace.readers.files import is_test_file, read_text, walk_sources
 from mamori.trace.readers.tag_text import FILE_SYMBOL, ID_PATTERN, has_mark, make_tags
 
@@ -81,12 +82,14 @@ def parse_cpp_tags(
         code.functions.extend(found.functions)
         code.classes[shown] = frozenset(one.name for one in found.classes)
     tags: list[CodeTag] = []
+    dead = find_dead_lines(text) if has_mark(text) else frozenset()
     for block in _list_blocks(captures) if has_mark(text) else ():
         target = _find_target(block, found)
         of_block: list[CodeTag] = []
         for row, comment in zip(block.rows, block.texts):
             for number, line in enumerate(comment.splitlines(), start=row + 1) if has_mark(comment) else ():
-                of_block.extend(make_tags(line, Place(shown, number), target.symbol, problems, id_pattern))
+                if number not in dead:
+                    of_block.extend(make_tags(line, Place(shown, number), target.symbol, problems, id_pattern))
         tags.extend(of_block)
         if code is not None:
             code.scopes.extend(_make_scopes(of_block, target, shown, found))

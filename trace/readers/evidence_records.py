@@ -13,6 +13,7 @@ from mamori.trace.model.evidence import Evidence, FileRecord
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import UNREADABLE, get_shown_path, note_unreadable
 from mamori.trace.readers.json_file import Each, Maybe, find_misfit, read_json
+from mamori.trace.readers.sources import calc_sources_of
 
 NAME = "records.json"
 SCHEMA = "mamori.records/1"
@@ -20,6 +21,8 @@ RECORDED = ("environment.json", "junit/*.xml", "campaign/campaign.json", "covera
 """What decides about requirements, and therefore has a record. Times hold for one machine and one run, and decide nothing."""
 
 ALTERED = "evidence-altered"
+FOLDERS = "source_folders"
+"""The folders whose files `sources` covers; without it, all files that git does not ignore."""
 _FILE = {"sha256": str, "sources": str, "tool_chain": str, "configuration": str, "binary": Maybe(str)}
 _REMEDY = "run the tests again"
 
@@ -44,19 +47,26 @@ def read_evidence_records(folder: Path, root: Path, evidence: Evidence, problems
     if table is None:
         return
     place = Place(get_shown_path(path, root), 1)
-    misfit = find_misfit(table[0], {"files": Each(_FILE)}, "")
+    misfit = find_misfit({FOLDERS: [], **table[0]}, {"files": Each(_FILE), FOLDERS: [str]}, "")
+    folders = table[0].get(FOLDERS, []) if not misfit else []
+    if any(name.startswith("/") or ".." in name.split("/") for name in folders):
+        misfit = f"{FOLDERS} leads out of the project"
     if misfit:
         problems.append(Problem(UNREADABLE, place, f"{misfit}; {_REMEDY}"))
         return
     rows = table[0]["files"]
+    intact = _compare(folder, root, {name: row["sha256"] for name, row in rows.items()}, place, problems)
+    now = calc_sources_of(root, folders) if folders else ""
     for name in sorted(rows):
-        row = rows[name]
-        evidence.records[name] = FileRecord(get_shown_path(folder / name, root), row["sources"])
-    _compare(folder, root, {name: row["sha256"] for name, row in rows.items()}, place, problems)
+        shown = get_shown_path(folder / name, root)
+        evidence.records[name if name not in evidence.records else shown] = FileRecord(shown, rows[name]["sources"], now, name in intact)
 
 
-def _compare(folder: Path, root: Path, recorded: dict[str, str], place: Place, problems: list[Problem]) -> None:
+def _compare(folder: Path, root: Path, recorded: dict[str, str], place: Place, problems: list[Problem]) -> set[str]:
+    """@return names of the files that are as they were recorded."""
+    intact: set[str] = set()
     present = {path.relative_to(folder).as_posix(): path for path in list_recorded(folder)}
+    present |= {name: folder / name for name in recorded if (folder / name).is_file()}
     for name in sorted(recorded.keys() - present.keys()):
         problems.append(Problem(ALTERED, place, f"{name} was recorded and is gone; {_REMEDY}"))
     for name, path in present.items():
@@ -65,7 +75,10 @@ def _compare(folder: Path, root: Path, recorded: dict[str, str], place: Place, p
             problems.append(Problem(ALTERED, shown, f"is in no record of {place.file}: nothing tells what made it; {_REMEDY}"))
             continue
         try:
-            if hash_file(path) != recorded[name]:
+            if hash_file(path) == recorded[name]:
+                intact.add(name)
+            else:
                 problems.append(Problem(ALTERED, shown, f"differs from what was recorded when it was made; {_REMEDY}"))
         except OSError as error:
             note_unreadable(error, shown.file, problems)
+    return intact

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mamori.trace.git_run import get_git_environment, run_git
+from mamori.trace.git_run import get_git_environment, make_git_command, run_git
 from mamori.trace.readers.files import InputError
 
 _HUNK = re.compile(rb"@@ -(\d+)(?:,(\d+))? \+(\d+)(?:,(\d+))? @@")
@@ -153,7 +153,7 @@ def read_blobs(root: Path, entries: list[tuple[str, bytes]]) -> Iterator[tuple[s
     """Contents one after the other from one process, so that memory holds one file at a time."""
     if not entries:
         return
-    command = ["git", "-C", str(root), "cat-file", "--batch"]
+    command = make_git_command(root, ["cat-file", "--batch"])
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=get_git_environment()) as process:
         for path, name in entries:

@@ -3,17 +3,18 @@
 
 A document type definition is refused before any entity could be expanded; a file that is cut off keeps nothing of it.
 
-@satisfies SWR-TRC-004, SWR-TRC-009, SWR-TRC-041, SWR-TRC-042      Design: docs/design/trace_cover.md#results-as-others-write-them
+@satisfies SWR-TRC-004, SWR-TRC-009, SWR-TRC-041, SWR-TRC-042, SWR-TRC-101      Design: docs/design/trace_cover.md#results-as-others-write-them
 """
 
 from __future__ import annotations
 
 import io
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
-from mamori.trace.model.evidence import CAMPAIGN, ERRORED, FAILED, PASSED, SKIPPED, UNIT, TestResult
+from mamori.trace.model.evidence import CAMPAIGN, ERRORED, FAILED, NOT_SHOWN, PASSED, SKIPPED, UNIT, WHOLE_SUITE, TestResult
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import get_shown_path, list_paths
 from mamori.trace.readers.tag_text import RESULT_PROPERTIES
@@ -25,6 +26,10 @@ _RETRIES = ("flakyFailure", "flakyError", "rerunFailure", "rerunError")
 _STATUS_WORDS = {"fail": FAILED, "failed": FAILED, "failure": FAILED, "error": ERRORED, "notrun": SKIPPED, "disabled": SKIPPED,
                  "skipped": SKIPPED, "ignored": SKIPPED, "suppressed": SKIPPED}  # fmt: skip
 """Of the attributes `status` (CTest, GoogleTest) and `result` (GoogleTest); any other word says nothing against the case."""
+_VERDICT = "verdict"
+_HOST_WORDS = ("inconclusive", "not-shown", "no-privilege")
+_OF_HOST = re.compile(rf"\bverdict=(?:{'|'.join(_HOST_WORDS)})\b|\bprivileges?\b", re.IGNORECASE)
+"""In the message of a skipped case: the host is the reason. The property `verdict` says the same."""
 _ROOTS = ("testsuites", "testsuite")
 _MESSAGE_CHARACTERS_MAX = 2000
 _REMEDY = "run the tests again"
@@ -63,6 +68,7 @@ class _Collector:
         self._root = root
         self._case: TestResult | None = None
         self._named: list[str] = []
+        self._verdict = ""
         self._suites: list[str] = []
         self._takes_text = False
         self._sources: dict[str, str] = {}
@@ -86,7 +92,7 @@ class _Collector:
         if self._case is None and tag == "skipped":
             return
         if self._case is None:
-            self._case = self._open_case({"classname": self._suites[-1], "name": "(whole suite)"})
+            self._case = self._open_case({"classname": self._suites[-1], "name": WHOLE_SUITE})
         self._case.status = min(self._case.status, _OUTCOMES[tag], key=_WORST_FIRST.index)
         self._case.message = self._case.message or attributes.get("message", "")[:_MESSAGE_CHARACTERS_MAX]
         self._takes_text = not self._case.message.strip()
@@ -94,7 +100,7 @@ class _Collector:
     def _end(self, tag: str) -> None:
         if tag in _OUTCOMES:
             self._takes_text = False
-        if self._case is not None and (tag == "testcase" or (tag in _OUTCOMES and self._case.name == "(whole suite)")):
+        if self._case is not None and (tag == "testcase" or (tag in _OUTCOMES and self._case.name == WHOLE_SUITE)):
             self._close_case(self._case)
             self._case = None
         if tag in _ROOTS:
@@ -103,6 +109,10 @@ class _Collector:
     def _close_case(self, case: TestResult) -> None:
         """One result for each requirement that the case names; a case that failed in the end is more than flaky."""
         case.message = case.message.strip()[:_MESSAGE_CHARACTERS_MAX]
+        of_host = self._verdict in _HOST_WORDS
+        if (case.status == SKIPPED and (of_host or _OF_HOST.search(case.message))) or (case.status == PASSED and of_host):
+            case.status = NOT_SHOWN
+        self._verdict = ""
         case.flaky = case.flaky and case.status == PASSED
         named = list(dict.fromkeys(filter(None, [case.requirement, *self._named])))
         self._named = []
@@ -145,8 +155,13 @@ class _Collector:
     def _set_property(self, name: str, value: str) -> None:
         if self._case is None:
             return
-        if name in ("requirement", "technique", "polarity"):
+        if name == "requirement":
+            self._case.requirement = self._case.requirement or value
+            self._named.append(value)
+        elif name in ("technique", "polarity"):
             setattr(self._case, name, value)
+        elif name == _VERDICT:
+            self._verdict = value.strip().lower()
         elif name in RESULT_PROPERTIES:
             self._named += [word.strip() for word in value.split(",")]
 

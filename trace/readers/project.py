@@ -26,6 +26,7 @@ from mamori.trace.readers.junit import read_junit
 from mamori.trace.readers.kinds import read_kinds
 from mamori.trace.readers.lock import read_lock
 from mamori.trace.readers.markdown_items import read_items
+from mamori.trace.readers.other_tests import read_other_tests
 from mamori.trace.readers.python_sources import read_python
 from mamori.trace.readers.reviews import read_reviews
 from mamori.trace.readers.rule_pack import read_rule_pack
@@ -104,6 +105,7 @@ def read_project(root: Path, evidence: Path | None, rules: Sequence[str], allow_
     project.tags = read_cpp_tags(root, project.problems, code)
     project.tags += read_script_tags(root, project.problems)
     project.tests = read_cpp_tests(root, project.problems)
+    project.tests += read_other_tests(root, project.problems)
     tags, tests = read_python(root, project.problems, code)
     project.tags += tags
     project.tests += tests
@@ -140,6 +142,7 @@ def read_evidence(folder: Path, project: Project) -> Evidence:
     read_timing(folder, project.root, evidence, project.problems)
     read_cost(folder, project.root, evidence, project.problems)
     read_evidence_records(folder, project.root, evidence, project.problems)
+    evidence.unbind()
     names = SourceNames(project.root, {function.file for function in project.functions})
     read_coverage(folder, project.root, names, evidence, project.problems)
     read_analysis(folder, names, project.root, evidence, project.problems)

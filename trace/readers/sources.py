@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 from mamori.trace.cache.questions import ask
 
 _SHA1_DIGITS = 40
+_SHA256_DIGITS = 64
+_MADE = ("__pycache__", "node_modules", "target")
 
 
 def calc_sources(root: Path, without: tuple[str, ...] = ()) -> str:
@@ -38,6 +41,21 @@ def calc_sources(root: Path, without: tuple[str, ...] = ()) -> str:
             contents.pop(name, None)
     kept = (name for name in sorted(contents) if not any(name == one or name.startswith(f"{one}/") for one in without))
     text = "".join(f"{contents[name]} {name}\n" for name in kept)
+    return hashlib.sha256(text.encode(errors="surrogateescape")).hexdigest()
+
+
+def calc_sources_of(root: Path, folders: Sequence[str]) -> str:
+    """Hash over names and contents of all files of `folders`, with or without git. What a build writes there is left out."""
+    found: dict[str, Path] = {}
+    for name in folders:
+        top = root / name
+        if top.is_file():
+            found[name] = top
+        for folder, inner, files in os.walk(top):
+            inner[:] = [one for one in inner if one not in _MADE and not one.startswith((".", "build"))]
+            paths = (Path(folder) / one for one in files if not one.endswith(".pyc"))
+            found.update((path.relative_to(root).as_posix(), path) for path in paths)
+    text = "".join(f"{_hash_file(found[name], _SHA256_DIGITS)} {name}\n" for name in sorted(found))
     return hashlib.sha256(text.encode(errors="surrogateescape")).hexdigest()
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Turns campaign cases into table rows and figures.
 
-@satisfies SWR-TRC-012      Design: docs/design/trace.md#plots
+@satisfies SWR-TRC-012, SWR-TRC-110, SWR-TRC-111      Design: docs/design/trace.md#plots
 """
 
 from __future__ import annotations
@@ -9,18 +9,18 @@ from __future__ import annotations
 import math
 import re
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mamori.trace.model.evidence import CampaignCase
+from mamori.trace.model.evidence import PASSED, CampaignCase
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.model.project import Project
 from mamori.trace.readers.files import UNREADABLE, get_shown_path
-from mamori.trace.readers.series import JOINTS, SeriesError, read_series
+from mamori.trace.readers.series import JOINTS, Series, SeriesError, read_series
 
 if TYPE_CHECKING:
-    from mamori.trace.reports.plots import Marks
+    from mamori.trace.reports.plots import Drawing, Marks
 
 ABSENT = "–"
 _ORIGIN = (("trace hash", "trace_hash"), ("seed", "seed"), ("motion", "motion"), ("model", "model"), ("built by", "compiler"))
@@ -46,8 +46,19 @@ class CaseView:
     final_state: str
     origin: str
     checks: list[tuple[str, str, str, bool]]
-    plot: str = ""
+    drawings: list[Drawing] = field(default_factory=list)
+    keys: list[tuple[str, str]] = field(default_factory=list)
+    """Of the drawings: text and colour."""
     plot_problem: str = ""
+
+    @property
+    def facts(self) -> list[tuple[str, str]]:
+        """What the run measured, as names and values; only what there is."""
+        rows = (("Fault", self.fault if self.where == ABSENT else f"{self.fault}, {self.where}"), ("Fault at", self.when),
+                ("Detected as", self.detected), ("Reaction", self.reaction or ABSENT), ("Reaction time", self.reaction_time),
+                ("Standstill after", self.standstill), ("Travel until standstill", self.travel), ("Drift at standstill", self.drift),
+                ("Highest speed, of its limit", self.peak_speed), ("Final state", self.final_state))  # fmt: skip
+        return [(name, value) for name, value in rows if value != ABSENT]
 
 
 @dataclass(slots=True)
@@ -60,30 +71,58 @@ class ScenarioView:
 
     @property
     def passed(self) -> int:
-        return sum(view.case.passed for view in self.cases)
+        return sum(view.case.status == PASSED for view in self.cases)
+
+    @property
+    def is_bad(self) -> bool:
+        return self.passed < len(self.cases)
 
 
 def make_scenario_views(project: Project, problems: list[Problem]) -> list[ScenarioView]:
     """Scenarios and cases in the order of the campaign. A series that cannot be drawn becomes a problem."""
-    if not project.evidence.cases:
-        return []
-    from mamori.trace.reports.plots import draw_case  # loads matplotlib, which takes longer than a small report
-
     groups: dict[str, list[CaseView]] = defaultdict(list)
     base = Path(project.evidence.folder) / "campaign"
     for index, case in enumerate(project.evidence.cases):
-        view = _make_case_view(case, index)
-        path = base / case.folder / "series.csv"
-        try:
-            if not path.resolve().is_relative_to(base.resolve()):
-                raise SeriesError(f"folder {case.folder!r} lies outside of the campaign")
-            view.plot = draw_case(read_series(path), _find_marks(case), f"p{index}", f"{case.id}: {case.title}")
-        except SeriesError as error:
-            view.plot_problem = str(error)
-            place = Place(get_shown_path(path, project.root), 1)
+        view = make_case_view(case, base, index)
+        if view.plot_problem:
+            place = Place(get_shown_path(base / case.folder / "series.csv", project.root), 1)
             problems.append(Problem(UNREADABLE, place, f"{view.plot_problem}; run the campaign again"))
         groups[case.scenario].append(view)
     return [ScenarioView(name, _get_common_title(views), views) for name, views in groups.items()]
+
+
+def make_case_view(case: CampaignCase, base: Path, index: int = 0) -> CaseView:
+    """One case with its drawings. `base`: folder of the campaign; `index` makes ids unique in a page. Of a series that cannot be drawn,
+    `plot_problem` holds the reason."""
+    from mamori.trace.reports.plots import draw_case  # loads matplotlib, which takes longer than a small report
+
+    view = _describe_case(case, index)
+    path = base / case.folder / "series.csv"
+    try:
+        if not path.resolve().is_relative_to(base.resolve()):
+            raise SeriesError(f"folder {case.folder!r} lies outside of the campaign")
+        series, marks = read_series(path), _find_marks(case)
+        view.drawings = draw_case(series, marks, f"p{index}", f"{case.id}: {case.title}")
+        view.keys = _list_keys(series, marks)
+    except SeriesError as error:
+        view.plot_problem = str(error)
+    return view
+
+
+def list_filled(scenarios: list[ScenarioView]) -> set[str]:
+    """Names of the columns of which some case has a value."""
+    views = [view for scenario in scenarios for view in scenario.cases]
+    names = ("when", "detected", "reaction_time", "standstill", "travel", "drift", "peak_speed", "final_state")
+    filled = {name for name in names if any(getattr(view, name) != ABSENT for view in views)}
+    return filled | ({"detected"} if any(view.reaction for view in views) else set())
+
+
+def _list_keys(series: Series, marks: Marks) -> list[tuple[str, str]]:
+    from mamori.trace.reports.plots import JOINT_COLOURS, list_state_colours
+
+    instants = [(f"{name} {time_s:.3f} s", colour) for name, time_s, colour in marks.list_instants()]
+    joints = [(f"J{index + 1}", colour) for index, colour in enumerate(JOINT_COLOURS)]
+    return [*instants, *list_state_colours(series).items(), *joints]
 
 
 def find_slowest(scenarios: list[ScenarioView]) -> CaseView | None:
@@ -94,13 +133,14 @@ def find_slowest(scenarios: list[ScenarioView]) -> CaseView | None:
 
 def _find_marks(case: CampaignCase) -> Marks:
     """Raises SeriesError where the run does not tell its speed limits."""
-    from mamori.trace.reports.plots import Marks
+    from mamori.trace.reports.plots import Drawing, Marks
 
     limits = _get_numbers(_get_table(case.run, "physics"), "speed_limit_rad_s")
     if len(limits) != JOINTS or min(limits) <= 0:
         raise SeriesError(f"the run of {case.id} tells no speed limits of {JOINTS} joints")
-    fault_s = _get_number(_get_table(case.run, "fault"), "at_s")
-    return Marks(fault_s, _get_number(case.run, "reacted_at_s"), _get_number(case.run, "standstill_at_s"), limits)
+    fault = _get_table(case.run, "fault")
+    joint = fault.get("joint") if isinstance(fault.get("joint"), int) else None
+    return Marks(_get_number(fault, "at_s"), _get_number(case.run, "reacted_at_s"), _get_number(case.run, "standstill_at_s"), limits, joint)
 
 
 def _get_common_title(views: list[CaseView]) -> str:
@@ -108,7 +148,7 @@ def _get_common_title(views: list[CaseView]) -> str:
     return "; ".join(titles)
 
 
-def _make_case_view(case: CampaignCase, index: int) -> CaseView:
+def _describe_case(case: CampaignCase, index: int) -> CaseView:
     run = case.run
     fault = _get_table(run, "fault") or None
     at_s = _get_number(fault, "at_s")

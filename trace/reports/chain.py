@@ -74,7 +74,7 @@ def _list_evidence(project: Project, key: str) -> list[str]:
     rows = [f"code: {tag.place} ({tag.symbol})" for tag in project.tags_of.get(key, [])]
     rows += [f"{result.status}: {result.title}" for result in project.results_of.get(key, [])]
     rows += [f"no result: {test.title}" for test in project.unexecuted_of.get(key, [])]
-    return rows + [f"{'passed' if case.passed else 'failed'}: {case.id}" for case in project.cases_of.get(key, [])]
+    return rows + [f"{case.status}: {case.id}" for case in project.cases_of.get(key, [])]
 
 
 def _name(project: Project, key: str, verdicts: dict[str, Verdict], paint: Paint) -> str:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from urllib.parse import urlencode
 
 from mamori.trace.checks import list_rules
-from mamori.trace.model.evidence import CAMPAIGN, INTEGRATION, PASSED, SKIPPED, UNIT
+from mamori.trace.model.evidence import CAMPAIGN, INTEGRATION, NOT_SHOWN, PASSED, SKIPPED, UNBOUND, UNIT
 from mamori.trace.model.finding import ERROR, Finding
 from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import VERIFIED, WORST_FIRST, Verdict
@@ -72,7 +72,7 @@ def list_result_bars(project: Project) -> list[Bar]:
     for kind, name in _KINDS:
         words = Counter("failed" if result.failing else result.status for result in project.results if result.kind == kind)
         if words:
-            shares = _make_shares(words, (PASSED, SKIPPED, "failed"), "tests", kind=kind)
+            shares = _make_shares(words, (PASSED, NOT_SHOWN, UNBOUND, SKIPPED, "failed"), "tests", kind=kind)
             bars.append(Bar(name, words[PASSED], f"of {words.total():,} passed", _address("tests", kind=kind), shares))
     missing = len(project.tests_without_result)
     if missing:

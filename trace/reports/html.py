@@ -1,54 +1,45 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the report: one HTML file without network, the same bytes for the same inputs.
 
-@satisfies SWR-TRC-011, SWR-TRC-013, SWR-TRC-061, SWR-TRC-062, SWR-TRC-066, SWR-TRC-067, SWR-TRC-068      Design: docs/design/trace_report.md
+@satisfies SWR-TRC-011, SWR-TRC-013, SWR-TRC-061, SWR-TRC-062, SWR-TRC-066, SWR-TRC-067, SWR-TRC-068, SWR-TRC-069      Design: docs/design/trace_report.md
 """
 
 from __future__ import annotations
 
-import base64
-import hashlib
-import re
 from collections import Counter, defaultdict
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import jinja2
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from mamori.trace.checks import list_rules, run_checks
 from mamori.trace.model.finding import ERROR, Finding, Rule
 from mamori.trace.model.project import Project
-from mamori.trace.model.verdict import VERIFIED, Verdict, calc_verdicts
+from mamori.trace.model.verdict import VERIFIED, WORST_FIRST, Verdict, calc_verdicts
 from mamori.trace.readers.item_history import read_item_history
 from mamori.trace.reports import dashboard, v_overview
-from mamori.trace.reports.campaign_view import find_slowest, make_scenario_views
+from mamori.trace.reports.answers import LINES_MAX, make_answers
+from mamori.trace.reports.campaign_view import find_slowest, list_filled, make_scenario_views
 from mamori.trace.reports.cost_view import make_cost_views
 from mamori.trace.reports.inline_json import format_inline
 from mamori.trace.reports.page_data import make_page_data, order_items
 from mamori.trace.reports.static_lists import format_files, format_suites
 from mamori.trace.reports.static_view import StaticView
 from mamori.trace.reports.technique_view import list_techniques
+from mamori.trace.reports.templating import make_environment
 from mamori.trace.reports.timing_view import make_timing_views
 from mamori.trace.reports.view import describe_environment, group_tags, make_suite_views
 from mamori.trace.write import write_whole_bytes
 
 PAPER_ITEMS_MAX = 2000
-_WORD_START = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
-_TEMPLATES = Path(__file__).parent / "templates"
-_STYLES = ("base.css", "frame.css", "cards.css", "matrix.css", "item.css", "campaign.css", "print.css")
-_SCRIPTS = ("data.js", "parts.js", "matrix.js", "item.js", "lists.js", "search.js", "frame.js")
-# Before anything is drawn: views stand alone where there is a script, and the chosen colours apply.
-_FIRST_SCRIPT = """
-document.documentElement.classList.add("js");
-try { document.documentElement.dataset.theme = localStorage.getItem("mamori-theme") || ""; } catch (error) { /* the file's own choice */ }
-"""
 
 GLOSSARY = (
     ("verified", "Every demanded test and campaign case was executed and passed, from each demanded side."),
     ("failed", "A test or campaign case that names the item failed or ended in an error, or an item below it failed."),
     ("incomplete", "Nothing failed, but something that is demanded is absent or was skipped."),
+    ("unbound", "The results passed, but no evidence record tells what produced them."),
+    ("not shown here", "This host cannot produce a result: a privilege is missing, or the measurement was inconclusive."),
     ("not run", "The demanded tests exist and this run left them out, which was allowed for it."),
     ("draft", "The item is not approved yet; it proves nothing and nothing is demanded of it."),
     ("nominal", "Shows that the wanted thing happens."),
@@ -78,7 +69,7 @@ def write_report(
 
 
 def _render(context: dict[str, Any]) -> bytes:
-    page = _make_environment().get_template("report.html.j2").render(context)
+    page = make_environment().get_template("report.html.j2").render(context)
     # A lone surrogate can come out of foreign JSON; no file can hold it.
     return page.encode("utf-8", errors="replace")
 
@@ -86,7 +77,7 @@ def _render(context: dict[str, Any]) -> bytes:
 def _make_context(project: Project) -> dict[str, Any]:
     """Everything that the templates name."""
     scenarios = make_scenario_views(project, project.problems)
-    timing = make_timing_views(project, project.problems)
+    timing, costs = make_timing_views(project, project.problems), make_cost_views(project)
     findings = run_checks(project)
     verdicts = calc_verdicts(project)
     words = Counter(verdict.word for verdict in verdicts.values())
@@ -120,51 +111,19 @@ def _make_context(project: Project) -> dict[str, Any]:
         "files": files,
         "file_rows": format_files(files, static.link_item),
         "scenarios": scenarios,
+        "filled": list_filled(scenarios),
         "anchors": anchors,
         "slowest": find_slowest(scenarios),
         "timing": timing,
-        "costs": make_cost_views(project),
+        "costs": costs,
+        "answers": make_answers(project, verdicts, findings, scenarios, [*timing, *costs]),
+        "answer_lines_max": LINES_MAX,
+        "verdict_words": tuple(reversed(WORST_FIRST)),
         "techniques": list_techniques(project),
         "drawings": [(layout, v_overview.make_boxes(project, verdicts, layout)) for layout in v_overview.LAYOUTS],
         "v": v_overview,
         "glossary": GLOSSARY,
     }
-
-
-def _make_environment() -> jinja2.Environment:
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(_TEMPLATES),
-        autoescape=True,
-        optimized=False,  # a page is drawn once; working out what is constant takes longer than it saves
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    script = f'\n(() => {{\n"use strict";\n{_read_templates(_SCRIPTS)}}})();\n'
-    environment.filters["css"] = lambda word: word.replace(" ", "-")
-    environment.filters["to"] = _make_link
-    environment.filters["camel"] = lambda name: Markup("<wbr>").join(_WORD_START.split(name))
-    environment.filters["n"] = lambda number: f"{number:,}"
-    environment.globals["style"] = Markup(_read_templates(_STYLES))
-    environment.globals["first_script"] = Markup(_FIRST_SCRIPT)
-    environment.globals["script"] = Markup(script)
-    # The two scripts of the page, and no other: text that got through the escaping could still not run.
-    environment.globals["script_hashes"] = Markup(" ".join(map(_calc_script_hash, (_FIRST_SCRIPT, script))))
-    return environment
-
-
-def _read_templates(names: tuple[str, ...]) -> str:
-    return "".join((_TEMPLATES / name).read_text(encoding="utf-8") for name in names)
-
-
-def _calc_script_hash(script: str) -> str:
-    return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"
-
-
-def _make_link(target: str) -> Markup:
-    """`#view?filters` as attributes: the script joins the two; without it the link leads to the view."""
-    view, _, query = target.partition("?")
-    return Markup(f'href="{escape(view)}"') + (Markup(f' data-query="{escape(query)}"') if query else Markup(""))
 
 
 def _group_by_rule(findings: list[Finding]) -> list[tuple[Rule, list[Finding]]]:

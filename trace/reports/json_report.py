@@ -27,6 +27,7 @@ def format_json(project: Project, findings: list[Finding], verdicts: dict[str, V
             "severities": dict(sorted(Counter(finding.severity for finding in findings).items())),
             "waived": len(project.waived),
             "results": len(project.results),
+            "statuses": dict(sorted(Counter(result.status for result in project.results).items())),
             "cases": len(project.evidence.cases),
         },
         "rules": [{"id": rule.id, "severity": rule.severity, "about": rule.about} for rule in list_rules()],
@@ -76,7 +77,7 @@ def make_item(project: Project, item: Item, verdicts: dict[str, Verdict]) -> dic
             {"test": result.title, "status": result.status, "polarity": result.polarity}
             for result in project.results_of.get(item.id, [])
         ],
-        "cases": [{"case": case.id, "passed": case.passed} for case in project.cases_of.get(item.id, [])],
+        "cases": [{"case": case.id, "passed": case.passed, "status": case.status} for case in project.cases_of.get(item.id, [])],
         "coverage": _make_coverage(project, item),
     }
 

@@ -122,7 +122,7 @@ def _make_results(project: Project, numbers: Mapping[str, int], files: Words) ->
 
 def _make_case(case: CampaignCase, anchors: Mapping[str, str], numbers: Mapping[str, int]) -> list:
     shows = [[_name(requirement, numbers), case.get_polarity(requirement)] for requirement in dict.fromkeys(case.requirements)]
-    return [case.id, anchors.get(case.id, "campaign"), case.passed, case.title, shows]
+    return [case.id, anchors.get(case.id, "campaign"), case.status, case.title, shows]
 
 
 def _make_coverage(project: Project, numbers: Mapping[str, int], files: Words) -> dict[str, list]:

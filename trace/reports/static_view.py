@@ -16,6 +16,7 @@ from urllib.parse import quote
 
 from markupsafe import Markup
 
+from mamori.trace.model.evidence import PASSED
 from mamori.trace.model.finding import Finding, Place
 from mamori.trace.model.item import Item
 from mamori.trace.model.project import Project
@@ -51,7 +52,7 @@ class StaticView:
         passed = sum(result.status == "passed" for result in results)
         count = len(results) + len(project.unexecuted_of.get(item.id, []))
         cases = project.cases_of.get(item.id, [])
-        good = sum(case.passed for case in cases)
+        good = sum(case.status == PASSED for case in cases)
         return (
             f"<tr><td>{self.link_item(item.id)} {escape(item.title)}<td>{escape(item.sil)}<td>{len(project.tags_of.get(item.id, [])) or ''}"
             f"<td>{f'{passed}/{count}' if count else ''}<td>{f'{good}/{len(cases)}' if cases else ''}"
@@ -97,7 +98,7 @@ class StaticView:
     def _list_cases(self, item: Item) -> list[str]:
         cases = sorted(self.project.cases_of.get(item.id, []), key=lambda case: case.id)
         return [
-            f'{format_badge("passed" if case.passed else "failed")} <a href="#{escape(self.anchors.get(case.id, "campaign"))}">{escape(case.id)}</a>'
+            f'{format_badge(case.status)} <a href="#{escape(self.anchors.get(case.id, "campaign"))}">{escape(case.id)}</a>'
             f" <i>{escape(case.get_polarity(item.id))}</i>"
             for case in cases
         ]

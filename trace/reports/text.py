@@ -11,7 +11,7 @@ import textwrap
 from collections import Counter
 from typing import TextIO
 
-from mamori.trace.model.evidence import TestResult
+from mamori.trace.model.evidence import NOT_SHOWN, SKIPPED, UNBOUND, TestResult
 from mamori.trace.model.finding import ERROR, Finding
 from mamori.trace.model.item import Item
 from mamori.trace.model.project import Project
@@ -60,10 +60,12 @@ def format_summary(project: Project, findings: list[Finding], verdicts: dict[str
     counts = ", ".join(f"{words[word]} {paint.verdict(word)}" for word in reversed(WORST_FIRST) if words[word])
     severities = Counter(finding.severity for finding in findings)
     tests = len(project.results)
+    statuses = Counter(result.status for result in project.results)
+    apart = "".join(f", {statuses[word]} {word}" for word in (SKIPPED, UNBOUND, NOT_SHOWN) if statuses[word])
     cases = len(project.evidence.cases)
     lines = (
         f"{len(verdicts)} items: {counts or 'none'}",
-        f"{len(project.tags)} code tags, {tests} test results, {cases} campaign cases",
+        f"{len(project.tags)} code tags, {tests} test results, {cases} campaign cases{apart}",
         f"{severities[ERROR]} errors, {len(findings) - severities[ERROR]} warnings"
         + (f", {len(project.waived)} waived" if project.waived else ""),
     )
@@ -85,7 +87,7 @@ def format_item(project: Project, item: Item, verdicts: dict[str, Verdict], pain
     unexecuted = project.unexecuted_of.get(item.id, [])
     lines += _section("tests without result", [f"{test.title} ({test.place})" for test in unexecuted])
     cases = project.cases_of.get(item.id, [])
-    lines += _section("campaign", [f"{'passed' if case.passed else 'failed'}  {case.id} ({case.get_polarity(item.id)})" for case in cases])
+    lines += _section("campaign", [f"{case.status}  {case.id} ({case.get_polarity(item.id)})" for case in cases])
     lines += _section("coverage of its functions", _describe_coverage(project, item))
     return "\n".join(lines) + "\n"
 

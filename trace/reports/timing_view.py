@@ -29,7 +29,7 @@ PICTURES = (
 )
 PICTURES_BYTES_MAX = 700_000
 """Of all pictures in the page, so that it stays small however many systems were measured."""
-_EXIT_RESULTS = {0: ("nothing to complain about", "verified"), 1: ("findings", "failed"), 4: ("without all real-time rights", "warning"),
+_EXIT_RESULTS = {0: ("no findings", "verified"), 1: ("findings", "failed"), 4: ("without all real-time rights", "warning"),
                  130: ("stopped", "incomplete")}  # fmt: skip
 
 
@@ -56,6 +56,11 @@ class Column:
     head: str
     group: str = ""
     is_number: bool = True
+
+    @property
+    def full_head(self) -> str:
+        """The head with its group, for a cell that stands alone."""
+        return f"{self.group}, {self.head}" if self.group else self.head
 
 
 @dataclass(frozen=True, slots=True)
@@ -285,8 +290,11 @@ def make_table(
     is_folded: bool = False,
     where: str = "timing.txt",
 ) -> Table:
-    """@param make the cells of one row. @param count of all rows; default: of those that are given."""
-    return Table(title, columns, [make(row) for row in rows[:shown]], len(rows) if count is None else count, notes, is_folded, where)
+    """@param make the cells of one row. @param count of all rows; default: of those that are given. Columns without a value are left out."""
+    cells = [make(row) for row in rows[:shown]]
+    filled = [index for index in range(len(columns)) if not cells or any(row[index].text not in ("", ABSENT) for row in cells)]
+    return Table(title, tuple(columns[index] for index in filled), [[row[index] for index in filled] for row in cells],
+                 len(rows) if count is None else count, notes, is_folded, where)  # fmt: skip
 
 
 def _list_times(times: dict[str, int] | None, names: tuple[str, ...]) -> list[Cell]:

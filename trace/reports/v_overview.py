@@ -10,11 +10,12 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from mamori.trace.model.evidence import CAMPAIGN, FAILED, INTEGRATION, PASSED, SKIPPED, UNIT
+from mamori.trace.model.evidence import CAMPAIGN, FAILED, INTEGRATION, NOT_SHOWN, PASSED, SKIPPED, UNBOUND, UNIT
 from mamori.trace.model.project import Project
 from mamori.trace.model.verdict import WORST_FIRST, Verdict
 
 BOX_HEIGHT = 106
+_GOOD_FIRST = (PASSED, NOT_SHOWN, UNBOUND, SKIPPED, FAILED)
 HEIGHT = 522
 _STEP_Y = 136
 _TOP = 4
@@ -69,7 +70,7 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
     """Boxes row by row; left and right box of a row show the same height of the V."""
     results = {kind: [result.status for result in project.results if result.kind == kind] for kind in (UNIT, INTEGRATION)}
     # A failing or left-over campaign result counts with the cases only where there are no cases to count.
-    cases = [PASSED if case.passed else FAILED for case in project.evidence.cases]
+    cases = [case.status for case in project.evidence.cases]
     cases = cases or [result.status for result in project.results if result.kind == CAMPAIGN]
     files = len({tag.place.file for tag in project.tags})
     system = "System, assumptions" if any(item.level == "AOU" for item in project.items.values()) else "System requirements"
@@ -85,9 +86,9 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
         detail = _describe(words, WORST_FIRST, "verified", layout)
         boxes.append(Box(name, f"{len(words):,}", detail, x, y, "#matrix?" + "&".join(f"level={level}" for level in levels), bar))
         x = layout.width - layout.box_width - x
-        words = [FAILED if status not in (PASSED, SKIPPED) else status for status in statuses]
-        bar = _make_segments(words, (PASSED, SKIPPED, FAILED), x, layout)
-        detail = _describe(words, (FAILED, SKIPPED), "passed", layout) if words else f"no {noun} run"
+        words = [status if status in _GOOD_FIRST else FAILED for status in statuses]
+        bar = _make_segments(words, _GOOD_FIRST, x, layout)
+        detail = _describe(words, reversed(_GOOD_FIRST), "passed", layout) if words else f"no {noun} run"
         boxes.append(Box(test_name, f"{len(words):,}", detail, x, y, target, bar))
     detail = f"tags in {files:,} file{'' if files == 1 else 's'}"
     boxes.append(Box("Code", f"{len(project.tags):,}", detail, (layout.width - layout.box_width) // 2, _TOP + 3 * _STEP_Y, "#code", ()))

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import sys
 from collections.abc import Callable
@@ -16,6 +17,8 @@ sys.path.insert(0, str(Path(__file__).parent))  # pytest's importlib mode does n
 
 import trace_sample  # noqa: E402
 from mamori.trace.command import main  # noqa: E402
+from mamori.trace.readers.evidence_records import list_recorded  # noqa: E402
+from mamori.trace.readers.files import InputError  # noqa: E402
 
 
 @dataclass
@@ -46,11 +49,31 @@ def sample(tmp_path: Path) -> trace_sample.Sample:
 
 @pytest.fixture
 def trace(capsys: pytest.CaptureFixture[str]) -> Callable[..., Outcome]:
-    """Runs `mamori trace ...` in this process."""
+    """Runs `mamori trace ...` in this process, on evidence that is recorded as it is now, unless `recorded` is false."""
 
-    def run(*arguments: object) -> Outcome:
-        status = main([str(argument) for argument in arguments])
+    def run(*arguments: object, recorded: bool = True) -> Outcome:
+        words = [str(argument) for argument in arguments]
+        if recorded:
+            _record_all(words)
+        status = main(words)
         captured = capsys.readouterr()
         return Outcome(status, captured.out, captured.err)
 
     return run
+
+
+def _record_all(words: list[str]) -> None:
+    """What a run of the tests by `mamori trace record` would leave."""
+    with contextlib.suppress(OSError, InputError):
+        root = Path(words[words.index("--root") + 1]) if "--root" in words else Path(".")
+        folders = [*root.glob("build/*/evidence"), *(Path(words[at + 1]) for at, word in enumerate(words) if word == "--evidence")]
+        for folder in folders:
+            if folder.is_dir():
+                trace_sample.record(folder)
+        given = words[words.index("--results") + 1 :] if "--results" in words else []
+        end = next((at for at, word in enumerate(given) if word.startswith("--")), len(given))
+        for path in map(Path, given[:end]):
+            folder = path if path.is_dir() else path.parent
+            files = sorted({*filter(Path.is_file, folder.glob("*.xml")), *list_recorded(folder)})
+            if any(path.suffix == ".xml" for path in files):
+                trace_sample.record(folder, files)

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import json
 import shutil
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from git_sample import start_history
 from trace_sample import Sample
 
 from mamori.trace.command import add_arguments, run
@@ -119,3 +123,19 @@ def test_a_reviewer_whose_name_would_break_the_record_is_refused(sample: Sample,
 
     assert (outcome.status, outcome.err.count("\n")) == (2, 1)
     assert not (sample.root / "requirements" / "trace.lock").exists()
+
+
+JSON_ACTIONS = (("check",), ("check", "--allow-missing"), ("report",), ("show", "SYS-001"), ("show", "SYS-001", "--history"), ("query", "level=SWR"),
+                ("query", "level=SWR and sil=QM"), ("impact", "HEAD"), ("bundle", "--out", "bundle.tar"), ("verify", "bundle.tar"))  # fmt: skip
+
+
+@pytest.mark.verifies("SWR-TRC-108", technique="interface", polarity="nominal")
+def test_json_stands_alone_on_standard_output(sample: Sample) -> None:
+    """As a new process each time, and twice: the first one may have something to tell."""
+    start_history(sample.root)
+    for words in JSON_ACTIONS:
+        for _ in range(2):
+            root = () if words[0] == "verify" else ("--root", ".")
+            command = [sys.executable, "-P", "-m", "mamori.trace", *words, *root, "--json"]
+            done = subprocess.run(command, cwd=sample.root, capture_output=True, text=True, check=False, timeout=120)
+            assert json.loads(done.stdout), (words, done.stderr)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -44,7 +45,8 @@ def report(sample: Sample, trace: Callable, folder: Path) -> Callable[..., tuple
         (folder / "cost.json").write_text(record if isinstance(record, str) else json.dumps(record), encoding="utf-8")
         outcome = trace("report", "--root", sample.root, "--output", "json")
         page = (sample.root / "report" / "index.html").read_text(encoding="utf-8")
-        return page[page.index('<section id="timing"') : page.index('<section id="matrix"')], outcome
+        section = page[page.index('<section id="timing"') : page.index('<section id="matrix"')]
+        return re.sub(' data-head="[^"]*"', "", section), outcome
 
     return run
 

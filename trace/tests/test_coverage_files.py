@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from trace_sample import Sample
+from trace_sample import Sample, record
 
 from mamori.trace.checks import list_rule_ids
 from mamori.trace.model.project import Project
@@ -125,6 +125,7 @@ def write(sample: Sample, name: str, text: str | bytes) -> Path:
 
 
 def load(sample: Sample) -> Project:
+    record(sample.evidence)
     return read_project(sample.root, None, list_rule_ids())
 
 

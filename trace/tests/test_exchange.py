@@ -3,6 +3,8 @@
 # Method: the sample project and generated ones go out, come into a fresh folder, and go out again; the files are compared.
 from __future__ import annotations
 
+import csv
+import io
 import json
 import os
 from collections.abc import Callable
@@ -16,6 +18,9 @@ from reqif.commands.validate.validate import ValidateCommand
 from reqif.parser import ReqIFParser
 from trace_sample import Sample
 
+from mamori.trace.formats.csv_file import _read_rows, escape_cell, format_csv, unescape_cell
+from mamori.trace.formats.model import ForeignItem, ForeignProject
+from mamori.trace.model.finding import Place
 from mamori.trace.readers.project import read_requirements
 
 _PAGE = '<?xml version="1.0"?>\n<REQ-IF xmlns="http://www.omg.org/spec/ReqIF/20110401/reqif.xsd">\n'
@@ -287,3 +292,49 @@ def test_what_no_file_can_hold_is_told_and_leaves_nothing_behind(
     assert word in outcome.err
     assert Path("pipe").is_fifo()
     assert {path: path.read_bytes() for path in sample.root.rglob("*") if path.is_file()} == before
+
+
+CELLS = ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "'=1", "''=1", "'word", "'", "''", "a=b", "", "=cmd|' /C calc'!A0", "'\t", "-"]
+
+
+@pytest.mark.parametrize("cell", CELLS, ids=range(len(CELLS)))
+@pytest.mark.verifies("SWR-TRC-107", technique="equivalence_classes", polarity="nominal")
+def test_a_csv_cell_comes_back_as_it_was(cell: str) -> None:
+    item = ForeignItem("REQ-1", cell or "t", Place("a.csv", 2), rationale=cell)
+    item.statement = cell
+    item.attributes = {"Note": cell, "=Note": cell}
+    text = format_csv(ForeignProject("csv", [item]))
+
+    problems, found = [], ForeignProject("csv")
+    _read_rows(csv.reader(io.StringIO(text, newline=""), strict=True), "a.csv", found, problems)
+
+    back = found.items[0]
+    assert problems == [] and (back.statement, back.rationale, back.attributes) == (cell, cell, {"Note": cell, "=Note": cell})
+    assert unescape_cell(escape_cell(cell)) == cell
+
+
+@pytest.mark.verifies("SWR-TRC-107", technique="error_guessing", polarity="violation")
+def test_no_csv_cell_is_a_formula(sample: Sample, trace: Callable, tmp_path: Path) -> None:
+    sample.replace("requirements/system/system.md", "The tool shall run offline.", "=HYPERLINK(A1) shall run offline.")
+    sample.replace("requirements/system/system.md", "## SYS-003 Tool", "## SYS-003 @SUM")
+
+    outcome = trace("export", "csv", "--out", tmp_path / "a.csv", "--root", sample.root)
+
+    cells = [cell for row in csv.reader((tmp_path / "a.csv").open(newline="")) for cell in row]
+    assert outcome.status == 0 and not [cell for cell in cells if cell[:1] in ("=", "+", "-", "@", "\t", "\r")]
+    again = trace("check", "--format", "csv", tmp_path / "a.csv", "--allow-missing", "--json")
+    row = next(row for row in again.content["items"] if row["id"] == "SYS-003")
+    assert (row["statement"], row["title"]) == ("=HYPERLINK(A1) shall run offline.", "@SUM")
+
+
+@pytest.mark.verifies("SWR-TRC-107", technique="error_guessing", polarity="violation")
+def test_the_map_of_an_import_holds_no_formula(trace: Callable, tmp_path: Path) -> None:
+    (tmp_path / "old.csv").write_text("ID,Title,Statement\n@REQ-1,Stop,The arm shall stop.\n")
+    empty = _make_empty(tmp_path / "new")
+    words = ("import", "csv", tmp_path / "old.csv", "--into", "requirements/taken", "--root", empty)
+
+    assert trace(*words).status == 0
+
+    assert "\n'@REQ-1," in (empty / "requirements/taken/import_map.csv").read_text()
+    again = trace(*(word if word != "requirements/taken" else "requirements/again" for word in words))
+    assert again.status == 2 and "was taken over before" in again.err

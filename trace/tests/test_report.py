@@ -12,7 +12,10 @@ import pytest
 from trace_sample import Sample, write_large_campaign
 
 from mamori.trace.readers.series import Series, read_series
-from mamori.trace.reports.plots import list_bands, pick_samples
+from mamori.trace.readers.campaign import make_case
+from mamori.trace.reports.case_page import write_case_page
+from mamori.trace.reports.plots import POINTS_MAX, Marks, draw_case, list_bands, pick_samples
+from mamori.trace.reports.timing_view import ABSENT, Cell, Column, make_table
 from mamori.trace.reports.svg import make_inline
 
 SIZE_BYTES_MAX = 5_000_000
@@ -107,13 +110,81 @@ def test_each_case_has_a_figure_with_fault_reaction_and_limit_marked(write: Call
         assert part in case
 
 
+def make_series(times_s: list[float]) -> Series:
+    rows = [[0.001 * joint * time_s for time_s in times_s] for joint in range(7)]
+    return Series(times_s, rows, rows, ["Operational"] * len(times_s))
+
+
+@pytest.mark.parametrize(
+    ("fault_s", "captions"),
+    [(None, ["Whole run"]), (0.5, ["Whole run", "100 ms around the fault, from 0.480 s to 0.580 s"]),
+     (0.0, ["Whole run", "100 ms around the fault, from -0.020 s to 0.080 s"]), (1.0, ["Whole run", "100 ms around the fault, from 0.980 s to 1.080 s"]),
+     (-0.001, ["Whole run"]), (1.001, ["Whole run"])],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-TRC-111", technique="boundary_values", polarity="nominal")
+def test_a_fault_inside_the_run_is_drawn_again_with_the_100_ms_around_it(fault_s: float | None, captions: list[str]) -> None:
+    series = make_series([0.001 * step for step in range(1001)])
+
+    drawings = draw_case(series, Marks(fault_s, None, None, [1.0] * 7, 2), "p", "a case")
+
+    assert [drawing.caption for drawing in drawings] == captions
+    # One time base: the axis of each drawing has the same words, and the ticks of the near one lie inside its 100 ms.
+    assert all("time since the start of the run [s]" in drawing.svg for drawing in drawings)
+    for drawing in drawings[1:]:
+        ticks = [float(text) for text in re.findall(r">(-?\d\.\d{3})<", drawing.svg.replace("\u2212", "-"))]
+        assert len(ticks) >= 4 and all(fault_s - 0.0205 <= tick <= fault_s + 0.0805 for tick in ticks)
+
+
+@pytest.mark.verifies("SWR-TRC-112", technique="interface", polarity="nominal")
+def test_one_case_is_a_page_of_its_own(sample: Sample, tmp_path: Path) -> None:
+    folder = sample.evidence / "campaign"
+    row = json.loads((folder / "campaign.json").read_text())["cases"][1]
+    out = tmp_path / "case.html"
+
+    view = write_case_page(make_case(row), folder, out)
+
+    text = out.read_text()
+    assert view.plot_problem == ""
+    for part in ("encoder_freeze-1", "Whole run", "100 ms around the fault", "hold drift", row["requirements"][0]):
+        assert part in text
+    assert 'href="#' not in re.sub(r"<svg.*?</svg>", "", text, flags=re.DOTALL)
+
+
+@pytest.mark.verifies("SWR-TRC-112", technique="error_guessing", polarity="violation")
+def test_a_failed_case_without_a_series_still_has_its_page_with_the_reason(sample: Sample, tmp_path: Path) -> None:
+    folder = sample.evidence / "campaign"
+    row = json.loads((folder / "campaign.json").read_text())["cases"][1]
+    row["verdict"], row["checks"][0]["passed"], row["folder"] = "fail", False, "absent"
+
+    view = write_case_page(make_case(row), folder, tmp_path / "case.html")
+
+    text = (tmp_path / "case.html").read_text()
+    assert "series.csv cannot be read" in view.plot_problem
+    assert f"No plot: {view.plot_problem}" in text
+    assert "final state: expected Safe, measured Safe" in text
+
+
+@pytest.mark.verifies("SWR-TRC-110", technique="boundary_values", polarity="violation")
+def test_a_column_in_which_no_row_has_a_value_is_left_out() -> None:
+    columns = (Column("a"), Column("b", "group"), Column("c", "group"))
+
+    def make(row: dict[str, str]) -> list[Cell]:
+        return [Cell(row["a"]), Cell(row["b"]), Cell(row["c"])]
+
+    rows = [{"a": "1", "b": ABSENT, "c": "0"}, {"a": "2", "b": "", "c": ABSENT}]
+    assert [column.head for column in make_table("t", columns, rows, make).columns] == ["a", "c"]
+    rows[1]["b"] = "3"
+    assert make_table("t", columns, rows, make).columns == columns
+    assert make_table("t", columns, [], make).columns == columns
+
+
 @pytest.mark.verifies("SWR-TRC-012", technique="boundary_values", polarity="nominal")
 def test_a_campaign_of_thirty_cases_fits_in_the_page(sample: Sample, write: Callable[[], Page]) -> None:
     write_large_campaign(sample.evidence)
 
     page = write()
 
-    assert page.text.count('class="plot scroll"') == 30
+    assert page.text.count('aria-label="Whole run of ') == 30
     assert len(page.text.encode()) < SIZE_BYTES_MAX
     assert len(page.ids) == len(set(page.ids))
 
@@ -180,9 +251,9 @@ def test_thinning_keeps_the_ends_and_the_peaks() -> None:
 
     chosen = pick_samples(values)
 
-    assert len(chosen) <= 400
+    assert len(chosen) <= POINTS_MAX
     assert {0, 1234, 4321, 4999} <= set(chosen)
-    assert pick_samples(values[:400]) == list(range(400))
+    assert pick_samples(values[:POINTS_MAX]) == list(range(POINTS_MAX))
 
 
 @pytest.mark.verifies("SWR-TRC-012", technique="requirements_based", polarity="nominal")

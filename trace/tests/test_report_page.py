@@ -91,17 +91,63 @@ def test_one_failure_among_thousands_is_seen_in_the_bar_of_the_v(tmp_path: Path,
     assert sum(segment.width for segment in box.segments) == pytest.approx(layout.bar_width, abs=0.02)
 
 
-@pytest.mark.verifies("SWR-TRC-060", technique="equivalence_classes", polarity="violation")
-def test_the_first_line_tells_errors_and_what_was_not_run(sample: Sample, trace: Callable) -> None:
+def list_answers(text: str) -> dict[str, tuple[str, str]]:
+    """Question -> (colour, all of its words)."""
+    blocks = re.findall(r'<div class="answer ([\w-]+)">\s*<h2>(.*?)</h2>(.*?)</ul>', text, re.DOTALL)
+    return {question: (css, " ".join(re.sub(r"<[^>]+>", " ", body).split())) for css, question, body in blocks}
+
+
+@pytest.mark.verifies("SWR-TRC-069", technique="requirements_based", polarity="nominal")
+def test_the_first_screen_of_a_whole_project_says_yes_three_times(page: Callable[[], str]) -> None:
+    answers = list_answers(page())
+
+    assert list(answers) == ["Is it safe?", "Is it complete?", "What is wrong?"]
+    assert {css for css, _ in answers.values()} == {"verified"}, answers
+    assert "2 of 2 campaign cases ended as expected" in answers["Is it safe?"][1]
+    assert "5 of 5 items with a SIL verified" in answers["Is it safe?"][1]
+    assert answers["Is it complete?"][1].startswith("Yes 8 of 8 items verified")
+    assert answers["What is wrong?"][1].startswith("No findings")
+
+
+@pytest.mark.verifies("SWR-TRC-069", technique="equivalence_classes", polarity="violation")
+def test_the_first_screen_tells_failures_and_what_was_not_run(sample: Sample, trace: Callable) -> None:
     sample.replace("build/host-release/evidence/junit/tools.xml", 'name="test_no_connection[b]" time="0.001">',
                    'name="test_no_connection[b]" time="0.001"><failure message="no"/>')  # fmt: skip
     (sample.evidence / "junit" / "safety.xml").unlink()
 
     trace("report", "--root", sample.root, "--allow-missing")
 
-    text = (sample.root / "report" / "index.html").read_text()
-    lead = text[text.index('<p class="lead">') :].split("</p>")[0]
-    assert "1 error</strong> stands against" in lead and "items were not run." in lead
+    answers = list_answers((sample.root / "report" / "index.html").read_text())
+    assert answers["Is it safe?"][0] == "incomplete" and "Not fully shown" in answers["Is it safe?"][1]
+    assert answers["Is it complete?"][0] == "incomplete" and " not run" in answers["Is it complete?"][1]
+    assert answers["What is wrong?"] == ("failed", "1 error 1 failed test result-failed: 1 error")
+
+
+@pytest.mark.verifies("SWR-TRC-069", technique="fault_injection", polarity="violation")
+def test_a_failed_campaign_case_is_not_safe_and_only_its_scenario_has_a_bar(sample: Sample, page: Callable[[], str]) -> None:
+    assert '<span class="note"><b>1</b> of 1 cases</span>' not in page()  # nothing failed, no bar
+    path = sample.evidence / "campaign" / "campaign.json"
+    content = json.loads(path.read_text())
+    content["cases"][1]["verdict"] = "fail"
+    path.write_text(json.dumps(content, indent=1))
+
+    text = page()
+
+    answers = list_answers(text)
+    assert answers["Is it safe?"][0] == "failed" and answers["Is it safe?"][1].startswith("No 1 of 2 campaign cases")
+    assert "1 failed campaign case" in answers["What is wrong?"][1]
+    overview = text[text.index('id="overview"') : text.index('id="findings"')]
+    scenario = content["cases"][1]["scenario"].replace("_", " ")
+    assert re.findall(r'<a class="name" href="#case-[^"]*">([^<]*)</a>', overview) == [scenario]
+
+
+@pytest.mark.verifies("SWR-TRC-069", technique="boundary_values", polarity="violation")
+def test_without_a_campaign_safety_is_not_shown(sample: Sample, page: Callable[[], str]) -> None:
+    (sample.evidence / "campaign" / "campaign.json").unlink()
+
+    css, words = list_answers(page())["Is it safe?"]
+
+    assert css == "incomplete" and words.startswith("Not fully shown no fault campaign was run")
 
 
 @pytest.mark.verifies("SWR-TRC-061", technique="requirements_based", polarity="nominal")

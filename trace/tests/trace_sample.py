@@ -15,8 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from mamori.trace.actions.review import review_links
+from mamori.trace.readers.evidence_records import NAME, list_recorded
 from mamori.trace.readers.lock import write_lock
 from mamori.trace.readers.project import read_requirements
+from mamori.trace.records import make_rows, read_rows, write_rows
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
 SCHEMA = Path(__file__).parents[2] / "requirements" / "schema" / "items.toml"
@@ -166,8 +168,19 @@ def make_sample(root: Path) -> Sample:
     sample = Sample(root)
     cases = [_make_case(SCENARIOS[0], 1, 3.0, 4.0, ["SYS-002"]), _make_case(SCENARIOS[1], 1, 2.0, 4.0, ["SYS-002"])]
     write_campaign(sample.evidence / "campaign", cases, 4.0)
+    record(sample.evidence)
     sample.review()
     return sample
+
+
+SAMPLE_INPUTS = {"sources": "", "tool_chain": "", "configuration": "sample"}
+
+
+def record(folder: Path, files: list[Path] | None = None) -> None:
+    """Records an evidence folder, or `files` in it, as they are now. Records that a test wrote itself stay."""
+    if any(row.get("configuration") != "sample" for row in read_rows(folder).values()) or ((folder / NAME).exists() and not read_rows(folder)):
+        return
+    write_rows(folder, make_rows(folder, list_recorded(folder) if files is None else files, SAMPLE_INPUTS, lambda _: None))
 
 
 def write_campaign(folder: Path, cases: list[dict[str, Any]], end_s: float) -> None:
@@ -189,6 +202,7 @@ def write_large_campaign(folder: Path, instants: int = 3) -> None:
             cases.append(_make_case(scenario, number, 1.5 + 2.3 * number, 9.8, requirements))
     write_campaign(folder / "campaign", cases, 9.8)
     (folder / "environment.json").write_text(json.dumps(ENVIRONMENT, indent=1), encoding="utf-8")
+    record(folder)
 
 
 def _make_case(scenario: tuple, number: int, at_s: float, end_s: float, requirements: list[str]) -> dict[str, Any]:

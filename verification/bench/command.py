@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -26,6 +27,7 @@ from mamori.verification.bench.programs import NORMAL, QUICK, Effort, Programs
 from mamori.verification.bench.record import Run, collect_host, make_record, write_record
 from mamori.verification.bench.samples import Samples, read_samples
 from mamori.verification.bench.table import show_run
+from mamori.verification.command.console import Screen
 from mamori.verification.command.environment import collect_environment
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, StepError, UsageError
 from mamori.verification.command.process import Tick
@@ -54,6 +56,7 @@ class Request:
     gates: bool = False
     accepts: bool = False
     out: Path | None = None
+    wants_json: bool = False
 
     def check(self) -> None:
         for name in self.only:
@@ -195,7 +198,7 @@ def bench(request: Request, jobs: int) -> int:
     baseline = load_baseline() if EXACT in request.names and not request.accepts else None
     folder = request.out or project.evidence / "bench"
     folder.mkdir(parents=True, exist_ok=True)
-    context = Context(project, jobs)
+    context = Context(project, jobs, Screen(to_stderr=True))
     before = collect_host()
     with tempfile.TemporaryDirectory(prefix="mamori-bench-") as scratch:
         work = Work(request, bars, baseline, Programs(project), Path(scratch) / "samples.json")
@@ -211,8 +214,10 @@ def show(work: Work, context: Context, folder: Path, before: dict[str, object]) 
     environment = collect_environment(context.project, ["./mamori", *sys.argv[1:]])
     after = collect_host()
     record = make_record(run, environment, before, after, work.request.effort)
-    show_run(run, screen)
-    screen.say()
+    if work.request.wants_json:
+        print(json.dumps(record, indent=1))
+    else:
+        show_run(run, Screen())
     if work.request.accepts and work.baseline is not None:
         write_baseline(work.baseline)
         screen.say(f"accepted: {FILE.relative_to(ROOT)} holds these counts now; say in the commit why they changed")

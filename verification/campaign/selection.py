@@ -61,7 +61,7 @@ def select(plan: Plan, names: Sequence[str] = (), instants: int | None = None) -
     known = [scenario.name for scenario in plan.scenarios]
     for name in names:
         if name not in known:
-            raise InputError(f"unknown scenario '{name}'; {nearest_names(name, known)}")
+            raise InputError(f"unknown scenario '{name}'; {nearest_names(name, known)}; valid: {', '.join(known)}")
     if instants is not None and instants < 1:
         raise InputError(f"{instants} instants per scenario; write 1 or more")
     chosen = tuple(each for each in plan.scenarios if not names or each.name in names)

@@ -30,13 +30,15 @@ class CampaignRequest:
     scenarios: tuple[str, ...] = ()
     instants: int | None = None
 
-    def check(self, project: Project) -> None:
-        """@raise UsageError for a motion that cannot be followed, or scenarios and instants that it or the plan lacks."""
+    def check(self, project: Project) -> tuple[str, ...]:
+        """@return what the motion has that is not used, in words. @raise UsageError for a motion that cannot be followed, or scenarios and instants that it or the plan lacks."""
         from mamori.profiles.input_error import InputError
         from mamori.verification.campaign import resolve
 
         try:
-            resolve(self._select(project), self._read_motion(project))
+            motion = self._read_motion(project)
+            resolve(self._select(project), motion)
+            return motion.notes
         except InputError as error:
             raise UsageError(str(error)) from error
 

@@ -24,11 +24,11 @@ STYLES = {"passed": "green", "failed": "bold red", "skipped": "yellow"}
 
 
 class Screen:
-    """Writes to standard output. Thread safety: none."""
+    """Writes to standard output, or to standard error where standard output takes a result only. Thread safety: none."""
 
-    def __init__(self) -> None:
-        width = None if os.isatty(1) else 110
-        self._console = Console(highlight=False, width=width, soft_wrap=not os.isatty(1))
+    def __init__(self, to_stderr: bool = False) -> None:
+        is_terminal = os.isatty(2 if to_stderr else 1)
+        self._console = Console(highlight=False, width=None if is_terminal else 110, soft_wrap=not is_terminal, stderr=to_stderr)
 
     def say(self, text: str = "", style: str = "") -> None:
         """One line of plain text."""

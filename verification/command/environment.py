@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mamori.profiles.text_file import write_text
+from mamori.trace.git_run import run_git
 from mamori.verification.command.project import Project
 from mamori.verification.command.records import collect_inputs
 
@@ -36,8 +37,8 @@ def collect_environment(project: Project, command: Sequence[str]) -> dict[str, o
     compilers = {name: line for name in COMPILERS if (line := _ask([name, "--version"]).partition("\n")[0])}
     return {
         "schema": "mamori.environment/1",
-        "commit": _ask(["git", "rev-parse", "HEAD"], project.root) or "unknown",
-        "dirty": bool(_ask(["git", "status", "--porcelain"], project.root)),
+        "commit": _ask_git(project.root, "rev-parse", "HEAD") or "unknown",
+        "dirty": bool(_ask_git(project.root, "status", "--porcelain")),
         "date_utc": datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
         "command": " ".join(command),
         "os": _get_os(),
@@ -48,6 +49,11 @@ def collect_environment(project: Project, command: Sequence[str]) -> dict[str, o
         "python": platform.python_version(),
         "inputs": collect_inputs(project, compilers, platform.python_version()),
     }
+
+
+def _ask_git(root: Path, *words: str) -> str:
+    """The project's git, whose configuration starts no program."""
+    return (run_git(root, words) or b"").decode(errors="replace").strip()
 
 
 def _ask(argv: list[str], cwd: Path | None = None) -> str:

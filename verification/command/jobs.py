@@ -10,6 +10,7 @@ import json
 import shutil
 import sys
 import tempfile
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -23,15 +24,20 @@ from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Projec
 from mamori.verification.command.steps import FAILURES_SHOWN, Context, Outcome, all_passed, run_steps, total
 
 FAILURE_LENGTH = 2000  # characters of a failed result in the closing lines
+SHOWN_WIDTH = 110  # characters of a line of names
 
 def demo(jobs: int, motion: Path | None, scenarios: tuple[str, ...], instants: int | None) -> int:
     """The main job. @return exit status."""
     project = Project(ROOT)
     request = CampaignRequest(motion or project.motion, scenarios, instants)
-    request.check(project)
+    notes = request.check(project)
     context = begin(project, jobs, (RELEASE,))
-    outcomes = run_steps(plans.demo_plan(request.run), context)
+    for note in notes:
+        context.screen.say(f"note: {request.motion.name}: {note}")
+    plan = plans.demo_plan(request.run)
+    outcomes = run_steps(plan, context)
     show_campaign(context)
+    show_not_run(plans.find_not_run(plan, plans.test_plan(project, request.run, quick=False)), context)
     return finish(outcomes, context)
 
 
@@ -60,13 +66,24 @@ def build(jobs: int, folder: Path | None, preset: str) -> int:
 def verify(jobs: int, folder: Path | None) -> int:
     """Tests, campaign, trace check and report of the shipped project or of the one in `folder`. @return exit status."""
     if folder is None:
-        return demo(jobs, None, (), None)
+        return verify_own(jobs)
     project = Project(check_folder(folder))
     if not (project.root / "requirements").is_dir():
         raise UsageError(f"'{folder}' has no folder requirements/; verify judges a project by its requirements, build builds it")
     context = begin(project, jobs, (RELEASE,))
     outcomes = run_steps(plans.verify_plan(project), context)
     show_steps(outcomes, context)
+    return finish(outcomes, context)
+
+
+def verify_own(jobs: int) -> int:
+    """Tests, campaign, trace check and report of the shipped project. @return exit status."""
+    project = Project(ROOT)
+    request = CampaignRequest(project.motion)
+    request.check(project)
+    context = begin(project, jobs, (RELEASE,))
+    outcomes = run_steps(plans.verify_own_plan(request.run), context)
+    show_campaign(context)
     return finish(outcomes, context)
 
 
@@ -117,8 +134,9 @@ def show_steps(outcomes: Sequence[Outcome], context: Context) -> None:
     rows = []
     for one in outcomes:
         numbers = (str(number) for number in (one.counts.passed, one.counts.failed, one.counts.skipped))
-        rows.append((one.name, one.verdict, f"{one.seconds:.1f} s", *numbers))
-    context.screen.print_table(("step", "result", "time", "passed", "failed", "skipped"), rows)
+        rows.append((one.name, one.verdict, f"{one.seconds:.1f} s", f"{one.cpu_s:.0f} s", *numbers))
+    context.screen.print_table(("step", "result", "time", "CPU", "passed", "failed", "skipped"), rows)
+    context.screen.say(f"CPU time of all steps: {sum(one.cpu_s for one in outcomes):.0f} s")
     context.screen.say(f"logs: {context.project.logs}")
 
 
@@ -135,6 +153,14 @@ def show_campaign(context: Context) -> None:
         return
     context.screen.say()
     context.screen.print_table(*summarise_campaign(json.loads(path.read_text(encoding="utf-8"))))
+
+
+def show_not_run(names: Sequence[str], context: Context) -> None:
+    """What `./mamori test` does more than this run."""
+    context.screen.say()
+    context.screen.say("not run (./mamori test runs these as well):")
+    for line in textwrap.wrap(", ".join(names), width=SHOWN_WIDTH, break_long_words=False, break_on_hyphens=False):
+        context.screen.say(f"  {line}")
 
 
 def finish(outcomes: Sequence[Outcome], context: Context) -> int:

@@ -74,15 +74,19 @@ def make_parser(with_trace: bool = False) -> Parser:
     demo.add_argument("--motion", type=Path, metavar="FILE")
     demo.add_argument("--scenario", nargs="+", default=[], metavar="NAME", action="extend")
     demo.add_argument("--instants", type=at_least_one, metavar="N")
+    one = add("run")
+    one.add_argument("--motion", type=Path, metavar="FILE")
+    one.add_argument("--fault", metavar="FAULT")
     add("test").add_argument("--quick", action="store_true")
     add("build", with_project=True).add_argument("--preset", default=RELEASE, metavar="NAME")
     add("verify", with_project=True)
+    commands.add_parser("new", allow_abbrev=False).add_argument("path", type=Path, metavar="NAME")
     recorder_log.add_arguments(commands.add_parser("log", allow_abbrev=False))
     table_dump.add_arguments(commands.add_parser("table", allow_abbrev=False))
     bench = add("bench")
     bench.add_argument("--only", nargs="+", default=[], metavar="NAME", action="extend")
     bench.add_argument("--out", type=Path, metavar="DIR")
-    for option in ("--quick", "--gate", "--list", "--accept"):
+    for option in ("--quick", "--gate", "--list", "--accept", "--json"):
         bench.add_argument(option, action="store_true")
     mutate = add("mutate")
     mutate.add_argument("files", nargs="*", metavar="FILE")
@@ -97,12 +101,14 @@ def make_parser(with_trace: bool = False) -> Parser:
     timing.add_argument("--load", action="store_true")
     timing.add_argument("--check", type=Path, metavar="BASELINE")
     timing.add_argument("--accept", type=Path, metavar="BASELINE")
+    timing.add_argument("--json", action="store_true")
     cost = add("cost")
     cost.add_argument("system", metavar="SYSTEM")
     cost.add_argument("--class", nargs="+", default=[], metavar="NAME", action="extend", dest="classes")
     cost.add_argument("--out", type=Path, metavar="DIR")
     cost.add_argument("--check", type=Path, metavar="BASELINE")
     cost.add_argument("--accept", type=Path, metavar="BASELINE")
+    cost.add_argument("--json", action="store_true")
     end_to_end = commands.add_parser("e2e", allow_abbrev=False)
     for option in ("--profile", "--length", "--rate", "--pe"):
         end_to_end.add_argument(option, required=True, metavar=option.removeprefix("--").upper())
@@ -131,12 +137,20 @@ def run(argv: list[str]) -> int:
     match arguments.command:
         case "demo":
             return jobs.demo(arguments.jobs, arguments.motion, tuple(arguments.scenario), arguments.instants)
+        case "run":
+            from mamori.verification.command.run_case import run_case
+
+            return run_case(arguments.jobs, arguments.motion, arguments.fault)
         case "test":
             return jobs.test(arguments.jobs, arguments.quick)
         case "build":
             return jobs.build(arguments.jobs, arguments.project, arguments.preset)
         case "verify":
             return jobs.verify(arguments.jobs, arguments.project)
+        case "new":
+            from mamori.verification.command.new_project import new
+
+            return new(arguments.path)
         case "log":
             return recorder_log.run(arguments)
         case "table":
@@ -148,7 +162,8 @@ def run(argv: list[str]) -> int:
         case "cost":
             from mamori.verification.cost import command as costing
 
-            wanted = costing.Request(arguments.system, tuple(arguments.classes), arguments.out, arguments.check, arguments.accept)
+            wanted = costing.Request(arguments.system, tuple(arguments.classes), arguments.out, arguments.check, arguments.accept,
+                                     arguments.json)  # fmt: skip
             return costing.cost(wanted, arguments.jobs)
         case "e2e":
             from mamori.verification.e2e import command as end_to_end
@@ -188,14 +203,15 @@ def _run_bench(arguments: argparse.Namespace) -> int:
 
     if arguments.list:
         return list_benches()
-    request = Request(tuple(arguments.only), arguments.quick, arguments.gate, arguments.accept, arguments.out)
+    request = Request(tuple(arguments.only), arguments.quick, arguments.gate, arguments.accept, arguments.out, arguments.json)
     return bench(request, arguments.jobs)
 
 
 def _run_timing(arguments: argparse.Namespace, passed_on: tuple[str, ...]) -> int:
     from mamori.verification.timing.command import Request, timing
 
-    request = Request(arguments.system, arguments.cycles, arguments.out, arguments.load, arguments.check, arguments.accept, passed_on)
+    request = Request(arguments.system, arguments.cycles, arguments.out, arguments.load, arguments.check, arguments.accept, passed_on,
+                      arguments.json)  # fmt: skip
     return timing(request, arguments.jobs)
 
 

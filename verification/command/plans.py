@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tables of steps behind `demo`, `test` and `verify`. A new check is a new row.
 
-@satisfies SWR-CLI-006      Design: docs/design/launcher.md#steps
+@satisfies SWR-CLI-006, SWR-CLI-012      Design: docs/design/launcher.md#steps
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from mamori.verification.command.steps import Action, Step
 
 PYTHON = ("{python}", "-P", "-m")
 PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
+REPEAT = (*PYTHON, "mamori.verification.real_time.repeat")
 COMMAND = (*PYTHON, "mamori.verification.command")
 
 BUILD = f"build {RELEASE}"
@@ -20,15 +21,16 @@ INSTALL = "install the package"
 BUILD_USER = "build the project"
 REPORT = "report"
 TIMING_CYCLES = "2000"
+EXAMPLE_TARGET = "safe_arm"
 
 
-def build_step(preset: str, slow: bool = False) -> Step:
-    """Mamori itself."""
+def build_step(preset: str, slow: bool = False, targets: tuple[str, ...] = ("all",)) -> Step:
+    """Mamori itself, or only its `targets` and what they need."""
     return Step(
         name=f"build {preset}",
         commands=(
             ("cmake", "-S", str(ROOT), "--preset", preset),
-            ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}"),
+            ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}", "--target", *targets),
         ),
         slow=slow,
     )
@@ -37,7 +39,7 @@ def build_step(preset: str, slow: bool = False) -> Step:
 def ctest_step(preset: str, slow: bool = False) -> Step:
     return Step(
         name=f"tests {preset}",
-        commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error"),),
+        commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error"), (*REPEAT, preset)),
         needs=(f"build {preset}",),
         junit=f"build/{preset}/evidence/junit",
         slow=slow,
@@ -48,7 +50,7 @@ def race_steps() -> tuple[Step, ...]:
     """What two cores share, under the thread sanitizer: these programs alone, since nothing else has threads."""
     preset = "host-tsan"
     targets = ("kernel_abandon_stress_test", "kernel_crossing_test", "kernel_introspection_stress_test", "kernel_mode_stress_test",
-               "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test", "supervision_log_test",
+               "kernel_stimulus_stress_test", "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test", "supervision_log_test",
                "timing_test")  # fmt: skip
     build = Step(
         name=f"build {preset}",
@@ -60,7 +62,7 @@ def race_steps() -> tuple[Step, ...]:
     )
     run = Step(
         name=f"tests {preset}",
-        commands=(("ctest", "--preset", preset, "--no-tests=error", "--tests-regex", "|".join(targets)),),
+        commands=(("ctest", "--preset", preset, "--no-tests=error", "--tests-regex", "|".join(targets)), (*REPEAT, preset, *targets)),
         needs=(build.name,),
         junit=f"build/{preset}/evidence/junit",
         slow=True,
@@ -216,6 +218,23 @@ def cost_step() -> Step:
 
 
 def demo_plan(campaign: Action) -> tuple[Step, ...]:
+    """The arm at once: its program alone is built, and no test is run. What only other plans run may be missing here."""
+    return (
+        build_step(RELEASE, targets=(EXAMPLE_TARGET,)),
+        campaign_step(campaign),
+        timing_step(),
+        *trace_steps("--allow-missing"),
+    )
+
+
+def find_not_run(plan: tuple[Step, ...], whole: tuple[Step, ...]) -> list[str]:
+    """Names of the steps of `whole` that are not in `plan`, in their order."""
+    names = {step.name for step in plan}
+    return [step.name for step in whole if step.name not in names]
+
+
+def verify_own_plan(campaign: Action) -> tuple[Step, ...]:
+    """Mamori itself: tests, campaign and report."""
     return (
         build_step(RELEASE),
         ctest_step(RELEASE),
@@ -242,6 +261,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         proof_step("stack proof", "stack", needs=()),
         proof_step("loop proof", "loops", needs=()),
         proof_step("consumer proof", "consumer"),
+        proof_step("plain CMake proof", "plain_cmake"),
         proof_step("scale proof", "scale"),
         benchmark_step(),
         comparison_step(),
@@ -259,11 +279,11 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
     return tuple(step for step in steps if not (quick and step.slow))
 
 
-def build_plan(project: Project) -> tuple[Step, ...]:
-    """`project` is Mamori itself, or one of the user's, which is built against the installed package."""
-    shipped = build_step(project.preset)
+def build_plan(project: Project, target: str = "all") -> tuple[Step, ...]:
+    """`project` is Mamori itself, or one of the user's, of which `target` is built against the installed package."""
     if project.root == ROOT:
-        return (shipped,)
+        return (build_step(project.preset),)
+    shipped = build_step(project.preset, targets=("mamori_package",))
     prefix = str(ROOT / "build" / "install")
     return (
         shipped,
@@ -277,7 +297,7 @@ def build_plan(project: Project) -> tuple[Step, ...]:
             commands=(
                 ("cmake", "-S", "{root}", "-B", "{build}", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
                  "-DCMAKE_BUILD_TYPE=Release"),
-                ("cmake", "--build", "{build}", "--parallel", "{jobs}"),
+                ("cmake", "--build", "{build}", "--target", target, "--parallel", "{jobs}"),
             ),
             needs=(INSTALL,),
         ),

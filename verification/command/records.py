@@ -6,18 +6,17 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TextIO
 
-from mamori.profiles.text_file import write_text
 from mamori.trace.readers.code_schema import read_code_schema
-from mamori.trace.readers.evidence_records import NAME, SCHEMA, hash_file, list_recorded
+from mamori.trace.readers.evidence_records import NAME, list_recorded
 from mamori.trace.readers.files import InputError
 from mamori.trace.readers.sources import calc_sources
+from mamori.trace.records import Rows, hash_text, make_rows, read_rows, write_rows
 from mamori.verification.command.errors import StepError
 from mamori.verification.command.process import Tick
 from mamori.verification.command.project import Project
@@ -36,7 +35,7 @@ def collect_inputs(project: Project, compilers: dict[str, str], python: str) -> 
     presets = project.root / "CMakePresets.json"
     preset = presets.read_text(encoding="utf-8") if presets.is_file() else ""
     tools = json.dumps({**compilers, "python": python}, sort_keys=True)
-    return {"sources": sources, "tool_chain": _hash(tools), "configuration": _hash(f"{project.preset}\n{preset}")}
+    return {"sources": sources, "tool_chain": hash_text(tools), "configuration": hash_text(f"{project.preset}\n{preset}")}
 
 
 def record_evidence(context: Context, _tick: Tick, log: TextIO) -> None:
@@ -48,17 +47,14 @@ def record_evidence(context: Context, _tick: Tick, log: TextIO) -> None:
 def write_records(project: Project) -> int:
     """Records every evidence file, as made from what environment.json names. @return how many. @raise StepError without that."""
     rows = _make_rows(project, list_recorded(project.evidence), _read_inputs(project))
-    _write(project, rows)
+    write_rows(project.evidence, rows)
     return len(rows)
 
 
 def renew_records(project: Project, files: Iterable[Path], inputs: dict[str, str]) -> None:
     """Records `files`, which one command has made anew from `inputs`. Evidence without any record stays so."""
-    path = project.evidence / NAME
-    if path.is_file():
-        rows = json.loads(path.read_text(encoding="utf-8"))["files"]
-        rows.update(_make_rows(project, files, inputs))
-        _write(project, rows)
+    if (project.evidence / NAME).is_file():
+        write_rows(project.evidence, read_rows(project.evidence) | _make_rows(project, files, inputs))
 
 
 def _read_inputs(project: Project) -> dict[str, str]:
@@ -69,14 +65,13 @@ def _read_inputs(project: Project) -> dict[str, str]:
         raise StepError(f"{path}: no record of what the evidence is made from ({error}); run the command again") from error
 
 
-def _make_rows(project: Project, files: Iterable[Path], inputs: dict[str, str]) -> dict[str, dict[str, str | None]]:
+def _make_rows(project: Project, files: Iterable[Path], inputs: dict[str, str]) -> Rows:
     programs = _find_programs(project.build)
-    rows: dict[str, dict[str, str | None]] = {}
-    for path in files:
-        program = (find_program(project, path) or programs.get(path.stem)) if path.parent == project.junit else None
-        binary = hash_file(program) if program is not None else None
-        rows[path.relative_to(project.evidence).as_posix()] = {"sha256": hash_file(path), **inputs, "binary": binary}
-    return rows
+
+    def find(path: Path) -> Path | None:
+        return (find_program(project, path) or programs.get(path.stem)) if path.parent == project.junit else None
+
+    return make_rows(project.evidence, files, inputs, find)
 
 
 def _find_programs(build: Path) -> dict[str, Path]:
@@ -89,12 +84,3 @@ def _find_programs(build: Path) -> dict[str, Path]:
             if "." not in name and name not in programs and os.access(path, os.X_OK):
                 programs[name] = path
     return programs
-
-
-def _write(project: Project, rows: dict[str, dict[str, str | None]]) -> None:
-    content = {"schema": SCHEMA, "files": {name: rows[name] for name in sorted(rows)}}
-    write_text(project.evidence / NAME, json.dumps(content, indent=1) + "\n")
-
-
-def _hash(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()

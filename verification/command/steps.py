@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import os
+import resource
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -65,7 +66,8 @@ class Outcome:
 
     name: str
     verdict: str  # passed, failed or skipped
-    seconds: float
+    seconds: float  # wall time
+    cpu_s: float  # user and system time of the child processes
     counts: Counts
     log: Path
     reason: str = ""
@@ -80,7 +82,7 @@ def run_steps(steps: Sequence[Step], context: Context) -> list[Outcome]:
         missing = [name for name in step.needs if name in outcomes and outcomes[name].verdict != "passed"]
         if missing:
             reason = f"needs: {', '.join(missing)}"
-            outcome = Outcome(step.name, "skipped", 0.0, Counts(skipped=1), _get_log(step, context), reason)
+            outcome = Outcome(step.name, "skipped", 0.0, 0.0, Counts(skipped=1), _get_log(step, context), reason)
         else:
             with context.screen.show_work(f"[{number}/{len(steps)}] {step.name}") as tick:
                 outcome = _run_step(step, context, tick)
@@ -112,7 +114,7 @@ def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
     folder = context.project.root / step.junit if step.junit else context.project.junit
     product = context.project.root / step.produces
     before = {path: _get_stamp(path) for path in (*folder.glob("*.xml"), product)}
-    start = time.monotonic()
+    start, cpu_start = time.monotonic(), _get_children_cpu_s()
     reason = _do_work(step, context, log, tick)
     if not reason and step.produces and _get_stamp(product) in (None, before[product]):
         reason = f"{step.produces} was not written"
@@ -126,7 +128,14 @@ def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
         counts = Counts(passed=1)  # a step without results of its own is one result
     verdict = "failed" if reason else "passed"
     failures = tuple(list_failures(files)) if counts.failed else ()
-    return Outcome(step.name, verdict, time.monotonic() - start, counts, log, reason, failures)
+    cpu_s = _get_children_cpu_s() - cpu_start
+    return Outcome(step.name, verdict, time.monotonic() - start, cpu_s, counts, log, reason, failures)
+
+
+def _get_children_cpu_s() -> float:
+    """User and system time of all ended child processes and of their ended children, in seconds."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def _get_stamp(path: Path) -> tuple[int, int, int] | None:

@@ -7,6 +7,10 @@
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
+#include "mamori/version.hpp"
+
+static_assert(MAMORI_VERSION ==
+              mamori::kVersionMajor * 10000 + mamori::kVersionMinor * 100 + mamori::kVersionPatch);
 
 namespace {
 
@@ -34,6 +38,7 @@ int main() {
     const bool is_safe_by_default = !outputs.torque_enable && !outputs.brake_release;
     const mamori::Status inside = set_torque(outputs, 0U, 1.0);
     const mamori::Status outside = set_torque(outputs, mamori::safety::kArmJointCount, 1.0);
+    std::printf("mamori %s\n", mamori::kVersionText);
     std::printf("frame %lld ns, torque on joint 1: %s, on joint 8: %s\n", static_cast<long long>((1_ms).ns),
                 mamori::get_name(inside), mamori::get_name(outside));
     return is_safe_by_default && inside == mamori::Status::kOk && outside == mamori::Status::kBadParameter

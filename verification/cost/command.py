@@ -14,15 +14,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mamori.verification.command.console import Screen
 from mamori.verification.command.environment import collect_environment
 from mamori.verification.command.errors import EXIT_FAILED, StepError, UsageError
 from mamori.verification.command.project import ROOT, Project
 from mamori.verification.command.steps import Context
 from mamori.verification.cost.baseline import Baseline, check_origin, judge_growth, load_baseline, write_baseline
 from mamori.verification.cost.classes import CostPlan, InputClass, choose, read_plan
-from mamori.verification.cost.report import Report, make_report, make_text, write_results
+from mamori.verification.cost.report import Report, make_record, make_report, make_text, write_results
 from mamori.verification.cost.run import ClassRun, run_class
-from mamori.verification.timing.command import build_system, check_folder, show_failure
+from mamori.verification.timing.command import build_system, check_folder, print_result, show_failure
 from mamori.verification.timing.environment import collect_setting, collect_state
 from mamori.verification.timing.run import undisturbed
 from mamori.verification.timing.system import FILE, System, find_system
@@ -40,6 +41,7 @@ class Request:
     out: Path | None = None
     check: Path | None = None
     accept: Path | None = None
+    wants_json: bool = False
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,7 @@ def check(request: Request, jobs: int) -> Job:
     if request.classes and request.accept is not None:
         raise UsageError("cost: --accept takes all classes of inputs; leave --class out")
     system = find_system(request.system, project, "cost")
-    plan = read_plan(system, project)
+    plan = read_plan(system, system.project)
     classes = choose(plan, request.classes)
     baseline = None if request.check is None else load_baseline(request.check, system.name, plan.classes)
     if baseline is not None:
@@ -94,13 +96,13 @@ def check(request: Request, jobs: int) -> Job:
         baseline = dataclasses.replace(baseline, maxima={key: count for key, count in baseline.maxima.items() if key[0] in names})
     if shutil.which(TOOL) is None:
         raise UsageError(f"cost: {TOOL} is missing, which counts the instructions; install the package {TOOL}")
-    folder = (request.out or project.evidence / "cost" / system.name).absolute()
+    folder = (request.out or system.project.evidence / "cost" / system.name).absolute()
     check_folder(folder, "cost")
     if request.accept is not None:
         if request.accept.is_dir():
             raise UsageError(f"cost: '{request.accept}' is a folder; name the file that the baseline is to be written to")
         check_folder(request.accept.absolute().parent, "cost")
-    return Job(request, system, plan, classes, baseline, folder, Context(project, jobs))
+    return Job(request, system, plan, classes, baseline, folder, Context(system.project, jobs, Screen(to_stderr=True)))
 
 
 def _prepare_folder(job: Job) -> None:
@@ -138,9 +140,7 @@ def _conclude(job: Job, runs: list[ClassRun], host: dict[str, Any]) -> int:
         report = dataclasses.replace(report, findings=[*report.findings, *growth])
     environment = collect_environment(job.context.project, ["./mamori", *sys.argv[1:]])
     paths = write_results(report, environment, job.folder)
-    screen.say()
-    for line in make_text(report).splitlines():
-        screen.say(line, style="bold red" if line.startswith(("***", "finding:")) else "")
+    print_result(make_text(report), make_record(report, environment) if request.wants_json else None)
     screen.say(f"results: {job.folder}: {', '.join(path.name for path in paths)}")
     if request.accept is not None:
         _accept(job, report, request.accept)

@@ -19,6 +19,7 @@ WHOLE = f"{PROGRAM}[cost]\nmargin_percent = 20\n{CLASS}"
 
 def read(folder: Path, text: str) -> CostPlan:
     (folder / "timing.toml").write_text(text, encoding="utf-8")
+    (folder / "CMakeLists.txt").write_text("find_package(mamori)\n", encoding="utf-8")
     project = Project(ROOT)
     return read_plan(find_system(str(folder), project, "cost"), project)
 

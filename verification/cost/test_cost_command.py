@@ -43,6 +43,7 @@ class Bench:
         self.folder = folder / "arm"
         self.folder.mkdir()
         (self.folder / "timing.toml").write_text(TOML, encoding="utf-8")
+        (self.folder / "CMakeLists.txt").write_text("find_package(mamori CONFIG REQUIRED)\n", encoding="utf-8")
         self.out = folder / "out"
         self.baseline = folder / "baseline.toml"
         self.document = make_table()
@@ -86,14 +87,23 @@ def test_figures_and_their_origin_are_in_one_record_and_one_text(bench: Bench, c
     assert (record["system"], record["exit_status"], record["findings"], record["marks"]) == ("arm", 0, [], [])
     assert record["build"] == {"compiler": "GNU 12.2.0", "flags": "-O2", "c_library": "glibc 2.36"}
     assert [one["name"] for one in record["classes"]] == ["still", "other"]
-    assert len(record["environment"]["commit"]) == 40
+    assert record["environment"]["command"].startswith("./mamori ")
     assert record["pace"]["component"] == "drive"
     assert record["steps"][0]["instructions"] == {"count": 4, "min": 500, "median": 500, "max": 510, "cycle": 11}
     assert record["limits"][0]["name"] == "sense" and record["limits"][0]["is_kept"]
     text = (bench.out / "cost.txt").read_text(encoding="utf-8")
-    assert text in capsys.readouterr().out
+    shown = capsys.readouterr()
+    assert shown.out == text  # what was asked for, and nothing else
+    assert "results: " in shown.err
     assert "not a worst-case execution time" in text and "findings: 0" in text
     assert re.search(r"^still +controller +execute +4 +9000 +9000 +12000 +13 +24$", text, re.MULTILINE)
+
+
+@pytest.mark.verifies("SWR-TIM-029", technique="interface")
+def test_json_is_the_record_and_nothing_else(bench: Bench, capsys: pytest.CaptureFixture[str]) -> None:
+    assert bench.call("--json") == 0
+
+    assert json.loads(capsys.readouterr().out) == bench.load_record()
 
 
 @pytest.mark.verifies("SWR-TIM-039", polarity="violation")
@@ -121,7 +131,7 @@ def test_program_that_fails_is_told_with_its_log_and_status_1(bench: Bench, caps
     bench.error = StepError("class 'still', by count: the program ended with status 1")
 
     assert bench.call() == 1
-    assert "failed: class 'still', by count: the program ended with status 1" in capsys.readouterr().out
+    assert "failed: class 'still', by count: the program ended with status 1" in capsys.readouterr().err
     assert not (bench.out / "cost.json").exists()
 
 
@@ -129,7 +139,7 @@ def test_program_that_fails_is_told_with_its_log_and_status_1(bench: Bench, caps
 def test_classes_in_which_nothing_ran_are_no_result(bench: Bench, capsys: pytest.CaptureFixture[str]) -> None:
     bench.counts = {}
     assert bench.call() == 1
-    assert "no step was counted in any class" in capsys.readouterr().out
+    assert "no step was counted in any class" in capsys.readouterr().err
 
 
 @pytest.mark.verifies("SWR-TIM-035", polarity="violation")
@@ -139,8 +149,8 @@ def test_budget_that_is_too_low_ends_with_status_1_and_stands_in_the_record(benc
 
     (finding,) = bench.load_record()["findings"]
     assert finding.startswith("window 'control': budget 35 us, but 12000 instructions (class 'still', cycle 13, most of them by 'controller')")
-    shown = capsys.readouterr().out
-    assert f"finding: {finding}" in shown and "not accepted" in shown
+    shown = capsys.readouterr()
+    assert f"finding: {finding}" in shown.out and "not accepted" in shown.err
     assert not bench.baseline.exists()
 
 
@@ -230,6 +240,5 @@ def test_program_that_was_not_built_is_told(bench: Bench, monkeypatch: pytest.Mo
 def test_results_of_the_project_go_to_its_evidence(bench: Bench) -> None:
     job = command.check(command.Request(str(bench.folder)), 1)
 
-    assert job.folder == Project(ROOT).evidence / "cost" / "arm"
+    assert job.folder == Project(bench.folder).evidence / "cost" / "arm"
     assert [one.name for one in job.classes] == ["still", "other"]
-    job.folder.rmdir()

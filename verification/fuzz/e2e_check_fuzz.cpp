@@ -160,7 +160,7 @@ using Latest = mamori::InPort<Frame>;
 using Queue = mamori::QueueInPort<Frame, 3U>;
 
 template <typename Order>
-constexpr E2eInLimits<Order> kLimits{35_ms, {}, 5U, {{1U, 3U}, {1U, 3U}, {2U, 2U}}};
+constexpr E2eInLimits<Order> kLimits{35_ms, {1U}, 5U, {{1U, 3U}, {1U, 3U}, {2U, 2U}}};
 constexpr Instant kStart{1000};
 
 /// What a step of the input does. Frames arrive; then there is a cycle, but for kQueueUp.

@@ -173,6 +173,31 @@ def test_first_system_is_measured_as_the_manual_says(project: Project, prefix: P
     assert measured["cycles"] == {"asked": 50, "run": 50}
 
 
+@pytest.mark.verifies("SWR-TIM-029", technique="interface")
+def test_folders_of_a_users_project_are_built_and_measured_by_their_names(project: Project, prefix: Path, tmp_path: Path) -> None:
+    robot = tmp_path / "robot"
+    build_page(project, prefix, robot, "timing.md", "mamori::timing")
+    shutil.rmtree(robot / "build")
+    shutil.copy(project.root / "verification/timing/tests/cost_subject.cpp", robot / "counted.cpp")
+    with (robot / "CMakeLists.txt").open("a", encoding="utf-8") as lists:
+        lists.write("add_executable(counted counted.cpp)\ntarget_link_libraries(counted PRIVATE mamori::timing)\n")
+    for name, text in (("timed", 'program = "minimal"\ntarget = "minimal"\n'),
+                       ("counted", 'program = "counted"\ntarget = "counted"\n[cost]\nmargin_percent = 50\n'
+                                   '[[cost.class]]\nname = "all"\ncycles = 20\n')):  # fmt: skip
+        (robot / name).mkdir()
+        (robot / name / "timing.toml").write_text(text, encoding="utf-8")
+
+    for command, name, words in (("timing", "timed", ("--cycles", "50")), ("cost", "counted", ())):
+        shown = run(sys.executable, "-P", "-m", "mamori.verification.command", command, robot / name, "--json", *words)
+        # A busy machine may cost a window its time (1), and not every machine grants the rights (4).
+        assert shown.returncode in (0, 1, 4), shown.stderr
+        record = json.loads(shown.stdout)
+        assert (record["schema"], record["system"]) == (f"mamori.{command}/1", name)
+        stored = robot / "build" / "host-release" / "evidence" / command / name / f"{command}.json"
+        assert json.loads(stored.read_text(encoding="utf-8")) == record
+        assert "build the project" in shown.stderr
+
+
 @pytest.mark.verifies("SWR-TAB-001", technique="interface")
 def test_program_of_a_user_writes_its_table_and_the_command_shows_it(project: Project, prefix: Path, tmp_path: Path) -> None:
     folder = tmp_path / "minimal"

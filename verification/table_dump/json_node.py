@@ -33,6 +33,9 @@ class JsonNode:
             raise self.complain(f"has no '{key}'")
         return JsonNode(self._path, place, self._value[key], self._mend)
 
+    def has(self, key: str) -> bool:
+        return isinstance(self._value, dict) and key in self._value
+
     def items(self) -> list[JsonNode]:
         if not isinstance(self._value, list):
             raise self.complain("must be a list")

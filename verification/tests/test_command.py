@@ -74,12 +74,48 @@ def test_a_run_begins_with_the_record_of_its_environment(tmp_path: Path) -> None
 def test_each_step_of_the_plans_is_named_once_and_needs_earlier_ones_only(quick: bool) -> None:
     nothing = lambda context, tick, log: None  # noqa: E731
     project = Project(ROOT)
-    for plan in (plans.demo_plan(nothing), plans.test_plan(project, nothing, quick), plans.verify_plan(Project(Path("/x")))):
+    for plan in (plans.demo_plan(nothing), plans.verify_own_plan(nothing), plans.test_plan(project, nothing, quick), plans.verify_plan(Project(Path("/x")))):
         seen: list[str] = []
         for step in plan:
             assert step.name not in seen
             assert set(step.needs) <= set(seen)
             seen.append(step.name)
+
+
+def no_campaign(context: Context, tick: object, log: object) -> None:
+    pass
+
+
+@pytest.mark.verifies("SWR-CLI-012")
+def test_the_demo_builds_the_program_of_the_example_and_runs_no_test() -> None:
+    plan = {step.name: step for step in plans.demo_plan(no_campaign)}
+
+    assert plan[plans.BUILD].commands[-1][-2:] == ("--target", "safe_arm")
+    words = {word for step in plan.values() for command in step.commands for word in command}
+    assert not words & {"ctest", "pytest"}
+    assert {"fault campaign", "trace check", plans.REPORT} <= set(plan)
+
+
+@pytest.mark.verifies("SWR-CLI-012", polarity="violation")
+def test_each_step_of_the_gate_that_the_demo_leaves_out_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    demo, whole = plans.demo_plan(no_campaign), plans.test_plan(Project(ROOT), no_campaign, quick=False)
+    names = plans.find_not_run(demo, whole)
+
+    assert {step.name for step in demo} | set(names) == {step.name for step in whole}
+    assert not {step.name for step in demo} & set(names)
+    assert "tests host-release" in names
+
+    jobs.show_not_run(names, Context(Project(tmp_path), 1))
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "not run (./mamori test" in shown
+    assert ", ".join(names) in shown
+
+
+@pytest.mark.verifies("SWR-CLI-006", technique="interface")
+def test_verify_of_the_project_itself_runs_its_tests() -> None:
+    names = {step.name for step in plans.verify_own_plan(no_campaign)}
+
+    assert {"tests host-release", "tests of the host tools", "fault campaign", "trace check"} <= names
 
 
 @pytest.mark.verifies("SWR-CLI-007", technique="boundary_values", polarity="violation")

@@ -1,72 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the launcher script installs what is missing, says in one line why it cannot, and answers wrong words without installing.
-# Method: a copy of the script in an empty folder; package manager, sudo and python3 are scripts first in PATH that write down
-# how they were called. What is installed is the content of a file.
+# Goal: the launcher script installs what is missing only with permission, reports in one line why it does not, and answers wrong
+# words without installing. Method: a copy of the script on a machine in a folder (support/launcher_box.py).
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import signal
 import subprocess
 import time
-from dataclasses import dataclass
+import tomllib
 from pathlib import Path
 
 import pytest
+from launcher_box import APT_INSTALL, PACKAGES_OF_BUILD, Box, list_errors
 
 from mamori.verification.command.main import make_parser
 from mamori.verification.command.project import ROOT
-
-PACKAGES_OF_DEMO = ("python3 python3-venv g++ cmake ninja-build libsimbody-dev liborocos-kdl-dev libeigen3-dev "
-                    "libyaml-cpp-dev libgtest-dev relacy-dev libcli11-dev nlohmann-json3-dev graphviz git openssh-client").split()  # fmt: skip
-
-TOOLS = {
-    "id": 'echo "${FAKE_UID:-0}"',
-    "dpkg": "exit 0",
-    "dpkg-query": 'for p in "$@"; do grep -qxF -e "$p" "$BOX/installed" && echo "installed $p"; done; exit 0',
-    "apt-get": 'echo "apt-get $*" >>"$BOX/calls"\n'
-    'if [ "$2" = "${FAKE_APT_FAILS:-}" ]; then echo "E: the mirror is down"; exit 100; fi\n'
-    'if [ -n "${FAKE_APT_HANGS:-}" ]; then echo $$ >"$BOX/apt.pid"; exec sleep 60; fi\n'
-    'for p in "$@"; do echo "$p" >>"$BOX/installed"; done',
-    "sudo": 'echo "sudo $*" >>"$BOX/calls"; [ -n "${FAKE_SUDO:-}" ] || exit 1; shift; exec "$@"',
-    "python3": '[ "$1" = --version ] && { echo Python 3.11.2; exit 0; }\n'
-    'mkdir -p "$3/bin"; cp "$BOX/bin/venv-python" "$3/bin/python"; echo venv >>"$BOX/calls"',
-    "venv-python": 'echo "python $*" >>"$BOX/calls"\n'
-    'case "$*" in *pip*) exit "${FAKE_PIP:-0}";; *) echo "packages: $MAMORI_PACKAGES" >>"$BOX/calls";; esac',
-}
-
-
-@dataclass
-class Box:
-    """A machine in a folder."""
-
-    folder: Path
-
-    def __post_init__(self) -> None:
-        (self.folder / "bin").mkdir()
-        for name, text in TOOLS.items():
-            tool = self.folder / "bin" / name
-            tool.write_text(f"#!/bin/bash\n{text}\n", encoding="utf-8")
-            tool.chmod(0o755)
-        for name in ("mamori", "requirements.lock", "pyproject.toml"):
-            shutil.copy(ROOT / name, self.folder)
-        self.install()
-
-    def install(self, *packages: str) -> None:
-        (self.folder / "installed").write_text("".join(f"{name}\n" for name in packages), encoding="utf-8")
-
-    def environment(self, **settings: str) -> dict[str, str]:
-        return {**os.environ, "BOX": str(self.folder), "PATH": f"{self.folder}/bin:{os.environ['PATH']}", **settings}
-
-    def run(self, *words: str, **settings: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run([str(self.folder / "mamori"), *words], env=self.environment(**settings), text=True,
-                              capture_output=True, stdin=subprocess.DEVNULL, check=False, timeout=60)  # fmt: skip
-
-    def take_calls(self) -> list[str]:
-        path = self.folder / "calls"
-        calls = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
-        path.unlink(missing_ok=True)
-        return calls
 
 
 @pytest.fixture
@@ -78,19 +28,19 @@ def box(tmp_path: Path) -> Box:
 def test_only_what_is_missing_is_installed_before_the_command_runs(box: Box) -> None:
     box.install("python3", "cmake", "g++")
 
-    done = box.run("demo", "--jobs", "3")
+    done = box.run("demo", "--jobs", "3", "--install")
 
-    missing = " ".join(name for name in PACKAGES_OF_DEMO if name not in ("python3", "cmake", "g++"))
+    missing = " ".join(name for name in PACKAGES_OF_BUILD if name not in ("python3", "cmake", "g++"))
     calls = box.take_calls()
     assert done.returncode == 0, done.stderr
-    assert f"apt-get -q -y --no-install-recommends install {missing}" in calls
+    assert f"{APT_INSTALL} {missing}" in calls
     assert calls[-2:] == ["python -P -m mamori.verification.command demo --jobs 3",
-                          f"packages: {' '.join(PACKAGES_OF_DEMO)}"]  # fmt: skip
+                          f"packages: {' '.join(PACKAGES_OF_BUILD)}"]  # fmt: skip
 
 
 @pytest.mark.verifies("SWR-CLI-001")
 def test_second_run_installs_nothing(box: Box) -> None:
-    assert box.run("test").returncode == 0
+    assert box.run("test", "--install").returncode == 0
     box.take_calls()
 
     done = box.run("test")
@@ -107,7 +57,8 @@ def test_second_run_installs_nothing(box: Box) -> None:
      (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
      (("prove", "safe-state"), "spin", "cppcheck"), (("test",), "z3", "strace"), (("demo",), "cmake", "spin"),
-     (("demo",), "graphviz", "cppcheck"), (("verify",), "graphviz", "cppcheck"),
+     (("demo",), "cmake", "graphviz"), (("verify",), "graphviz", "cppcheck"), (("verify", "x"), "cmake", "graphviz"),
+     (("new", "x"), "python3-venv", "cmake"),
      (("timing", "x", "--load"), "stress-ng", "valgrind"), (("timing", "x"), "cmake", "stress-ng"),
      (("timing", "x", "--", "--load"), "cmake", "stress-ng"),
      (("cost", "x"), "valgrind", "stress-ng"), (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev"),
@@ -116,29 +67,122 @@ def test_second_run_installs_nothing(box: Box) -> None:
      (("trace", "verify", "b.tar"), "openssh-client", "cmake"), (("test",), "openssh-client", "strace")],
 )  # fmt: skip
 def test_each_command_needs_its_groups_only(box: Box, words: tuple[str, ...], wanted: str, unwanted: str) -> None:
-    box.run(*words)
+    box.run("--install", *words)
 
     installed = next(call for call in box.take_calls() if " install " in call).split()
     assert wanted in installed
     assert unwanted not in installed
 
 
+@pytest.mark.verifies("SWR-CLI-001", technique="equivalence_classes")
+@pytest.mark.parametrize("words", [("demo",), ("test",), ("bench",), ("build",)])
+def test_machine_without_debian_tools_works_where_the_tools_are_there(box: Box, words: tuple[str, ...]) -> None:
+    box.install(*(path.name for path in (box.folder / "store").iterdir()))
+    box.remove_tools("apt-get", "dpkg", "dpkg-query", "sudo")
+
+    done = box.run(*words)
+
+    assert done.returncode == 0, done.stderr
+    assert f"python -P -m mamori.verification.command {words[0]}" in box.take_calls()
+
+
+@pytest.mark.verifies("SWR-CLI-001", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize("package", PACKAGES_OF_BUILD)
+def test_each_missing_package_is_noticed_by_what_it_brings(box: Box, package: str) -> None:
+    box.install(*(name for name in PACKAGES_OF_BUILD if name != package))
+
+    done = box.run("build")
+
+    assert done.returncode == 3
+    assert f"--no-install-recommends {package}" in done.stderr
+
+
+@pytest.mark.verifies("SWR-CLI-001", technique="error_guessing")
+def test_headers_in_a_folder_of_the_user_count(box: Box) -> None:
+    box.install(*(name for name in PACKAGES_OF_BUILD if name != "libsimbody-dev"))
+    prefix = box.folder / "own prefix is elsewhere".replace(" ", "_")
+    shutil.copytree(box.folder / "store" / "libsimbody-dev", prefix)
+
+    assert box.run("build").returncode == 3
+    assert box.run("build", CMAKE_PREFIX_PATH=f"/nowhere;{prefix}").returncode == 0
+
+
+@pytest.mark.verifies("SWR-CLI-001", technique="boundary_values")
+def test_complete_environment_needs_nothing_to_make_it(box: Box) -> None:
+    assert box.run("trace", "check", "--install").returncode == 0
+    (box.folder / "share" / "python3-venv").unlink()
+
+    assert box.run("trace", "check").returncode == 0
+
+
+@pytest.mark.verifies("SWR-CLI-002", technique="boundary_values", polarity="violation")
+def test_python_that_is_too_old_is_missing(box: Box) -> None:
+    box.install("python3", "python3-venv")
+
+    done = box.run("trace", "check", "--install", FAKE_OLD_PYTHON="1")
+
+    assert done.returncode == 3
+    assert "not found: python3" in done.stderr
+
+
+@pytest.mark.verifies("SWR-CLI-002", technique="error_guessing", polarity="violation")
+@pytest.mark.parametrize("name", ["build", "build/log/python.log", ".venv"])
+def test_checkout_that_cannot_be_written_is_named_in_one_line(box: Box, name: str) -> None:
+    box.install("python3", "python3-venv")
+    if name == ".venv":
+        (box.folder / name).symlink_to("/proc/1/fdinfo")
+        (box.folder / "bin" / "rm").unlink()
+        (box.folder / "bin" / "rm").symlink_to(shutil.which("false") or "")
+    elif name == "build":
+        (box.folder / name).write_text("", encoding="utf-8")
+    else:
+        (box.folder / name).mkdir(parents=True)
+
+    done = box.run("trace", "check")
+
+    assert (done.returncode, done.stdout) == (3, "")
+    assert "cannot be written" in done.stderr and done.stderr.count("\n") == 1
+
+
+@pytest.mark.verifies("SWR-CLI-023", technique="interface")
+def test_first_call_writes_nothing_but_the_requested_output(box: Box) -> None:
+    done = box.run("e2e", "--json", "--install", FAKE_OUTPUT='{"profile": 1}')
+
+    assert done.returncode == 0
+    assert json.loads(done.stdout) == {"profile": 1}
+    assert "making the Python environment" in done.stderr
+
+
+@pytest.mark.verifies("SWR-CLI-023", technique="interface")
+def test_link_to_the_launcher_finds_its_checkout(box: Box, tmp_path_factory: pytest.TempPathFactory) -> None:
+    box.install("python3", "python3-venv")
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    (elsewhere / "first").symlink_to(box.folder / "mamori")
+    (elsewhere / "m").symlink_to("first")
+
+    done = subprocess.run([str(elsewhere / "m"), "trace", "check"], env=box.environment(), capture_output=True, text=True, check=False)
+
+    assert done.returncode == 0, done.stderr
+    assert (box.folder / ".venv" / "mamori.stamp").exists()
+    assert sorted(path.name for path in elsewhere.iterdir()) == ["first", "m"]
+
+
 @pytest.mark.verifies("SWR-CLI-002")
 def test_sudo_without_password_is_used(box: Box) -> None:
-    assert box.run("trace", "check", FAKE_UID="1000", FAKE_SUDO="yes").returncode == 0
+    assert box.run("trace", "check", "--install", FAKE_UID="1000", FAKE_SUDO="yes").returncode == 0
 
-    assert "apt-get -q -y --no-install-recommends install python3 python3-venv" in box.take_calls()
+    assert f"{APT_INSTALL} python3 python3-venv" in box.take_calls()
 
 
 @pytest.mark.verifies("SWR-CLI-002", technique="fault_injection", polarity="violation")
 def test_without_the_right_to_install_one_line_names_the_packages(box: Box) -> None:
     box.install("python3", "g++")
 
-    done = box.run("demo", FAKE_UID="1000")
+    done = box.run("demo", "--install", FAKE_UID="1000")
 
     assert done.returncode == 3
     assert done.stderr.count("\n") == 1
-    for name in set(PACKAGES_OF_DEMO) - {"python3", "g++"}:
+    for name in set(PACKAGES_OF_BUILD) - {"python3", "g++"}:
         assert f" {name}" in done.stderr
     assert not any(call.startswith(("apt-get", "python")) for call in box.take_calls())
 
@@ -146,11 +190,11 @@ def test_without_the_right_to_install_one_line_names_the_packages(box: Box) -> N
 @pytest.mark.verifies("SWR-CLI-002", technique="fault_injection", polarity="violation")
 @pytest.mark.parametrize(("step", "settings"), [("update", {"FAKE_APT_FAILS": "update"}), ("install", {"FAKE_APT_FAILS": "-y"})])
 def test_failing_package_manager_is_named_with_its_log(box: Box, step: str, settings: dict[str, str]) -> None:
-    done = box.run("demo", **settings)
+    done = box.run("demo", "--install", **settings)
 
     log = box.folder / "build" / "log" / "packages.log"
     assert done.returncode == 3
-    assert done.stderr.count("\n") == 1
+    assert len(list_errors(done)) == 1
     assert str(log) in done.stderr
     assert "E: the mirror is down" in log.read_text(encoding="utf-8")
     assert not any(call.startswith("python") for call in box.take_calls())
@@ -158,62 +202,86 @@ def test_failing_package_manager_is_named_with_its_log(box: Box, step: str, sett
 
 @pytest.mark.verifies("SWR-CLI-002", technique="equivalence_classes", polarity="violation")
 def test_machine_without_apt_is_told_what_it_needs(box: Box) -> None:
-    for name in ("apt-get", "dpkg-query", "sudo"):
-        (box.folder / "bin" / name).unlink()
-    for name in ("bash", "dirname", "cat", "grep", "tr", "sort"):
-        (box.folder / "bin" / name).symlink_to(shutil.which(name) or name)
+    box.remove_tools("apt-get", "dpkg", "dpkg-query", "sudo")
 
-    done = box.run("demo", PATH=f"{box.folder}/bin")
+    for words in (("demo",), ("demo", "--install")):
+        done = box.run(*words)
 
-    assert done.returncode == 3
-    assert done.stderr.count("\n") == 1
-    assert "libsimbody-dev" in done.stderr
+        assert done.returncode == 3
+        assert done.stderr.count("\n") == 1
+        assert "libsimbody-dev" in done.stderr
 
 
 @pytest.mark.verifies("SWR-BEN-002", technique="fault_injection", polarity="violation")
 def test_peers_that_cannot_be_installed_do_not_stop_the_benchmarks(box: Box) -> None:
-    box.install(*PACKAGES_OF_DEMO, "valgrind", "liblcm-dev")
+    box.install(*PACKAGES_OF_BUILD, "valgrind", "liblcm-dev")
 
-    done = box.run("bench", "--quick", FAKE_APT_FAILS="-y")
+    done = box.run("bench", "--quick", "--install", FAKE_APT_FAILS="-y")
 
     assert done.returncode == 0, done.stderr
     assert "could not install libboost-dev cyclonedds-dev cyclonedds-tools rt-tests" in done.stderr
-    assert "going on without them" in done.stdout
+    assert "continuing without them" in done.stderr
     assert "python -P -m mamori.verification.command bench --quick" in box.take_calls()
 
 
 @pytest.mark.verifies("SWR-BEN-002")
 def test_peers_are_installed_with_the_benchmarks_only(box: Box) -> None:
-    box.install(*PACKAGES_OF_DEMO, "valgrind")
+    box.install(*PACKAGES_OF_BUILD, "valgrind")
 
     box.run("bench", "--list")
     assert not any(call.startswith("apt-get") for call in box.take_calls())
 
-    box.run("bench")
+    box.run("bench", "--install")
     assert any("install libboost-dev liblcm-dev" in call for call in box.take_calls())
 
 
 @pytest.mark.verifies("SWR-CLI-003")
 def test_environment_is_made_from_the_lock_with_hashes(box: Box) -> None:
+    box.install("python3", "python3-venv")
     box.run("trace", "check")
 
-    installs = [call for call in box.take_calls() if "pip" in call]
+    installs = [call for call in box.take_calls() if " pip " in call]
     assert f"--require-hashes --only-binary :all: -r {box.folder}/requirements.lock" in installs[0]
     assert "--no-index --no-deps --no-build-isolation" in installs[1]
     assert len(installs) == 2
 
 
 @pytest.mark.verifies("SWR-CLI-003")
-def test_each_line_of_the_lock_is_pinned_and_has_a_hash() -> None:
-    lines = [line for line in (ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines() if line[:1] not in ("#", "")]
-    names = [line for line in lines if not line.startswith("    --hash=sha256:")]
+def test_each_line_of_the_locks_is_pinned_and_has_a_hash_and_the_locks_share_no_package() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    locked: dict[str, set[str]] = {}
+    for lock in ("requirements.lock", "requirements-test.lock"):
+        lines = [line for line in (ROOT / lock).read_text(encoding="utf-8").splitlines() if line[:1] not in ("#", "")]
+        names = [line for line in lines if not line.startswith("    --hash=sha256:")]
+        assert len(names) > 5
+        assert all("==" in line and line.endswith(" \\") for line in names)
+        locked[lock] = {line.partition("==")[0] for line in names}
 
-    assert len(names) > 5
-    assert all("==" in line and line.endswith(" \\") for line in names)
+    base, test = locked["requirements.lock"], locked["requirements-test.lock"]
+    assert base & test == set()
+    assert {name.lower() for name in project["dependencies"]} <= base
+    assert {name.lower() for name in project["optional-dependencies"]["test"]} <= test
+
+
+@pytest.mark.verifies("SWR-CLI-003", technique="state_transition")
+def test_packages_that_only_tests_load_are_installed_by_the_command_that_runs_them(box: Box) -> None:
+    box.install(*PACKAGES_OF_BUILD)
+    test_lock = f"--require-hashes --only-binary :all: -r {box.folder}/requirements-test.lock"
+
+    for words in (("demo",), ("trace", "check"), ("build",)):
+        assert box.run(*words).returncode == 0
+        assert not any(test_lock in call for call in box.take_calls())
+
+    assert box.run("test", "--install").returncode == 0
+    installs = [call for call in box.take_calls() if " pip " in call]
+    assert len(installs) == 1 and test_lock in installs[0]
+    assert box.run("demo").returncode == box.run("test").returncode == 0
+    assert not any(" pip " in call for call in box.take_calls())
 
 
 @pytest.mark.verifies("SWR-CLI-003", technique="state_transition")
 def test_changed_lock_makes_a_new_environment(box: Box) -> None:
+    box.install("python3", "python3-venv")
     box.run("trace", "check")
     box.take_calls()
     with (box.folder / "requirements.lock").open("a", encoding="utf-8") as lock:
@@ -226,9 +294,10 @@ def test_changed_lock_makes_a_new_environment(box: Box) -> None:
 
 @pytest.mark.verifies("SWR-CLI-003", technique="fault_injection", polarity="violation")
 def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
+    box.install("python3", "python3-venv")
     failed = box.run("trace", "check", FAKE_PIP="1")
     assert failed.returncode == 3
-    assert failed.stderr.count("\n") == 1
+    assert len(list_errors(failed)) == 1
     assert "build/log/python.log" in failed.stderr
     assert not any("mamori.verification" in call for call in box.take_calls())
 
@@ -237,7 +306,7 @@ def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
 
 
 @pytest.mark.verifies("SWR-CLI-004")
-@pytest.mark.parametrize("command", ["", "demo", "test", "build", "verify", "trace", "log", "bench", "timing", "cost", "e2e", "table", "prove"])
+@pytest.mark.parametrize("command", ["", "demo", "run", "test", "build", "verify", "trace", "log", "bench", "timing", "cost", "e2e", "table", "prove", "new"])
 def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
     bare = box.folder / "bare"
     bare.mkdir()
@@ -249,10 +318,11 @@ def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
     assert done.returncode == 0
     assert done.stdout.startswith(f"usage: ./mamori {command}" if command else "Mamori")
     assert done.stderr == ""
+    assert "--install" in done.stdout
 
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
-@pytest.mark.parametrize("command", ["demo", "test", "build", "verify", "log", "bench", "timing", "cost", "e2e", "table", "prove"])
+@pytest.mark.parametrize("command", ["demo", "run", "test", "build", "verify", "log", "bench", "timing", "cost", "e2e", "table", "prove", "new"])
 def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
     subparsers = next(action for action in make_parser()._actions if action.dest == "command")
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}
@@ -260,7 +330,7 @@ def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, co
     # What follows a bare -- is another program's.
     shown = {word.strip("[],") for word in box.run(command, "--help").stdout.split() if word.strip("[").startswith("--")}
 
-    assert shown - {"--help", "--"} == taken - {"--help", "-h"}
+    assert shown - {"--help", "--", "--install"} == taken - {"--help", "-h"}
 
 
 @pytest.mark.verifies("SWR-CLI-005", technique="equivalence_classes", polarity="violation")
@@ -304,6 +374,7 @@ def test_right_words_reach_the_command_unchanged(box: Box, tmp_path: Path) -> No
     motion = tmp_path / "my motion.yaml"
     motion.write_text("x", encoding="utf-8")
 
+    box.install(*PACKAGES_OF_BUILD)
     box.run("demo", "--motion", str(motion), "--scenario", "a b", "c", "--instants=2")
 
     assert f"python -P -m mamori.verification.command demo --motion {motion} --scenario a b c --instants=2" in box.take_calls()
@@ -311,6 +382,7 @@ def test_right_words_reach_the_command_unchanged(box: Box, tmp_path: Path) -> No
 
 @pytest.mark.verifies("SWR-CLI-005", technique="equivalence_classes")
 def test_words_for_another_program_are_not_judged(box: Box) -> None:
+    box.install(*PACKAGES_OF_BUILD)
     done = box.run("timing", "x", "--", "--strange", "-5", "--help")
 
     assert done.returncode == 0, done.stderr
@@ -319,14 +391,14 @@ def test_words_for_another_program_are_not_judged(box: Box) -> None:
 
 @pytest.mark.verifies("SWR-CLI-005", technique="boundary_values")
 def test_seed_below_zero_reaches_the_command(box: Box) -> None:
-    box.run("mutate", "--seed", "-1")
+    box.run("mutate", "--seed", "-1", "--install")
 
     assert "python -P -m mamori.verification.command mutate --seed -1" in box.take_calls()
 
 
 @pytest.mark.verifies("SWR-CLI-008", technique="fault_injection", polarity="violation")
 def test_ctrl_c_during_the_installation_ends_the_package_manager(box: Box) -> None:
-    launcher = subprocess.Popen([str(box.folder / "mamori"), "demo"], env=box.environment(FAKE_APT_HANGS="yes"),
+    launcher = subprocess.Popen([str(box.folder / "mamori"), "demo", "--install"], env=box.environment(FAKE_APT_HANGS="yes"),
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
     deadline = time.monotonic() + 20.0
     pid_file = box.folder / "apt.pid"

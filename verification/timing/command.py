@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """`./mamori timing SYSTEM`: check, build, run, read, analyse, show.
 
-@satisfies SWR-TIM-011, SWR-TIM-024, SWR-TIM-025      Design: docs/design/timing.md#run
+@satisfies SWR-TIM-011, SWR-TIM-024, SWR-TIM-025, SWR-TIM-029      Design: docs/design/timing.md#run
 """
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 import tempfile
@@ -19,6 +20,7 @@ from mamori.profiles.text_file import write_text
 from mamori.verification.command.console import Screen
 from mamori.verification.command.environment import collect_environment
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_INTERRUPTED, UsageError
+from mamori.verification.command.plans import build_plan
 from mamori.verification.command.process import read_tail
 from mamori.verification.command.project import ROOT, Project
 from mamori.verification.command.steps import Context, Step, all_passed, run_steps
@@ -50,6 +52,7 @@ class Request:
     check: Path | None = None
     accept: Path | None = None
     arguments: tuple[str, ...] = ()
+    wants_json: bool = False
 
 
 @dataclass(frozen=True)
@@ -102,13 +105,13 @@ def check(request: Request, jobs: int) -> Job:
     baseline = None if request.check is None else load_baseline(request.check, system.name)
     if request.with_load:
         check_load()
-    folder = (request.out or project.evidence / "timing" / system.name).absolute()
+    folder = (request.out or system.project.evidence / "timing" / system.name).absolute()
     check_folder(folder)
     if request.accept is not None:
         if request.accept.is_dir():
             raise UsageError(f"timing: '{request.accept}' is a folder; name the file that the baseline is to be written to")
         check_folder(request.accept.absolute().parent)
-    return Job(request, system, baseline, folder, Context(project, jobs))
+    return Job(request, system, baseline, folder, Context(system.project, jobs, Screen(to_stderr=True)))
 
 
 def check_folder(folder: Path, command: str = "timing") -> None:
@@ -137,6 +140,8 @@ def build_system(system: System, context: Context) -> bool:
     if not system.target:
         return True
     project = context.project
+    if project.root != ROOT:
+        return all_passed(run_steps(build_plan(project, system.target), context))
     step = Step(
         name=f"build {system.target}",
         commands=(
@@ -207,11 +212,10 @@ def show(job: Job, report: Report) -> int:
     """Writes all results, figures first and pictures last, and prints one screen. @return exit status."""
     screen = job.context.screen
     environment = collect_environment(job.context.project, ["./mamori", *sys.argv[1:]])
-    paths = [write_record(make_record(report, environment), job.folder), job.folder / "timing.txt"]
+    record = make_record(report, environment)
+    paths = [write_record(record, job.folder), job.folder / "timing.txt"]
     write_text(paths[-1], make_text(report, is_whole=True))
-    screen.say()
-    for line in make_text(report, is_whole=False).splitlines():
-        screen.say(line, style="bold red" if line.startswith(("***", "finding:")) else "")
+    print_result(make_text(report, is_whole=False), record if job.request.wants_json else None)
     from mamori.verification.timing.picture import draw_report
 
     paths += draw_report(report, job.folder)
@@ -227,6 +231,16 @@ def _accept(job: Job, report: Report, path: Path) -> None:
         return
     write_baseline(path, report.system, report.run.table, list_ratios(report.components, report.run.reference_ns))
     job.context.screen.say(f"accepted: {path} holds the ratios of this run; say in the commit why they changed")
+
+
+def print_result(text: str, record: dict[str, Any] | None) -> None:
+    """What was asked for, on standard output: `record` as JSON, or else `text`. All else of these commands goes to standard error."""
+    if record is not None:
+        print(json.dumps(record, indent=1))
+        return
+    out = Screen()
+    for line in text.splitlines():
+        out.say(line, style="bold red" if line.startswith(("***", "finding:")) else "")
 
 
 def show_failure(screen: Screen, reason: str, log: Path) -> None:

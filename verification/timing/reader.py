@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The four files of a measured run as checked arrays. Whoever has a `Measurement` need not look whether its parts agree.
 
-@satisfies SWR-TIM-010, SWR-TIM-011      Design: docs/design/timing.md#files
+@satisfies SWR-TIM-010, SWR-TIM-011, SWR-TIM-028      Design: docs/design/timing.md#files
 """
 
 from __future__ import annotations
@@ -62,6 +62,8 @@ class Measurement:
     reference_ns: int
     rights: tuple[Right, ...]
     notes: tuple[str, ...] = ()
+    findings: tuple[str, ...] = ()
+    """What the program itself reports: it knows whether its system left the operating state."""
 
     def rows_of(self, window: int) -> slice:
         """The openings of one window, in order of time."""
@@ -89,7 +91,8 @@ def read_measurement(folder: Path) -> Measurement:
     check_steps(steps, table, folder / "steps.npy")
     steps, opening_of_step, notes = _match_steps(steps, openings, table, is_partial, folder / "steps.npy")
     own = tuple(f"the program: {note.text()}" for note in run.at("notes").items())
-    return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, (*own, *notes))
+    findings = tuple(f"the program: {finding.text()}" for finding in run.at("findings").items()) if run.has("findings") else ()
+    return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, (*own, *notes), findings)
 
 
 def load_json(path: Path) -> object:

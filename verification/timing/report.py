@@ -87,7 +87,7 @@ def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: 
     indices = [index for index, one in enumerate(run.table.components) if one.window is not None]
     estimates = [estimate(calc_execution(run, index)[0].values, count_cut(run, index)) for index in indices]
     early = [] if was_stopped or not run.is_partial else [f"the program ended after {run.cycles_run} of {run.cycles_asked} cycles"]
-    found = [*findings, *early, *list_findings(windows, components, misses), *list_violations(chains)]
+    found = [*findings, *early, *run.findings, *list_findings(windows, components, misses), *list_violations(chains)]
     return Report(system, run, windows, components, misses, chains, chain_note, estimates, found, run.notes, host, with_load, was_stopped)
 
 

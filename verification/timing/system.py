@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What SYSTEM means: a folder with a `timing.toml`, or a program that is there already.
+"""What SYSTEM means: a folder with a `timing.toml`, of Mamori or of a project of the user's, or a program that is there already.
 
-@satisfies SWR-TIM-022      Design: docs/design/timing.md#system
+@satisfies SWR-TIM-022, SWR-TIM-029      Design: docs/design/timing.md#system
 """
 
 from __future__ import annotations
 
 import os
+import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,15 +16,17 @@ from typing import Any
 from mamori.profiles.input_error import InputError, nearest_names
 from mamori.profiles.text_file import read_text
 from mamori.verification.command.errors import UsageError
-from mamori.verification.command.project import Project
+from mamori.verification.command.project import ROOT, Project
 
 FILE = "timing.toml"
 KEYS = ("program", "target", "arguments", "cost")
+_USES_MAMORI = re.compile(r"^\s*find_package\s*\(\s*mamori\b", re.MULTILINE)
 
 
 @dataclass(frozen=True)
 class System:
-    """A program that keeps the contract of docs/design/timing.md#files. `target`: what CMake builds it as; empty: nothing to build.
+    """A program that keeps the contract of docs/design/timing.md#files. `project` takes its build and its evidence.
+    `target`: what CMake builds it as; empty: nothing to build.
     `cost`: what the file says for `mamori cost`, as it stands there; `file` is empty where there is none."""
 
     name: str
@@ -32,6 +35,7 @@ class System:
     arguments: tuple[str, ...] = ()
     cost: dict[str, Any] = field(default_factory=dict)
     file: Path | None = None
+    project: Project = Project(ROOT)
 
 
 def find_system(text: str, project: Project, command: str = "timing") -> System:
@@ -45,7 +49,7 @@ def find_system(text: str, project: Project, command: str = "timing") -> System:
         raise UsageError(f"{command}: there is no system '{text}'; {nearest_names(text, list_systems(project))}")
     if not os.access(path, os.X_OK):
         raise UsageError(f"{command}: '{text}' is no program that may be run; name a folder with a {FILE}, or an executable file")
-    return System(path.resolve().name, path.resolve())
+    return System(path.resolve().name, path.resolve(), project=project)
 
 
 def list_systems(project: Project) -> list[str]:
@@ -53,10 +57,25 @@ def list_systems(project: Project) -> list[str]:
     return sorted(str(path.parent.relative_to(project.root)) for path in project.root.glob(f"examples/*/{FILE}"))
 
 
-def _read_folder(folder: Path, project: Project, command: str) -> System:
+def find_project(folder: Path, shipped: Project, command: str) -> Project:
+    """The project that `folder` is part of: the shipped one, or the nearest folder above that is built against its package.
+
+    @raise UsageError when there is none.
+    """
+    if folder.is_relative_to(shipped.root) and not folder.is_relative_to(shipped.root / "build"):
+        return shipped
+    for root in (folder, *folder.parents):
+        lists = root / "CMakeLists.txt"
+        if lists.is_file() and _USES_MAMORI.search(lists.read_text(encoding="utf-8", errors="replace")):
+            return Project(root, shipped.preset)
+    raise UsageError(f"{command}: neither '{folder}' nor a folder above it has a CMakeLists.txt that calls find_package(mamori); add it")
+
+
+def _read_folder(folder: Path, shipped: Project, command: str) -> System:
     file = folder / FILE
     if not file.is_file():
-        raise UsageError(f"{command}: '{folder}' has no {FILE}; {nearest_names(folder.name, list_systems(project))}")
+        raise UsageError(f"{command}: '{folder}' has no {FILE}; {nearest_names(folder.name, list_systems(shipped))}")
+    project = find_project(folder, shipped, command)
     try:
         data = tomllib.loads(read_text(file, "description of a system", 100_000).text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
@@ -72,7 +91,7 @@ def _read_folder(folder: Path, project: Project, command: str) -> System:
     path = (project.build / program).resolve()
     if not path.is_relative_to(project.build.resolve()):
         raise InputError(f"'program' is '{program}', which leads out of the build folder; name a path below it", file)
-    return System(folder.name, path, target, words, cost, file)
+    return System(folder.name, path, target, words, cost, file, project)
 
 
 def read_words(value: object, what: str, project: Project, file: Path) -> tuple[str, ...]:

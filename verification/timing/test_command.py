@@ -16,9 +16,11 @@ import pytest
 from timing_run import make_program, prepare
 
 from mamori.verification.command.main import main
+from mamori.verification.command.project import Project
 from mamori.verification.timing import command
 from mamori.verification.timing.command import RESULTS
 from mamori.verification.timing.environment import calc_steal_share, collect_setting, collect_state, find_preemption, read_ticks
+from mamori.verification.timing.system import find_system
 
 TIMEOUT_S = 30.0
 RUNNER = """
@@ -128,7 +130,7 @@ def test_run_with_a_finding_is_not_accepted(program: Path, capsys: pytest.Captur
 
     assert measure(program, fault="overrun", own=("--accept", str(baseline))) == 1
     assert not baseline.exists()
-    assert "not accepted" in capsys.readouterr().out
+    assert "not accepted" in capsys.readouterr().err
 
 
 @pytest.mark.verifies("SWR-TIM-021", polarity="violation")
@@ -312,7 +314,8 @@ def test_folder_is_built_and_run_with_its_arguments(project: Path, capsys: pytes
     folder = project / "build" / "host-release" / "evidence" / "timing" / "arm"
     assert f"--model {project}/x" in (folder / "program.log").read_text(encoding="utf-8")
     assert (folder / "timing.json").exists()
-    assert "build fake_system" in capsys.readouterr().out
+    shown = capsys.readouterr()
+    assert "build fake_system" in shown.err and "build fake_system" not in shown.out
 
 
 @pytest.mark.verifies("SWR-TIM-022", technique="equivalence_classes", polarity="violation")
@@ -329,6 +332,70 @@ def test_wrong_description_ends_before_the_build(project: Path, capsys: pytest.C
     assert main(["timing", "examples/arm"]) == 2
     assert said in capsys.readouterr().err
     assert not (project / "build" / "host-release" / "examples").exists()
+
+
+@pytest.fixture
+def users(project: Path) -> Path:
+    """A project of the user's outside of Mamori, whose arm is in a folder of its own. @return its root."""
+    root = project.parent / "robot"
+    (root / "arm").mkdir(parents=True)
+    (root / "CMakeLists.txt").write_text("project(robot)\nfind_package(mamori 0.1 CONFIG REQUIRED)\n", encoding="utf-8")
+    (root / "arm" / "CMakeLists.txt").write_text("add_executable(arm main.cpp)\n", encoding="utf-8")
+    (root / "arm" / "timing.toml").write_text('program = "arm/fake_system"\ntarget = "fake_system"\narguments = ["--root", "{root}"]\n', encoding="utf-8")
+    return root
+
+
+@pytest.mark.verifies("SWR-TIM-029")
+@pytest.mark.parametrize("command_name", ["timing", "cost"])
+def test_folder_of_the_users_belongs_to_the_project_that_finds_the_package(users: Path, project: Path, command_name: str) -> None:
+    system = find_system(str(users / "arm"), Project(project), command_name)
+
+    assert system.project == Project(users)
+    assert system.program == users / "build" / "host-release" / "arm" / "fake_system"
+    assert system.arguments == ("--root", str(users))
+
+
+@pytest.mark.verifies("SWR-TIM-029")
+def test_users_project_is_built_against_the_package_and_keeps_its_results(
+    users: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prepare(users.parent)
+    calls = users.parent / "calls"
+    cmake = users.parent / "cmake"
+    target = users / "build" / "host-release" / "arm"
+    cmake.write_text(f'#!/bin/sh\necho "$*" >>{calls}\ncase "$*" in *fake_system*) mkdir -p {target} && cp {users.parent / "fake_system"} '
+                     f"{target}/fake_system;; esac\n", encoding="utf-8")  # fmt: skip
+
+    assert main(["timing", str(users / "arm"), "--cycles", "100"]) == 0
+
+    lines = calls.read_text(encoding="utf-8").splitlines()
+    assert any("--install" in line for line in lines)
+    assert any(f"-S {users} " in line and "-DCMAKE_PREFIX_PATH=" in line for line in lines)
+    assert any(f"--build {users}/build/host-release --target fake_system" in line for line in lines)
+    assert (users / "build" / "host-release" / "evidence" / "timing" / "arm" / "timing.json").exists()
+    shown = capsys.readouterr()
+    assert shown.out.startswith("arm: 100 cycles") and shown.out.rstrip().endswith("findings: 0")
+
+
+@pytest.mark.verifies("SWR-TIM-029", technique="interface")
+def test_json_is_the_record_and_nothing_else_also_when_something_is_built_first(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    prepare(project.parent)
+
+    assert main(["timing", "examples/arm", "--cycles", "100", "--json"]) == 0
+
+    shown = capsys.readouterr()
+    assert json.loads(shown.out)["schema"] == "mamori.timing/1"
+    assert "build fake_system" in shown.err
+
+
+@pytest.mark.verifies("SWR-TIM-029", technique="error_guessing", polarity="violation")
+def test_folder_that_no_project_builds_is_told(users: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (users / "CMakeLists.txt").write_text("project(robot)\n# find_package(mamori)\n", encoding="utf-8")
+
+    assert main(["timing", str(users / "arm")]) == 2
+
+    shown = capsys.readouterr()
+    assert shown.err.count("\n") == 1 and "CMakeLists.txt that calls find_package(mamori)" in shown.err and shown.out == ""
 
 
 @pytest.mark.verifies("SWR-TIM-022", technique="fault_injection", polarity="violation")

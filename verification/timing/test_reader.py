@@ -14,9 +14,13 @@ import pytest
 from timing_run import COMPONENTS, make_rows, make_run, make_table, write_run
 
 from mamori.profiles.input_error import InputError
+from mamori.verification.timing.environment import collect_setting, collect_state
 from mamori.verification.timing.reader import FILES, NOT_BACK, OPENING, read_measurement
+from mamori.verification.timing.report import make_report
+from mamori.verification.timing.text import make_text
 
 TIMES_US = [row[3] for row in COMPONENTS]
+HOST = {"setting": collect_setting(), "before": collect_state(), "after": collect_state()}
 READ_S_MAX = 5.0
 """Five times what is wanted of an idle machine: a test never fails for a busy one."""
 
@@ -64,11 +68,11 @@ def test_whole_run_is_read_with_its_steps_at_their_openings(tmp_path: Path) -> N
 def test_a_minute_of_a_thousand_cycles_a_second_is_read_in_about_a_second(tmp_path: Path) -> None:
     write(tmp_path, 60_000)
 
-    begin = time.monotonic()
+    begin = time.process_time()  # time that other programs take does not count
     run = read_measurement(tmp_path)
 
     assert len(run.steps) == 240_000
-    assert time.monotonic() - begin < READ_S_MAX
+    assert time.process_time() - begin < READ_S_MAX
 
 
 @pytest.mark.verifies("SWR-TIM-011", technique="fault_injection", polarity="violation")
@@ -104,6 +108,7 @@ def test_damaged_file_is_answered_with_its_name(tmp_path: Path, name: str, damag
      ({"reference_ns": 0}, "must be positive"),
      ({"lost_rows": 2}, "2 rows had no room; measure fewer cycles"),
      ({"notes": [1]}, "must be a text"),
+     ({"findings": "none"}, "must be a list"),
      ({"rights": {}}, "has no 'priority'")],
 )  # fmt: skip
 def test_record_that_contradicts_itself_is_refused(tmp_path: Path, change: dict[str, Any], said: str) -> None:
@@ -113,6 +118,23 @@ def test_record_that_contradicts_itself_is_refused(tmp_path: Path, change: dict[
 @pytest.mark.verifies("SWR-TIM-010")
 def test_what_the_program_has_to_say_is_passed_on(tmp_path: Path) -> None:
     assert read_measurement(write(tmp_path, notes=["the arm stands"])).notes == ("the program: the arm stands",)
+
+
+@pytest.mark.verifies("SWR-TIM-028", polarity="violation")
+def test_a_system_that_left_its_operating_state_is_a_finding_and_ends_with_1(tmp_path: Path) -> None:
+    text = "the arm left its operating state and ended in LockedOut"
+    report = make_report("arm", read_measurement(write(tmp_path, findings=[text])), HOST, False, False, [])
+
+    assert (report.findings, report.status) == ([f"the program: {text}"], 1)
+    assert f"finding: the program: {text}" in make_text(report, is_whole=False)
+
+
+@pytest.mark.verifies("SWR-TIM-028")
+@pytest.mark.parametrize("changes", [{}, {"findings": []}])
+def test_a_system_that_operates_has_no_finding(tmp_path: Path, changes: dict[str, Any]) -> None:
+    report = make_report("arm", read_measurement(write(tmp_path, **changes)), HOST, False, False, [])
+
+    assert (report.findings, report.status) == ([], 0)
 
 
 @pytest.mark.verifies("SWR-TIM-011", technique="error_guessing", polarity="violation")

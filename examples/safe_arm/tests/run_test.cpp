@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdlib>
@@ -17,6 +18,7 @@
 #include "mamori/verification/verifies.hpp"
 #include "run_recorder.hpp"
 #include "safety_supervisor.hpp"
+#include "timing_command.hpp"
 
 namespace safe_arm {
 namespace {
@@ -158,7 +160,7 @@ TEST_F(RunTest, PathThatLeavesTheRangeIsStoppedInsideTheMechanicalRange) {
 TEST_F(RunTest, TrackingIsJudgedBehindAToleratedFaultToo) {
     verifies("SWR-SAF-016", Technique::kFaultInjection);
     const std::string bias = "--fault kind=encoder_bias,joint=7,channel=a,magnitude=0.0038,at=";
-    ASSERT_EQ(run(arguments(bias + "1.2 --frames 1650")), 0) << messages_;
+    ASSERT_EQ(run(arguments("--frames 1650")), 0) << messages_;
     const double before = read_summary()["physics"]["max_tracking_error_rad"];
     ASSERT_EQ(run(arguments(bias + "0.6 --frames 1800")), 0) << messages_;
 
@@ -283,6 +285,41 @@ TEST_F(RunTest, BrokenInputGivesOneLineAndNoRecord) {
     expect_one_line("motion.dat:2:");
 }
 
+TEST_F(RunTest, FaultIsInjectedBeforeTheEndOfTheMotionOnly) {
+    verifies("SWR-SAF-024", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const char* const at : {"1", "1.001", "99"}) {
+        EXPECT_EQ(run(arguments(std::string{"--frames 700 --fault kind=power_loss,at="} + at)), 2) << at;
+        expect_one_line("is not before the end of the motion at 1.0 s");
+        EXPECT_FALSE(fs::exists(folder_ / "out")) << at;
+    }
+}
+
+TEST_F(RunTest, FaultJustBeforeTheEndOfTheMotionIsInjectedAndNoFaultNeedsNoInstant) {
+    verifies("SWR-SAF-024", Technique::kBoundaryValues);
+
+    ASSERT_EQ(run(arguments("--frames 1600 --fault kind=power_loss,at=0.999")), 0) << messages_;
+    EXPECT_EQ(read_summary()["detected_fault"], "PowerLost");
+    EXPECT_EQ(run(arguments("--frames 700 --fault kind=power_loss,at=0.999999999")), 0) << messages_;
+    EXPECT_EQ(run(arguments("--frames 700 --fault kind=none")), 0) << messages_;
+}
+
+TEST_F(RunTest, HelpListsTheKindsOfFaultsAndAWrongKindListsThemToo) {
+    verifies("SWR-SIM-015", Technique::kErrorGuessing, Polarity::kViolation);
+    const std::string wrong = arguments("--fault kind=nonsense,at=0.3");
+
+    ASSERT_EQ(run("run --help"), 0);
+    std::string help = messages_;
+    help.erase(std::remove_if(help.begin(), help.end(), [](char c) { return c == '\n' || c == ' '; }),
+               help.end());
+    ASSERT_EQ(run(wrong), 2);
+    for (const char* const kind :
+         {"none", "encoder_freeze", "encoder_bit_flip", "encoder_bias", "torque_runaway", "power_loss",
+          "brake_fade", "controller_hang", "message_lost", "message_late", "supervisor_hang"}) {
+        EXPECT_NE(help.find(kind), std::string::npos) << kind;
+        expect_one_line(kind);
+    }
+}
+
 TEST_F(RunTest, FolderThatCannotBeWrittenGivesOneLine) {
     verifies("SWR-SAF-016", Technique::kErrorGuessing, Polarity::kViolation);
     std::ofstream{folder_ / "out"} << "a file where the folder should be\n";
@@ -307,6 +344,28 @@ TEST_F(RunTest, TimingLeavesTheTimesOfEveryWindowOfEveryFrame) {
     ASSERT_EQ(facts["notes"].size(), 2U);
     EXPECT_EQ(facts["notes"][0].get<std::string>().find("the arm ended in state "), 0U) << facts["notes"];
     EXPECT_NE(messages_.find("the simulated arm was not ready for "), std::string::npos) << messages_;
+}
+
+TEST_F(RunTest, TimingOfAnArmThatOperatesOrHasNotBegunHasNoFinding) {
+    verifies("SWR-TIM-005");
+    using mamori::safety::SafeState;
+    for (const SafeState state : {SafeState::kSelfTest, SafeState::kStandby, SafeState::kOperational}) {
+        EXPECT_TRUE(make_findings(state, 0U).empty()) << static_cast<int>(state);
+    }
+}
+
+TEST_F(RunTest, TimingOfAnArmThatLeftItsOperatingStateIsAFinding) {
+    verifies("SWR-TIM-005", Technique::kFaultInjection, Polarity::kViolation);
+    using mamori::safety::SafeState;
+    for (auto state = static_cast<int>(SafeState::kDegraded);
+         state <= static_cast<int>(SafeState::kLockedOut); ++state) {
+        EXPECT_EQ(make_findings(static_cast<SafeState>(state), kArmFaultCount).size(), 1U) << state;
+    }
+    EXPECT_EQ(make_findings(SafeState::kLockedOut, 0U).front(),
+              std::string{"the arm left its operating state and ended in LockedOut, first fault "} +
+                  kArmFaultNames[0]);
+    EXPECT_EQ(make_findings(SafeState::kLockedOut, kArmFaultCount).front(),
+              "the arm left its operating state and ended in LockedOut");
 }
 
 TEST_F(RunTest, TimingOfNoCyclesIsRefused) {

@@ -1,17 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/ports/posix_rt/core_runner.hpp"
 
+#include <limits>
+
 #include "mamori/kernel/assert.hpp"
 
 namespace mamori::ports::posix_rt {
+namespace {
+
+/// End of `count` frames from `start` on, a multiple of the frame. Held one frame before the end of the time
+/// line, so that no instant of a window, nor the search for the next one, overflows.
+constexpr Instant calc_end(Instant start, Duration frame, std::uint64_t count) noexcept {
+    constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+    const std::int64_t left = (kLast - start.ns) / frame.ns - 1;
+    const bool is_short = left > 0 && count < static_cast<std::uint64_t>(left);
+    const std::int64_t frames = is_short ? static_cast<std::int64_t>(count) : left;
+    return start + frame * (frames > 0 ? frames : 0);
+}
+
+}  // namespace
 
 void CoreRunner::run(std::uint64_t frame_count) noexcept {
     MAMORI_REQUIRE(1, frame_count > 0U);
     const std::int64_t frame = executive_.get_view().frame.ns;
     const std::int64_t now = clock_.get_now().ns;
-    const std::int64_t first = now <= 0 ? 0 : (now + frame - 1) / frame;
+    // Rounded up without the sum, which could overflow.
+    const std::int64_t first = now <= 0 ? 0 : (now - 1) / frame + 1;
+    if (first > std::numeric_limits<std::int64_t>::max() / frame - 1) {
+        return;
+    }
     const Instant start{first * frame};
-    const Instant end = start + Duration{static_cast<std::int64_t>(frame_count) * frame};
+    const Instant end = calc_end(start, Duration{frame}, frame_count);
     FrameSchedule schedule{executive_.get_view(), executive_.get_core(), start};
     while (schedule.get_next().release < end && !is_stop_wanted_.load(std::memory_order_relaxed)) {
         clock_.wait_until(schedule.get_next().release);

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <optional>
 
+#include "failure_order.hpp"
 #include "mamori/kernel/assert.hpp"
 #include "mamori/ports/posix_rt/crash_note.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
@@ -19,10 +20,6 @@ namespace {
 std::optional<CrashPlan> plan_storage;
 const CrashPlan* plan{nullptr};
 std::atomic<bool> is_plan_taken{false};
-/// Number of the thread that is dying; 0: none. A lock-free word: handlers of two threads may meet here.
-std::atomic<pid_t> dying_thread{0};
-static_assert(std::atomic<pid_t>::is_always_lock_free);
-constexpr Duration kPatience{1'000'000'000};
 
 /// Not the function of the C library, which is a place to end a cancelled thread at.
 void write_back(Span<std::byte> file) noexcept {
@@ -51,13 +48,7 @@ void end_by(int signal) noexcept {
 }
 
 void on_crash(int signal, siginfo_t* info, void*) {
-    const auto self = static_cast<pid_t>(::syscall(SYS_gettid));
-    pid_t first = 0;
-    if (!dying_thread.compare_exchange_strong(first, self)) {
-        if (first != self) {
-            // Who is still here then waits for a thread that hangs in what it was told to call.
-            plan->clock.wait_until(plan->clock.get_now() + kPatience);
-        }
+    if (!detail::begin_crash()) {
         end_by(signal);
         return;
     }
@@ -66,6 +57,7 @@ void on_crash(int signal, siginfo_t* info, void*) {
         write_crash_note(plan->file, make_note(signal, *info));
         write_back(plan->file);
     }
+    detail::wait_for_failed_check();
     end_by(signal);
 }
 
@@ -88,6 +80,7 @@ Status CrashHandlers::install(const CrashPlan& wanted) noexcept {
         return Status::kPreconditionNotMet;
     }
     plan = &plan_storage.emplace(wanted);
+    detail::install_failure_gate();
     struct sigaction action{};
     action.sa_sigaction = &on_crash;
     action.sa_flags = SA_SIGINFO | SA_ONSTACK;

@@ -16,7 +16,7 @@ constexpr std::int64_t not_before_zero(std::int64_t ns) noexcept {
 
 FrameClock FrameClock::starting_in(Duration lead, const TimeSource& source) noexcept {
     MAMORI_REQUIRE(2, lead >= Duration{0});
-    return FrameClock{source, source.read_ns() + lead.ns};
+    return FrameClock{source, add_saturating(Instant{source.read_ns()}, lead).ns};
 }
 
 Instant FrameClock::get_now() const noexcept {
@@ -24,7 +24,8 @@ Instant FrameClock::get_now() const noexcept {
 }
 
 timespec FrameClock::to_timespec(Instant instant) const noexcept {
-    const std::int64_t at = not_before_zero(source_->to_monotonic(instant.ns + epoch_ns_));
+    const std::int64_t at =
+        not_before_zero(source_->to_monotonic(add_saturating(instant, Duration{epoch_ns_}).ns));
     timespec result{};
     result.tv_sec = static_cast<time_t>(at / kSecond);
     result.tv_nsec = static_cast<long>(at % kSecond);
@@ -35,7 +36,7 @@ void FrameClock::wait_until(Instant instant) const noexcept {
     // A sleep until an instant that has passed takes some 20 us all the same: a runner that catches up has
     // many.
     if (get_now() < instant) {
-        source_->wait_until(instant.ns + epoch_ns_);
+        source_->wait_until(add_saturating(instant, Duration{epoch_ns_}).ns);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/ports/posix_rt/grid_watch.hpp"
 
+#include "failure_order.hpp"
 #include "mamori/kernel/assert.hpp"
 
 namespace mamori::ports::posix_rt {
@@ -39,7 +40,7 @@ GridFinding GridCheck::look(const ClockPair& pair) noexcept {
     }
     for (std::size_t core = 0U; core < beats_.size(); ++core) {
         const Instant due = beats_[core].get_due();
-        if (due != GridBeat::kNever && pair.watched > due + lateness_) {
+        if (due != GridBeat::kNever && pair.watched > add_saturating(due, lateness_)) {
             rate_.restart();  // the time until everything counts as sound begins anew
             return {GridFault::kOverdue, core, due, pair.watched};
         }
@@ -62,12 +63,18 @@ Status GridWatch::open() noexcept {
     if (is_open_) {
         return Status::kPreconditionNotMet;
     }
+    const int own_priority = get_own_priority();
+    if (own_priority != 0 && place_.priority <= own_priority) {
+        return Status::kBadParameter;
+    }
+    detail::install_failure_gate();
     is_ending_.store(false, std::memory_order_relaxed);
-    if (pthread_create(&thread_, nullptr, &GridWatch::serve, this) != 0) {
+    ThreadRights rights;
+    if (start_thread(thread_, &GridWatch::serve, this, place_, rights) != Status::kOk) {
         return Status::kOutOfResources;
     }
     is_open_ = true;
-    right_ = combine(set_priority(thread_, place_.priority), set_processor(thread_, place_.processor));
+    right_ = combine(rights.priority, rights.processor);
     return Status::kOk;
 }
 
@@ -98,7 +105,7 @@ void GridWatch::watch() noexcept {
     const TimeSource& own = get_monotonic_clock();
     while (!is_ending_.load(std::memory_order_relaxed)) {
         look();
-        own.wait_until(own.read_ns() + period_.ns);
+        own.wait_until(add_saturating(Instant{own.read_ns()}, period_).ns);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cerrno>
 
+#include "failure_order.hpp"
 #include "mamori/kernel/assert.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
 
@@ -24,6 +25,12 @@ bool wait_for(sem_t& semaphore, const timespec& until) noexcept {
         MAMORI_INVARIANT(2, errno == EINTR);
     }
     return true;
+}
+
+/// Whether a guard of priority `runner` runs while a window of priority `window` does. Two ordinary threads
+/// share their processor.
+constexpr bool is_guarded(int window, int runner) noexcept {
+    return window == 0 || window < runner;
 }
 
 }  // namespace
@@ -58,37 +65,61 @@ void WindowThread::work_off() noexcept {
 }
 
 Status GuardedHost::start(WindowThread& thread) noexcept {
-    if (thread.is_open_) {
-        return Status::kPreconditionNotMet;
-    }
     MAMORI_ENSURE(3, sem_init(&thread.wanted_, 0, 0U) == 0 && sem_init(&thread.returned_, 0, 0U) == 0);
     thread.clock_ = &clock_;
     thread.is_ending_.store(false, std::memory_order_relaxed);
-    if (pthread_create(&thread.thread_, nullptr, &WindowThread::serve, &thread) != 0) {
+    ThreadRights rights;
+    if (start_thread(thread.thread_, &WindowThread::serve, &thread, place_, rights) != Status::kOk) {
+        static_cast<void>(sem_destroy(&thread.wanted_));
+        static_cast<void>(sem_destroy(&thread.returned_));
         return Status::kOutOfResources;
     }
     thread.is_open_ = true;
-    if (place_.priority != 0) {
-        priority_right_ = combine(priority_right_, set_priority(thread.thread_, place_.priority));
-    }
-    processor_right_ = combine(processor_right_, set_processor(thread.thread_, place_.processor));
+    thread.is_demoted_ = false;
+    thread.priority_ = rights.priority.is_granted ? place_.priority : 0;
+    window_priority_ = thread.priority_ > window_priority_ ? thread.priority_ : window_priority_;
+    priority_right_ = combine(priority_right_, rights.priority);
+    processor_right_ = combine(processor_right_, rights.processor);
     return Status::kOk;
 }
 
-Status GuardedHost::open() noexcept {
-    priority_right_ = {true, 0};
-    processor_right_ = {true, 0};
+Status GuardedHost::start_all() noexcept {
     for (WindowThread& thread : threads_) {
         const Status result = start(thread);
         if (result != Status::kOk) {
-            // One that is open already belongs to whoever opened it.
-            if (result == Status::kOutOfResources) {
-                static_cast<void>(close());
-            }
             return result;
         }
     }
     return Status::kOk;
+}
+
+Status GuardedHost::open() noexcept {
+    return open(get_own_priority());
+}
+
+Status GuardedHost::open(int runner_priority) noexcept {
+    for (const WindowThread& thread : threads_) {
+        if (thread.is_open_) {
+            return Status::kPreconditionNotMet;
+        }
+    }
+    // A runner without a priority may have been denied it, and then the windows are, too: see below.
+    if (runner_priority != 0 && !is_guarded(place_.priority, runner_priority)) {
+        return Status::kBadParameter;
+    }
+    detail::install_failure_gate();
+    priority_right_ = {true, 0};
+    processor_right_ = {true, 0};
+    window_priority_ = 0;
+    may_idle_ = place_.priority == 0 && may_leave_idle();
+    Status result = start_all();
+    if (result == Status::kOk && !is_guarded(window_priority_, runner_priority)) {
+        result = Status::kBadParameter;
+    }
+    if (result != Status::kOk) {
+        static_cast<void>(close());
+    }
+    return result;
 }
 
 Status GuardedHost::close() noexcept {
@@ -114,6 +145,9 @@ Status GuardedHost::close() noexcept {
 std::size_t GuardedHost::run_within(const Work& work, Instant deadline) noexcept {
     WindowThread& thread = threads_[work.window];
     MAMORI_REQUIRE(5, thread.is_open_ && !thread.is_out());
+    if (window_priority_ != 0) {
+        stay_below(get_own_priority());
+    }
     promote(thread);
     thread.work_ = work;
     thread.deadline_ = deadline;
@@ -132,15 +166,32 @@ std::size_t GuardedHost::run_within(const Work& work, Instant deadline) noexcept
     return thread.finished_count_.load(std::memory_order_acquire);
 }
 
+/// The calling thread runs the windows. What it cannot interrupt it cannot guard.
+void GuardedHost::stay_below(int runner_priority) noexcept {
+    if (is_guarded(window_priority_, runner_priority)) {
+        return;
+    }
+    for (WindowThread& thread : threads_) {
+        static_cast<void>(set_priority(thread.thread_, 0));
+        thread.priority_ = 0;
+    }
+    window_priority_ = 0;
+    priority_right_ = {false, EPERM};
+}
+
 void GuardedHost::demote(WindowThread& thread) noexcept {
-    if (priority_right_.is_granted && place_.priority != 0) {
+    if (thread.priority_ != 0) {
         thread.is_demoted_ = set_priority(thread.thread_, 0).is_granted;
+    } else if (may_idle_) {
+        thread.is_demoted_ = set_idle(thread.thread_).is_granted;
     }
 }
 
 void GuardedHost::promote(WindowThread& thread) noexcept {
     if (thread.is_demoted_) {
-        thread.is_demoted_ = !set_priority(thread.thread_, place_.priority).is_granted;
+        const Right right = set_priority(thread.thread_, thread.priority_);
+        thread.is_demoted_ = !right.is_granted;
+        priority_right_ = combine(priority_right_, right);
     }
 }
 

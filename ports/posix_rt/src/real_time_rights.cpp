@@ -4,9 +4,10 @@
 #include <sched.h>
 #include <sys/mman.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdint>
+
+#include "mamori/kernel/assert.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -14,16 +15,37 @@ namespace {
 constexpr std::size_t kPage = 4096U;
 constexpr std::size_t kStackMax = 1U << 20U;
 constexpr std::size_t kRoom = 64U << 20U;
+constexpr std::size_t kReserve = 4096U;  ///< for the frames below what is touched
 
 Right to_right(int system_error) noexcept {
     return {system_error == 0, system_error};
 }
 
-/// Writes into each page of the next `size` bytes of the stack, which the compiler may not leave out.
-void touch_stack(std::size_t size) noexcept {
-    std::array<volatile std::uint8_t, kStackMax> stack;
-    for (std::size_t i = 0U; i < size; i += kPage) {
-        stack[kStackMax - 1U - i] = 0U;
+/// Bytes that the calling thread's stack has left below `frame` without kReserve; 0 when Linux does not tell.
+std::size_t calc_free_stack(std::uintptr_t frame) noexcept {
+    pthread_attr_t attributes;
+    if (pthread_getattr_np(pthread_self(), &attributes) != 0) {
+        return 0U;
+    }
+    void* lowest = nullptr;
+    std::size_t size = 0U;
+    const bool is_known = pthread_attr_getstack(&attributes, &lowest, &size) == 0;
+    static_cast<void>(pthread_attr_destroy(&attributes));
+    const std::uintptr_t end = reinterpret_cast<std::uintptr_t>(lowest) + kReserve;
+    return is_known && frame > end ? static_cast<std::size_t>(frame - end) : 0U;
+}
+
+/// Writes into each page of the next `size` bytes of the stack, as far as the thread has them. The frame
+/// grows by just that: an array of the largest size would be more than a small stack holds.
+[[gnu::noinline]] void touch_stack(std::size_t size) noexcept {
+    const std::size_t free = calc_free_stack(reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)));
+    const std::size_t touched = size < free ? size : free;
+    if (touched == 0U) {
+        return;
+    }
+    auto* const stack = static_cast<volatile std::uint8_t*>(__builtin_alloca(touched));
+    for (std::size_t i = 0U; i < touched; i += kPage) {
+        stack[touched - 1U - i] = 0U;
     }
 }
 
@@ -42,12 +64,69 @@ int lock_all() noexcept {
     return 0;
 }
 
+/// SCHED_OTHER, whatever the caller has. @return 0 or the error of pthread_create().
+int create_ordinary(pthread_t& thread, void* (*run)(void*), void* argument) noexcept {
+    const sched_param none{};
+    pthread_attr_t attributes;
+    if (pthread_attr_init(&attributes) != 0) {
+        return ENOMEM;
+    }
+    // These cannot fail with constants that each Linux has.
+    MAMORI_ENSURE(1, pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED) == 0);
+    MAMORI_ENSURE(2, pthread_attr_setschedpolicy(&attributes, SCHED_OTHER) == 0);
+    MAMORI_ENSURE(3, pthread_attr_setschedparam(&attributes, &none) == 0);
+    const int result = pthread_create(&thread, &attributes, run, argument);
+    static_cast<void>(pthread_attr_destroy(&attributes));
+    return result;
+}
+
 }  // namespace
 
 Right set_priority(pthread_t thread, int priority) noexcept {
     sched_param parameters{};
     parameters.sched_priority = priority;
     return to_right(pthread_setschedparam(thread, priority == 0 ? SCHED_OTHER : SCHED_FIFO, &parameters));
+}
+
+Right set_idle(pthread_t thread) noexcept {
+    const sched_param none{};
+    return to_right(pthread_setschedparam(thread, SCHED_IDLE, &none));
+}
+
+bool may_leave_idle() noexcept {
+    const auto try_both = [](void* result) -> void* {
+        *static_cast<bool*>(result) =
+            set_idle(pthread_self()).is_granted && set_priority(pthread_self(), 0).is_granted;
+        return nullptr;
+    };
+    bool is_allowed = false;
+    pthread_t thread{};
+    if (pthread_create(&thread, nullptr, try_both, &is_allowed) != 0) {
+        return false;
+    }
+    return pthread_join(thread, nullptr) == 0 && is_allowed;
+}
+
+int get_own_priority() noexcept {
+    sched_param parameters{};
+    return ::sched_getparam(0, &parameters) == 0 ? parameters.sched_priority : 0;
+}
+
+Status start_thread(pthread_t& thread, void* (*run)(void*), void* argument, ThreadPlace place,
+                    ThreadRights& rights) noexcept {
+    pthread_t started{};
+    int result = create_ordinary(started, run, argument);
+    // Where even the ordinary policy is a privilege, the caller runs in SCHED_IDLE, and so does its thread.
+    if (result == EPERM && get_own_priority() == 0) {
+        result = pthread_create(&started, nullptr, run, argument);
+    }
+    if (result != 0) {
+        return Status::kOutOfResources;
+    }
+    thread = started;
+    rights.priority = place.priority == 0 ? to_right(0) : set_priority(started, place.priority);
+    rights.processor = set_processor(started, place.processor);
+    return Status::kOk;
 }
 
 Right set_processor(pthread_t thread, int processor) noexcept {

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "failure_order.hpp"
 #include "mamori/ports/posix_rt/crash_handlers.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
 #include "mamori/safety/elapsed.hpp"
@@ -37,22 +38,24 @@ Status SoftwareWatchdog::open(ThreadPlace place, WatchdogDevice* device) noexcep
     if (is_open_ || (device != nullptr && !device->is_open())) {
         return Status::kPreconditionNotMet;
     }
+    const int own_priority = get_own_priority();
+    if (own_priority != 0 && place.priority <= own_priority) {
+        return Status::kBadParameter;
+    }
+    detail::install_failure_gate();
     MAMORI_ENSURE(4, sem_init(&changed_, 0, 0U) == 0);
     device_ = device;
     device_due_ = clock_.get_now();
     is_ending_.store(false, std::memory_order_relaxed);
     std::int64_t closed = kClosed;
     static_cast<void>(state_.compare_exchange_strong(closed, kSilent, std::memory_order_release));
-    if (pthread_create(&thread_, nullptr, &SoftwareWatchdog::serve, this) != 0) {
+    ThreadRights rights;
+    if (start_thread(thread_, &SoftwareWatchdog::serve, this, place, rights) != Status::kOk) {
         static_cast<void>(sem_destroy(&changed_));
         return Status::kOutOfResources;
     }
     is_open_ = true;
-    priority_right_ = {true, 0};
-    if (place.priority != 0) {
-        priority_right_ = set_priority(thread_, place.priority);
-    }
-    priority_right_ = combine(priority_right_, set_processor(thread_, place.processor));
+    priority_right_ = combine(rights.priority, rights.processor);
     return Status::kOk;
 }
 
@@ -177,7 +180,8 @@ bool SoftwareWatchdog::is_device_lost(Instant now) noexcept {
 /// Until somebody posts, the time of the last service is over, or the device is due.
 void SoftwareWatchdog::wait_for_change(std::int64_t state) noexcept {
     const bool is_running = state != kSilent;
-    const Instant over = is_running ? Instant{state} + window_.longest + 1_ns : device_due_;
+    const Instant over =
+        is_running ? add_saturating(add_saturating(Instant{state}, window_.longest), 1_ns) : device_due_;
     const Instant until = device_ != nullptr && device_due_ < over ? device_due_ : over;
     if (!is_running && device_ == nullptr) {
         while (sem_wait(&changed_) != 0) {

@@ -7,8 +7,10 @@
 #include <sys/time.h>
 
 #include <csignal>
+#include <limits>
 
 #include "mamori/verification/verifies.hpp"
+#include "support/fake_clock.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -79,6 +81,36 @@ TEST(FrameClockTest, AnInstantThatHasPassedIsNotWaitedFor) {
     sut.wait_until(Instant{0} - 1_s);
     sut.wait_until(sut.get_now());
     SUCCEED() << "it came back";
+}
+
+constexpr Instant kLast{std::numeric_limits<std::int64_t>::max()};
+constexpr Instant kFirst{std::numeric_limits<std::int64_t>::min()};
+
+TEST(FrameClockTest, SumsStayWithinTheRangeOnBothSidesOfItsEnds) {
+    verifies("SWR-PRT-044", Technique::kBoundaryValues);
+    EXPECT_EQ(add_saturating(kLast - Duration{1}, Duration{1}), kLast);
+    EXPECT_EQ(add_saturating(kLast, Duration{1}), kLast);
+    EXPECT_EQ(add_saturating(kLast, Duration{kLast.ns}), kLast);
+    EXPECT_EQ(add_saturating(kLast, Duration{-1}), kLast - Duration{1});
+    EXPECT_EQ(add_saturating(kFirst + Duration{1}, Duration{-1}), kFirst);
+    EXPECT_EQ(add_saturating(kFirst, Duration{-1}), kFirst);
+    EXPECT_EQ(add_saturating(kFirst, Duration{kFirst.ns}), kFirst);
+    EXPECT_EQ(add_saturating(kFirst, Duration{kLast.ns}), Instant{-1});
+}
+
+TEST(FrameClockTest, AnInstantBeyondTheRangeLiesAheadAndHasNotPassed) {
+    verifies("SWR-PRT-044", Technique::kBoundaryValues, Polarity::kViolation);
+    FakeClock source{1'000};
+    const FrameClock sut = FrameClock::starting_in(Duration{0}, source);
+    const Instant last_exact = kLast - Duration{1'000};
+    EXPECT_EQ(to_ns(sut.to_timespec(last_exact)), kLast.ns);
+    EXPECT_EQ(to_ns(sut.to_timespec(last_exact + Duration{1})), kLast.ns);
+    EXPECT_EQ(to_ns(sut.to_timespec(kLast)), kLast.ns) << "not the clock's zero";
+
+    sut.wait_until(kLast);
+    EXPECT_EQ(source.slept_until_ns, kLast.ns);
+    const FrameClock never = FrameClock::starting_in(Duration{kLast.ns}, source);
+    EXPECT_LT(never.get_now(), Instant{0}) << "an epoch at the end of the range lies ahead, too";
 }
 
 }  // namespace

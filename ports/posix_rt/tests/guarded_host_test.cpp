@@ -6,9 +6,12 @@
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/time.h>
 
 #include <array>
 #include <atomic>
+#include <csignal>
+#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -167,26 +170,6 @@ TEST_F(GuardedHostTest, ThreadsThatAreOpenAreNotOpenedAgain) {
     EXPECT_EQ(host_.open(), Status::kOk);
 }
 
-TEST_F(GuardedHostTest, AThreadThatWasCutOffLosesItsPriorityUntilItIsBack) {
-    verifies("SWR-PRT-004", Technique::kFaultInjection, Polarity::kViolation);
-    ASSERT_EQ(host_.close(), Status::kOk);
-    GuardedHost host{threads_, clock_, {5, ThreadPlace::kAnyProcessor}};
-    ASSERT_EQ(host.open(), Status::kOk);
-    if (!host.get_priority_right().is_granted) {
-        EXPECT_EQ(host.get_priority_right().system_error, EPERM);
-    }
-    first_.is_to_hang = true;
-    ASSERT_EQ(sut_.run_window(0U, Instant{0}, host), WindowOutcome::kOverrun);
-
-    // With its priority it would keep this thread, which has none, from its processor.
-    EXPECT_EQ(sut_.run_window(1U, Instant{0}, host), WindowOutcome::kCompleted);
-    first_.is_to_hang = false;
-    while (!host.has_returned(0U)) {
-        std::this_thread::yield();
-    }
-    EXPECT_EQ(host.close(), Status::kOk);
-}
-
 class CoreRunnerTest : public ::testing::Test {
   protected:
     Actor a_{"a"};
@@ -287,6 +270,137 @@ TEST_F(CoreRunnerTest, AWindowThatHangsMovesNoOtherWindow) {
     for (const std::int64_t start : b_.starts) {
         EXPECT_EQ(start % 20'000'000, 10'000'000);
     }
+}
+
+/// Stops the run after some openings.
+class Counter final : public OpeningObserver {
+  public:
+    void before_opening(const FrameSchedule::Opening& opening, Instant) noexcept override {
+        last_release = opening.release;
+        ++count;
+        if (count == stop_at) {
+            runner->request_stop();
+        }
+    }
+    void after_opening(const FrameSchedule::Opening&, WindowOutcome) noexcept override {}
+
+    CoreRunner* runner{nullptr};
+    int stop_at{0};
+    int count{0};
+    Instant last_release{};
+};
+
+TEST_F(CoreRunnerTest, EveryNumberOfFramesHoweverLargeRunsUntilTheStop) {
+    verifies("SWR-PRT-043", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr std::uint64_t kSigned = std::numeric_limits<std::int64_t>::max();
+    constexpr std::uint64_t kFrame = 20'000'000U;
+    ASSERT_EQ(host_.open(), Status::kOk);
+    for (const std::uint64_t frames :
+         {kSigned / kFrame - 100U, kSigned / kFrame, kSigned / kFrame + 1U, 2U * (kSigned / kFrame) + 2U,
+          kSigned, kSigned + 1U, std::numeric_limits<std::uint64_t>::max()}) {
+        CoreRunner sut{executive_, host_, clock_};
+        Counter counter;
+        counter.runner = &sut;
+        counter.stop_at = 2;
+        sut.set_observer(&counter);
+
+        sut.run(frames);
+        EXPECT_EQ(sut.get_counts().opened, 2U) << frames;
+    }
+    EXPECT_EQ(host_.close(), Status::kOk);
+}
+
+TEST_F(CoreRunnerTest, RunUntilStoppedEndsByASignalHandler) {
+    verifies("SWR-PRT-043");
+    static CoreRunner* runner = nullptr;
+    runner = &sut_;
+    struct sigaction action{};
+    struct sigaction before{};
+    action.sa_handler = [](int) { runner->request_stop(); };
+    ASSERT_EQ(sigaction(SIGALRM, &action, &before), 0);
+    const itimerval in_50_ms{{0, 0}, {0, 50'000}};
+    ASSERT_EQ(host_.open(), Status::kOk);
+    ASSERT_EQ(setitimer(ITIMER_REAL, &in_50_ms, nullptr), 0);
+
+    sut_.run_until_stopped();
+
+    ASSERT_EQ(sigaction(SIGALRM, &before, nullptr), 0);
+    EXPECT_GE(clock_.get_now(), Instant{0}) << "it began with the first frame";
+    EXPECT_EQ(host_.close(), Status::kOk);
+}
+
+TEST_F(CoreRunnerTest, RunUntilStoppedEndsByAnotherThread) {
+    verifies("SWR-PRT-043");
+    ASSERT_EQ(host_.open(), Status::kOk);
+    Counter counter;
+    sut_.set_observer(&counter);
+    std::thread stopper{[this] {
+        clock_.wait_until(Instant{0} + 100_ms);
+        sut_.request_stop();
+    }};
+
+    sut_.run_until_stopped();
+
+    stopper.join();
+    EXPECT_GE(counter.count, 1);
+    EXPECT_EQ(host_.close(), Status::kOk);
+}
+
+/// Stands still but for its sleeps, which end at their instant.
+class JumpingClock final : public TimeSource {
+  public:
+    std::int64_t read_ns() const noexcept override { return now_ns; }
+    void wait_until(std::int64_t ns) const noexcept override { now_ns = ns; }
+    std::int64_t to_monotonic(std::int64_t ns) const noexcept override { return ns; }
+
+    mutable std::int64_t now_ns{0};
+};
+
+/// Runs each step at once.
+class InstantHost final : public WindowHost {
+  public:
+    explicit InstantHost(const FrameClock& clock) noexcept : clock_(clock) {}
+    Instant get_now() const noexcept override { return clock_.get_now(); }
+    Instant get_step_end() const noexcept override { return clock_.get_now(); }
+    std::size_t run_within(const Work& work, Instant) noexcept override {
+        work.run(work.argument, work.first, work.first + work.count);
+        return work.count;
+    }
+    bool has_returned(std::size_t) const noexcept override { return true; }
+
+  private:
+    const FrameClock& clock_;
+};
+
+TEST_F(CoreRunnerTest, AtTheEndOfTheTimeLineTheRunEndsOneFrameBeforeIt) {
+    verifies("SWR-PRT-043", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+    constexpr std::int64_t kFrame = 20'000'000;
+    JumpingClock source;
+    const FrameClock clock = FrameClock::starting_in(0_ms, source);
+    InstantHost host{clock};
+    // Whole frames that are left from the next begin of a frame on, and the frames that a run asks for and
+    // gets.
+    for (const auto [left, wanted, expected] : {std::array<std::int64_t, 3U>{4, 2, 2},
+                                                {4, 3, 3},
+                                                {4, 4, 3},
+                                                {4, kLast, 3},
+                                                {2, 1, 1},
+                                                {2, 2, 1},
+                                                {1, 1, 0},
+                                                {0, 1, 0}}) {
+        source.now_ns = (kLast / kFrame - left) * kFrame - 1;
+        CoreRunner sut{executive_, host, clock};
+        Counter counter;
+        sut.set_observer(&counter);
+
+        sut.run(static_cast<std::uint64_t>(wanted));
+        EXPECT_EQ(counter.count, 2 * expected) << left << " " << wanted;
+    }
+    source.now_ns = kLast;
+    CoreRunner sut{executive_, host, clock};
+    sut.run_until_stopped();
+    EXPECT_EQ(sut.get_counts().opened, 0U);
 }
 
 }  // namespace

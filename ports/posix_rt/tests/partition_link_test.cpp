@@ -71,6 +71,17 @@ class PartitionLinkTest : public ::testing::Test {
     OutPort<Message> source_{"source"};
 };
 
+TEST_F(PartitionLinkTest, AMessageOfAnEarlierRunDoesNotComeOut) {
+    verifies("SWR-PRT-013", Technique::kStateTransition);
+    ASSERT_EQ(send({7U, 1.5, Colour::kGreen}, Instant{1000}), Status::kOk);
+
+    EXPECT_EQ(receiver_.on_startup({0, Instant{5000}}), Status::kOk);
+    EXPECT_FALSE(receive(Instant{5300}));
+    EXPECT_EQ(get_news().outcome, FrameOutcome::kNothingNew);
+    ASSERT_EQ(send({8U, 2.5, Colour::kGreen}, Instant{6000}), Status::kOk);
+    EXPECT_TRUE(receive(Instant{6300}));
+}
+
 TEST_F(PartitionLinkTest, AMessageComesOutOnceWithTheAgeItHasInTheOtherPartition) {
     verifies("SWR-PRT-013");
     EXPECT_FALSE(receive(Instant{500}));
@@ -113,12 +124,28 @@ TEST_F(PartitionLinkTest, MessagesThatWereOverwrittenAreCounted) {
     EXPECT_EQ(get_news().skipped, 0U);
 }
 
-TEST_F(PartitionLinkTest, AMessageOfTheFutureHasANegativeAge) {
-    verifies("SWR-PRT-013", Technique::kBoundaryValues);
+TEST_F(PartitionLinkTest, AMessageOfTheFutureDoesNotComeOut) {
+    verifies("SWR-PRT-014", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(send({1U, 0.0, Colour::kRed}, Instant{1000}), Status::kOk);
+    ASSERT_FALSE(receive(Instant{999}));
+    EXPECT_EQ(get_news().outcome, FrameOutcome::kMalformed);
+    EXPECT_EQ(get_news().refused, 1U);
+    ASSERT_EQ(send({2U, 0.0, Colour::kRed}, Instant{2000}), Status::kOk);
+    EXPECT_TRUE(receive(Instant{2000}));
+}
 
-    ASSERT_TRUE(receive(Instant{900}));
-    EXPECT_EQ(get_news().age_ns, -100);
+TEST_F(PartitionLinkTest, AMessageOfTheFutureComesOutWithinTheTolerance) {
+    verifies("SWR-PRT-014", Technique::kBoundaryValues);
+    PartitionReceiver<Message> tolerant{"tolerant", reader_, Duration{100}};
+    ASSERT_EQ(send({1U, 0.0, Colour::kRed}, Instant{1000}), Status::kOk);
+    EXPECT_EQ(tolerant.on_execute({0, Instant{900}}), Status::kOk);
+    EXPECT_TRUE(tolerant.out.publish(Instant{900}));
+    ASSERT_TRUE(tolerant.news.publish(Instant{900}));
+    EXPECT_EQ(tolerant.news.get_published().age_ns, -100);
+
+    ASSERT_EQ(send({2U, 0.0, Colour::kRed}, Instant{1001}), Status::kOk);
+    EXPECT_EQ(tolerant.on_execute({0, Instant{900}}), Status::kOk);
+    EXPECT_FALSE(tolerant.out.publish(Instant{900}));
 }
 
 /// A frame with this content and instant; the receiver must not give it out.
@@ -150,7 +177,7 @@ TEST_F(PartitionLinkTest, WhatIsNoMessageDoesNotComeOut) {
     }
     content[kCapacity - 4U] = std::byte{1U};
     ASSERT_EQ(writer_.write({content.data(), kCapacity}, Instant{kBeyond - 1}), Status::kOk);
-    EXPECT_TRUE(receive(Instant{4}));
+    EXPECT_TRUE(receive(Instant{kBeyond - 1}));
     EXPECT_EQ(get_news().skipped, rows.size());
     EXPECT_EQ(get_news().refused, refused);
 }

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <limits>
 
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_driver.hpp"
@@ -133,6 +134,18 @@ TEST_F(SoftwareWatchdogTest, ServiceInsideTheWindowIsTaken) {
         EXPECT_EQ(sut.service(clock_.get_now()), Status::kOk);
         let_pass(kShort + 1_ms);
     }
+    EXPECT_EQ(sut.close(), Status::kOk);
+    EXPECT_EQ(outputs_.closings, 0);
+}
+
+TEST_F(SoftwareWatchdogTest, WindowWithoutAnEndNeverExpires) {
+    verifies("SWR-PRT-044", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr Duration kLongest{std::numeric_limits<std::int64_t>::max()};
+    SoftwareWatchdog sut{clock_, {0_ms, kLongest}, make_reaction()};
+    ASSERT_EQ(sut.open({}), Status::kOk);
+    ASSERT_EQ(sut.service(clock_.get_now()), Status::kOk);
+    let_pass(kShort);
+    EXPECT_FALSE(sut.has_expired());
     EXPECT_EQ(sut.close(), Status::kOk);
     EXPECT_EQ(outputs_.closings, 0);
 }

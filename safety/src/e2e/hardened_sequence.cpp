@@ -8,6 +8,9 @@ namespace mamori::safety {
 
 CheckStatus HardenedSequence::judge(std::uint32_t counter) noexcept {
     lost_count_ = 0U;
+    if (is_closed_) {
+        return CheckStatus::kWrongSequence;
+    }
     if (!is_synchronised_) {
         extend_run(counter);
         return CheckStatus::kWrongSequence;
@@ -19,11 +22,23 @@ CheckStatus HardenedSequence::judge(std::uint32_t counter) noexcept {
     }
     if (limits_.resynchronisation == Resynchronisation::kByRun) {
         extend_run(counter);
+    } else if (is_order_lost(counter)) {
+        is_synchronised_ = false;
+        is_closed_ = true;
     }
     return CheckStatus::kWrongSequence;
 }
 
+/// Whether a refused frame shows a gap. A frame up to half the counter ahead does. Any other is behind, so a
+/// replay, unless the sender may have come that far meanwhile.
+bool HardenedSequence::is_order_lost(std::uint32_t counter) const noexcept {
+    const std::uint32_t half = counter_max_ / 2U;
+    const std::uint32_t absence_max = half < kAbsenceMax ? half : kAbsenceMax;
+    return calc_counter_delta(last_, counter, counter_max_) <= half || absence_ > absence_max;
+}
+
 CheckStatus HardenedSequence::judge_against_baseline(std::uint32_t counter) noexcept {
+    count_absence();
     const std::uint32_t delta = calc_counter_delta(last_, counter, counter_max_);
     if (delta > limits_.max_delta) {
         return CheckStatus::kWrongSequence;
@@ -32,6 +47,7 @@ CheckStatus HardenedSequence::judge_against_baseline(std::uint32_t counter) noex
         return CheckStatus::kRepeated;
     }
     last_ = counter;
+    absence_ = 0U;
     lost_count_ = delta - 1U;
     return delta == 1U ? CheckStatus::kOk : CheckStatus::kOkSomeLost;
 }
@@ -43,6 +59,7 @@ void HardenedSequence::extend_run(std::uint32_t counter) noexcept {
     if (run_ >= limits_.resync_frames) {
         last_ = counter;
         run_ = 0U;
+        absence_ = 0U;
         is_synchronised_ = true;
         count_up(resync_count_);
     }
@@ -50,6 +67,7 @@ void HardenedSequence::extend_run(std::uint32_t counter) noexcept {
 
 void HardenedSequence::restart() noexcept {
     is_synchronised_ = false;
+    is_closed_ = false;
     run_ = 0U;
     lost_count_ = 0U;
 }

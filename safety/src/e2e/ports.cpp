@@ -21,7 +21,7 @@ namespace mamori::safety {
 namespace detail {
 
 inline constexpr SentIdChannel kExampleChannel{1U, 12U + 8U + 28U, 12U + 8U + 48U};
-inline constexpr E2eInLimits<HardenedSequence> kExampleLimits{Duration{1}, {}, 8U, {}};
+inline constexpr E2eInLimits<HardenedSequence> kExampleLimits{Duration{1}, {1U}, 8U, {}};
 /// A struct, for a short name of what is made of it.
 struct ExampleMessage : E2eMessage<Stamped<ExamplePayload>, E2eProfile04<>, kExampleChannel> {};
 

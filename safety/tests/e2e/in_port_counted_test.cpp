@@ -74,7 +74,7 @@ struct BrokenQueue {
         return is_broken ? Status::kOutOfResources : Status::kOk;
     }
     Instant get_published_at() const noexcept { return Instant{}; }
-    Instant get_restarted_at() const noexcept { return Instant{}; }
+    std::uint32_t get_restart_count() const noexcept { return 0U; }
 
     Payload next{};
     bool is_waiting{true};

@@ -171,6 +171,22 @@ TEST(E2eAgeTest, StampOfTheFutureIsRefused) {
     EXPECT_EQ(ends.read(), E2eWorth::kSubstitute);  // nor is it there when its instant comes
 }
 
+/// As kYoung, with a sender whose clock may be 2 ms ahead.
+inline constexpr E2eInLimits<PlainSequence> kTolerant{
+    25_ms, {1U}, 12U, {{1U, 11U}, {1U, 11U}, {1U, 11U}}, MappingRule::kSyncIsOk, 2_ms};
+
+TEST(E2eAgeTest, StampAheadOfNowIsAcceptedUpToTheTolerance) {
+    verifies("SWR-E2E-034", Technique::kBoundaryValues, Polarity::kViolation);
+    Ends<StampedMessage, kTolerant> ends{};
+    static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
+    ASSERT_EQ(ends.send({(ends.now + 12_ms).ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
+    EXPECT_EQ(ends.send({(ends.now + 12_ms).ns + 1, {2.0, Gear::kDrive}}), E2eWorth::kSubstitute);
+    EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kEarly);
+
+    EXPECT_EQ(judge_age(kLast, kFirst, 1_ns, {kLast.ns}), E2eOutcome::kEarly);
+    EXPECT_EQ(judge_age(kLast, {0}, 1_ns, {kLast.ns}), E2eOutcome::kAccepted);
+}
+
 TEST(E2eAgeTest, StampsBeyondAllTimesAreRefusedWithoutOverflow) {
     verifies("SWR-E2E-034", Technique::kErrorGuessing, Polarity::kViolation);
     StampedEnds ends{};
@@ -214,6 +230,29 @@ TYPED_TEST(E2eModeTest, ValueOfAnotherModeIsNotHeld) {
     EXPECT_EQ(this->ends_.read(), E2eWorth::kSubstitute);
     EXPECT_EQ(this->ends_.value.rad_s, kSafe.rad_s);
     EXPECT_EQ(this->ends_.sut.get_state(), ChannelState::kValid);
+}
+
+TYPED_TEST(E2eModeTest, ValueOfAnEarlierRunIsNotHeld) {
+    verifies("SWR-E2E-041", Technique::kStateTransition, Polarity::kViolation);
+    for (int run = 0; run < 2; ++run) {
+        ASSERT_EQ(this->ends_.send({1.0, Gear::kDrive}), E2eWorth::kNew);
+        ASSERT_EQ(this->ends_.read(), E2eWorth::kHeld);
+
+        // As each start of an executive does: with one and the same instant.
+        this->ends_.in.restart(mamori::kBeforeAll, this->ends_.revision);
+        EXPECT_EQ(this->ends_.read(), E2eWorth::kSubstitute);
+        EXPECT_EQ(this->ends_.value.rad_s, kSafe.rad_s);
+    }
+}
+
+TYPED_TEST(E2eModeTest, FrameAtAnInstantOfAnEarlierRunIsSeen) {
+    verifies("SWR-E2E-041", Technique::kErrorGuessing);
+    const Instant first = this->ends_.now;
+    ASSERT_EQ(this->ends_.send({1.0, Gear::kDrive}), E2eWorth::kNew);
+    this->ends_.in.restart(mamori::kBeforeAll, this->ends_.revision);
+
+    this->ends_.now = first;  // the time line of the new run begins again
+    EXPECT_EQ(this->ends_.send({2.0, Gear::kDrive}), E2eWorth::kNew);
 }
 
 TYPED_TEST(E2eModeTest, RefusedFrameOfTheNewModeDoesNotBringTheOldValueBack) {

@@ -72,7 +72,7 @@ using M44 = E2eMessage<Speed, E2eProfile44<>, kSent12>;
 
 /// Loose limits: one good reading makes the channel valid, and 10 bad ones do not end that.
 template <typename Order>
-inline constexpr E2eInLimits<Order> kLoose{100_ms, {}, 12U, {{1U, 11U}, {1U, 11U}, {1U, 11U}}};
+inline constexpr E2eInLimits<Order> kLoose{100_ms, {1U}, 12U, {{1U, 11U}, {1U, 11U}, {1U, 11U}}};
 
 /// Both ends by hand. One cycle is 10 ms: the sender's window closes, then the receiver's opens.
 template <typename Message, const auto& kLimits, typename Port = mamori::InPort<typename Message::Frame>>

@@ -169,7 +169,7 @@ TEST(HardenedSequenceTest, RewindIsRefusedForGood) {
 
     EXPECT_EQ(judge(sut, {0U, 1U, 2U, 3U}), (Statuses{kWrong, kWrong, kOk, kOk}))
         << "two frames make the baseline";
-    EXPECT_EQ(judge(sut, {100U, 101U, 102U}), (Statuses{kWrong, kWrong, kWrong}));
+    EXPECT_EQ(judge(sut, {65000U, 65001U, 65002U}), (Statuses{kWrong, kWrong, kWrong}));
     EXPECT_EQ(judge(sut, {1U, 2U, 3U}), (Statuses{kWrong, kWrong, kRepeated}));
     EXPECT_EQ(judge(sut, {4U, 6U}), (Statuses{kOk, kLost})) << "the sender was never lost";
     EXPECT_EQ(sut.get_lost_count(), 1U);
@@ -182,8 +182,94 @@ TEST(HardenedSequenceTest, StepIsJudgedAtItsLimitAndAcrossTheWrap) {
         HardenedSequence sut{{2U, 2U}, most};
 
         EXPECT_EQ(judge(sut, {most - 2U, most - 1U, most, 0U}), (Statuses{kWrong, kWrong, kOk, kOk})) << most;
-        EXPECT_EQ(judge(sut, {3U, most, 2U, 2U}), (Statuses{kWrong, kWrong, kLost, kRepeated})) << most;
+        EXPECT_EQ(judge(sut, {most, 2U, 2U}), (Statuses{kWrong, kLost, kRepeated})) << most;
+        EXPECT_EQ(judge(sut, {5U, 3U}), (Statuses{kWrong, kWrong})) << most << ": 3 steps close the channel";
     }
+}
+
+/// A channel that has just accepted frame 3.
+HardenedSequence make_synchronised(std::uint32_t max_delta, std::uint32_t counter_max) {
+    HardenedSequence sut{{max_delta, 2U}, counter_max};
+    EXPECT_EQ(judge(sut, {1U, 2U, 3U}), (Statuses{kWrong, kWrong, kOk}));
+    return sut;
+}
+
+TEST(HardenedSequenceTest, ALossWithinTheLimitDoesNotCloseTheChannel) {
+    verifies("SWR-E2E-028", Technique::kBoundaryValues);
+    HardenedSequence sut = make_synchronised(2U, 65535U);
+
+    EXPECT_EQ(judge(sut, {5U, 6U, 8U}), (Statuses{kLost, kOk, kLost}));
+    EXPECT_FALSE(sut.is_closed());
+}
+
+TEST(HardenedSequenceTest, ALargerGapClosesTheChannelThroughEveryWrapOfTheCounter) {
+    verifies("SWR-E2E-028", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const std::uint32_t most : {14U, 15U, 255U, 65535U}) {
+        for (const std::uint32_t max_delta : {1U, 2U, 7U}) {
+            for (const std::uint32_t gap : {max_delta + 1U, most / 2U}) {
+                if (gap <= max_delta || gap > most / 2U) {
+                    continue;  // profile 1 at its greatest limit: every step forward is accepted
+                }
+                HardenedSequence sut = make_synchronised(max_delta, most);
+                std::uint32_t usable = 0U;
+                for (std::uint32_t i = 0U; i < 3U * (most + 1U); ++i) {
+                    usable += is_usable(sut.judge((3U + gap + i) % (most + 1U))) ? 1U : 0U;
+                }
+                EXPECT_EQ(usable, 0U) << most << " " << max_delta << " " << gap;
+                EXPECT_TRUE(sut.is_closed());
+                EXPECT_FALSE(sut.is_synchronised());
+
+                sut.restart();
+                EXPECT_FALSE(sut.is_closed());
+                EXPECT_EQ(judge(sut, {4U, 5U, 6U}), (Statuses{kWrong, kWrong, kOk})) << "a run, as at first";
+            }
+        }
+    }
+}
+
+TEST(HardenedSequenceTest, AGapOfMoreThanHalfTheCounterClosesTheChannelAfterTheSilence) {
+    verifies("SWR-E2E-028", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const std::uint32_t most : {14U, 15U, 255U, 65535U}) {
+        const std::uint32_t half = most / 2U;
+        const std::uint32_t silence_max = half < 255U ? half : 255U;
+        for (const bool is_too_long : {false, true}) {
+            HardenedSequence sut = make_synchronised(1U, most);
+            for (std::uint32_t i = 0U; i < silence_max - (is_too_long ? 0U : 1U); ++i) {
+                sut.note_silence();
+            }
+            EXPECT_EQ(judge(sut, {(3U + half + 1U) % (most + 1U)}), Statuses{kWrong});
+            EXPECT_EQ(sut.is_closed(), is_too_long) << most;
+        }
+    }
+}
+
+TEST(HardenedSequenceTest, ASenderThatComesBackFromFarAheadStaysOut) {
+    verifies("SWR-E2E-028", Technique::kErrorGuessing, Polarity::kViolation);
+    HardenedSequence sut = make_synchronised(1U, 65535U);
+    std::uint32_t usable = 0U;
+    for (std::uint32_t i = 0U; i < 70000U; ++i) {
+        usable += is_usable(sut.judge((40000U + i) % 65536U)) ? 1U : 0U;
+    }
+    EXPECT_EQ(usable, 0U) << "without any silent check before it";
+}
+
+TEST(HardenedSequenceTest, ReplaysWhileTheSenderIsHeardCloseNothing) {
+    verifies("SWR-E2E-028", Technique::kFaultInjection);
+    HardenedSequence sut = make_synchronised(1U, 65535U);
+    for (std::uint32_t next = 4U; next < 3000U; ++next) {
+        ASSERT_EQ(judge(sut, {next - 2U, next - 1U}), (Statuses{kWrong, kRepeated}));
+        ASSERT_EQ(judge(sut, {next}), Statuses{kOk});
+    }
+    EXPECT_FALSE(sut.is_closed());
+}
+
+TEST(HardenedSequenceTest, WhereARunMayMakeABaselineNoGapCloses) {
+    verifies("SWR-E2E-028", Technique::kEquivalenceClasses);
+    HardenedSequence sut{{1U, 2U, Resynchronisation::kByRun}, 65535U};
+    ASSERT_EQ(judge(sut, {1U, 2U, 3U}), (Statuses{kWrong, kWrong, kOk}));
+
+    EXPECT_EQ(judge(sut, {100U, 101U, 102U}), (Statuses{kWrong, kWrong, kOk}));
+    EXPECT_FALSE(sut.is_closed());
 }
 
 TEST(HardenedSequenceTest, RunMakesABaselineWhereThatIsAllowed) {
@@ -353,10 +439,11 @@ TEST(HardenedSequenceTest, LimitsOutsideTheirRangeAreRefused) {
     EXPECT_EQ(HardenedSequence::find_fault({8U, 2U}, 14U), ChannelFault::kLimits);
     EXPECT_EQ(HardenedSequence::find_fault({0U, 2U}, 14U), ChannelFault::kLimits);
     EXPECT_EQ(HardenedSequence::find_fault({1U, 1U}, 14U), ChannelFault::kLimits);
+    EXPECT_EQ(HardenedSequence::find_fault({}, 14U), ChannelFault::kLimits) << "max_delta has no default";
 }
 
-/// Lets a live sender go on with losses, and plays runs of its past between, of every age inside the counter
-/// period.
+/// Lets a live sender go on with losses, and plays runs of its past between, of every age up to half the
+/// counter period.
 /// @return replayed frames that were accepted. @post `replays` were tried.
 std::uint32_t count_accepted(std::uint32_t counter_max, std::uint32_t max_delta, std::uint32_t replays,
                              std::uint32_t seed) {
@@ -374,10 +461,10 @@ std::uint32_t count_accepted(std::uint32_t counter_max, std::uint32_t max_delta,
     static_cast<void>(sut.judge(to_counter(newest)));
     std::uint32_t accepted = 0U;
     for (std::uint32_t done = 0U; done < replays;) {
-        // A frame of one period ago is the frame that is expected next; up to max_delta of them cannot be
-        // told apart.
-        const std::uint64_t age = draw(0U, period - 1U - max_delta);
-        const std::uint64_t length = draw(1U, age + 1U < 40U ? age + 1U : 40U);
+        // A frame that is older looks like one from ahead, and closes the channel.
+        const std::uint64_t age = draw(0U, period - counter_max / 2U - 1U);
+        const std::uint64_t length_max = counter_max / 2U < 40U ? counter_max / 2U : 40U;
+        const std::uint64_t length = draw(1U, age + 1U < length_max ? age + 1U : length_max);
         for (std::uint64_t i = 0U; i < length && done < replays; ++i, ++done) {
             accepted += is_usable(sut.judge(to_counter(newest - age + i))) ? 1U : 0U;
         }
@@ -387,7 +474,7 @@ std::uint32_t count_accepted(std::uint32_t counter_max, std::uint32_t max_delta,
     return accepted;
 }
 
-TEST(HardenedSequenceTest, NoneOfAMillionReplaysInsideOneCounterPeriodIsAccepted) {
+TEST(HardenedSequenceTest, NoneOfAMillionReplaysBehindTheSenderIsAccepted) {
     verifies("SWR-E2E-007", Technique::kFaultInjection, Polarity::kViolation);
     std::uint32_t seed = 20261122U;
     for (const std::uint32_t most : {14U, 15U, 255U, 65535U, 0xFFFFFFFFU}) {
@@ -404,8 +491,7 @@ TEST(HardenedSequenceTest, WhatRemainsPossibleIsAFrameOfOnePeriodAgo) {
     HardenedSequence sut{{1U, 2U}, 14U};
     ASSERT_EQ(judge(sut, {3U, 4U, 5U}), (Statuses{kWrong, kWrong, kOk}));
 
-    EXPECT_EQ(judge(sut, {7U, 6U}), (Statuses{kWrong, kOk}))
-        << "whether new or fifteen frames old, nobody can tell";
+    EXPECT_EQ(judge(sut, {6U}), Statuses{kOk}) << "whether new or fifteen frames old, nobody can tell";
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ const getTags = later(() => groupBy(data.tags.item));
 const getFindings = later(() => groupBy(data.findings.item));
 const getCases = later(() => {
   const cases = new Map();
-  data.cases.forEach(([id, anchor, passed, title, shows]) => shows.forEach(([item, polarity]) => {
+  data.cases.forEach(([id, anchor, status, title, shows]) => shows.forEach(([item, polarity]) => {
     if (!cases.has(item)) cases.set(item, []);
-    cases.get(item).push({ id, anchor, passed, title, polarity });
+    cases.get(item).push({ id, anchor, status, title, polarity });
   }));
   return cases;
 });

@@ -82,12 +82,12 @@ function drawShown([word, suite, name, href]) {
 
 // Results and cases of some items, the worst first: word, suite, name, address.
 function listShown(numbers) {
-  const rank = { failed: 0, skipped: 1, "not run": 2, passed: 3 };
+  const rank = { failed: 0, skipped: 1, unbound: 2, "not run": 3, "not shown here": 4, passed: 5 };
   const shown = [];
   for (const i of numbers) {
     for (const row of rowsOf(getResults, i)) shown.push([resultWord(row), data.results.suites[data.results.suite[row]], data.results.name[row], viewAddress("tests", { q: `${data.results.suites[data.results.suite[row]]}.${data.results.name[row]}` })]);
     for (const row of rowsOf(getUnexecuted, i)) shown.push(["not run", "", data.unexecuted.title[row], viewAddress("tests", { q: data.unexecuted.title[row], status: "not run" })]);
-    for (const each of rowsOf(getCases, i)) shown.push([each.passed ? "passed" : "failed", "campaign", each.id, `#${each.anchor}`]);
+    for (const each of rowsOf(getCases, i)) shown.push([each.status, "campaign", each.id, `#${each.anchor}`]);
   }
   return shown.sort((a, b) => rank[a[0]] - rank[b[0]]);
 }
@@ -110,7 +110,7 @@ function drawCases(number) {
   const cases = rowsOf(getCases, number);
   if (!cases.length) return null;
   return make("div", {}, make("h2", {}, "Campaign cases"), make("ul", { class: "plain" }, drawSome(cases, 20, (each) => make("li", {},
-    make("a", { href: `#${each.anchor}` }, each.id), " ", quiet(each.polarity), " ", badge(each.passed ? "passed" : "failed")))));
+    make("a", { href: `#${each.anchor}` }, each.id), " ", quiet(each.polarity), " ", badge(each.status)))));
 }
 
 function drawTags(number) {

@@ -52,7 +52,7 @@ function drawResultRow(result) {
 const SUITES_STEP = 40;
 function drawTests(rows) {
   const groups = [...groupBy(rows.map((result) => `${result.kind}\n${result.suite}`)).values()].map((group) => group.map((at) => rows[at]));
-  const rank = { failed: 0, skipped: 1, "not run": 2, passed: 3 };
+  const rank = { failed: 0, skipped: 1, unbound: 2, "not run": 3, "not shown here": 4, passed: 5 };
   const worst = (group) => group.reduce((word, result) => (rank[result.status] < rank[word] ? result.status : word), "passed");
   const suites = groups.map((group) => [group, worst(group)]).sort((a, b) => rank[a[1]] - rank[b[1]]);
   const draw = ([group, word]) => {

@@ -17,7 +17,7 @@ const findingFacets = [
   { name: "file", label: "File", of: (f) => [data.files[data.findings.file[f]]], select: true },
 ];
 const resultFacets = [
-  { name: "status", label: "Result", of: (r) => [r.status], order: ["failed", "skipped", "not run", "passed"] },
+  { name: "status", label: "Result", of: (r) => [r.status], order: ["failed", "skipped", "unbound", "not run", "not shown here", "passed"] },
   { name: "kind", label: "Kind", of: (r) => [r.kind] },
   { name: "polarity", label: "Polarity", of: (r) => [r.polarity] },
   { name: "technique", label: "Technique", of: (r) => [r.technique], select: true },
@@ -126,7 +126,7 @@ function countTests(number) {
 function drawMatrixRow(i) {
   const [passed, all] = countTests(i);
   const cases = rowsOf(getCases, i);
-  const good = cases.filter((each) => each.passed).length;
+  const good = cases.filter((each) => each.status === "passed").length;
   const failing = rowsOf(getResults, i).length > passed;
   return make("tr", {},
     make("td", { class: "title" }, itemLink(i), items.title[i]),

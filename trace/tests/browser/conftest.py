@@ -10,6 +10,8 @@ from typing import Any
 
 import pytest
 from large_project import make_large_project
+from test_cost import RECORD as COST
+from test_timing import RECORD as TIMING
 from trace_sample import make_sample
 
 from mamori.trace.checks import list_rule_ids
@@ -94,6 +96,19 @@ def small_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     sample.replace("requirements/system/system.md", "## SYS-003 Tool", "## SYS-003 <img src=x onerror=alert(1)></script>")
     sample.replace("build/host-release/evidence/junit/tools.xml", 'name="test_no_connection[b]" time="0.001">',
                    'name="test_no_connection[b]" time="0.001"><failure message="&lt;b&gt;no&lt;/b&gt;"/>')  # fmt: skip
+    out = sample.root / "report" / "index.html"
+    write_report(read_project(sample.root, None, list_rule_ids()), out)
+    return out
+
+
+@pytest.fixture(scope="session")
+def full_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report of the sample project with a measured and a counted system, in which no worst case is declared."""
+    sample = make_sample(tmp_path_factory.mktemp("full") / "project")
+    for name, record in (("timing", TIMING), ("cost", COST)):
+        path = sample.evidence / name / "safe_arm" / f"{name}.json"
+        path.parent.mkdir(parents=True)
+        path.write_text(json.dumps(record), encoding="utf-8")
     out = sample.root / "report" / "index.html"
     write_report(read_project(sample.root, None, list_rule_ids()), out)
     return out

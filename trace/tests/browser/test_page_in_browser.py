@@ -52,6 +52,57 @@ def test_no_view_makes_the_page_scroll_sideways(page: Any, small_file: Path, fra
     assert small == []
 
 
+# Boxes that scroll, cells whose content is wider than they are, and columns in which every cell is empty or a dash.
+CUT = """[...document.querySelectorAll('main td, main th, main .scroll, main table')].filter(e => e.checkVisibility() && !e.querySelector('img'))
+    .filter(e => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== 'inline'
+        || (e.tagName === 'TD' && e.getBoundingClientRect().right > e.closest('.view').getBoundingClientRect().right))
+    .map(e => e.outerHTML.slice(0, 160))"""
+EMPTY = """[...document.querySelectorAll('main table')].filter(t => t.checkVisibility() && t.tHead && t.tBodies[0].rows.length).flatMap(t => {
+    const heads = [...t.tHead.rows[t.tHead.rows.length - 1].cells];
+    const rows = [...t.tBodies].flatMap(b => [...b.rows]).filter(r => r.cells.length === heads.length);
+    return heads.filter((h, i) => rows.length && rows.every(r => ['', '–', '-'].includes(r.cells[i].innerText.replace(h.innerText, '').trim())
+        && !r.cells[i].querySelector('img, svg'))).map(h => `${t.className}: ${h.innerText}`);
+})"""
+
+
+@pytest.mark.parametrize("width", [1280, 768, 400])
+@pytest.mark.parametrize("fragment", VIEWS)
+@pytest.mark.verifies("SWR-TRC-110", technique="boundary_values", polarity="nominal")
+def test_no_cell_is_cut_and_no_column_is_empty(page: Any, full_file: Path, fragment: str, width: int) -> None:
+    page.open(full_file, fragment, width=width)
+    page.ask("document.querySelectorAll('details').forEach(e => { e.open = true; })")
+
+    assert page.ask(CUT) == []
+    assert page.ask(EMPTY) == []
+
+
+@pytest.mark.parametrize("width", [1280, 768, 400])
+@pytest.mark.verifies("SWR-TRC-069", technique="boundary_values", polarity="nominal")
+def test_the_first_screen_holds_the_three_answers(page: Any, small_file: Path, width: int) -> None:
+    page.open(small_file, width=width)
+
+    answers = page.ask("[...document.querySelectorAll('.answer')].map(e => [e.querySelector('h2').textContent, e.getBoundingClientRect().bottom])")
+    assert [question for question, _ in answers] == ["Is it safe?", "Is it complete?", "What is wrong?"]
+    assert max(bottom for _, bottom in answers) <= 900
+    for target in page.ask("[...document.querySelectorAll('.answer a')].map(a => a.getAttribute('href') + (a.dataset.query ? '?' + a.dataset.query : ''))"):
+        page.open(small_file, target, width=width)
+        assert page.ask(SHOWN) == [target[1:].split("?")[0] if "case-" not in target else "campaign"]
+
+
+@pytest.mark.verifies("SWR-TRC-111", technique="boundary_values", polarity="nominal")
+def test_drawings_of_a_case_are_read_on_400_pixels(page: Any, full_file: Path) -> None:
+    page.open(full_file, "#case-1-encoder_freeze-1", width=400)
+
+    case = "#case-1-encoder_freeze-1"
+    assert page.ask(f"document.querySelectorAll('{case} figure svg').length") == 2
+    heights = page.ask(f"[...document.querySelectorAll('{case} svg text')].map(e => parseFloat(getComputedStyle(e).fontSize) * e.getScreenCTM().a)")
+    assert len(heights) > 20 and min(heights) >= 10
+    cut = page.ask(f"[...document.querySelectorAll('{case} svg')].flatMap(s => [...s.querySelectorAll('text')].filter(e => {{"
+                   "const [a, b] = [e.getBoundingClientRect(), s.getBoundingClientRect()];"
+                   "return a.left < b.left - 1 || a.right > b.right + 1 || a.top < b.top - 1 || a.bottom > b.bottom + 1; })).map(e => e.textContent)")  # fmt: skip
+    assert cut == []
+
+
 @pytest.mark.parametrize("width", [1280, 400])
 @pytest.mark.verifies("SWR-TRC-061", technique="requirements_based", polarity="nominal")
 def test_without_scripts_all_sections_stand_one_below_the_other(page: Any, small_file: Path, width: int) -> None:

@@ -261,6 +261,9 @@ WITHOUT_FAULT = {
     "evidence-altered": "seeded in test_evidence_records.py",
     "document-link": "about documents of the project itself, which no foreign format has",
     "result-flaky": "seeded in test_foreign_results.py",
+    "not-verified": "speaks where no other rule does; seeded in test_demanded_results.py",
+    "result-not-shown": "seeded in test_demanded_results.py",
+    "result-unbound": "seeded in test_demanded_results.py and test_record.py",
     "analysis-finding": "seeded in test_analysis.py",
 }
 """Rules that no class can seed, with the reason."""

@@ -17,7 +17,7 @@ template <std::size_t kSize>
 inline constexpr safety::SentIdChannel kE2eChannel{0x0A0B0C0DU, E2eProfile::kHeaderSize + kSize,
                                                    E2eProfile::kHeaderSize + kSize};
 inline constexpr safety::E2eInLimits<safety::HardenedSequence> kE2eLimits{
-    Duration{1000}, {}, 4U, {{1U, 0U}, {1U, 0U}, {1U, 0U}}};
+    Duration{1000}, {1U}, 4U, {{1U, 0U}, {1U, 0U}, {1U, 0U}}};
 
 /// Both ports with the ends of the channel, in use: the order is found and the channel valid.
 template <std::size_t kSize>

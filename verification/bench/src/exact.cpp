@@ -57,7 +57,7 @@ struct FrameRig {
 
     std::array<std::byte, 64U> frame{};
     safety::E2eProtector<Profile> sender{kChannel};
-    safety::HardenedE2eChecker<Profile> receiver{kChannel, {}};
+    safety::HardenedE2eChecker<Profile> receiver{kChannel, {1U}};
 
     void exchange() noexcept {
         static_cast<void>(sender.protect(frame));

@@ -11,8 +11,10 @@ LossVerdict judge_losses(const std::vector<LossTrial>& trials, const std::vector
     for (const LossTrial& trial : trials) {
         verdict.requested += trial.loss != Loss::kNone ? 1U : 0U;
         if (trial.is_closed && (!trial.is_injected || trial.closed_at < trial.injected_at)) {
-            if (overlaps(stalls, trial.asked_at, trial.closed_at)) {
+            if (calc_longest_loss(stalls, trial.asked_at, trial.closed_at) >= kLongStall) {
                 ++verdict.by_host;
+            } else if (overlaps(stalls, trial.asked_at, trial.closed_at)) {
+                ++verdict.suspected;
             } else {
                 ++verdict.invented;
                 verdict.unexplained.push_back(trial);
@@ -40,8 +42,11 @@ LossVerdict judge_losses(const std::vector<LossTrial>& trials, const std::vector
         verdict.reaction_ns.push_back(std::max((trial.closed_at - over).ns, std::int64_t{0}));
         if (!is_at_once && trial.closed_at - trial.asked_at <= timeout) {
             ++verdict.early;
-        } else if (trial.closed_at - over > kTick && overlaps(stalls, over, trial.closed_at)) {
+        } else if (trial.closed_at - over > kTick &&
+                   trial.closed_at - over - calc_longest_loss(stalls, over, trial.closed_at) <= kTick) {
             ++verdict.late_by_host;
+        } else if (trial.closed_at - over > kTick && overlaps(stalls, over, trial.closed_at)) {
+            ++verdict.suspected;
         } else if (trial.closed_at - over > kTick) {
             ++verdict.late;
             verdict.unexplained.push_back(trial);

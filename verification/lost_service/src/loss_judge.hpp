@@ -19,6 +19,9 @@ using verification::Stall;
 /// Frame of the system, and what the reaction may take.
 inline constexpr Duration kTick{1'000'000};
 
+/// A stall at least as long may keep a service from its window; a shorter one makes it suspected only.
+inline constexpr Duration kLongStall{500'000};
+
 /// How the watchdog loses its service.
 enum class Loss : std::uint8_t {
     kNone,          ///< not at all
@@ -51,18 +54,20 @@ struct LossVerdict {
     std::uint64_t answered{0U};   ///< outputs closed, in time or not
     std::uint64_t unanswered{0U};
     std::uint64_t late{0U};  ///< answered more than a tick after the time was over, while the machine ran
-    std::uint64_t late_by_host{0U};  ///< likewise, while the machine stood still
+    std::uint64_t late_by_host{0U};  ///< likewise, by no more than the time of a stall
     std::uint64_t early{0U};         ///< answered before the time was over
     std::uint64_t invented{0U};      ///< closed without a loss, while the machine ran
-    /// Closed without a loss while the machine stood still, or at an end before an answer was due: frames
-    /// that the machine missed count as well.
+    /// Closed or late, and stalls of the host explain it in part.
+    std::uint64_t suspected{0U};
+    /// Closed without a loss while the host stalled for kLongStall, or at an end before an answer was due:
+    /// frames that the machine missed count as well.
     std::uint64_t by_host{0U};
     std::vector<std::int64_t> reaction_ns{};  ///< from the end of the watchdog's time to the closing
     std::vector<LossTrial> unexplained{};     ///< those that were invented, late or not answered
 
     bool is_well() const noexcept {
         return 20U * injected >= 19U * requested && answered == injected &&
-               unanswered + late + early + invented == 0U;
+               unanswered + late + early + invented + suspected == 0U;
     }
 };
 

@@ -26,13 +26,15 @@ using ports::posix_rt::WindowThread;
 using safety::GlobalStatus;
 using safety::WatchdogGate;
 using safety::WatchdogOutcome;
+using verification::Defect;
 using verification::StallWatch;
 using namespace literals;  // NOLINT: units of the table below
 
-constexpr int kStallPriority = 95;
-constexpr int kWatchdogPriority = 90;
-constexpr int kRunnerPriority = 80;
-constexpr int kWindowPriority = 70;
+/// Above what other programs use, as far as possible.
+constexpr int kStallPriority = 98;
+constexpr int kWatchdogPriority = 97;
+constexpr int kRunnerPriority = 96;
+constexpr int kWindowPriority = 95;
 constexpr safety::WatchdogWindow kWatchdogWindow{200_us, kServiceTimeout};
 /// Narrower, by the jitter of the window.
 constexpr safety::WatchdogWindow kGateWindow{300_us, 4_ms};
@@ -49,12 +51,16 @@ struct Stage {
     SoftwareWatchdog* watchdog{nullptr};
     WatchdogGate* gate{nullptr};
     std::uint64_t loss_frame{0U};
+    Defect defect{Defect::kNone};
     LossTrial trial{};
     std::atomic<bool> is_closed{false};
     std::atomic<std::int64_t> closed_at_ns{0};
 
     static void close_outputs(void* self) noexcept {
         auto& stage = *static_cast<Stage*>(self);
+        if (stage.defect == Defect::kLateRelease) {
+            stage.clock->wait_until(stage.clock->get_now() + kTick + kTick);
+        }
         stage.closed_at_ns.store(stage.clock->get_now().ns, std::memory_order_relaxed);
         stage.is_closed.store(true, std::memory_order_release);
     }
@@ -82,6 +88,11 @@ class Supervisor final : public Component {
         const bool is_lost = loss != Loss::kNone && loss != Loss::kNoWindow && frame_ >= stage.loss_frame;
         const bool is_first = is_lost && !stage.trial.is_injected;
         ++frame_;
+        if (stage.defect == Defect::kOverrun && frame_ == kFramesBefore) {
+            const Instant end = stage.clock->get_now() + kServiceTimeout + kTick;
+            while (stage.clock->get_now() < end) {
+            }
+        }
         if (is_first && loss != Loss::kRunaway) {
             stage.inject();
         }
@@ -197,6 +208,17 @@ std::uint64_t run_trial(Rig& rig, Loss loss, std::uint64_t loss_frame) {
 
 }  // namespace
 
+verification::RunEvidence LossRun::get_evidence() const noexcept {
+    return {verdict.unanswered + verdict.early,
+            verdict.late + verdict.invented,
+            verdict.suspected,
+            verdict.by_host + verdict.late_by_host,
+            frames,
+            verdict.injected,
+            verdict.requested,
+            host};
+}
+
 LossRun run_losses(const LossRequest& request) {
     static const FrameClock clock = FrameClock::starting_in(100_ms);
     static_cast<void>(ports::posix_rt::lock_memory(256U * 1024U));
@@ -208,6 +230,7 @@ LossRun run_losses(const LossRequest& request) {
     Director director;
     CoreRunner runner{executive, host, clock};
     runner.set_observer(&director);
+    stage.defect = request.defect;
     LossRun result;
     // Started once, since a component lives once; each run goes on with it.
     static const bool is_started = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
@@ -229,10 +252,7 @@ LossRun run_losses(const LossRequest& request) {
         clock.wait_until(clock.get_now() + kTick);
     }
     result.verdict = judge_losses(trials, stalls.get_stalls(), kServiceTimeout);
-    result.stalls = stalls.get_stalls().size();
-    for (const Stall& stall : stalls.get_stalls()) {
-        result.longest_stall = std::max(result.longest_stall, stall.end - stall.begin);
-    }
+    result.host = stalls.get_figures();
     result.has_priority = rig.right.is_granted;
     return result;
 }
@@ -250,22 +270,25 @@ std::string to_json(const LossRequest& request, const LossRun& run) {
         return number(key, static_cast<std::int64_t>(value));
     };
     const LossVerdict& verdict = run.verdict;
+    const verification::RunFinding finding = verification::assess_run(run.get_evidence());
     std::string list;
     for (const LossTrial& trial : verdict.unexplained) {
         list += (list.empty() ? "\n  " : ",\n  ") + to_text(trial);
     }
-    return "{\"schema\": \"mamori.lost_service/1\"" + count("seed", request.seed) +
+    return "{\"schema\": \"mamori.lost_service/2\"" + count("seed", request.seed) +
            count("trials", request.trial_count) + count("frames", run.frames) +
            count("requested", verdict.requested) + count("injected", verdict.injected) +
            count("answered", verdict.answered) + count("unanswered", verdict.unanswered) +
            count("late", verdict.late) + count("late_by_host", verdict.late_by_host) +
            count("early", verdict.early) + count("invented", verdict.invented) +
-           count("by_host", verdict.by_host) + count("stalls", run.stalls) +
-           number("longest_stall_ns", run.longest_stall.ns) + number("timeout_ns", kServiceTimeout.ns) +
-           number("reaction_p50_ns", quantile(50U)) + number("reaction_p99_ns", quantile(99U)) +
-           number("reaction_max_ns", quantile(100U)) + ",\n \"unexplained\": [" + list + "]" +
-           ",\n \"has_priority\": " + (run.has_priority ? "true" : "false") +
-           ",\n \"is_well\": " + (verdict.is_well() ? "true" : "false") + "\n}\n";
+           count("suspected", verdict.suspected) + count("by_host", verdict.by_host) +
+           count("stalls", run.host.stalls) + number("longest_stall_ns", run.host.longest_stall.ns) +
+           number("timeout_ns", kServiceTimeout.ns) + number("reaction_p50_ns", quantile(50U)) +
+           number("reaction_p99_ns", quantile(99U)) + number("reaction_max_ns", quantile(100U)) +
+           ",\n \"unexplained\": [" + list + "]" +
+           ",\n \"has_priority\": " + (run.has_priority ? "true" : "false") + ",\n \"defect\": \"" +
+           verification::get_name(request.defect) + "\",\n \"verdict\": \"" +
+           verification::get_name(finding.verdict) + "\",\n \"reason\": \"" + finding.reason + "\"\n}\n";
 }
 
 }  // namespace mamori::lost_service

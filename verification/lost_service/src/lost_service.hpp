@@ -9,6 +9,8 @@
 #include <string>
 
 #include "loss_judge.hpp"
+#include "mamori/verification/run_verdict.hpp"
+#include "mamori/verification/seeded_defect.hpp"
 
 namespace mamori::lost_service {
 
@@ -20,15 +22,18 @@ inline constexpr Duration kServiceTimeout{5'000'000};
 struct LossRequest {
     std::uint64_t trial_count{0U};
     std::uint64_t seed{1U};
+    verification::Defect defect{verification::Defect::kNone};
 };
 
 /// What came of it.
 struct LossRun {
     LossVerdict verdict{};
     std::uint64_t frames{0U};  ///< in all, most of them served
-    std::uint64_t stalls{0U};
-    Duration longest_stall{};
+    verification::HostFigures host{};
     bool has_priority{false};
+
+    /// For `assess_run()`.
+    verification::RunEvidence get_evidence() const noexcept;
 };
 
 /// Some 40 frames of 1 ms for each trial. To be called from the same thread each time.

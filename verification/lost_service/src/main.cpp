@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lost_service TRIALS SEED: prints the verdict as JSON; status 1 when a loss was not answered as it should
-// be, or something was that is none.
+// lost_service TRIALS SEED [--defect NAME]: prints the verdict as JSON. Status 0 passed, 1 failed, 2 wrong
+// arguments, 4 inconclusive.
 #include <charconv>
 #include <cstring>
 #include <iostream>
@@ -20,12 +20,16 @@ bool read_number(const char* text, std::uint64_t& number) {
 int main(int argc, char** argv) {
     using namespace mamori::lost_service;  // NOLINT: this program is made of it
     LossRequest request;
-    if (argc != 3 || !read_number(argv[1], request.trial_count) || !read_number(argv[2], request.seed) ||
+    if (!mamori::verification::take_defect(argc, argv, request.defect) ||
+        request.defect == mamori::verification::Defect::kWrongName || argc != 3 ||
+        !read_number(argv[1], request.trial_count) || !read_number(argv[2], request.seed) ||
         request.trial_count == 0U) {
-        std::cerr << "lost_service: expected TRIALS SEED: whole numbers, at least 1 trial\n";
+        std::cerr << "lost_service: expected TRIALS SEED [--defect late_release|overrun]: integers, at least "
+                     "1 trial\n";
         return 2;
     }
     const LossRun run = run_losses(request);
     std::cout << to_json(request, run);
-    return run.verdict.is_well() ? 0 : 1;
+    return mamori::verification::get_exit_status(
+        mamori::verification::assess_run(run.get_evidence()).verdict);
 }

@@ -33,7 +33,10 @@ TEST(LossJudgeTest, ClosedWithinATickAfterTheTimeIsWellAndLaterIsLateUnlessTheMa
     EXPECT_EQ(late.late, 1U);
     EXPECT_EQ(late.unexplained.size(), 1U);
     EXPECT_FALSE(late.is_well());
-    const LossVerdict excused = judge(make(Loss::kHang, 16001), {{at(14000), at(15000)}});
+    EXPECT_EQ(judge(make(Loss::kHang, 16001), {{at(14000), at(15000)}}).suspected, 1U) << "it took no time";
+    EXPECT_FALSE(judge(make(Loss::kHang, 16001), {{at(14000), at(15000)}}).is_well());
+    EXPECT_EQ(judge(make(Loss::kHang, 16300), {{at(15100), at(15399)}}).suspected, 1U);
+    const LossVerdict excused = judge(make(Loss::kHang, 16300), {{at(15100), at(15400)}});
     EXPECT_EQ(excused.late_by_host, 1U);
     EXPECT_TRUE(excused.unexplained.empty());
     EXPECT_TRUE(excused.is_well());
@@ -87,7 +90,8 @@ TEST(LossJudgeTest, ClosedWithoutALossIsInventedUnlessTheMachineStoodStill) {
     EXPECT_FALSE(judge(clean).is_well());
     EXPECT_EQ(judge(clean, {{at(15011), at(15100)}}).invented, 1U);
     EXPECT_EQ(judge(clean, {{at(9000), at(9999)}}).invented, 1U);
-    EXPECT_EQ(judge(clean, {{at(12000), at(16000)}}).by_host, 1U);
+    EXPECT_EQ(judge(clean, {{at(12000), at(12500)}}).by_host, 1U);
+    EXPECT_EQ(judge(clean, {{at(12000), at(12499)}}).suspected, 1U) << "too short for a service to be missed";
     LossTrial before = make(Loss::kHang, 10899);
     EXPECT_EQ(judge(before).invented, 1U) << "the loss came after it";
     EXPECT_EQ(judge(before).injected, 0U);

@@ -34,10 +34,13 @@ constexpr Duration kPatience = 20_s;
 /// A partition that has not done what it was told by then does not come to it.
 constexpr Duration kDeedPatience = 2_s;
 constexpr int kStartTries{20};
-constexpr std::uint64_t kForEver{1'000'000'000'000U};
 /// Frames for which there is room in the logs: some five times what a fault takes, and a slow start.
 constexpr std::size_t kFramesPerFault{1000U};
 constexpr std::size_t kFramesBeside{60'000U};
+
+/// Troubles that the host causes.
+constexpr const char* kTooSlow = "the machine is too slow: what is written down has no room";
+constexpr const char* kNoTime = "the machine gives the partition no time";
 
 /// The memory between the processes, all of it created by this one.
 struct Link {
@@ -73,9 +76,20 @@ struct Link {
 /// Takes down each opening, on the thread that runs the windows.
 class OpeningLog final : public OpeningObserver {
   public:
-    OpeningLog(const FrameClock& clock, std::size_t room) : clock_(clock) { openings.reserve(room); }
+    OpeningLog(const FrameClock& clock, std::size_t room, verification::Defect defect)
+        : clock_(clock), defect_(defect) {
+        openings.reserve(room);
+    }
 
-    void before_opening(const FrameSchedule::Opening&, Instant woke) noexcept override { woke_ = woke; }
+    void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override {
+        woke_ = woke;
+        const auto frame = static_cast<std::uint64_t>(opening.release.ns / kFrame.ns);
+        if (defect_ == verification::Defect::kLateRelease && opening.window == 1U &&
+            frame % verification::kDefectEvery == 0U) {
+            while (clock_.get_now() < opening.release + kFrame) {
+            }
+        }
+    }
     void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override {
         if (openings.size() < openings.capacity()) {
             openings.push_back({{opening.window, opening.release},
@@ -90,6 +104,7 @@ class OpeningLog final : public OpeningObserver {
 
   private:
     const FrameClock& clock_;
+    verification::Defect defect_;
     Instant woke_{};
 };
 
@@ -127,7 +142,7 @@ class Director final {
 
     const char* carry_out(const Fault& fault, std::size_t number) {
         if (clock_.get_now() > last_) {
-            return "the machine is too slow: what is written down has no room";
+            return kTooSlow;
         }
         if (!start(number)) {
             return describe(partition_.get_error());
@@ -143,7 +158,7 @@ class Director final {
                       good_count.load(std::memory_order_relaxed) > 0U;
         }
         if (!is_well) {
-            return "the machine gives the partition no time";
+            return kNoTime;
         }
         Deed deed = commit(fault.kind);
         static_cast<void>(wait([] { return is_stopped.load(std::memory_order_acquire); }, kDeedPatience));
@@ -299,10 +314,11 @@ Verdict run(const CampaignRequest& request) {
     log.looks.reserve(frames);
     log.reactions.reserve(frames);
     log.clock = &clock;
+    log.defect = request.defect;
     system_log = &log;
-    OpeningLog openings{clock, frames * kWindowCount};
+    OpeningLog openings{clock, frames * kWindowCount, request.defect};
     static_cast<void>(lock_memory(256U * 1024U));
-    if (!link.open() || host.open() != Status::kOk || executive.initialize() != Status::kOk ||
+    if (!link.open() || host.open(kRunnerPriority) != Status::kOk || executive.initialize() != Status::kOk ||
         executive.start() != Status::kOk) {
         return refuse("the safety system does not start");
     }
@@ -318,7 +334,7 @@ Verdict run(const CampaignRequest& request) {
     std::thread thread{[&runner, &right] {
         right =
             combine(set_priority(pthread_self(), kRunnerPriority), set_processor(pthread_self(), processor));
-        runner.run(kForEver);
+        runner.run_until_stopped();
     }};
     // What one fault takes at most, its starts included, still has to fit in behind.
     const Instant last{static_cast<std::int64_t>(frames) * kFrame.ns - 2 * kPatience.ns};
@@ -343,6 +359,8 @@ Verdict run(const CampaignRequest& request) {
     Verdict verdict = judge(course);
     verdict.frames = course.openings.size() / kWindowCount;
     verdict.requested = request.fault_count;
+    verdict.host = stalls.get_figures();
+    verdict.is_too_slow = trouble == kTooSlow || trouble == kNoTime;
     verdict.trouble = is_closed ? trouble : "work of a safety window hangs";
     verdict.has_run = *verdict.trouble == '\0';
     verdict.has_priority =

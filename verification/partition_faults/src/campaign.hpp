@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "judge.hpp"
+#include "mamori/verification/seeded_defect.hpp"
 
 namespace mamori::partition_faults {
 
@@ -28,6 +29,7 @@ struct CampaignRequest {
     std::uint64_t fault_count{0U};
     std::uint64_t seed{1U};
     const char* worker{nullptr};  ///< path of the program of the partition
+    verification::Defect defect{verification::Defect::kNone};
 };
 
 /// The same request gives the same faults. Each kind comes once in four faults.

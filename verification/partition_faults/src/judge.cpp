@@ -151,9 +151,13 @@ bool is_aftermath(const std::vector<Opening>& excused, const Opening& opening) {
     return contains(excused, {opening.window, opening.release - kFrame});
 }
 
-/// The machine stood still for a while, or it was late again and again: each of its gaps is too short for a
-/// stall then, and they hold a window up all the same.
+/// One stall explains alone why the window moved.
 bool is_by_machine(const Course& course, const TimedOpening& timed) {
+    return verification::calc_longest_loss(course.late_looks, timed.opening.release, timed.end) >= kLossMin;
+}
+
+/// A shorter stall, or polls that were late again and again.
+bool is_suspected(const Course& course, const TimedOpening& timed) {
     const Instant release = timed.opening.release;
     return verification::overlaps(course.stalls, release, timed.end) ||
            verification::calc_loss(course.late_looks, release, timed.end) >= kLossMin ||
@@ -175,6 +179,9 @@ void judge_order(const Course& course, Verdict& verdict) {
         if (timed.is_missed || timed.is_overrun) {
             if (is_by_machine(course, timed) || is_aftermath(excused, timed.opening)) {
                 ++verdict.moved_by_host;
+                excused.push_back(timed.opening);
+            } else if (is_suspected(course, timed)) {
+                ++verdict.moved_suspected;
                 excused.push_back(timed.opening);
             } else if (is_alone(course, timed)) {
                 verdict.moved_alone.push_back(timed);
@@ -281,8 +288,21 @@ std::uint64_t Verdict::count(Outcome outcome) const noexcept {
 bool Verdict::is_well() const noexcept {
     const std::uint64_t good = count(Outcome::kInTime) + count(Outcome::kTardyByHost);
     return has_run && good + count(Outcome::kNotDone) == requested && 20U * good >= 19U * requested &&
-           disordered + moved.size() + invented.size() == 0U &&
-           moved_alone.size() * kAloneOneIn <= quiet.openings + faulty.openings;
+           disordered + moved.size() + moved_alone.size() + moved_suspected + invented.size() == 0U;
+}
+
+verification::RunEvidence Verdict::get_evidence() const noexcept {
+    verification::RunEvidence evidence;
+    evidence.violations = count(Outcome::kUnseen) + count(Outcome::kMisnamed) + invented.size() + disordered;
+    evidence.violations += has_run || is_too_slow ? 0U : 1U;
+    evidence.unexplained = count(Outcome::kTardy) + moved.size() + moved_alone.size();
+    evidence.suspected = moved_suspected;
+    evidence.set_aside = count(Outcome::kTardyByHost) + moved_by_host + by_machine;
+    evidence.instances = quiet.openings + faulty.openings;
+    evidence.shown = count(Outcome::kInTime) + count(Outcome::kTardyByHost) + count(Outcome::kTardy);
+    evidence.requested = requested;
+    evidence.host = host;
+    return evidence;
 }
 
 Verdict judge(const Course& course) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mamori/kernel/time.hpp"
+#include "mamori/verification/run_verdict.hpp"
 #include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::partition_faults {
@@ -37,8 +38,8 @@ inline constexpr Duration kReactionTime = 2_ms;
 inline constexpr Duration kBound{(static_cast<std::int64_t>(kSilentFrames) + 2) * kFrame.ns +
                                  kReactionTime.ns};
 
-/// Time that the machine must have taken away from a window, in pieces or at once, to be the reason why it
-/// moved: half of its budget. The components need a few microseconds of that.
+/// Time that the host must have taken from a window to be the cause why it moved: half of its budget. At once
+/// it sets the window aside, in pieces it makes the run inconclusive.
 inline constexpr Duration kLossMin = 115_us;
 /// The same from the frame before on: a whole budget. A window sees two to four looks, too few to tell by
 /// them alone how slow the machine is just then; what falls between them is lost as well. Measured: less
@@ -48,9 +49,6 @@ inline constexpr Duration kSlowLossMin = 230_us;
 /// Another program must have had the processor for so long of a window to be the reason why it moved: as much
 /// as a look of the watch is late by.
 inline constexpr Duration kForeignMin = 25_us;
-/// Windows, at least, for each that moved while nobody else had the processor: more are the doing of the
-/// system itself.
-inline constexpr std::uint64_t kAloneOneIn{100'000U};
 
 /// A window that opened.
 struct Opening {
@@ -140,7 +138,8 @@ struct Verdict {
     std::uint64_t frames{0U};
     std::uint64_t disordered{0U};       ///< windows that ran out of the order of virtual time
     std::vector<TimedOpening> moved{};  ///< windows missed or cut off otherwise
-    std::uint64_t moved_by_host{0U};    ///< likewise; the machine stood still or took too much of its time
+    std::uint64_t moved_by_host{0U};  ///< likewise; the host took kLossMin at once, or the window before did
+    std::uint64_t moved_suspected{0U};        ///< likewise; a shorter stall, or losses in pieces
     std::vector<TimedOpening> moved_alone{};  ///< likewise; nobody else had the processor for kForeignMin
     std::vector<ReactionBegin> invented{};    ///< reactions that what arrived does not explain
     std::uint64_t by_machine{
@@ -149,13 +148,16 @@ struct Verdict {
     LatenessFigures faulty{};  ///< from a fault to the end of its partition
     bool has_priority{false};
     bool knows_foreign{false};
-    bool has_run{false};  ///< else the campaign could not go on: `trouble` tells why
+    verification::HostFigures host{};
+    bool has_run{false};      ///< else the campaign could not go on: `trouble` tells why
+    bool is_too_slow{false};  ///< the host is the reason
     const char* trouble{""};
 
     std::uint64_t count(Outcome outcome) const noexcept;
-    /// A few faults may not come about while the machine stands still; more that do not are no test. Nor are
-    /// windows that often move while nobody else runs.
+    /// A few faults may not come about while the machine stands still; more that do not are no test.
     bool is_well() const noexcept;
+    /// For `assess_run()`.
+    verification::RunEvidence get_evidence() const noexcept;
 };
 
 /// @return everything but `requested`, `has_priority`, `has_run` and `trouble`.

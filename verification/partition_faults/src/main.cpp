@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// partition_faults FAULTS SEED: prints the verdict as JSON; status 1 when a window moved, or a reaction was
-// missing, late or without a cause.
+// partition_faults FAULTS SEED [--defect NAME]: prints the verdict as JSON. Status 0 passed, 1 failed, 2
+// wrong arguments, 4 inconclusive.
 #include <charconv>
 #include <cstring>
 #include <iostream>
@@ -19,11 +19,13 @@ bool read(const char* text, std::uint64_t& number) {
 
 int main(int argc, char** argv) {
     using namespace mamori::partition_faults;  // NOLINT: all of it
-    CampaignRequest request{0U, 1U, MAMORI_PARTITION_WORKER};
-    if (argc != 3 || !read(argv[1], request.fault_count) || !read(argv[2], request.seed) ||
-        request.fault_count == 0U || request.fault_count > kFaultsMax) {
-        std::cerr << "partition_faults: expected FAULTS SEED: whole numbers, 1 to " << kFaultsMax
-                  << " faults\n";
+    CampaignRequest request{0U, 1U, MAMORI_PARTITION_WORKER, {}};
+    if (!mamori::verification::take_defect(argc, argv, request.defect) || argc != 3 ||
+        !read(argv[1], request.fault_count) || !read(argv[2], request.seed) || request.fault_count == 0U ||
+        request.fault_count > kFaultsMax) {
+        std::cerr << "partition_faults: expected FAULTS SEED [--defect late_release|overrun|wrong_name]: "
+                     "integers, 1 to "
+                  << kFaultsMax << " faults\n";
         return 2;
     }
     const Verdict verdict = run(request);
@@ -33,5 +35,6 @@ int main(int argc, char** argv) {
             << "partition_faults: without a fixed priority any thread of the machine moves the windows; "
                "run as root or give the program CAP_SYS_NICE\n";
     }
-    return verdict.is_well() ? 0 : 1;
+    return mamori::verification::get_exit_status(
+        mamori::verification::assess_run(verdict.get_evidence()).verdict);
 }

@@ -138,7 +138,8 @@ class Drive final : public Component {
     using Ports = mamori::Ports<&Drive::stop>;
 
     Status on_execute(ContextHandle) noexcept override {
-        const StopOrder& order = stop.read();
+        StopOrder order = stop.read();
+        seed_defect(order);
         const bool is_stop = order.reaction != static_cast<std::uint32_t>(Reaction::kNone);
         if (is_stop && !was_stop_ && system_log->clock != nullptr) {
             const bool is_known = order.fault < kReactions.size();
@@ -153,13 +154,31 @@ class Drive final : public Component {
     }
 
   private:
+    void seed_defect(StopOrder& order) noexcept {
+        if (system_log->clock == nullptr) {
+            return;
+        }
+        if (system_log->defect == verification::Defect::kWrongName && order.fault < kReactions.size()) {
+            order.fault = static_cast<std::uint16_t>((order.fault + 1U) % kReactions.size());
+        }
+        ++cycle_;
+        if (system_log->defect == verification::Defect::kOverrun &&
+            cycle_ % verification::kDefectEvery == 0U) {
+            const Instant end = system_log->clock->get_now() + kFrame;
+            while (system_log->clock->get_now() < end) {
+            }
+        }
+    }
+
+    std::uint64_t cycle_{0U};
     bool was_stop_{false};
 };
 
 Witness ask_witness{"ask_witness", 0U};
 Asker asker;
 Witness protect_witness{"protect_witness", 1U};
-ports::posix_rt::PartitionReceiver<Answer> receiver{"receiver", answer_reader};
+/// Its window may open late by its length, and then finds an answer of this frame.
+ports::posix_rt::PartitionReceiver<Answer> receiver{"receiver", answer_reader, 240_us};
 Guard guard;
 Witness act_witness{"act_witness", 2U};
 Drive drive;

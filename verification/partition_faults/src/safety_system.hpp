@@ -18,6 +18,7 @@
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/partition_link.hpp"
 #include "mamori/safety/reaction_table.hpp"
+#include "mamori/verification/seeded_defect.hpp"
 #include "messages.hpp"
 
 namespace mamori::partition_faults {
@@ -47,6 +48,7 @@ struct SystemLog {
     }
 
     const ports::posix_rt::FrameClock* clock{nullptr};  ///< nullptr: virtual time, where nobody reads it
+    verification::Defect defect{verification::Defect::kNone};  ///< in real time only
 };
 
 /// Where the components write; set while none of them runs.

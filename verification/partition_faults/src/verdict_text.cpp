@@ -102,7 +102,7 @@ std::string write_plan(const CampaignRequest& request, const Verdict& verdict) {
 
 std::string to_json(const CampaignRequest& request, const Verdict& verdict) {
     const char* const commit = std::getenv("MAMORI_COMMIT");
-    std::string text = "{\"schema\": \"mamori.partition_faults/1\",\n \"commit\": " +
+    std::string text = "{\"schema\": \"mamori.partition_faults/2\",\n \"commit\": " +
                        quote(commit == nullptr ? "unknown" : commit) + write_configuration() +
                        write_count("seed", request.seed) + write_count("requested", verdict.requested) +
                        write_count("frames", verdict.frames);
@@ -110,14 +110,18 @@ std::string to_json(const CampaignRequest& request, const Verdict& verdict) {
         const auto outcome = static_cast<Outcome>(i);
         text += write_count(get_name(outcome), verdict.count(outcome));
     }
+    const verification::RunFinding finding = verification::assess_run(verdict.get_evidence());
     text += write_count("invented", verdict.invented.size()) + write_count("by_machine", verdict.by_machine) +
             write_count("disordered", verdict.disordered) + write_count("moved", verdict.moved.size()) +
             write_count("moved_by_host", verdict.moved_by_host) +
+            write_count("moved_suspected", verdict.moved_suspected) +
             write_count("moved_alone", verdict.moved_alone.size()) +
             write("knows_foreign", verdict.knows_foreign) + write_reactions(verdict) +
             write_lateness("quiet", verdict.quiet) + write_lateness("faulty", verdict.faulty) +
             write("has_priority", verdict.has_priority) + ",\n \"trouble\": " + quote(verdict.trouble) +
-            write("is_well", verdict.is_well());
+            ",\n \"defect\": " + quote(verification::get_name(request.defect)) +
+            ",\n \"verdict\": " + quote(get_name(finding.verdict)) +
+            ",\n \"reason\": " + quote(finding.reason.c_str());
     return text +
            (verdict.is_well()
                 ? ""

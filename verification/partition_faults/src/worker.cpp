@@ -62,7 +62,6 @@ constexpr auto kSystem =
 MAMORI_CHECK(kSystem);
 ExecutiveFor executive{kSystem};
 std::array<WindowThread, 2U> threads;
-constexpr std::uint64_t kForEver{1'000'000'000'000U};
 
 /// Processes that do nothing but compute, and how long they do at most.
 constexpr int kHogs{2};
@@ -153,7 +152,7 @@ int serve(std::uint64_t seed) {
         executive.start() != Status::kOk) {
         return 1;
     }
-    std::thread thread{[] { runner.run(kForEver); }};
+    std::thread thread{[] { runner.run_until_stopped(); }};
     Diary diary{note_writer, clock};
     diary.write(Note::kRuns);
     int signal = 0;

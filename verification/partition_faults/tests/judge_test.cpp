@@ -279,13 +279,13 @@ TEST(PartitionJudgeTest, AWindowThatIsMissedOrCutOffHasMovedUnlessTheMachineStoo
 
     missed.stalls = {{at(1050), at(1300)}};
     EXPECT_EQ(judge(missed).moved.size(), 0U);
-    EXPECT_EQ(judge(missed).moved_by_host, 1U);
-    EXPECT_TRUE(is_well(missed));
+    EXPECT_EQ(judge(missed).moved_suspected, 1U) << "in part within it";
+    EXPECT_FALSE(is_well(missed));
     missed.stalls = {{at(1101), at(1300)}};
     EXPECT_EQ(judge(missed).moved.size(), 1U) << "it was over by then";
 }
 
-TEST(PartitionJudgeTest, AWindowHasNotMovedWhenTheMachineTookHalfOfItsBudgetAwayInPieces) {
+TEST(PartitionJudgeTest, AWindowFromWhichTheHostTookHalfOfItsBudgetIsSetAsideAndInPiecesSuspected) {
     verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
     Course course = make_order();
     course.openings[2U].is_missed = true;
@@ -295,14 +295,19 @@ TEST(PartitionJudgeTest, AWindowHasNotMovedWhenTheMachineTookHalfOfItsBudgetAway
 
     course.late_looks = {{at(release), at(release + 60)}, {at(release + 100), at(release + 155)}};
     EXPECT_EQ(judge(course).moved.size(), 0U);
-    EXPECT_EQ(judge(course).moved_by_host, 1U);
+    EXPECT_EQ(judge(course).moved_suspected, 1U);
     course.late_looks[1U].end = at(release + 154);
     EXPECT_EQ(judge(course).moved.size(), 1U) << "less than half";
     course.late_looks = {{at(release - 60), at(release)}, {at(release + 300), at(release + 400)}};
     EXPECT_EQ(judge(course).moved.size(), 1U) << "before it and after it";
+    course.late_looks = {{at(release), at(release + 115)}};
+    EXPECT_EQ(judge(course).moved_by_host, 1U) << "at once";
+    EXPECT_TRUE(is_well(course));
+    course.late_looks[0U].end = at(release + 114);
+    EXPECT_EQ(judge(course).moved.size(), 1U);
 }
 
-TEST(PartitionJudgeTest, AWindowInASlowStretchOfTheMachineMovedBecauseOfIt) {
+TEST(PartitionJudgeTest, AWindowInASlowStretchOfTheHostIsSuspected) {
     verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
     Course course = make_overrun();
     const std::int64_t release = course.openings[2U].opening.release.ns / 1000;
@@ -314,7 +319,7 @@ TEST(PartitionJudgeTest, AWindowInASlowStretchOfTheMachineMovedBecauseOfIt) {
                          {at(release - 300), at(release - 220)},
                          {at(release + 100), at(release + 150)}};
     EXPECT_EQ(judge(course).moved.size(), 0U);
-    EXPECT_EQ(judge(course).moved_by_host, 1U);
+    EXPECT_EQ(judge(course).moved_suspected, 1U);
     course.late_looks[2U].end = at(release - 221);
     EXPECT_EQ(judge(course).moved.size(), 1U) << "less than a budget";
 }
@@ -335,16 +340,39 @@ TEST(PartitionJudgeTest, AWindowThatMovedWhileNobodyElseRanIsNotTheDoingOfThePar
     EXPECT_TRUE(judge(course).moved_alone.empty());
 }
 
-TEST(PartitionJudgeTest, WindowsThatMoveByThemselvesAreRareOrTheSystemIsToBlame) {
+verification::RunVerdict assess(const Verdict& verdict) {
+    return verification::assess_run(verdict.get_evidence()).verdict;
+}
+
+TEST(PartitionJudgeTest, ARunThatCouldNotGoOnFailsUnlessTheHostWasTooSlow) {
+    verifies("SWR-VER-022", Technique::kFaultInjection, Polarity::kViolation);
+    Verdict verdict;
+    verdict.requested = 8U;
+    verdict.host.stalls = 500U;
+    EXPECT_EQ(assess(verdict), verification::RunVerdict::kFailed);
+    verdict.is_too_slow = true;
+    EXPECT_EQ(assess(verdict), verification::RunVerdict::kInconclusive);
+}
+
+TEST(PartitionJudgeTest, AWindowThatMovedByItselfFailsTheRunUnlessAHundredStallsWereSeen) {
     verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
     Verdict verdict;
     verdict.has_run = true;
     verdict.quiet.openings = 100'000U;
     verdict.faulty.openings = 100'000U;
-    verdict.moved_alone.resize(2U);
-    EXPECT_TRUE(verdict.is_well());
-    verdict.moved_alone.resize(3U);
+    EXPECT_EQ(assess(verdict), verification::RunVerdict::kPassed);
+    verdict.moved_alone.resize(1U);
     EXPECT_FALSE(verdict.is_well());
+    EXPECT_EQ(assess(verdict), verification::RunVerdict::kFailed);
+    verdict.host.stalls = 99U;
+    EXPECT_EQ(assess(verdict), verification::RunVerdict::kFailed);
+    verdict.host.stalls = 100U;
+    EXPECT_EQ(assess(verdict), verification::RunVerdict::kInconclusive);
+    verdict.invented.resize(1U);
+    EXPECT_EQ(assess(verdict), verification::RunVerdict::kFailed) << "what arrived is exact";
+    verdict.invented.clear();
+    verdict.disordered = 1U;
+    EXPECT_EQ(assess(verdict), verification::RunVerdict::kFailed);
 }
 
 TEST(PartitionJudgeTest, AWindowWhoseWorkIsStillOutSharesTheReasonOfTheFrameBefore) {
@@ -356,7 +384,8 @@ TEST(PartitionJudgeTest, AWindowWhoseWorkIsStillOutSharesTheReasonOfTheFrameBefo
 
     course.stalls = {{at(0), at(100)}};
     EXPECT_EQ(judge(course).moved.size(), 0U);
-    EXPECT_EQ(judge(course).moved_by_host, 2U);
+    EXPECT_EQ(judge(course).moved_suspected, 1U);
+    EXPECT_EQ(judge(course).moved_by_host, 1U) << "behind the first one";
     course.openings[2U].is_overrun = false;
     course.openings[3U].is_overrun = true;
     EXPECT_EQ(judge(course).moved.size(), 1U) << "another window";

@@ -2,8 +2,12 @@
 #include "mamori/verification/stall_watch.hpp"
 
 #include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
+#include <string>
 
 namespace mamori::verification {
 namespace {
@@ -15,6 +19,34 @@ constexpr std::size_t kRoom = 1'000'000U;
 auto find_first(const std::vector<Stall>& stalls, Instant begin) {
     return std::lower_bound(stalls.begin(), stalls.end(), begin,
                             [](const Stall& stall, Instant at) { return stall.end < at; });
+}
+
+/// Time that the calling thread was ready and did not run; 0 where the kernel does not count it.
+Duration read_run_delay() {
+    std::ifstream file{"/proc/thread-self/schedstat"};
+    std::int64_t ran = 0;
+    std::int64_t waited = 0;
+    file >> ran >> waited;
+    return Duration{file ? waited : 0};
+}
+
+/// Time that the hypervisor took from all processors [ms]; 0 where the kernel does not count it.
+std::uint64_t read_steal_ms() {
+    constexpr int kStealColumn = 8;  // the label of the row is column 0
+    constexpr std::uint64_t kMilliseconds = 1000U;
+    std::ifstream file{"/proc/stat"};
+    std::string field;
+    for (int column = 0; column < kStealColumn; ++column) {
+        file >> field;
+    }
+    std::uint64_t ticks = 0U;
+    file >> ticks;
+    return file ? ticks * kMilliseconds / static_cast<std::uint64_t>(::sysconf(_SC_CLK_TCK)) : 0U;
+}
+
+std::uint64_t read_involuntary_switches() {
+    struct rusage usage{};
+    return ::getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::uint64_t>(usage.ru_nivcsw) : 0U;
 }
 
 }  // namespace
@@ -30,6 +62,14 @@ Duration calc_loss(const std::vector<Stall>& late_looks, Instant begin, Instant 
         loss = loss + (std::min(look->end, end) - std::max(look->begin, begin));
     }
     return loss;
+}
+
+Duration calc_longest_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end) {
+    Duration longest{0};
+    for (auto look = find_first(late_looks, begin); look != late_looks.end() && look->begin < end; ++look) {
+        longest = std::max(longest, std::min(look->end, end) - std::max(look->begin, begin));
+    }
+    return longest;
 }
 
 int find_processor() noexcept {
@@ -64,6 +104,9 @@ void StallWatch::watch(Duration step, ports::posix_rt::ThreadPlace place) {
     static_cast<void>(ports::posix_rt::set_priority(pthread_self(), place.priority));
     static_cast<void>(ports::posix_rt::set_processor(pthread_self(), place.processor));
     const Duration half{step.ns / 2};
+    const Duration run_delay = read_run_delay();
+    const std::uint64_t steal_ms = read_steal_ms();
+    const std::uint64_t switches = read_involuntary_switches();
     Instant before = clock_.get_now();
     while (!is_ending_.load(std::memory_order_relaxed)) {
         const Instant planned = before + step;
@@ -71,12 +114,21 @@ void StallWatch::watch(Duration step, ports::posix_rt::ThreadPlace place) {
         const Instant now = clock_.get_now();
         if (now - before > step + step && stalls_.size() < kRoom) {
             stalls_.push_back({before, now});
+            figures_.longest_stall = std::max(figures_.longest_stall, now - before);
         }
-        if (now - planned >= half && late_looks_.size() < late_look_max_) {
-            late_looks_.push_back({planned, now});
+        if (now - planned >= half) {
+            figures_.lost = figures_.lost + (now - planned);
+            ++figures_.late_polls;
+            if (late_looks_.size() < late_look_max_) {
+                late_looks_.push_back({planned, now});
+            }
         }
         before = now;
     }
+    figures_.stalls = stalls_.size();
+    figures_.run_delay = read_run_delay() - run_delay;
+    figures_.steal_ms = read_steal_ms() - steal_ms;
+    figures_.involuntary_switches = read_involuntary_switches() - switches;
 }
 
 }  // namespace mamori::verification

@@ -10,6 +10,10 @@ constexpr std::size_t kReportRoom = 1'000'000U;
 /// Until the runner has caught up and no work is out.
 constexpr Duration kAftermath{10'000'000};
 
+std::uint64_t calc_frame(const FrameSchedule::Opening& opening) noexcept {
+    return static_cast<std::uint64_t>(opening.release.ns / kTick.ns);
+}
+
 bool is_done_before_opening(Kind kind) noexcept {
     return kind != Kind::kStuckTick && kind != Kind::kStuckRunner;
 }
@@ -23,14 +27,24 @@ Director::Director(const Stage& stage, std::vector<Injection> injections)
     course_.watch.holds.reserve(injections_.size());
     course_.watch.clock_faults.reserve(injections_.size());
     course_.watch.found.reserve(kReportRoom);
+    course_.runner_delays.reserve(kReportRoom);
 }
 
 void Director::before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept {
     release_ = opening.release;
     woke_ = woke;
+    kept_off_ = meter_.take();
+    if (is_runner_kept_off(kept_off_, woke - opening.release) &&
+        course_.runner_delays.size() < course_.runner_delays.capacity()) {
+        course_.runner_delays.push_back({opening.release - kept_off_, woke});
+    }
     reads_under_way_ += stage_.is_reading.load(std::memory_order_relaxed) ? 1U : 0U;
     if (is_sleep_held_) {
         note_held_sleep(opening);
+    }
+    if (get_surroundings().defect == Defect::kLateRelease && opening.window == 1U &&
+        calc_frame(opening) % kDefectEvery == 0U) {
+        hold_back(opening.release + kTick + kTick);
     }
     end_clock_fault();
     look_after_watch();
@@ -54,7 +68,7 @@ void Director::after_opening(const FrameSchedule::Opening& opening, WindowOutcom
 
 /// The next injection, when its frame has come and nothing is under way that would hide it.
 const Injection* Director::find_due(const FrameSchedule::Opening& opening) noexcept {
-    const auto frame = static_cast<std::uint64_t>(opening.release.ns / kTick.ns);
+    const std::uint64_t frame = calc_frame(opening);
     if (next_ == injections_.size() || frame < injections_[next_].frame || opening.release < quiet_until_ ||
         is_sleep_held_ || is_clock_wrong_ || (watch_ != nullptr && watch_->is_latched())) {
         return nullptr;
@@ -180,12 +194,15 @@ void Director::hold_back(Instant end) const noexcept {
 }
 
 void Director::on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept {
-    add({true, window, component, release_, woke_, now, Duration{0}});
+    if (get_surroundings().defect == Defect::kWrongName) {
+        component = (component + 1U) % kComponentCount;
+    }
+    add({true, window, component, release_, woke_, now, Duration{0}, kept_off_});
 }
 
 void Director::on_late_release(std::size_t window, Duration lateness, Instant now) noexcept {
     if (lateness > kTick) {
-        add({false, window, kNoIndex, release_, woke_, now, lateness});
+        add({false, window, kNoIndex, release_, woke_, now, lateness, kept_off_});
     }
 }
 

@@ -14,6 +14,7 @@
 #include "mamori/kernel/execution_observer.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
+#include "mamori/verification/run_delay.hpp"
 #include "time_faults.hpp"
 
 namespace mamori::time_faults {
@@ -64,6 +65,8 @@ class Director final : public ports::posix_rt::OpeningObserver, public Execution
     Instant quiet_until_{};
     Instant release_{};
     Instant woke_{};
+    verification::RunDelayMeter meter_{};
+    Duration kept_off_{};
     bool is_sleep_held_{false};
     bool is_guard_held_{false};
     bool is_clock_wrong_{false};

@@ -82,18 +82,28 @@ class Judge final {
     /// What is left is the machine's doing or nobody's. A window that is reported in two frames in a row is
     /// reported for one reason: its work was not back yet.
     void judge_rest(Verdict& verdict) {
+        Instant told{-1};
+        Instant covered{-1};  // up to here the host is the cause: what was due before shares it
+        bool is_aside = false;
         for (std::size_t i = 0U; i < reports_.size(); ++i) {
             const Report& report = reports_[i];
             if (explained_[i] || is_aftermath(i)) {
                 explained_[i] = true;
-            } else if (calc_loss(late_looks_, report.release, report.at) >= kLossMin) {
+            } else if (calc_longest_loss(late_looks_, report.release, report.at) >= kLossMin ||
+                       (is_aside && report.release <= covered)) {
                 explained_[i] = true;
+                is_aside = true;
+                covered = report.at;
                 ++verdict.by_host;
-            } else if (is_confirmed(report)) {
+            } else if (is_suspected(report) || report.release <= covered) {
                 explained_[i] = true;
-                ++verdict.confirmed;
+                is_aside = false;
+                covered = report.at;
+                ++verdict.suspected;
             } else {
                 ++verdict.invented;
+                verdict.times += report.release > told ? 1U : 0U;
+                told = report.at;
                 verdict.unexplained.push_back(report);
             }
         }
@@ -114,18 +124,21 @@ class Judge final {
     bool is_cut_short(const Report& report) const {
         return report.woke + plan_.budget > report.release + plan_.window_lengths[report.window];
     }
-    /// By its own reading of the clock the component did not end its first pass in time, or it never ran, or
-    /// more than half of the budget was gone when it ended, of which it needs a few microseconds: then not
-    /// much had to be taken behind that reading. And the report did not come before that could be known.
-    bool is_confirmed(const Report& report) const {
+    /// The host took half of the budget in pieces, or kept the ready runner off for as long, or a whole
+    /// budget since the frame before; or the component was ready for half of its budget and did not run, and
+    /// the report did not come too early for that.
+    bool is_suspected(const Report& report) const {
+        if (is_runner_kept_off(report.kept_off, report.woke - report.release) ||
+            calc_loss(late_looks_, report.release, report.at) >= kLossMin ||
+            calc_loss(late_looks_, report.release - kTick, report.at) >= plan_.budget) {
+            return true;
+        }
         if (!report.is_overrun || !ends_.covers(report.release)) {
             return false;
         }
         const Instant close = report.release + plan_.window_lengths[report.window];
-        const Instant deadline = std::min(report.woke + plan_.budget, close);
-        const Instant end = ends_.get(report.component, report.release);
-        return report.at >= deadline &&
-               (end == Ends::kNone || end > std::min(deadline, report.woke + kLossMin));
+        return report.at >= std::min(report.woke + plan_.budget, close) &&
+               ends_.get_kept_off(report.component, report.release) >= kLossMin;
     }
     static bool is_of_frame(const Report& report, Instant at) {
         return report.release <= at && at < report.release + kTick;
@@ -158,12 +171,34 @@ class Judge final {
 
 }  // namespace
 
+verification::RunEvidence Verdict::get_report_evidence() const noexcept {
+    constexpr std::uint64_t kWindows = 3U;
+    return {misnamed + unseen, times + tardy, suspected, by_host + tardy_by_host,
+            frames * kWindows, injected,      requested, host};
+}
+
+verification::RunEvidence Verdict::get_watch_evidence() const noexcept {
+    verification::RunEvidence evidence;
+    evidence.violations = watch.misnamed + watch.unseen;
+    evidence.unexplained = watch.invented + watch.tardy;
+    evidence.set_aside = watch.by_host + watch.tardy_by_host;
+    evidence.instances = frames;
+    evidence.host = host;
+    return evidence;
+}
+
+verification::RunEvidence Verdict::get_evidence() const noexcept {
+    verification::RunEvidence evidence = get_report_evidence();
+    const verification::RunEvidence other = get_watch_evidence();
+    evidence.violations += other.violations + (are_pages_well() ? 0U : 1U);
+    evidence.unexplained += other.unexplained;
+    evidence.set_aside += other.set_aside;
+    return evidence;
+}
+
 Verdict judge(const Plan& plan, const Course& course) {
     Verdict verdict;
-    verdict.stalls = course.stalls.size();
-    for (const Stall& stall : course.stalls) {
-        verdict.longest_stall = std::max(verdict.longest_stall, stall.end - stall.begin);
-    }
+    verdict.host = course.host;
     Judge judge{plan, course};
     for (const Deed& deed : course.deeds) {
         judge.judge(deed, verdict);
@@ -172,7 +207,11 @@ Verdict judge(const Plan& plan, const Course& course) {
         judge.judge(delay, verdict);
     }
     judge.judge_rest(verdict);
-    verdict.watch = judge_watch(plan.watch, course.watch, course.stalls);
+    std::vector<Stall> stalls = course.stalls;
+    stalls.insert(stalls.end(), course.runner_delays.begin(), course.runner_delays.end());
+    std::sort(stalls.begin(), stalls.end(),
+              [](const Stall& left, const Stall& right) { return left.end < right.end; });
+    verdict.watch = judge_watch(plan.watch, course.watch, stalls);
     verdict.injected += verdict.watch.clock_faults_seen;
     verdict.seen += verdict.watch.clock_faults_seen;
     return verdict;

@@ -10,6 +10,7 @@
 
 #include "mamori/kernel/system_table.hpp"
 #include "mamori/kernel/time.hpp"
+#include "mamori/verification/run_verdict.hpp"
 #include "watch_judge.hpp"
 
 namespace mamori::time_faults {
@@ -17,12 +18,9 @@ namespace mamori::time_faults {
 /// Frame of the system: what "within one tick" means.
 inline constexpr Duration kTick{1'000'000};
 
-/// Time that the machine must have taken away from a window, in pieces or at once, to be the reason of what
-/// is reported about it: half of the budget. The components need a few microseconds of that.
+/// Time that the host must have taken from a window to be the cause of what is reported about it: half of the
+/// budget. At once it sets the report aside, in pieces it makes the run inconclusive.
 inline constexpr Duration kLossMin{100'000};
-
-/// Frames for each late end, behind a first one, that nothing but the component's own clock explains.
-inline constexpr std::uint64_t kConfirmedOneIn{20'000U};
 
 /// Page faults that need no disk, of all threads of the windows together, in a run with locked memory: the
 /// kernel moves a page now and then.
@@ -37,7 +35,14 @@ struct Report {
     Instant woke{};
     Instant at{};
     Duration lateness{};  ///< of a late release
+    Duration kept_off{};  ///< time that the runner was ready and did not run, since the opening before
 };
+
+/// The runner was ready and did not run for half of the time that it is late, and for kLossMin. The threads
+/// that watch it take a little of its time themselves.
+constexpr bool is_runner_kept_off(Duration kept_off, Duration lateness) noexcept {
+    return kept_off >= kLossMin && kept_off + kept_off >= lateness;
+}
 
 /// Why a component took too long.
 enum class Cause : std::uint8_t {
@@ -54,20 +59,24 @@ struct Deed {
     Cause cause{Cause::kWork};
 };
 
-/// When each cycle of each component ended, as the component itself read the clock.
+/// When each cycle of each component ended, as the component itself read the clock, and for how long of it
+/// the component was ready and did not run; 0 when it computed or waited too long itself.
 class Ends final {
   public:
     static constexpr Instant kNone{-1};
 
     /// @param[in] frame_count those behind are not written down.
     Ends(std::size_t component_count, std::uint64_t frame_count)
-        : frame_count_(frame_count), ends_(component_count * frame_count, kNone) {}
+        : frame_count_(frame_count),
+          ends_(component_count * frame_count, kNone),
+          kept_off_(component_count * frame_count) {}
     Ends() = default;
 
     /// Thread safety: each component from one thread at a time. @param[in] release of its window.
-    void set(std::size_t component, Instant release, Instant end) noexcept {
+    void set(std::size_t component, Instant release, Instant end, Duration kept_off = Duration{0}) noexcept {
         if (covers(release)) {
             ends_[find(component, release)] = end;
+            kept_off_[find(component, release)] = kept_off;
         }
     }
     /// Whether the frame of a window is written down.
@@ -75,6 +84,10 @@ class Ends final {
     /// @pre covers(release). @return kNone: it did not end.
     Instant get(std::size_t component, Instant release) const noexcept {
         return ends_[find(component, release)];
+    }
+    /// @pre covers(release).
+    Duration get_kept_off(std::size_t component, Instant release) const noexcept {
+        return kept_off_[find(component, release)];
     }
 
   private:
@@ -87,10 +100,11 @@ class Ends final {
 
     std::uint64_t frame_count_{0U};
     std::vector<Instant> ends_{};
+    std::vector<Duration> kept_off_{};
 };
 
 /// What became of a run. All is well when nearly all faults took effect, each was seen, and nothing was
-/// misnamed, unseen, tardy or invented, and few were confirmed by nothing but a component's own clock.
+/// misnamed, unseen, tardy, invented or suspected.
 struct Verdict {
     std::uint64_t frames{0U};
     std::uint64_t requested{0U};      ///< faults
@@ -101,11 +115,10 @@ struct Verdict {
     std::uint64_t tardy{0U};          ///< reported more than a tick after its deadline, while the machine ran
     std::uint64_t tardy_by_host{0U};  ///< likewise, while the machine stood still
     std::uint64_t invented{0U};       ///< reported without a fault, though the machine took nothing away
-    std::uint64_t by_host{0U};        ///< reported without a fault; the machine took kLossMin or more away
-    /// Likewise; nothing was seen to be taken, but the component's own clock tells of it.
-    std::uint64_t confirmed{0U};
-    std::uint64_t stalls{0U};  ///< times at which the machine stood still for a tenth of a tick or more
-    Duration longest_stall{};
+    std::uint64_t times{0U};          ///< of those invented; one that delays several windows counts once
+    std::uint64_t by_host{0U};        ///< reported without a fault; the host took kLossMin or more at once
+    std::uint64_t suspected{0U};      ///< likewise, in pieces; or it kept a ready component from running
+    verification::HostFigures host{};
     std::vector<std::int64_t> detection_ns{};  ///< from the deadline of each overrun to its report
     std::vector<Report> unexplained{};         ///< those that were invented
     std::vector<Deed> overlooked{};            ///< those that were misnamed or unseen
@@ -121,16 +134,20 @@ struct Verdict {
     bool has_priority{false};
 
     /// A fault may miss its place while the machine stands still; more than a few that do are no test.
-    /// Components that often end too late by themselves are none either.
     bool are_reports_well() const noexcept {
         return 20U * injected >= 19U * requested && seen == injected &&
-               misnamed + unseen + tardy + invented == 0U && confirmed <= 1U + frames / kConfirmedOneIn;
+               misnamed + unseen + tardy + invented + suspected == 0U;
     }
     /// Without locked memory nothing is asked.
     bool are_pages_well() const noexcept {
         return !has_locked_memory || (major_faults == 0 && minor_faults <= kMinorFaultsMax);
     }
     bool is_well() const noexcept { return are_reports_well() && watch.is_well() && are_pages_well(); }
+
+    /// For `assess_run()`: of the reports, of the watch, of both and the page faults.
+    verification::RunEvidence get_report_evidence() const noexcept;
+    verification::RunEvidence get_watch_evidence() const noexcept;
+    verification::RunEvidence get_evidence() const noexcept;
 };
 
 /// A window that was held back.
@@ -157,9 +174,12 @@ struct Course {
     WatchCourse watch{};
     std::vector<Stall> late_looks{};  ///< of whoever tells of stalls
     Ends ends{};
+    verification::HostFigures host{};
+    /// The runner was ready and did not run, for kLossMin or more: from the planned opening to the wake-up.
+    std::vector<Stall> runner_delays{};
 };
 
-/// @return the counts from `injected` to `longest_stall`, and all from `detection_ns` to `watch`; the rest is
+/// @return the counts from `injected` to `host`, and all from `detection_ns` to `watch`; the rest is
 /// the caller's.
 Verdict judge(const Plan& plan, const Course& course);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// time_faults FRAMES FAULTS SEED [storm]: prints the verdict as JSON; status 1 when a fault was not seen as
-// it should be, or something was that is none.
+// time_faults FRAMES FAULTS SEED [storm] [--defect NAME]: prints the verdict as JSON. Status 0 passed, 1
+// failed, 2 wrong arguments, 4 inconclusive.
 #include <charconv>
 #include <cstring>
 #include <iostream>
@@ -9,28 +9,40 @@
 
 namespace {
 
+using namespace mamori::time_faults;  // NOLINT: this program is made of it
+
 bool read(const char* text, std::uint64_t& number) {
     const char* const end = text + std::strlen(text);
     const std::from_chars_result result = std::from_chars(text, end, number);
     return result.ec == std::errc{} && result.ptr == end;
 }
 
+bool read(int argc, char** argv, Request& request) {
+    std::uint64_t faults = 0U;
+    if (!mamori::verification::take_defect(argc, argv, request.defect)) {
+        return false;
+    }
+    request.with_storm = argc == 5 && std::strcmp(argv[4], "storm") == 0;
+    if ((argc != 4 && !request.with_storm) || !read(argv[1], request.frame_count) || !read(argv[2], faults) ||
+        !read(argv[3], request.seed)) {
+        return false;
+    }
+    request.injection_count = faults;
+    return request.frame_count != 0U && faults <= request.frame_count / kDistance;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    mamori::time_faults::Request request;
-    std::uint64_t faults = 0U;
-    request.with_storm = argc == 5 && std::strcmp(argv[4], "storm") == 0;
-    if ((argc != 4 && !request.with_storm) || !read(argv[1], request.frame_count) || !read(argv[2], faults) ||
-        !read(argv[3], request.seed) || request.frame_count == 0U ||
-        faults > request.frame_count / mamori::time_faults::kDistance) {
-        std::cerr << "time_faults: expected FRAMES FAULTS SEED and perhaps 'storm': whole numbers, at least "
-                     "1 frame and "
-                  << mamori::time_faults::kDistance << " frames for each fault\n";
+    Request request;
+    if (!read(argc, argv, request)) {
+        std::cerr << "time_faults: expected FRAMES FAULTS SEED [storm] [--defect "
+                     "late_release|overrun|wrong_name]: integers, at least 1 frame and "
+                  << kDistance << " frames for each fault\n";
         return 2;
     }
-    request.injection_count = faults;
-    const mamori::time_faults::Verdict verdict = mamori::time_faults::run(request);
-    std::cout << mamori::time_faults::to_json(request, verdict);
-    return verdict.is_well() ? 0 : 1;
+    const Verdict verdict = run(request);
+    std::cout << to_json(request, verdict);
+    return mamori::verification::get_exit_status(
+        mamori::verification::assess_run(verdict.get_evidence()).verdict);
 }

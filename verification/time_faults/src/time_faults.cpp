@@ -26,10 +26,11 @@ using verification::StallWatch;
 
 constexpr Duration kLead{500'000'000};
 constexpr std::size_t kLooksPerFrame = 20U;
-constexpr int kStallPriority = 90;
-constexpr int kWatchPriority = 85;
-constexpr int kRunnerPriority = 80;
-constexpr int kWindowPriority = 70;
+/// Above what other programs use, as far as possible.
+constexpr int kStallPriority = 98;
+constexpr int kWatchPriority = 97;
+constexpr int kRunnerPriority = 96;
+constexpr int kWindowPriority = 95;
 constexpr int kMiddlePriority = 60;
 
 std::array<WindowThread, kWindowCount> threads;
@@ -79,6 +80,7 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
     Course course = director.get_course();
     course.stalls = stalls.get_stalls();
     course.late_looks = stalls.get_late_looks();
+    course.host = stalls.get_figures();
     return course;
 }
 
@@ -141,6 +143,7 @@ Verdict run(const Request& request) {
     get_surroundings().deeds = &deeds;
     get_surroundings().mutex = &inversion.get_mutex();
     get_surroundings().ends = &ends;
+    get_surroundings().defect = request.defect;
     const Right right = combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
                                 ports::posix_rt::set_processor(pthread_self(), processor));
     static GuardedHost host{threads, clock, {kWindowPriority, processor}};

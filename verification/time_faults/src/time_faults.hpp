@@ -17,8 +17,12 @@
 #include "judge.hpp"
 #include "mamori/kernel/time.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
+#include "mamori/verification/seeded_defect.hpp"
 
 namespace mamori::time_faults {
+
+using verification::Defect;
+using verification::kDefectEvery;
 
 /// Frames between two faults, at least: the longest fault, its aftermath, and the reset of the watch.
 inline constexpr std::uint64_t kDistance = 80U;
@@ -55,6 +59,7 @@ struct Request {
     std::size_t injection_count{0U};
     std::uint64_t seed{1U};
     bool with_storm{false};  ///< a process beside it faults pages all the time
+    Defect defect{Defect::kNone};
 };
 
 /// The same request gives the same faults, in the order of their frames.

@@ -91,7 +91,7 @@ std::string to_text(const WatchVerdict& watch) {
 
 std::string to_json(const Request& request, const Verdict& verdict) {
     Fields fields;
-    fields.add("schema", std::string{"\"mamori.time_faults/2\""});
+    fields.add("schema", std::string{"\"mamori.time_faults/3\""});
     fields.add("seed", request.seed);
     fields.add("frames", verdict.frames);
     fields.add("requested", verdict.requested);
@@ -103,9 +103,9 @@ std::string to_json(const Request& request, const Verdict& verdict) {
     fields.add("tardy_by_host", verdict.tardy_by_host);
     fields.add("invented", verdict.invented);
     fields.add("by_host", verdict.by_host);
-    fields.add("confirmed", verdict.confirmed);
-    fields.add("stalls", verdict.stalls);
-    fields.add("longest_stall_ns", verdict.longest_stall.ns);
+    fields.add("suspected", verdict.suspected);
+    fields.add("stalls", verdict.host.stalls);
+    fields.add("longest_stall_ns", verdict.host.longest_stall.ns);
     fields.add_times("detection", verdict.detection_ns);
     fields.add("unexplained", to_list(verdict.unexplained));
     fields.add("overlooked", to_list(verdict.overlooked));
@@ -119,7 +119,10 @@ std::string to_json(const Request& request, const Verdict& verdict) {
     fields.add_flag("has_storm", verdict.has_storm);
     fields.add_flag("has_locked_memory", verdict.has_locked_memory);
     fields.add_flag("has_priority", verdict.has_priority);
-    fields.add_flag("is_well", verdict.is_well());
+    const verification::RunFinding finding = verification::assess_run(verdict.get_evidence());
+    fields.add("defect", std::string{"\""} + verification::get_name(request.defect) + "\"");
+    fields.add("verdict", std::string{"\""} + get_name(finding.verdict) + "\"");
+    fields.add("reason", "\"" + finding.reason + "\"");
     return fields.get_object() + "\n";
 }
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "victims.hpp"
 
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <ctime>
+
 namespace mamori::time_faults {
 namespace {
 
@@ -18,6 +23,21 @@ MAMORI_CHECK(kSystem);
 ExecutiveFor executive{kSystem};
 IntrospectionFor introspection{kSystem};
 std::array<Victim*, kComponentCount> victims{&alpha, &beta, &gamma, &delta};
+
+/// Of the calling thread.
+struct ThreadTimes {
+    Duration processor{};
+    std::int64_t voluntary_switches{0};
+};
+
+ThreadTimes read_thread_times() noexcept {
+    constexpr std::int64_t kSecond = 1'000'000'000;
+    timespec time{};
+    rusage usage{};
+    static_cast<void>(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time));
+    static_cast<void>(getrusage(RUSAGE_THREAD, &usage));
+    return {Duration{time.tv_sec * kSecond + time.tv_nsec}, usage.ru_nvcsw};
+}
 
 }  // namespace
 
@@ -40,10 +60,30 @@ Introspection& get_introspection() noexcept {
 
 Status Victim::on_execute(ContextHandle handle) noexcept {
     meter_.look();
-    do_as_told();
     const Surroundings& around = get_surroundings();
-    around.ends->set(place_, handle.now, around.clock->get_now());
+    const ThreadTimes before = read_thread_times();
+    const Instant begin = around.clock->get_now();
+    work_too_long();
+    do_as_told();
+    const Instant end = around.clock->get_now();
+    const ThreadTimes after = read_thread_times();
+    // Who waits or computes takes the time itself. A guard that demotes it later keeps it off as well.
+    const Duration delay = delay_meter_.take();
+    const Duration used = after.processor - before.processor;
+    const bool is_own = after.voluntary_switches != before.voluntary_switches || used >= kLossMin;
+    around.ends->set(place_, handle.now, end, is_own ? Duration{0} : std::max(end - begin - used, delay));
     return Status::kOk;
+}
+
+void Victim::work_too_long() noexcept {
+    const Surroundings& around = get_surroundings();
+    ++cycle_;
+    if (around.defect != Defect::kOverrun || cycle_ % kDefectEvery != place_) {
+        return;
+    }
+    const Instant end = around.clock->get_now() + kBudget + kBudget;
+    while (around.clock->get_now() < end) {
+    }
 }
 
 void Victim::do_as_told() noexcept {

@@ -17,7 +17,9 @@
 #include "mamori/kernel/introspection.hpp"
 #include "mamori/kernel/system.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/verification/run_delay.hpp"
 #include "page_storm.hpp"
+#include "time_faults.hpp"
 
 namespace mamori::time_faults {
 
@@ -39,6 +41,7 @@ struct Surroundings {
     std::mutex* mutex{nullptr};
     Ends* ends{nullptr};
     std::atomic<std::size_t> deed_count{0U};
+    Defect defect{Defect::kNone};
 };
 Surroundings& get_surroundings() noexcept;
 
@@ -58,12 +61,15 @@ class Victim final : public Component {
 
   private:
     void do_as_told() noexcept;
+    void work_too_long() noexcept;
 
     std::size_t place_;
+    std::uint64_t cycle_{0U};
     Way way_{Way::kCompute};
     Cause cause_{Cause::kWork};
     std::atomic<std::int64_t> size_ns_{0};
     PageMeter meter_;
+    verification::RunDelayMeter delay_meter_{};
 };
 
 inline constexpr std::size_t kComponentCount = 4U;

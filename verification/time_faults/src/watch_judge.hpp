@@ -15,6 +15,7 @@
 
 namespace mamori::time_faults {
 
+using verification::calc_longest_loss;
 using verification::calc_loss;
 using verification::overlaps;
 using verification::Stall;

@@ -10,6 +10,8 @@
 
 #include "grid_figures.hpp"
 #include "introspection_load.hpp"
+#include "mamori/verification/real_time_result.hpp"
+#include "mamori/verification/stall_watch.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::time_faults {
@@ -47,7 +49,12 @@ TEST_F(GridTest, PlannedInstantsAreWholePeriodsApartAndNoWakeUpComesBeforeThem) 
 
 TEST_F(GridTest, TurnsWithAndWithoutRequestsEachHaveTheirStart) {
     verifies("SWR-PRT-039");
+    const auto clock = ports::posix_rt::FrameClock::starting_in(Duration{0});
+    verification::StallWatch stalls{clock, Duration{50'000}, {98, verification::find_processor()}};
+
     const std::vector<LoadRound> rounds = run_load_rounds(grid_, *load_, 3U, 100U);
+
+    stalls.stop();
 
     EXPECT_EQ(rounds.size(), 3U);
     for (const LoadRound& round : rounds) {
@@ -55,7 +62,12 @@ TEST_F(GridTest, TurnsWithAndWithoutRequestsEachHaveTheirStart) {
         EXPECT_GT(round.steady_ns, 0);
         EXPECT_GT(round.burst_ns, 0);
     }
-    EXPECT_GT(load_->get_request_count(), 0U);
+    // The thread of the load has no priority: a busy host may give it no time at all.
+    verification::RunEvidence evidence;
+    evidence.requested = 1U;
+    evidence.shown = load_->get_request_count() > 0U ? 1U : 0U;
+    evidence.host = stalls.get_figures();
+    verification::report_run(verification::assess_run(evidence));
 }
 
 }  // namespace

@@ -19,10 +19,11 @@ constexpr Instant at(std::int64_t us) noexcept {
 }
 Report overrun(std::size_t window, std::size_t component, std::int64_t release_us, std::int64_t woke_us,
                std::int64_t at_us) {
-    return {true, window, component, at(release_us), at(woke_us), at(at_us), Duration{0}};
+    return {true, window, component, at(release_us), at(woke_us), at(at_us), Duration{0}, Duration{0}};
 }
 Report late(std::size_t window, std::int64_t release_us, std::int64_t at_us) {
-    return {false, window, kNoIndex, at(release_us), at(at_us), at(at_us), at(at_us) - at(release_us)};
+    return {false,      window, kNoIndex, at(release_us), at(at_us), at(at_us), at(at_us) - at(release_us),
+            Duration{0}};
 }
 /// Windows of 300 us with a budget of 200 us at 0 and 300; the first runs component 0, the second 1 and 2.
 Verdict judge(const Course& course) {
@@ -87,61 +88,108 @@ TEST(JudgeTest, AReportWithoutAFaultIsInventedUnlessTheMachineTookHalfABudgetAwa
     EXPECT_EQ(judge({reports, {kDeed}, {}, {}}).invented, 1U);
     EXPECT_EQ(judge({reports, {}, {}, {}}).unexplained.size(), 1U);
     EXPECT_FALSE(judge({reports, {}, {}, {}}).is_well());
-    EXPECT_EQ(judge_late(reports, {{at(7000), at(8099)}}).invented, 1U) << "most of it before the window";
+    EXPECT_EQ(judge_late(reports, {{at(7950), at(8099)}}).invented, 1U) << "part of it before the window";
     EXPECT_EQ(judge_late(reports, {{at(7000), at(8100)}}).by_host, 1U);
     EXPECT_EQ(judge_late(reports, {{at(8115), at(9000)}}).by_host, 1U);
     EXPECT_EQ(judge_late(reports, {{at(8116), at(9000)}}).invented, 1U) << "most of it after the report";
-    EXPECT_EQ(judge_late(reports, {{at(7000), at(7999)}, {at(8216), at(9000)}}).invented, 1U);
-    EXPECT_EQ(judge_late(reports, {{at(8010), at(8060)}, {at(8100), at(8150)}}).by_host, 1U) << "in pieces";
+    EXPECT_EQ(judge_late(reports, {{at(7900), at(7999)}, {at(8216), at(9000)}}).invented, 1U);
+    EXPECT_EQ(judge_late(reports, {{at(8010), at(8060)}, {at(8100), at(8150)}}).suspected, 1U) << "in pieces";
     EXPECT_EQ(judge_late(reports, {{at(8010), at(8060)}, {at(8100), at(8149)}}).invented, 1U);
+    EXPECT_EQ(judge_late(reports, {{at(7000), at(8000)}}).suspected, 1U) << "a budget since the frame before";
+    EXPECT_EQ(judge_late(reports, {{at(6000), at(7200)}}).suspected, 1U);
+    EXPECT_EQ(judge_late(reports, {{at(6000), at(7199)}}).invented, 1U);
     EXPECT_EQ(judge({reports, {}, {}, {{at(8000), at(8200)}}}).invented, 1U) << "no look came late";
     EXPECT_EQ(judge({{late(0U, 8000, 9100)}, {}, {}, {}}).invented, 1U);
     EXPECT_EQ(judge_late({late(0U, 8000, 9100)}, {{at(8000), at(9090)}}).by_host, 1U);
 }
 
-TEST(JudgeTest, AReportThatTheComponentsOwnClockConfirmsIsNotInvented) {
+TEST(JudgeTest, AReportOfAComponentThatWasReadyAndDidNotRunForHalfItsBudgetIsSuspected) {
     verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
-    const auto judge_report = [](const Report& report, std::int64_t end_us) {
+    const auto judge_kept = [](const Report& report, std::size_t component, std::int64_t release_us,
+                               std::int64_t kept_off_us) {
         Ends ends{2U, 9U};
-        ends.set(0U, report.release, at(end_us));
+        ends.set(component, at(release_us), at(release_us + 250), Duration{kept_off_us * 1000});
         return judge({{report}, {}, {}, {}, {}, {}, ends});
     };
-    const auto judge_end = [](std::size_t component, std::int64_t release_us, std::int64_t end_us) {
-        Ends ends{2U, 9U};
-        ends.set(0U, at(8000), at(8050));
-        ends.set(component, at(release_us), at(end_us));
-        return judge({{overrun(0U, 0U, 8000, 8010, 8225)}, {}, {}, {}, {}, {}, ends});
-    };
-    EXPECT_EQ(judge_end(0U, 8000, 8211).confirmed, 1U);
-    EXPECT_EQ(judge_end(0U, 8000, 8211).invented, 0U);
-    EXPECT_EQ(judge_end(0U, 8000, 8111).confirmed, 1U) << "half of its budget was gone";
-    EXPECT_EQ(judge_end(0U, 8000, 8110).invented, 1U);
-    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8010, 8210), 8211).confirmed, 1U);
-    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8010, 8209), 8211).invented, 1U)
-        << "told before it was late";
-    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8250, 8301), 8301).confirmed, 1U)
-        << "its window closes first";
-    EXPECT_EQ(judge_report(overrun(0U, 0U, 8000, 8250, 8301), 8300).invented, 1U);
-    EXPECT_EQ(judge_end(0U, 7000, 8211).invented, 1U) << "of another frame";
-    EXPECT_EQ(judge_end(1U, 8000, 8211).invented, 1U) << "another component";
-    EXPECT_EQ(judge({{overrun(0U, 0U, 8000, 8010, 8225)}, {}, {}, {}, {}, {}, Ends{2U, 9U}}).confirmed, 1U)
-        << "it never ran";
-    EXPECT_EQ(judge({{late(0U, 8000, 9100)}, {}, {}, {}, {}, {}, Ends{2U, 9U}}).invented, 1U)
-        << "a late release is none of the component's";
+    const Report report = overrun(0U, 0U, 8000, 8010, 8210);
+    EXPECT_EQ(judge_kept(report, 0U, 8000, 100).suspected, 1U);
+    EXPECT_EQ(judge_kept(report, 0U, 8000, 100).invented, 0U);
+    EXPECT_FALSE(judge_kept(report, 0U, 8000, 100).is_well());
+    EXPECT_EQ(judge_kept(report, 0U, 8000, 99).invented, 1U);
+    EXPECT_EQ(judge_kept(overrun(0U, 0U, 8000, 8010, 8209), 0U, 8000, 100).invented, 1U) << "too early";
+    EXPECT_EQ(judge_kept(overrun(0U, 0U, 8000, 8250, 8300), 0U, 8000, 100).suspected, 1U)
+        << "its window ends first";
+    EXPECT_EQ(judge_kept(overrun(0U, 0U, 8000, 8250, 8299), 0U, 8000, 100).invented, 1U);
+    EXPECT_EQ(judge_kept(report, 0U, 7000, 100).invented, 1U) << "another frame";
+    EXPECT_EQ(judge_kept(report, 1U, 8000, 100).invented, 1U) << "another component";
+    EXPECT_EQ(judge_kept(late(0U, 8000, 9100), 0U, 8000, 100).invented, 1U) << "a late release";
+    EXPECT_EQ(judge({{report}, {}, {}, {}, {}, {}, Ends{2U, 9U}}).invented, 1U)
+        << "it never ran: nothing shows that the host kept it";
 }
 
-TEST(JudgeTest, LateEndsWithoutAnotherReasonAreRareOrTheRunIsNoTest) {
+TEST(JudgeTest, AReportIsSuspectedWhenTheRunnerWasReadyAndDidNotRunForHalfOfItsLateness) {
     verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
-    const auto is_well = [](std::uint64_t frames, std::uint64_t confirmed) {
-        Verdict verdict;
-        verdict.frames = frames;
-        verdict.confirmed = confirmed;
-        return verdict.are_reports_well();
+    const auto judge_kept = [](std::int64_t kept_off_us, std::int64_t woke_us) {
+        Report report = late(0U, 8000, woke_us);
+        report.kept_off = Duration{kept_off_us * 1000};
+        return judge(
+            {{report, late(1U, woke_us, woke_us + 1), late(0U, woke_us + 2, woke_us + 1200)}, {}, {}, {}});
     };
-    EXPECT_TRUE(is_well(19'999U, 1U));
-    EXPECT_FALSE(is_well(19'999U, 2U));
-    EXPECT_TRUE(is_well(40'000U, 3U));
-    EXPECT_FALSE(is_well(40'000U, 4U));
+    EXPECT_EQ(judge_kept(700, 9400).suspected, 2U)
+        << "and what was due before its report, not what came later";
+    EXPECT_EQ(judge_kept(700, 9400).invented, 1U);
+    EXPECT_EQ(judge_kept(699, 9400).suspected, 0U);
+    EXPECT_EQ(judge_kept(100, 8200).suspected, 2U);
+    EXPECT_EQ(judge_kept(99, 8198).suspected, 0U);
+}
+
+TEST(JudgeTest, WhatWasDueBeforeAReportThatIsSetAsideIsSetAsideToo) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues, Polarity::kViolation);
+    const std::vector<Stall> late_looks{{at(8000), at(9390)}};
+    const std::vector<Report> near{late(0U, 8000, 9400), late(1U, 9400, 10'700)};
+    EXPECT_EQ(judge_late(near, late_looks).by_host, 2U);
+    const std::vector<Report> far{near[0U], late(1U, 9401, 10'700)};
+    EXPECT_EQ(judge_late(far, {{at(8000), at(8150)}}).by_host, 1U);
+    EXPECT_EQ(judge_late(far, {{at(8000), at(8150)}}).invented, 1U);
+}
+
+TEST(JudgeTest, AFindingOfTheWatchWhileTheRunnerWasKeptOffIsSetAside) {
+    verifies("SWR-PRT-034", Technique::kFaultInjection, Polarity::kViolation);
+    using ports::posix_rt::GridFault;
+    Course course;
+    course.watch.found = {{{GridFault::kOverdue, 0U, at(8000), at(8400)}, at(9000)}};
+    EXPECT_EQ(judge(course).watch.invented, 1U);
+    course.runner_delays = {{at(8000), at(9400)}};
+    EXPECT_EQ(judge(course).watch.invented, 0U);
+    EXPECT_EQ(judge(course).watch.by_host, 1U);
+    course.runner_delays = {{at(8401), at(9400)}};
+    EXPECT_EQ(judge(course).watch.invented, 1U);
+}
+
+TEST(JudgeTest, AnInventedReportFailsTheRunAndASuspectedOneMakesItInconclusive) {
+    verifies("SWR-VER-022", Technique::kFaultInjection, Polarity::kViolation);
+    using verification::assess_run;
+    using verification::RunVerdict;
+    const std::vector<Report> reports{overrun(0U, 0U, 8000, 8010, 8215)};
+    const auto assess = [](Verdict verdict) {
+        verdict.frames = 1000U;
+        return assess_run(verdict.get_report_evidence()).verdict;
+    };
+    EXPECT_EQ(assess(judge({reports, {}, {}, {}})), RunVerdict::kFailed);
+    EXPECT_EQ(assess(judge_late(reports, {{at(8010), at(8060)}, {at(8100), at(8150)}})),
+              RunVerdict::kInconclusive);
+    EXPECT_EQ(assess(judge_late(reports, {{at(8010), at(8110)}})), RunVerdict::kPassed) << "set aside";
+    EXPECT_EQ(assess(judge({{overrun(1U, 2U, 5300, 5310, 5515)}, {kDeed}, {}, {}})), RunVerdict::kFailed)
+        << "wrong name";
+    EXPECT_EQ(assess(judge({{}, {kDeed}, {}, {}})), RunVerdict::kFailed) << "no report";
+}
+
+TEST(JudgeTest, ReportsThatOneDelayCausesCountAsOneTime) {
+    verifies("SWR-PRT-007", Technique::kEquivalenceClasses);
+    const Report first = late(0U, 8000, 9400);
+    EXPECT_EQ(judge({{first, late(1U, 8300, 9401)}, {}, {}, {}}).times, 1U);
+    EXPECT_EQ(judge({{first, late(1U, 9400, 10'900)}, {}, {}, {}}).times, 1U);
+    EXPECT_EQ(judge({{first, late(1U, 9401, 10'900)}, {}, {}, {}}).times, 2U);
 }
 
 TEST(JudgeTest, WorkThatIsOutOneFrameAfterTheMachineStoodStillIsItsDoingToo) {

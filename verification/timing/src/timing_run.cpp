@@ -207,9 +207,9 @@ void run_core(CoreSession& core, std::uint64_t cycles, ThreadPlace place) {
 }
 
 /// @return false when there are no threads for the windows: those that were started have ended.
-bool open_guards(Session& session) {
+bool open_guards(Session& session, int runner_priority) {
     for (std::size_t i = 0U; i < session.cores.size(); ++i) {
-        if (session.cores[i]->guard.open() != Status::kOk) {
+        if (session.cores[i]->guard.open(runner_priority) != Status::kOk) {
             for (std::size_t opened = 0U; opened < i; ++opened) {
                 static_cast<void>(session.cores[opened]->guard.close());
             }
@@ -332,7 +332,7 @@ TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& o
     const Right memory = ports::posix_rt::lock_memory(kStackSize);
     const Duration reference = measure_reference(FrameClock::starting_in(Duration{0}));
     std::unique_ptr<Session> session = make_session(cores, options, processors);
-    if (!open_guards(*session)) {
+    if (!open_guards(*session, options.priority)) {
         return {TimingOutcome::kFailed, "no threads for the windows: raise the limit (ulimit -u)"};
     }
     run_all(*session, options, processors);
@@ -342,6 +342,9 @@ TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& o
     facts.memory = memory;
     if (options.tell_notes) {
         facts.notes = options.tell_notes();
+    }
+    if (options.tell_findings) {
+        facts.findings = options.tell_findings();
     }
     problem = write_all(*session, options, facts);
     if (!is_closed) {

@@ -103,6 +103,7 @@ std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& f
            ",\n \"frame_ns\": " + std::to_string(facts.frame.ns) +
            ",\n \"reference_ns\": " + std::to_string(facts.reference.ns) +
            ",\n \"lost_rows\": " + std::to_string(lost) + ",\n \"notes\": " + make_list(facts.notes) +
+           ",\n \"findings\": " + make_list(facts.findings) +
            ",\n \"rights\": " + make_rights(facts.priority, facts.processor, facts.memory) + "\n}\n";
 }
 

@@ -24,7 +24,8 @@ struct RunFacts {
     ports::posix_rt::Right priority{};
     ports::posix_rt::Right processor{};
     ports::posix_rt::Right memory{};
-    std::vector<std::string> notes{};  ///< of the application
+    std::vector<std::string> notes{};     ///< of the application
+    std::vector<std::string> findings{};  ///< likewise
 };
 
 /// What run.json of a cost run tells beside the rows.

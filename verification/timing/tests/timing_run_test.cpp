@@ -251,6 +251,17 @@ TEST_F(TimingRunTest, ASignalWhileTheFilesAreWrittenLosesNothing) {
     EXPECT_EQ(read_facts()["notes"], (Json{"said  at the end "}));
 }
 
+TEST_F(TimingRunTest, FindingsOfTheProgramAreWritten) {
+    verifies("SWR-TIM-005");
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+    EXPECT_EQ(read_facts()["findings"], Json::array());
+
+    options_.tell_findings = [] { return std::vector<std::string>{"the arm stands", "and why"}; };
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    EXPECT_EQ(read_facts()["findings"], (Json{"the arm stands", "and why"}));
+}
+
 TEST_F(TimingRunTest, MoreCoresThanProcessorsAreRefused) {
     verifies("SWR-TIM-002", Technique::kBoundaryValues, Polarity::kViolation);
     cpu_set_t before;

@@ -20,15 +20,28 @@ struct AssertionRecord {
 };
 
 /// Takes the failure record; must not return. Called from any context, interrupts included, and at most
-/// once: a check that fails while it runs, or after it returned, halts at once.
+/// once: a check that fails while it runs waits for it (kFailureLooks, or the gate), and halts then.
 using AssertionHandler = void (*)(const AssertionRecord& record) noexcept;
 
 /// Installs the application's handler. @param[in] handler nullptr restores the default, which halts.
 /// Not thread safe: call it once, before any context is started.
 void set_assertion_handler(AssertionHandler handler) noexcept;
 
+/// Without a gate a later failure looks so often whether the handler has returned, before it halts the
+/// program: about a second on a processor of 3 GHz. Closing the outputs takes milliseconds, and a handler
+/// that hangs must not keep a failed program alive. The kernel has no clock to count time with.
+inline constexpr std::uint32_t kFailureLooks{100'000'000U};
+
+/// Takes each failure record before the handler does, in the context that failed. A port with threads lets
+/// the first failure pass and holds later ones of other threads back, for a bounded time, so that they do not
+/// end the program while the handler runs. A target with one thread returns at once.
+using AssertionGate = void (*)(const AssertionRecord& record) noexcept;
+
+/// Installs the gate of the port. @param[in] gate nullptr restores the default. Thread safe.
+void set_assertion_gate(AssertionGate gate) noexcept;
+
 namespace detail {
-/// Calls the handler and halts should it return.
+/// Calls gate and handler and halts should it return.
 [[noreturn]] void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line) noexcept;
 }  // namespace detail
 

@@ -3,7 +3,7 @@
 /// How a connection moves values: at the opening of the sink's window, within a window, and, where it leaves
 /// a core or a partition, through a buffer that neither side waits for.
 ///
-/// @satisfies SWR-KRN-016, SWR-KRN-026      Design: docs/design/kernel.md#connections
+/// @satisfies SWR-KRN-016, SWR-KRN-026, SWR-KRN-039      Design: docs/design/kernel.md#connections
 #ifndef MAMORI_KERNEL_CONNECTION_HPP
 #define MAMORI_KERNEL_CONNECTION_HPP
 
@@ -58,6 +58,14 @@ class Crossing final : public CrossingBase {
         }
     }
 
+    /// For the executive of the reading core, before it starts: drops the value in the buffer, which is of an
+    /// earlier run. Instants do not decide: the time line of a run may begin before the end of the last run.
+    template <typename Sink>
+    void clear(Sink& sink) noexcept {
+        buffer_.drop();
+        sink.restart(kBeforeAll, 0U);
+    }
+
   private:
     struct Slot {
         T value{};
@@ -82,6 +90,8 @@ struct ConnectionOperations {
     /// When the connection ends or begins with the frame that begins at `boundary`, before the first latch in
     /// it: what was published until then is of another mode.
     void (*restart)(OutPortBase&, InPortBase&, Instant boundary) noexcept {nullptr};
+    /// Before the core of the sink starts: nothing that was published until then reaches the sink.
+    void (*clear)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};
     bool may_leave_core{false};  ///< source and sink may run on two cores or in two partitions
     bool is_latest{false};       ///< only the newest value is kept, so the order of writer and reader matters
     /// By connect(). A flag, since under some sanitizers g++ does not compare the addresses with nullptr in a
@@ -107,7 +117,11 @@ struct LatestConnection {
         const bool is_of_new_mode = published != 0U && source.get_published_at() > boundary;
         static_cast<Sink&>(sink).restart(boundary, is_of_new_mode ? published - 1U : published);
     }
-    static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, &restart, false, true, true};
+    static void clear(OutPortBase&, InPortBase& sink, CrossingBase*) noexcept {
+        static_cast<Sink&>(sink).restart(kBeforeAll, 0U);  // its source is on the same core: begin_run()
+    }
+    static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, &restart,
+                                                      &clear,  false,  true,     true};
 };
 
 /// The same through a buffer.
@@ -123,7 +137,11 @@ struct CrossingConnection {
     static void restart(OutPortBase&, InPortBase& sink, Instant boundary) noexcept {
         static_cast<Sink&>(sink).restart(boundary, 0U);
     }
-    static constexpr ConnectionOperations kOperations{&deliver, &latch, nullptr, &restart, true, true, true};
+    static void clear(OutPortBase&, InPortBase& sink, CrossingBase* crossing) noexcept {
+        static_cast<Crossing<T>*>(crossing)->clear(static_cast<Sink&>(sink));
+    }
+    static constexpr ConnectionOperations kOperations{&deliver, &latch, nullptr, &restart,
+                                                      &clear,   true,   true,    true};
 };
 
 /// A sink that queues every publication; the queue itself may lie between two cores.
@@ -142,8 +160,11 @@ struct QueueConnection {
     static void restart(OutPortBase&, InPortBase& sink, Instant boundary) noexcept {
         static_cast<Sink&>(sink).restart(boundary, 0U);
     }
+    static void clear(OutPortBase&, InPortBase& sink, CrossingBase*) noexcept {
+        static_cast<Sink&>(sink).clear();
+    }
     static constexpr ConnectionOperations kOperations{
-        &deliver, &latch, &hand_on, &restart, Sink::kMayLeaveCore, false, true};
+        &deliver, &latch, &hand_on, &restart, &clear, Sink::kMayLeaveCore, false, true};
 
   private:
     static void push(OutPortBase& source, InPortBase& sink,

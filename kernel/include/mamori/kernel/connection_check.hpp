@@ -43,7 +43,7 @@ constexpr void check_connections(const SystemView& view, FindingList& findings) 
         if (row.source_window == kNoIndex || row.sink_window == kNoIndex) {
             findings.add(Rule::kPortOfUnknownComponent, i);
         } else {
-            if (row.age_max <= Duration{0}) {
+            if (row.age_max <= Duration{0} || row.lead_max < Duration{0}) {
                 findings.add(Rule::kAgeLimitNotPositive, i);
             }
             check_crossing(view, i, findings);

@@ -20,11 +20,13 @@ namespace mamori {
 /// Made by fresh_within().
 struct FreshWithin {
     Duration age_max;
+    Duration lead_max;
 };
 /// Age up to which the value of an input is fresh; beyond it its status is kBufferTimeout.
-/// @param[in] age_max > 0.
-constexpr FreshWithin fresh_within(Duration age_max) noexcept {
-    return {age_max};
+/// @param[in] age_max  > 0.
+/// @param[in] lead_max how far its instant may be after now, >= 0; 0 on one time line.
+constexpr FreshWithin fresh_within(Duration age_max, Duration lead_max = {}) noexcept {
+    return {age_max, lead_max};
 }
 
 /// Made by through().
@@ -61,6 +63,7 @@ inline constexpr std::size_t kModesNamedBy<OnlyIn<kCount>> = kCount;
 template <typename T, typename Sink, typename Part>
 constexpr void apply(Part& part, FreshWithin option) noexcept {
     part.row.age_max = option.age_max;
+    part.row.lead_max = option.lead_max;
 }
 template <typename T, typename Sink, typename Part, std::size_t kCount>
 constexpr void apply(Part& part, const OnlyIn<kCount>& option) noexcept {

@@ -36,6 +36,7 @@ struct ConnectionRow {
     CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
     ConnectionOperations operations{};
     Duration age_max{kNoAgeLimit};  ///< of a value that is still fresh, > 0
+    Duration lead_max{};            ///< of a fresh value of an instant to come, >= 0
     /// Places of the ends in the table; kNoIndex: the port belongs to no component of it.
     std::size_t source_window{kNoIndex};
     std::size_t sink_window{kNoIndex};

@@ -4,7 +4,7 @@
 /// values at window boundaries, so what is read does not depend on how long the code took (logical execution
 /// time). Within one window the executive hands a value on to the components that come later in its order.
 ///
-/// @satisfies SWR-KRN-015, SWR-KRN-016, SWR-KRN-038      Design: docs/design/kernel.md#ports
+/// @satisfies SWR-KRN-015, SWR-KRN-016, SWR-KRN-038, SWR-KRN-040      Design: docs/design/kernel.md#ports
 #ifndef MAMORI_KERNEL_DATA_PORT_HPP
 #define MAMORI_KERNEL_DATA_PORT_HPP
 
@@ -26,11 +26,14 @@ enum class PortStatus : std::uint32_t {
     kOk = 0U,             ///< PORT_OK
     kBufferFull = 2U,     ///< BUFFER_FULL, of an output: a queue that it feeds had no room
     kBufferEmpty = 3U,    ///< BUFFER_EMPTY, of an input
-    kBufferTimeout = 4U,  ///< BUFFER_TIMEOUT, of an input: the data is older than it may be
+    kBufferTimeout = 4U,  ///< BUFFER_TIMEOUT, of an input: the data is too old, or of an instant to come
 };
 
 /// Age limit of an input whose connection declares none.
 inline constexpr Duration kNoAgeLimit{std::numeric_limits<std::int64_t>::max()};
+
+/// An instant before every other one.
+inline constexpr Instant kBeforeAll{std::numeric_limits<std::int64_t>::min()};
 
 /// Must an input be fed by a connection? The system table refuses a mandatory one that is not.
 enum class Need : std::uint8_t { kMandatory, kOptional };
@@ -60,7 +63,7 @@ class OutPortBase {
     std::uint32_t get_sequence() const noexcept { return sequence_; }
     /// Instant of the last publication; without meaning before the first.
     Instant get_published_at() const noexcept { return published_at_; }
-    /// Number of the write that is published; 0: none.
+    /// Number of the write that is published; 0: none in this run.
     std::uint64_t get_published_revision() const noexcept { return published_revision_; }
     /// What became of the value that is published.
     /// @return kBufferFull (a queue that it feeds was full and refuses what it has no room for, see
@@ -86,6 +89,11 @@ class OutPortBase {
     }
     /// Throws the staged value away: its window overran. What was published before stays.
     void discard() noexcept { is_staged_ = false; }
+    /// For the executive, before a run: nothing is staged or published in it yet. The value stays readable.
+    void begin_run() noexcept {
+        is_staged_ = false;
+        published_revision_ = 0U;
+    }
     /// For connections: a queue had no room for what a write gave. @param[in] revision its number.
     void note_refused(std::uint64_t revision) noexcept { refused_revision_ = revision; }
     /// Adds the published value, its sequence and instant. For the executive, after a publication.
@@ -138,19 +146,28 @@ class InPortBase {
     Duration calc_age(Instant now) const noexcept { return now - published_at_; }
     /// What the value is worth in the cycle that begins at `now`.
     /// @return kBufferEmpty (nothing has arrived yet); kBufferTimeout (older than the limit that its
-    ///         connection declares); else kOk.
+    ///         connection declares, or of a later instant than `now` and its tolerance); else kOk.
     PortStatus calc_status(Instant now) const noexcept {
         if (!has_value_) {
             return PortStatus::kBufferEmpty;
         }
-        return calc_age(now) > age_max_ ? PortStatus::kBufferTimeout : PortStatus::kOk;
+        const Duration age = calc_age(now);
+        return age > age_max_ || age.ns < -lead_max_.ns ? PortStatus::kBufferTimeout : PortStatus::kOk;
     }
     /// For the executive, after the owner's cycle.
     void mark_read() noexcept { is_new_ = false; }
-    /// Instant of the last restart(); before the first one before every other instant.
+    /// Instant of the last restart(); before the first one, and after one without an instant, before every
+    /// other instant.
     Instant get_restarted_at() const noexcept { return restarted_at_; }
-    /// For the executive. @param[in] age_max limit of the connection that feeds this input, > 0.
-    void set_age_max(Duration age_max) noexcept { age_max_ = age_max; }
+    /// Number of restarts (wraps at 2^32). Code that keeps a value of its own compares it and drops the
+    /// value.
+    std::uint32_t get_restart_count() const noexcept { return restart_count_; }
+    /// For the executive. @param[in] age_max  limit of the connection that feeds this input, > 0.
+    ///                    @param[in] lead_max tolerance for instants to come, >= 0.
+    void set_age_limits(Duration age_max, Duration lead_max) noexcept {
+        age_max_ = age_max;
+        lead_max_ = lead_max;
+    }
 
   protected:
     constexpr explicit InPortBase(const char* name) noexcept : name_(name) {}
@@ -163,6 +180,7 @@ class InPortBase {
     void restart(Instant boundary, std::uint64_t revision) noexcept {
         restarted_at_ = boundary;
         revision_ = revision;
+        ++restart_count_;
         has_value_ = false;
         is_new_ = false;
     }
@@ -170,8 +188,10 @@ class InPortBase {
     const char* name_;
     Instant published_at_{};
     Duration age_max_{kNoAgeLimit};
-    Instant restarted_at_{std::numeric_limits<std::int64_t>::min()};
+    Duration lead_max_{};
+    Instant restarted_at_{kBeforeAll};
     std::uint64_t revision_{0U};  ///< write of the source that is held here
+    std::uint32_t restart_count_{0U};
     bool has_value_{false};
     bool is_new_{false};
 };

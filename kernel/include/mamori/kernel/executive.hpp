@@ -4,7 +4,7 @@
 /// a budget that the port enforces, hands values on within the window, and publishes outputs when it closes.
 ///
 /// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-024, SWR-KRN-026, SWR-KRN-032, SWR-KRN-033
-/// @satisfies SWR-KRN-034, SWR-MOD-008, SWR-MOD-009
+/// @satisfies SWR-KRN-034, SWR-KRN-039, SWR-MOD-008, SWR-MOD-009
 /// Design:   docs/design/kernel.md#windows, docs/design/modes.md#the-switch
 #ifndef MAMORI_KERNEL_EXECUTIVE_HPP
 #define MAMORI_KERNEL_EXECUTIVE_HPP
@@ -83,8 +83,9 @@ class Executive {
     ///         refused.
     Status initialize() noexcept;
 
-    /// Starts every context, then activates every component that the current mode runs, in table order. After
-    /// a refusal everything is stopped again, as by stop().
+    /// Empties every input of its core, with queues and buffers before it: only values that are published
+    /// from here on reach them. Then starts every context and activates every component that the current mode
+    /// runs, in table order. After a refusal everything is stopped again, as by stop().
     /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is not alive, in
     ///         Error or Active already, other cores are switching modes, or called from an action);
     ///         kBadParameter (a value is refused of the set that holds, or of one that was asked for: that
@@ -157,6 +158,7 @@ class Executive {
     Status initialize_components() noexcept;
     Status attach_contexts() noexcept;
     void attach_inputs() noexcept;
+    void clear_ports() noexcept;
     Status start_all() noexcept;
     Status stop_all() noexcept;
     void prepare_work() noexcept;

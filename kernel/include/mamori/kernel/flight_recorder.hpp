@@ -3,7 +3,7 @@
 /// Flight recorder: a ring of numbered, checksummed records in memory that outlives the program, such as a
 /// mapped file or RAM that a reset leaves alone. What was written before the end can be read after it.
 ///
-/// @satisfies SWR-REC-002, SWR-REC-003, SWR-REC-006, SWR-REC-007, SWR-REC-008
+/// @satisfies SWR-REC-002, SWR-REC-003, SWR-REC-006, SWR-REC-007, SWR-REC-008, SWR-REC-015
 /// Design: docs/design/recorder.md#writing
 #ifndef MAMORI_KERNEL_FLIGHT_RECORDER_HPP
 #define MAMORI_KERNEL_FLIGHT_RECORDER_HPP
@@ -33,8 +33,8 @@ class FlightRecorder final {
     /// @return kOk; kBadParameter (room for no record, or for more than 2^32 - 1).
     static Status format(Span<std::byte> region) noexcept;
 
-    /// Begins a session: formats a region of zeros only; continues the numbers of any other and keeps its
-    /// records.
+    /// Begins a session: formats a region of zeros only, also one whose first format was cut off; continues
+    /// the numbers of any other and keeps its records.
     /// @param[in] region any alignment; must outlive this object.
     /// @return kOk; kBadParameter (room for no record, or for more than 2^32 - 1);
     ///         kPreconditionNotMet (open already); kUnsupported (written by another format version); kError

@@ -8,7 +8,7 @@
 ///         constexpr Lamp() noexcept : FsmComponentFor("lamp", kLampTable, kLampProfile) {}
 ///     };
 ///
-/// @satisfies SWR-RTC-006      Design: docs/design/rtc_semantics.md#state-machines
+/// @satisfies SWR-RTC-006, SWR-RTC-012      Design: docs/design/rtc_semantics.md#state-machines
 /// Source:   OMG RTC 1.0, FsmObject, FsmService; OMG FSM4RTC, ExtendedFsmService
 #ifndef MAMORI_KERNEL_FSM_COMPONENT_HPP
 #define MAMORI_KERNEL_FSM_COMPONENT_HPP

@@ -7,6 +7,7 @@
 #ifndef MAMORI_KERNEL_FSM_MACHINE_HPP
 #define MAMORI_KERNEL_FSM_MACHINE_HPP
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -26,8 +27,9 @@ struct FsmStep {
 
 /// State, queue and step of one machine.
 ///
-/// Thread safety: get_queue() and post() as the queue; the rest from the core that runs the component.
-/// Time:          O(transitions). Memory: no heap; the table, profile and cells must outlive it.
+/// Thread safety: get_queue() and post() as the queue, get_context_id() from anywhere; the rest from the core
+/// that runs the component. Time:          O(transitions). Memory: no heap; the table, profile and cells must
+/// outlive it.
 class FsmMachine final {
   public:
     /// @param[in] owner given to the guards. The others as in FsmComponent.
@@ -50,7 +52,9 @@ class FsmMachine final {
     /// Events that wait, and what the queue counts; from any thread, as the queue allows.
     const FsmEventQueue& get_queue() const noexcept { return queue_; }
     /// @return as FsmEventQueue::post().
-    Status post(const FsmEvent& event) noexcept { return queue_.post(event); }
+    Status post(const FsmEvent& event, std::uint32_t epoch) noexcept { return queue_.post(event, epoch); }
+    /// Id of the context that serves it; -1: none. From any thread or interrupt.
+    std::int32_t get_context_id() const noexcept { return context_id_.load(std::memory_order_relaxed); }
 
   private:
     friend class ExecutionContext;
@@ -67,6 +71,8 @@ class FsmMachine final {
     FsmStep step_{};
     std::uint32_t ignored_count_{0U};
     FsmIndex state_;
+    /// Of the context that its component is attached to, for senders on other threads.
+    std::atomic<std::int32_t> context_id_{-1};
 };
 
 }  // namespace mamori

@@ -4,8 +4,9 @@
 /// policies of OpenRTM. The source may run on another core: entries count by their planned instants, so what
 /// a cycle can read does not depend on which core was faster.
 ///
-/// @satisfies SWR-KRN-028, SWR-KRN-029, SWR-KRN-037      Design: docs/design/kernel.md#connections
-/// Source:   OpenRTM-aist, buffer.write.full_policy and buffer.read.empty_policy of a data port
+/// @satisfies SWR-KRN-028, SWR-KRN-029, SWR-KRN-037, SWR-KRN-039      Design:
+/// docs/design/kernel.md#connections Source:   OpenRTM-aist, buffer.write.full_policy and
+/// buffer.read.empty_policy of a data port
 #ifndef MAMORI_KERNEL_QUEUE_IN_PORT_HPP
 #define MAMORI_KERNEL_QUEUE_IN_PORT_HPP
 
@@ -100,13 +101,24 @@ class QueueInPort final : public InPortBase {
         was_read_ = false;
     }
 
+    /// For connections, before the owner's context starts: every waiting value is dropped, also one of a
+    /// later instant than those of the run that begins. Values that the source appends meanwhile may stay.
+    void clear() noexcept {
+        restart(kBeforeAll, 0U);
+        opening_ = kBeforeAll;
+        for (std::size_t i = 0U; i < kEntriesMax; ++i) {
+            if (buffer_.peek() == Status::kOk) {
+                buffer_.drop();
+            }
+        }
+    }
+
     /// For connections, at the opening of the owner's window: what is published later waits for a later one.
     /// What was published up to the last restart() is of another mode and goes. A value that is handed on in
     /// the new mode at that very instant stays: it comes after the first opening since.
     void open(Instant opening) noexcept {
         const bool is_first = !is_open();
         opening_ = opening;
-        constexpr std::size_t kEntriesMax = kCapacity + 1U;  // besides those that wait, one may be held
         for (std::size_t i = 0U; i < kEntriesMax && is_front_of_another_mode(is_first); ++i) {
             buffer_.drop();
         }
@@ -124,6 +136,7 @@ class QueueInPort final : public InPortBase {
     }
 
   private:
+    static constexpr std::size_t kEntriesMax = kCapacity + 1U;  ///< besides those that wait, one may be held
     struct Entry {
         T value{};
         Instant published_at{};

@@ -4,7 +4,8 @@
 /// writer's, one the reader's, and one waits in a shared word. Each side swaps its slot for the waiting one,
 /// so no slot ever has two owners and neither side ever waits.
 ///
-/// @satisfies SWR-BUF-001, SWR-BUF-002, SWR-BUF-008      Design: docs/design/buffers.md#triple-buffer
+/// @satisfies SWR-BUF-001, SWR-BUF-002, SWR-BUF-008, SWR-KRN-039      Design:
+/// docs/design/buffers.md#triple-buffer
 #ifndef MAMORI_KERNEL_TRIPLE_BUFFER_HPP
 #define MAMORI_KERNEL_TRIPLE_BUFFER_HPP
 
@@ -62,9 +63,15 @@ class TripleBuffer final {
         return true;
     }
 
-    /// Reader: the value of the last update() that said true; a value-initialised T before the first.
-    /// The reference is valid until the next update().
+    /// Reader: the value of the last update() that said true; a value-initialised T before the first, and
+    /// after a drop(). The reference is valid until the next update() or drop().
     const T& get_read_slot() const noexcept { return slots_[read_index_]; }
+
+    /// Reader: drops every value that was published until now; the read slot is a value-initialised T.
+    void drop() noexcept {
+        static_cast<void>(update());
+        slots_[read_index_] = T{};
+    }
 
     /// Reader: update() and a copy in one. @param[out] value written only when there is a newer value.
     /// @return as update().

@@ -3,7 +3,7 @@
 /// A fault as data: what, where, when, how long, how much. It is triggered by simulated time only, so the
 /// same plan gives the same run.
 ///
-/// @satisfies SWR-SIM-011, SWR-SIM-012      Design: docs/design/simulation.md#fault-plan
+/// @satisfies SWR-SIM-011, SWR-SIM-012, SWR-SIM-015      Design: docs/design/simulation.md#fault-plan
 #ifndef MAMORI_SIMBODY_SIM_FAULT_PLAN_HPP
 #define MAMORI_SIMBODY_SIM_FAULT_PLAN_HPP
 
@@ -67,6 +67,9 @@ inline bool operator!=(const FaultPlan& a, const FaultPlan& b) noexcept {
 const char* get_name(FaultKind kind) noexcept;
 /// "a", "b" or "both".
 const char* get_name(FaultChannel channel) noexcept;
+
+/// All kinds as text, separated by commas, for a help text.
+std::string list_fault_kinds();
 
 /// Which parts a kind uses; the parser demands them and refuses the others.
 bool uses_joint(FaultKind kind) noexcept;

@@ -8,9 +8,9 @@
 #define MAMORI_SAFETY_E2E_FRAME_SOURCE_HPP
 
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
+#include "mamori/kernel/data_port.hpp"
 #include "mamori/kernel/status.hpp"
 #include "mamori/kernel/time.hpp"
 
@@ -30,14 +30,16 @@ class LatestFrames final {
         taken_at_ = port_.get_published_at();
         return port_.read();
     }
-    /// Of the connection: what came before is of another mode.
-    Instant get_restarted_at() const noexcept { return port_.get_restarted_at(); }
+    /// Of the input: what came before the last one is of another mode or run.
+    std::uint32_t get_restart_count() const noexcept { return port_.get_restart_count(); }
+    /// After a restart: the next frame may have the instant of one of an earlier run.
+    void forget() noexcept { taken_at_ = kBeforeAll; }
     /// Of the frame that was taken.
     Instant get_published_at() const noexcept { return taken_at_; }
 
   private:
     Port& port_;
-    Instant taken_at_{std::numeric_limits<std::int64_t>::min()};
+    Instant taken_at_{kBeforeAll};
 };
 
 /// Frames of an input that queues.
@@ -53,7 +55,8 @@ class QueuedFrames final {
         static_cast<void>(port_.read(frame_));
         return frame_;
     }
-    Instant get_restarted_at() const noexcept { return port_.get_restarted_at(); }
+    std::uint32_t get_restart_count() const noexcept { return port_.get_restart_count(); }
+    void forget() noexcept {}
     Instant get_published_at() const noexcept { return port_.get_published_at(); }
 
   private:

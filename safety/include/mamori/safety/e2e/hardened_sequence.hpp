@@ -4,7 +4,7 @@
 /// refused however many of them come. The price: after too many losses the order is found again by a rule, or
 /// by a deliberate reset.
 ///
-/// @satisfies SWR-E2E-007, SWR-E2E-008      Design: docs/design/e2e.md#hardened-order
+/// @satisfies SWR-E2E-007, SWR-E2E-008, SWR-E2E-028      Design: docs/design/e2e.md#hardened-order
 #ifndef MAMORI_SAFETY_E2E_HARDENED_SEQUENCE_HPP
 #define MAMORI_SAFETY_E2E_HARDENED_SEQUENCE_HPP
 
@@ -17,14 +17,17 @@ namespace mamori::safety {
 
 /// What may end a break in the order.
 enum class Resynchronisation : std::uint8_t {
-    kByReset,  ///< restart() only: nothing that comes over the channel can move the baseline back
+    kByReset,  ///< restart() only: a larger step forward closes the channel, and nothing that comes over the
+               ///< channel opens it again
     kByRun,    ///< restart(), or a run of frames in order: a recorded run of that length is taken for a new
                ///< sender
 };
 
 /// Limits of HardenedSequence.
 struct HardenedLimits {
-    std::uint32_t max_delta{1U};  ///< greatest step forward that is accepted, 1 .. half the greatest counter
+    /// Greatest step forward that is accepted: one more than the messages that may be lost in a row. Without
+    /// a default: 0 is refused. Range: 1 .. half the greatest counter.
+    std::uint32_t max_delta{0U};
     std::uint8_t resync_frames{
         2U};  ///< frames in order, without another between, that make a baseline, 2 .. 255
     Resynchronisation resynchronisation{Resynchronisation::kByReset};
@@ -48,9 +51,12 @@ class HardenedSequence final {
     /// Judges a whole frame. Frames of a run that makes a baseline are not for use, the last one included.
     /// @return kOk, kOkSomeLost, kRepeated or kWrongSequence.
     CheckStatus judge(std::uint32_t counter) noexcept;
-    void note_silence() noexcept {}
+    void note_silence() noexcept { count_absence(); }
     /// A frame that is not whole breaks a run.
-    void note_fault() noexcept { run_ = 0U; }
+    void note_fault() noexcept {
+        run_ = 0U;
+        count_absence();
+    }
     /// Forgets the baseline: a run makes a new one. Only for a deliberate reset.
     void restart() noexcept;
     /// Frames that were lost before the last accepted one.
@@ -59,9 +65,17 @@ class HardenedSequence final {
     constexpr std::uint32_t get_resync_count() const noexcept { return resync_count_; }
     /// True while there is a baseline.
     constexpr bool is_synchronised() const noexcept { return is_synchronised_; }
+    /// True from a step forward beyond the limit to restart() (kByReset): every frame is refused.
+    constexpr bool is_closed() const noexcept { return is_closed_; }
 
   private:
+    /// Checks without an accepted frame after which an older frame is no longer taken for a replay: the
+    /// sender may have come past half the counter. It sends at most one frame per check.
+    static constexpr std::uint32_t kAbsenceMax{255U};
+
+    void count_absence() noexcept { absence_ += absence_ <= kAbsenceMax ? 1U : 0U; }
     CheckStatus judge_against_baseline(std::uint32_t counter) noexcept;
+    bool is_order_lost(std::uint32_t counter) const noexcept;
     void extend_run(std::uint32_t counter) noexcept;
 
     Limits limits_;
@@ -71,7 +85,9 @@ class HardenedSequence final {
     std::uint32_t run_{0U};      ///< frames of the run
     std::uint32_t lost_count_{0U};
     std::uint32_t resync_count_{0U};
+    std::uint32_t absence_{0U};  ///< checks since the last accepted frame, 0 .. kAbsenceMax + 1
     bool is_synchronised_{false};
+    bool is_closed_{false};
 };
 
 }  // namespace mamori::safety

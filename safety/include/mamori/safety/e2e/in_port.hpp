@@ -42,6 +42,7 @@ struct E2eInLimits {
     std::size_t window{1U};          ///< readings that the state of the channel looks back on, 1 .. 255
     ChannelDemands demands{};        ///< on these
     MappingRule rule{MappingRule::kSyncIsOk};
+    Duration lead_max{};  ///< how far the instant of a value may be after now, >= 0
 };
 
 /// Receives values of a message. The input stands in the component's list of ports, this beside it:
@@ -68,6 +69,7 @@ class E2eInPort final {
     static_assert(ChannelIsSound<Order::find_fault(kLimits.order, Profile::kCounterMax)>::value);
     static_assert(are_sound(kLimits.demands, kLimits.window), "demands on the channel's window are unsound");
     static_assert(kLimits.age_max > Duration{0}, "a value needs an age that it may reach");
+    static_assert(kLimits.lead_max >= Duration{0}, "the tolerance for instants to come is not negative");
     static_assert(Port::Payload::capacity() >= Message::kLengthMax,
                   "frames of the port have no room for the message");
 
@@ -84,9 +86,10 @@ class E2eInPort final {
     /// @param[out] value always written: never anything but a value that may be used now, or the substitute.
     /// @return which of them it is.
     [[nodiscard]] E2eWorth read(Instant now, Value& value) noexcept {
-        if (source_.get_restarted_at() != restarted_at_) {
-            restarted_at_ = source_.get_restarted_at();
-            has_value_ = false;  // whatever this reading brings: what is held is of another mode
+        if (source_.get_restart_count() != restart_count_) {
+            restart_count_ = source_.get_restart_count();
+            source_.forget();
+            has_value_ = false;  // whatever this reading brings: what is held is of another mode or run
         }
         outcome_ = has_frame() ? judge_frame(now) : note_silence();
         if (!machine_.is_valid()) {
@@ -100,7 +103,8 @@ class E2eInPort final {
             value = value_;
             return E2eWorth::kNew;
         }
-        if (has_value_ && judge_age(origin_, now, kLimits.age_max) == E2eOutcome::kAccepted) {
+        if (has_value_ &&
+            judge_age(origin_, now, kLimits.age_max, kLimits.lead_max) == E2eOutcome::kAccepted) {
             value = value_;
             return E2eWorth::kHeld;
         }
@@ -153,7 +157,7 @@ class E2eInPort final {
             return E2eOutcome::kMalformed;
         }
         origin_ = detail::get_origin(value_, source_.get_published_at());
-        return judge_age(origin_, now, kLimits.age_max);
+        return judge_age(origin_, now, kLimits.age_max, kLimits.lead_max);
     }
     void note(CheckStatus status) noexcept {
         static_cast<void>(machine_.check(to_profile_status(status, kLimits.rule)));  // its demands are sound
@@ -165,8 +169,8 @@ class E2eInPort final {
     ChannelStateMachine machine_{window_, kLimits.demands};
     Value substitute_;
     Value value_;
-    Instant origin_{};        ///< from which the age of value_ counts
-    Instant restarted_at_{};  ///< of the connection, as the last reading found it
+    Instant origin_{};                 ///< from which the age of value_ counts
+    std::uint32_t restart_count_{0U};  ///< of the input, as the last reading found it
     E2eOutcomeCounts counts_{};
     E2eOutcome outcome_{E2eOutcome::kSilent};
     bool has_value_{false};

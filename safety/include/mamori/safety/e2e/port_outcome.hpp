@@ -27,7 +27,7 @@ enum class E2eOutcome : std::uint8_t {
     kSilent,     ///< no frame
     kRefused,    ///< by the check of the frame, whose cause tells more
     kMalformed,  ///< a good frame whose content is no value of the type: the ends disagree on the message
-    kEarly,      ///< from an instant that has not come yet: the ends disagree on the time
+    kEarly,      ///< from an instant to come, beyond the tolerance: the ends disagree on the time
     kLate,       ///< older than the limit
     kUnproven,   ///< a good value, while the channel is not valid
 };
@@ -37,10 +37,14 @@ inline constexpr std::size_t kE2eOutcomeCount = 7U;
 using E2eOutcomeCounts = std::array<std::uint32_t, kE2eOutcomeCount>;
 
 /// Judges an age without overflow, whatever the instants are: one of them may come from another program.
-/// @param[in] age_max >= 0. @return kAccepted, kEarly or kLate.
-constexpr E2eOutcome judge_age(Instant origin, Instant now, Duration age_max) noexcept {
+/// @param[in] age_max >= 0. @param[in] lead_max how far `origin` may be after `now`, >= 0.
+/// @return kAccepted, kEarly or kLate.
+constexpr E2eOutcome judge_age(Instant origin, Instant now, Duration age_max,
+                               Duration lead_max = {}) noexcept {
     if (origin > now) {
-        return E2eOutcome::kEarly;
+        const std::uint64_t lead_ns =
+            static_cast<std::uint64_t>(origin.ns) - static_cast<std::uint64_t>(now.ns);
+        return lead_ns > static_cast<std::uint64_t>(lead_max.ns) ? E2eOutcome::kEarly : E2eOutcome::kAccepted;
     }
     // Two's complement: right for each pair of instants of which the first is not the later one.
     const std::uint64_t age_ns = static_cast<std::uint64_t>(now.ns) - static_cast<std::uint64_t>(origin.ns);

@@ -12,6 +12,7 @@
 
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
+#include "mamori/verification/run_verdict.hpp"
 
 namespace mamori::verification {
 
@@ -28,12 +29,14 @@ bool overlaps(const std::vector<Stall>& stalls, Instant begin, Instant end);
 /// What is lost of the time within the two instants: those parts of the late looks that lie there, together.
 /// @param[in] late_looks in the order of their instants.
 Duration calc_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end);
+/// The largest of those parts.
+Duration calc_longest_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end);
 
 /// The first processor that this process may use: threads whose stalls are watched must be on that of the
 /// watch.
 int find_processor() noexcept;
 
-/// Thread safety: get_stalls() and get_late_looks() after stop(). Memory: heap, taken in the constructor.
+/// Thread safety: every get_ function after stop(). Memory: heap, taken in the constructor.
 class StallWatch final {
   public:
     /// Looks every `step`; a gap longer than two of them is a stall.
@@ -48,6 +51,8 @@ class StallWatch final {
     void stop();
     const std::vector<Stall>& get_stalls() const noexcept { return stalls_; }
     const std::vector<Stall>& get_late_looks() const noexcept { return late_looks_; }
+    /// Of the time from the constructor to stop().
+    const HostFigures& get_figures() const noexcept { return figures_; }
 
   private:
     void watch(Duration step, ports::posix_rt::ThreadPlace place);
@@ -56,6 +61,7 @@ class StallWatch final {
     std::vector<Stall> stalls_;
     std::vector<Stall> late_looks_;
     std::size_t late_look_max_;
+    HostFigures figures_{};
     std::atomic<bool> is_ending_{false};
     std::thread thread_;
 };

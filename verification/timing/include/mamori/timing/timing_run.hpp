@@ -3,7 +3,7 @@
 /// Runs a system in real time for a number of frames and writes what was measured, for `mamori timing`. For
 /// hosts: link mamori::timing into your program and offer `timing --cycles N --out DIR`.
 ///
-/// @satisfies SWR-TIM-002, SWR-TIM-003      Design: docs/design/timing_run.md#run
+/// @satisfies SWR-TIM-002, SWR-TIM-003, SWR-TIM-005      Design: docs/design/timing_run.md#run
 #ifndef MAMORI_TIMING_TIMING_RUN_HPP
 #define MAMORI_TIMING_TIMING_RUN_HPP
 
@@ -35,6 +35,9 @@ struct TimingOptions {
     std::function<std::string(const std::string&)> save_table{};
     /// Asked when the run is over: what whoever reads the times should know of it. Empty: nothing.
     std::function<std::vector<std::string>()> tell_notes{};
+    /// Asked when the run is over: what the system itself did wrong, for example that it left its operating
+    /// state. Each text is a finding of `mamori timing`. Empty: nothing.
+    std::function<std::vector<std::string>()> tell_findings{};
 };
 
 /// How a run ended.

@@ -2,12 +2,14 @@
 /// @file
 /// Runs the windows of one core in real time: each opens at its place on the fixed grid of the frame.
 ///
-/// @satisfies SWR-PRT-005, SWR-PRT-006, SWR-PRT-007, SWR-PRT-038      Design: docs/design/posix_rt.md#grid
+/// @satisfies SWR-PRT-005, SWR-PRT-006, SWR-PRT-007, SWR-PRT-038, SWR-PRT-043
+///     Design: docs/design/posix_rt.md#grid
 #ifndef MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
 #define MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 
 #include "mamori/kernel/executive.hpp"
 #include "mamori/kernel/frame_schedule.hpp"
@@ -57,16 +59,22 @@ class CoreRunner final {
     /// Opens every window whose place lies in the next `frame_count` frames, from the first frame on that
     /// begins now or later; returns after the last, or soon after request_stop(). Sleeps in between. An
     /// opening that comes late moves no later one: its instants are those of the grid.
-    /// @param[in] frame_count > 0.
+    /// @param[in] frame_count > 0, any. The time line ends after 292 years, and every run ends with it.
     void run(std::uint64_t frame_count) noexcept;
+    /// The same without an end of its own: returns after request_stop().
+    void run_until_stopped() noexcept { run(kAllFrames); }
 
-    /// No window opens any more once the current one has ended.
+    /// No window starts once the current one has ended, in this run and in later ones. The run returns when
+    /// the start of the next window is due. One store to a lock-free word: async-signal-safe.
     void request_stop() noexcept { is_stop_wanted_.store(true, std::memory_order_relaxed); }
 
     /// Of all calls of run() so far. To be asked while none is under way.
     const OpeningCounts& get_counts() const noexcept { return counts_; }
 
   private:
+    static constexpr std::uint64_t kAllFrames = std::numeric_limits<std::uint64_t>::max();
+    static_assert(std::atomic<bool>::is_always_lock_free);
+
     void open(const FrameSchedule::Opening& opening) noexcept;
 
     Executive& executive_;

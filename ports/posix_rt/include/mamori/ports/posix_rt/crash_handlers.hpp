@@ -36,8 +36,9 @@ struct CrashPlan {
     FrameClock clock;           ///< time line of the session
 };
 
-/// Handlers of this process. A crash of a second thread in the meantime waits for the first to end the
-/// process, a second at most; one inside the handlers ends it at once.
+/// Handlers of this process. A crash or a failed check of a second thread in the meantime waits for the first
+/// to end the process, a second at most; one inside the handlers ends it at once. A crash while another
+/// thread handles a failed check closes the outputs by the plan, and waits for that handler likewise.
 ///
 /// Calling context: any thread, before the first deadline. Memory: no heap.
 class CrashHandlers final {

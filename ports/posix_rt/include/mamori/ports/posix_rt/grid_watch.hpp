@@ -4,7 +4,8 @@
 /// sees that a window did not open or was not over when it should, or that the clock runs at a wrong rate,
 /// and closes the outputs.
 ///
-/// @satisfies SWR-PRT-031, SWR-PRT-033, SWR-PRT-034      Design: docs/design/posix_rt.md#watch
+/// @satisfies SWR-PRT-031, SWR-PRT-033, SWR-PRT-034, SWR-PRT-040, SWR-PRT-041
+///     Design: docs/design/posix_rt.md#watch
 #ifndef MAMORI_PORTS_POSIX_RT_GRID_WATCH_HPP
 #define MAMORI_PORTS_POSIX_RT_GRID_WATCH_HPP
 
@@ -135,7 +136,9 @@ class GridWatch final {
     GridWatch& operator=(const GridWatch&) = delete;
     ~GridWatch() = default;
 
-    /// Starts the thread. @return kOk; kPreconditionNotMet (open already); kOutOfResources (no more threads).
+    /// Starts the thread. @return kOk; kPreconditionNotMet (open already); kOutOfResources (no more threads);
+    ///         kBadParameter (the calling thread has a fixed priority that the watch is not above: the watch
+    ///         could not run while this thread hangs).
     Status open() noexcept;
     /// Ends the thread within a period; a finding stays latched. Nothing happens when it is not open.
     void close() noexcept;

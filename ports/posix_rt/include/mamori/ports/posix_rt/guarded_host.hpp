@@ -4,7 +4,8 @@
 /// the thread that runs the executive only waits for it, at a higher priority and never beyond the deadline.
 /// So a budget is enforced without the help of the code that exceeds it, and a hang costs its window alone.
 ///
-/// @satisfies SWR-PRT-003, SWR-PRT-004, SWR-PRT-035      Design: docs/design/posix_rt.md#guard
+/// @satisfies SWR-PRT-003, SWR-PRT-004, SWR-PRT-035, SWR-PRT-040, SWR-PRT-041, SWR-PRT-042
+///     Design: docs/design/posix_rt.md#guard
 #ifndef MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
 #define MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
 
@@ -50,6 +51,7 @@ class WindowThread final {
     std::atomic<std::uint32_t> done_{0U};  ///< the last of them that has come back
     std::atomic<std::size_t> finished_count_{0U};
     std::atomic<bool> is_ending_{false};
+    int priority_{0};  ///< in force while the thread is not demoted
     bool is_open_{false};
     bool is_demoted_{false};
 };
@@ -60,34 +62,45 @@ class GuardedHost final : public WindowHost {
   public:
     /// @param[in] threads one per window of the system table; must outlive the host, and for ever when work
     ///            of one hangs. @param[in] clock must outlive the host, and those threads.
-    /// @param[in] place of the threads of the windows. The priority must be lower than that of the thread
-    ///            that runs the windows; each gets it or, when it is refused, none.
+    /// @param[in] place of the threads of the windows. A fixed priority must be lower than that of the thread
+    ///            that runs the windows; each gets it or, when it is denied, none. With priority 0 the
+    ///            windows run in ordinary threads, whatever the thread has that opens the host.
     GuardedHost(Span<WindowThread> threads, const FrameClock& clock, ThreadPlace place) noexcept
         : threads_(threads), clock_(clock), place_(place) {}
     GuardedHost(const GuardedHost&) = delete;
     GuardedHost& operator=(const GuardedHost&) = delete;
     ~GuardedHost() = default;
 
-    /// Starts the threads. @return kOk; kPreconditionNotMet (open already); kOutOfResources (no more threads:
-    /// those that were started have ended).
+    /// Starts the threads; the calling thread is the one that will run the windows.
+    /// @return kOk; kPreconditionNotMet (open already); kOutOfResources (no more threads); kBadParameter (the
+    ///         windows have a fixed priority that is not below that of the thread that runs them, so a window
+    ///         that hangs would stop its own guard). On an error none of the threads that it started is left.
     Status open() noexcept;
+    /// The same when another thread will run the windows. @param[in] runner_priority fixed priority that this
+    /// thread has or will have, 1 .. 99; 0: none.
+    Status open(int runner_priority) noexcept;
     /// Ends the threads. @return kOk; kPreconditionNotMet (work of a window is out: its thread goes on, the
     /// others have ended; call it again when the work has come back).
     Status close() noexcept;
 
-    /// What the threads were given in open(), the worst of all: granted only when each of them has it.
+    /// What the threads have, the worst of all: granted only when each of them has it. The priority is lost
+    /// (EPERM) when the thread that runs the windows is not above it, or when a thread did not get it back.
     Right get_priority_right() const noexcept { return priority_right_; }
     Right get_processor_right() const noexcept { return processor_right_; }
 
     Instant get_now() const noexcept override { return clock_.get_now(); }
     Instant get_step_end() const noexcept override { return clock_.get_now(); }
-    /// Work that is not back by the deadline is cut off and its thread loses its priority until it is back,
-    /// so that a hang takes no time from another window.
+    /// Work that is not back by the deadline is cut off. Until it is back its thread has no fixed priority;
+    /// an ordinary thread runs in SCHED_IDLE, where the process may end that again. So a hang takes no time
+    /// from another window. When the calling thread is not above the windows (it has lost its priority, say),
+    /// all windows lose theirs: the guard comes first.
     std::size_t run_within(const Work& work, Instant deadline) noexcept override;
     bool has_returned(std::size_t window) const noexcept override { return !threads_[window].is_out(); }
 
   private:
     Status start(WindowThread& thread) noexcept;
+    Status start_all() noexcept;
+    void stay_below(int runner_priority) noexcept;
     void demote(WindowThread& thread) noexcept;
     void promote(WindowThread& thread) noexcept;
 
@@ -96,6 +109,8 @@ class GuardedHost final : public WindowHost {
     ThreadPlace place_;
     Right priority_right_{};
     Right processor_right_{};
+    int window_priority_{0};  ///< highest fixed priority of the threads; 0: none has one
+    bool may_idle_{false};
 };
 
 }  // namespace mamori::ports::posix_rt

@@ -73,9 +73,11 @@ class PartitionReceiver final : public Component {
   public:
     static constexpr std::size_t kCapacity = PartitionSender<T>::kCapacity;
 
-    /// @param[in] reader opened with kCapacity before the executive is initialised; must have static storage.
-    constexpr PartitionReceiver(const char* name, FrameReader& reader) noexcept
-        : Component(name), reader_(reader) {}
+    /// @param[in] reader   opened with kCapacity before the executive is initialised; must have static
+    /// storage.
+    /// @param[in] lead_max how far the instant of a message may be after now, >= 0; a later one is malformed.
+    constexpr PartitionReceiver(const char* name, FrameReader& reader, Duration lead_max = {}) noexcept
+        : Component(name), reader_(reader), lead_max_(lead_max) {}
 
     OutPort<T> out{"out"};
     OutPort<PartitionNews> news{"news"};
@@ -84,6 +86,12 @@ class PartitionReceiver final : public Component {
     /// @return kOk; kPreconditionNotMet (the reader is not open, or for another capacity).
     Status on_initialize() noexcept override {
         return reader_.get_capacity() == kCapacity ? Status::kOk : Status::kPreconditionNotMet;
+    }
+    /// Drops the message of an earlier run, which would come out as new. @return kOk.
+    Status on_startup(ContextHandle) noexcept override {
+        FrameFacts facts{};
+        static_cast<void>(reader_.take({buffer_.data(), buffer_.size()}, facts));
+        return Status::kOk;
     }
     /// @return kOk, whatever came.
     Status on_execute(ContextHandle context) noexcept override {
@@ -108,7 +116,7 @@ class PartitionReceiver final : public Component {
 
     bool accept(const FrameFacts& facts, Instant now) noexcept {
         const std::int64_t at = facts.published_at.ns;
-        const bool is_instant = at > -kFarthest && at < kFarthest;
+        const bool is_instant = at > -kFarthest && at < kFarthest && facts.published_at - now <= lead_max_;
         if (!is_instant || decode({buffer_.data(), facts.length}, kFrameOrder, value_) != Status::kOk) {
             return false;
         }
@@ -120,6 +128,7 @@ class PartitionReceiver final : public Component {
     }
 
     FrameReader& reader_;
+    Duration lead_max_;
     std::array<std::byte, kCapacity> buffer_{};
     T value_{};
     PartitionNews state_{};

@@ -3,13 +3,15 @@
 /// What a process asks of Linux to keep its times: a fixed priority, a processor, memory that stays in place.
 /// Each may be refused; the process goes on, and what was refused goes into the evidence.
 ///
-/// @satisfies SWR-PRT-002, SWR-PRT-037      Design: docs/design/posix_rt.md#rights
+/// @satisfies SWR-PRT-002, SWR-PRT-037, SWR-PRT-040, SWR-PRT-046      Design: docs/design/posix_rt.md#rights
 #ifndef MAMORI_PORTS_POSIX_RT_REAL_TIME_RIGHTS_HPP
 #define MAMORI_PORTS_POSIX_RT_REAL_TIME_RIGHTS_HPP
 
 #include <pthread.h>
 
 #include <cstddef>
+
+#include "mamori/kernel/status.hpp"
 
 namespace mamori::ports::posix_rt {
 
@@ -28,7 +30,7 @@ constexpr Right combine(const Right& first, const Right& second) noexcept {
 struct ThreadPlace {
     static constexpr int kAnyProcessor = -1;
 
-    int priority{0};               ///< of SCHED_FIFO, 1 .. 99; 0: no fixed priority is asked for
+    int priority{0};               ///< of SCHED_FIFO, 1 .. 99; 0: an ordinary thread (SCHED_OTHER)
     int processor{kAnyProcessor};  ///< number of the processor, 0, 1, ...
 };
 
@@ -36,13 +38,37 @@ struct ThreadPlace {
 /// @return refused without the right for it (EPERM), or for a priority that Linux does not have (EINVAL).
 Right set_priority(pthread_t thread, int priority) noexcept;
 
+/// Lets a thread run only while no thread of another policy wants its processor (SCHED_IDLE).
+/// set_priority() takes that back, which may need a privilege: see may_leave_idle().
+Right set_idle(pthread_t thread) noexcept;
+
+/// Tries on a thread of its own whether this process may give a thread in SCHED_IDLE its policy back.
+bool may_leave_idle() noexcept;
+
+/// @return fixed priority of the calling thread (SCHED_FIFO, SCHED_RR), 1 .. 99; 0: it has none. One system
+///         call, so a priority that another process has changed counts as well.
+int get_own_priority() noexcept;
+
+/// What a thread was given of its ThreadPlace. `priority` is granted for priority 0 too.
+struct ThreadRights {
+    Right priority{};
+    Right processor{};
+};
+
+/// Starts a thread that has the scheduling of `place` and inherits neither policy nor priority of the caller.
+/// A privilege that is denied does not prevent the start: the thread is an ordinary one then.
+/// @return kOk; kOutOfResources (no thread; `thread` and `rights` are unchanged).
+Status start_thread(pthread_t& thread, void* (*run)(void*), void* argument, ThreadPlace place,
+                    ThreadRights& rights) noexcept;
+
 /// Binds a thread to one processor. @return refused when there is none of that number, or it is not ours
-/// (EINVAL); granted for kAnyProcessor, which changes nothing.
+/// (EINVAL); granted for kAnyProcessor, which changes nothing: a new thread has the processors of its opener.
 Right set_processor(pthread_t thread, int processor) noexcept;
 
 /// Locks all memory of the process, now and later, and touches `stack_size` bytes of the stack of the caller,
 /// so that no page has to be fetched in a window.
-/// @param[in] stack_size [byte] at most 1 MiB is touched.
+/// @param[in] stack_size [byte] at most 1 MiB is touched, and never more than the stack of the caller has
+/// left.
 /// @return refused without the right for that much memory and 64 MiB more, which the stacks of threads that
 /// are started later take (EPERM, ENOMEM); then nothing is locked.
 Right lock_memory(std::size_t stack_size) noexcept;

@@ -3,7 +3,7 @@
 /// A watchdog that needs no device: a thread above all others that closes the outputs when it is not served
 /// in time. Where the machine has a device, that one watches over this thread.
 ///
-/// @satisfies SWR-PRT-020, SWR-PRT-021, SWR-PRT-022, SWR-PRT-025
+/// @satisfies SWR-PRT-020, SWR-PRT-021, SWR-PRT-022, SWR-PRT-025, SWR-PRT-040, SWR-PRT-041
 /// Design: docs/design/posix_rt.md#watchdog
 #ifndef MAMORI_PORTS_POSIX_RT_SOFTWARE_WATCHDOG_HPP
 #define MAMORI_PORTS_POSIX_RT_SOFTWARE_WATCHDOG_HPP
@@ -68,7 +68,9 @@ class SoftwareWatchdog final : public safety::Watchdog {
     /// Starts the thread. @param[in] place priority above everything that is watched.
     /// @param[in] device nullptr, or open and to be left so until close(); served by the thread four times in
     ///            its timeout, as long as this watchdog has not expired.
-    /// @return kOk; kPreconditionNotMet (open already, or the device is closed); kOutOfResources (no thread).
+    /// @return kOk; kPreconditionNotMet (open already, or the device is closed); kOutOfResources (no thread);
+    ///         kBadParameter (the calling thread has a fixed priority that `place` is not above: the watchdog
+    ///         could not run while this thread hangs).
     Status open(ThreadPlace place, WatchdogDevice* device = nullptr) noexcept;
     /// Ends the watching, on purpose and with the outputs closed. A device is disarmed by its owner. An
     /// expired watchdog stays expired. @return kOk; kPreconditionNotMet (closed already).

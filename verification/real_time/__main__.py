@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measures how often the real-time part passes, fails or is inconclusive on this host:
+`python -P -m mamori.verification.real_time [--runs N] [--load] [--defect NAME ...] [--build DIR]`.
+
+One run executes every campaign program once; an inconclusive program is repeated at most twice. The worst verdict of its programs is
+that of the run. Ends by itself: each program is bounded, and so is the load.
+
+Design: docs/design/test_strength.md#real-time-verdicts
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, EXIT_USAGE
+from mamori.verification.command.project import RELEASE, ROOT, Project
+from mamori.verification.real_time.repeat import REPEATS_MAX
+
+DEFECTS = ("late_release", "overrun", "wrong_name")
+VERDICTS = {0: "passed", 1: "failed", 4: "inconclusive"}
+WORST_FIRST = ("failed", "inconclusive", "passed")
+PROGRAM_TIMEOUT_S = 120
+LOAD_TIMEOUT_S = 300
+
+
+@dataclass(frozen=True)
+class Program:
+    """A campaign program with the size of its short run."""
+
+    name: str
+    before_seed: tuple[str, ...]
+    after_seed: tuple[str, ...] = ()
+    defects: tuple[str, ...] = DEFECTS
+
+    def make_command(self, folder: Path, seed: int, defect: str) -> list[str]:
+        chosen = ("--defect", defect) if defect else ()
+        return [str(folder / self.name / self.name), *self.before_seed, str(seed), *self.after_seed, *chosen]
+
+
+PROGRAMS = (
+    Program("time_faults", ("4000", "50"), ("storm",)),
+    Program("lost_service", ("70",), defects=("late_release", "overrun")),
+    Program("partition_faults", ("8",)),
+)
+
+
+@dataclass(frozen=True)
+class Ended:
+    """One program of one run."""
+
+    name: str
+    verdict: str
+    repeats: int
+    reason: str
+
+
+def run_program(program: Program, folder: Path, seed: int, defect: str) -> Ended:
+    """At most three times, each with its own seed."""
+    verdict, reason, repeats = "failed", "", 0
+    for repeats in range(REPEATS_MAX + 1):
+        command = program.make_command(folder, seed + 1000 * repeats, defect)
+        try:
+            child = subprocess.run(command, capture_output=True, text=True, timeout=PROGRAM_TIMEOUT_S, check=False)
+        except subprocess.TimeoutExpired:
+            return Ended(program.name, "failed", repeats, f"did not end within {PROGRAM_TIMEOUT_S} s")
+        verdict = VERDICTS.get(child.returncode, "failed")
+        reason = json.loads(child.stdout)["reason"] if child.returncode in VERDICTS else f"status {child.returncode}"
+        if verdict != "inconclusive":
+            break
+    return Ended(program.name, verdict, repeats, reason)
+
+
+@contextmanager
+def load(is_wanted: bool) -> Iterator[None]:
+    """Two processes that compute, for as long as one run takes and not longer than a bound."""
+    if not is_wanted:
+        yield
+        return
+    child = subprocess.Popen(
+        ["stress-ng", "--cpu", "2", "--timeout", f"{LOAD_TIMEOUT_S}s"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    try:
+        yield
+    finally:
+        child.terminate()
+        child.wait()
+
+
+def measure(folder: Path, runs: int, is_loaded: bool, defect: str, first_seed: int) -> list[list[Ended]]:
+    """`runs` runs; prints what is not passed at once."""
+    programs = [program for program in PROGRAMS if not defect or defect in program.defects]
+    results = []
+    for number in range(runs):
+        with load(is_loaded):
+            ended = [run_program(program, folder, first_seed + number, defect) for program in programs]
+        results.append(ended)
+        for item in ended:
+            if item.verdict != "passed" and not defect:
+                print(f"  run {number + 1}: {item.name} {item.verdict} after {item.repeats} repetitions: {item.reason}", flush=True)
+    return results
+
+
+def get_worst(ended: Sequence[Ended]) -> str:
+    """Verdict of a run."""
+    return next(verdict for verdict in WORST_FIRST if any(item.verdict == verdict for item in ended))
+
+
+def make_rows(label: str, results: Sequence[Sequence[Ended]]) -> list[str]:
+    """A row for the runs and one for each program."""
+    rows = [("all programs", Counter(get_worst(ended) for ended in results), sum(item.repeats for ended in results for item in ended))]
+    for name in [item.name for item in results[0]]:
+        own = [item for ended in results for item in ended if item.name == name]
+        rows.append((name, Counter(item.verdict for item in own), sum(item.repeats for item in own)))
+    return [
+        f"| {label} | {name} | {counts['passed']} | {counts['failed']} | {counts['inconclusive']} | {repeats} |"
+        for name, counts, repeats in rows
+    ]
+
+
+def is_accepted(results: Sequence[Sequence[Ended]], is_loaded: bool, defect: str) -> bool:
+    """Limits for 20 runs, in proportion: without a defect 0 failed, and 5 inconclusive under load or 1 without; with one 0 passed
+    and 18 failed."""
+    counts = Counter(get_worst(ended) for ended in results)
+    if defect:
+        return counts["passed"] == 0 and 20 * counts["failed"] >= 18 * len(results)
+    return counts["failed"] == 0 and 20 * counts["inconclusive"] <= (5 if is_loaded else 1) * len(results)
+
+
+def main(arguments: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(prog="real_time", description="Repeated runs of the real-time campaigns.")
+    parser.add_argument("--runs", type=int, default=20, metavar="N")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the first run; each has its own")
+    parser.add_argument("--load", action="store_true", help="beside stress-ng --cpu 2")
+    parser.add_argument("--defect", action="append", choices=DEFECTS, default=[], help="a row for each; may be repeated")
+    parser.add_argument("--all", action="store_true", help="without load, under load, and each defect under load")
+    parser.add_argument("--build", type=Path, default=Project(ROOT, RELEASE).build, metavar="DIR")
+    given = parser.parse_args(arguments)
+    folder = given.build / "verification"
+    missing = [p.name for p in PROGRAMS if not os.access(folder / p.name / p.name, os.X_OK)]
+    if given.runs < 1 or missing:
+        what = f"{folder}: {', '.join(missing)} missing; build the targets" if missing else f"--runs {given.runs}: at least 1"
+        print(f"real_time: {what}", file=sys.stderr)
+        return EXIT_USAGE
+    plan = [(given.load, defect) for defect in given.defect or [""]]
+    if given.all:
+        plan = [(False, ""), (True, ""), *((True, defect) for defect in DEFECTS)]
+    rows, is_well = [], True
+    for is_loaded, defect in plan:
+        label = f"{'load' if is_loaded else 'no load'}{', ' + defect if defect else ''}"
+        print(f"{label}: {given.runs} runs, {time.strftime('%H:%M:%S')}", flush=True)
+        results = measure(folder, given.runs, is_loaded, defect, given.seed)
+        rows += make_rows(label, results)
+        is_well = is_well and is_accepted(results, is_loaded, defect)
+    print("| host, defect | program | passed | failed | inconclusive | repetitions |", "|---|---|---|---|---|---|", *rows, sep="\n")
+    print("within the limits" if is_well else "outside the limits")
+    return EXIT_OK if is_well else EXIT_FAILED
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Time that a thread was ready and did not run, as the kernel counts it (/proc/thread-self/schedstat).
+#ifndef MAMORI_VERIFICATION_RUN_DELAY_HPP
+#define MAMORI_VERIFICATION_RUN_DELAY_HPP
+
+#include <cstdint>
+
+#include "mamori/kernel/time.hpp"
+
+namespace mamori::verification {
+
+/// Thread safety: for one thread, the first that calls take(). Memory: none. The file stays open to the end of
+/// the process, since a thread that was given up may still read it.
+class RunDelayMeter final {
+  public:
+    /// @return the delay since the call before; 0 at the first call and where the kernel does not count it.
+    Duration take() noexcept;
+
+  private:
+    std::int64_t last_ns_{0};
+    int descriptor_{-1};
+    bool is_open_{false};
+};
+
+}  // namespace mamori::verification
+
+#endif  // MAMORI_VERIFICATION_RUN_DELAY_HPP

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Defects that a campaign program puts into the software under test, to show that its run fails for them.
+#ifndef MAMORI_VERIFICATION_SEEDED_DEFECT_HPP
+#define MAMORI_VERIFICATION_SEEDED_DEFECT_HPP
+
+#include <cstdint>
+
+namespace mamori::verification {
+
+enum class Defect : std::uint8_t {
+    kNone,
+    kLateRelease,  ///< a window is opened too late, or outputs are closed too late
+    kOverrun,      ///< a component computes for longer than its budget
+    kWrongName     ///< a report names another component or fault
+};
+inline constexpr std::size_t kDefectCount{4U};
+/// Frames between two seeded defects.
+inline constexpr std::uint64_t kDefectEvery{41U};
+
+const char* get_name(Defect defect) noexcept;
+/// Takes `--defect NAME` off the end of the arguments. @param[in,out] count of the arguments. @return false:
+/// no such name.
+bool take_defect(int& count, char** arguments, Defect& defect) noexcept;
+
+}  // namespace mamori::verification
+
+#endif  // MAMORI_VERIFICATION_SEEDED_DEFECT_HPP

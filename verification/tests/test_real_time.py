@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Goal: the measurement of the real-time part counts what its programs decided. Method: programs of one line with known verdicts."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from mamori.verification.real_time.__main__ import DEFECTS, PROGRAMS, Ended, get_worst, is_accepted, main, make_rows, run_program
+
+STATUS = {"passed": 0, "failed": 1, "inconclusive": 4}
+
+
+def write_program(folder: Path, name: str, *verdicts: str) -> None:
+    """A program that ends with the next verdict at each run, with the last one again and again."""
+    place = folder / "verification" / name
+    place.mkdir(parents=True, exist_ok=True)
+    statuses = " ".join(str(STATUS.get(verdict, 77)) for verdict in verdicts)
+    program = place / name
+    program.write_text(
+        f"#!/bin/sh\nset -- {statuses}\nn=$(cat {place}/count 2>/dev/null || echo 0)\nn=$((n + 1))\necho $n > {place}/count\n"
+        f'[ $n -gt $# ] && n=$#\nshift $((n - 1))\necho \'{json.dumps({"reason": "figures"})}\'\nexit $1\n',
+        encoding="utf-8",
+    )
+    program.chmod(0o755)
+
+
+def make_results(*verdicts: str) -> list[list[Ended]]:
+    return [[Ended("one", verdict, 0, "")] for verdict in verdicts]
+
+
+@pytest.mark.verifies("SWR-VER-023", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize(
+    ("verdicts", "expected", "repeats"),
+    [
+        (("passed", "failed"), "passed", 0),
+        (("failed", "passed"), "failed", 0),
+        (("inconclusive", "passed", "failed"), "passed", 1),
+        (("inconclusive", "inconclusive", "failed"), "failed", 2),
+        (("inconclusive", "inconclusive", "inconclusive", "passed"), "inconclusive", 2),
+        (("crashed", "passed"), "failed", 0),
+    ],
+)
+def test_a_campaign_program_runs_again_only_while_inconclusive(tmp_path: Path, verdicts: tuple[str, ...], expected: str, repeats: int) -> None:
+    write_program(tmp_path, "lost_service", *verdicts)
+
+    ended = run_program(PROGRAMS[1], tmp_path / "verification", 1, "")
+
+    assert (ended.verdict, ended.repeats) == (expected, repeats)
+
+
+@pytest.mark.verifies("SWR-VER-022", technique="boundary_values", polarity="violation")
+def test_the_limits_are_those_of_twenty_runs() -> None:
+    def accepts(passed: int, failed: int, inconclusive: int, is_loaded: bool, defect: str = "") -> bool:
+        return is_accepted(make_results(*["passed"] * passed, *["failed"] * failed, *["inconclusive"] * inconclusive), is_loaded, defect)
+
+    assert accepts(15, 0, 5, True) and not accepts(14, 0, 6, True) and not accepts(19, 1, 0, True)
+    assert accepts(19, 0, 1, False) and not accepts(18, 0, 2, False) and not accepts(19, 1, 0, False)
+    assert accepts(0, 18, 2, True, "overrun") and not accepts(0, 17, 3, True, "overrun")
+    assert not accepts(1, 19, 0, True, "overrun")
+
+
+def test_the_worst_verdict_of_its_programs_is_that_of_a_run() -> None:
+    assert get_worst([Ended("a", "passed", 0, ""), Ended("b", "inconclusive", 2, "")]) == "inconclusive"
+    assert get_worst([Ended("a", "inconclusive", 2, ""), Ended("b", "failed", 0, "")]) == "failed"
+    assert make_rows("load", make_results("passed", "failed"))[0] == "| load | all programs | 1 | 1 | 0 | 0 |"
+
+
+@pytest.mark.verifies("SWR-VER-022", technique="fault_injection", polarity="violation")
+def test_the_table_has_a_row_for_each_program_and_the_status_tells_the_limits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for program in PROGRAMS:
+        write_program(tmp_path, program.name, "passed")
+    assert main(["--runs", "2", "--build", str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert "| no load | time_faults | 2 | 0 | 0 | 0 |" in out and out.endswith("within the limits\n")
+
+    assert main(["--runs", "1", "--defect", DEFECTS[0], "--build", str(tmp_path)]) == 1
+    assert capsys.readouterr().out.endswith("outside the limits\n")
+
+
+@pytest.mark.verifies("SWR-VER-022", technique="error_guessing", polarity="violation")
+def test_programs_that_are_not_built_and_no_runs_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--build", str(tmp_path)]) == 2
+    assert "time_faults, lost_service, partition_faults missing" in capsys.readouterr().err
+    for program in PROGRAMS:
+        write_program(tmp_path, program.name, "passed")
+    assert main(["--runs", "0", "--build", str(tmp_path)]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
