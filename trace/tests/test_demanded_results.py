@@ -89,8 +89,8 @@ def test_text_json_and_report_agree_on_what_is_not_shown(sample: Sample, trace: 
     count = summary["verdicts"]["not shown here"]
     assert summary["statuses"]["not shown here"] == 1 and report.status == 0
     assert f"{count} not shown here" in text and "1 not shown here\n" in text and f"{count} not shown here" in report.out
-    lead = re.search(r'<p class="lead">(.*?)</p>', out.read_text(), re.DOTALL)[1]
-    assert f"{count} items are not shown here." in lead and "passed" not in lead and "verified" not in lead
+    answers = re.search(r'<div class="answers">(.*?)<div class="tiles">', out.read_text(), re.DOTALL)[1]
+    assert f">{count} not shown here<" in answers and "0 of" in answers and ">Yes" not in answers
 
 
 @pytest.mark.parametrize(
@@ -139,8 +139,8 @@ def test_results_without_any_record_are_unbound(sample: Sample, trace: Callable,
     assert len(outcome.content["findings"]) == 3  # two files of results and the campaign
     out = tmp_path / "page.html"
     trace("report", "--root", sample.root, "--out", out, "--allow-missing", recorded=False)
-    lead = re.search(r'<p class="lead">(.*?)</p>', out.read_text(), re.DOTALL)[1]
-    assert f"{verdicts['unbound']} items are unbound." in lead and "Every demanded" not in lead
+    answers = re.search(r'<div class="answers">(.*?)<div class="tiles">', out.read_text(), re.DOTALL)[1]
+    assert f">{verdicts['unbound']} unbound<" in answers and ">Yes" not in answers
 
 
 @pytest.mark.parametrize("inner", ["<!-- changed -->", ""], ids=["altered", "no-row"])

@@ -15,8 +15,10 @@ from functools import cached_property
 from pathlib import Path
 
 from mamori.trace.actions.review import review_links
+from mamori.trace.readers.evidence_records import list_recorded
 from mamori.trace.readers.lock import write_lock
 from mamori.trace.readers.project import read_requirements
+from mamori.trace.records import make_rows, write_rows
 
 SCHEMA = Path(__file__).resolve().parents[2] / "requirements" / "schema" / "items.toml"
 COMMIT_WITHOUT_GIT = "0123456789abcdef0123456789abcdef01234567"
@@ -143,6 +145,8 @@ def write_native(plan: Plan, root: Path, with_git: bool = False) -> None:
     write_lock(root, project.lock)
     commit = _make_commit(root) if with_git else COMMIT_WITHOUT_GIT
     _write(root / EVIDENCE / "environment.json", json.dumps(_make_environment(commit), indent=1) + "\n")
+    inputs = {"sources": "", "tool_chain": "", "configuration": "large project"}
+    write_rows(root / EVIDENCE, make_rows(root / EVIDENCE, list_recorded(root / EVIDENCE), inputs, lambda _: None))
 
 
 def list_documents(plan: Plan) -> Iterator[tuple[str, str]]:
