@@ -122,7 +122,7 @@ TEST_F(FlightStepTest, EachInstructionOfAWriteLeavesTheOldRecordATornOneOrTheNew
     verifies("SWR-REC-003", Technique::kFaultInjection, Polarity::kViolation);
     const std::vector<Bytes> contents = step_through([this] { write_next(recorder_); });
     if (contents.empty()) {
-        GTEST_SKIP() << "this machine does not let one process lead another (ptrace)";
+        GTEST_SKIP() << "verdict=no-privilege: this machine does not let one process lead another (ptrace)";
     }
 
     ASSERT_TRUE(holds(contents.front(), 3U));
@@ -140,7 +140,7 @@ TEST_F(FlightStepTest, ASessionGoesOnAfterEachInstructionOfAWrite) {
     verifies("SWR-REC-006", Technique::kFaultInjection, Polarity::kViolation);
     const std::vector<Bytes> contents = step_through([this] { write_next(recorder_); });
     if (contents.empty()) {
-        GTEST_SKIP() << "this machine does not let one process lead another (ptrace)";
+        GTEST_SKIP() << "verdict=no-privilege: this machine does not let one process lead another (ptrace)";
     }
 
     for (std::size_t i = 0U; i < contents.size(); ++i) {
@@ -158,7 +158,8 @@ TEST_F(FlightStepTest, NoNumberIsGivenAgainAfterEachInstructionOfAWriteAndTheLos
         before_ = Bytes(region_.begin(), region_.end());
         const std::vector<Bytes> contents = step_through([this] { write_next(recorder_); });
         if (contents.empty()) {
-            GTEST_SKIP() << "this machine does not let one process lead another (ptrace)";
+            GTEST_SKIP()
+                << "verdict=no-privilege: this machine does not let one process lead another (ptrace)";
         }
 
         for (std::size_t i = 0U; i < contents.size(); ++i) {
@@ -186,7 +187,7 @@ TEST_F(FlightStepTest, EachInstructionOfAnOpeningLeavesARecorderThatOpens) {
         static_cast<void>(second.open(region_));
     });
     if (contents.empty()) {
-        GTEST_SKIP() << "this machine does not let one process lead another (ptrace)";
+        GTEST_SKIP() << "verdict=no-privilege: this machine does not let one process lead another (ptrace)";
     }
 
     ASSERT_GT(contents.size(), 5U);
@@ -208,7 +209,7 @@ TEST_F(FlightStepTest, HalfFormattedRegionIsNoRecorder) {
     const std::vector<Bytes> contents =
         step_through([this] { static_cast<void>(FlightRecorder::format(region_)); });
     if (contents.empty()) {
-        GTEST_SKIP() << "this machine does not let one process lead another (ptrace)";
+        GTEST_SKIP() << "verdict=no-privilege: this machine does not let one process lead another (ptrace)";
     }
 
     ASSERT_GT(contents.size(), kSize / 4U);
@@ -232,7 +233,7 @@ TEST_F(FlightStepTest, AFirstFormatThatEndsAfterAnyInstructionIsDoneAgain) {
         static_cast<void>(first.open(region_));
     });
     if (contents.empty()) {
-        GTEST_SKIP() << "this machine does not let one process lead another (ptrace)";
+        GTEST_SKIP() << "verdict=no-privilege: this machine does not let one process lead another (ptrace)";
     }
 
     ASSERT_GT(contents.size(), flight::kSessionOffsets[0] / 2U) << "bytes of the header that are not 0";

@@ -134,7 +134,7 @@ class AssumedSystemTest : public ::testing::Test {
     ExecutiveFor<decltype(table_)> executive_{table_};
 };
 
-constexpr const char* kNoRights = "no right for fixed priorities or locked memory";
+constexpr const char* kNoRights = "verdict=no-privilege: no right for fixed priorities or locked memory";
 
 TEST_F(AssumedSystemTest, WindowFindsAllThatItsSystemHas) {
     verifies("SWR-AOU-014", Technique::kInterface);

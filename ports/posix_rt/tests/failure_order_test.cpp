@@ -222,7 +222,8 @@ TEST_F(FailureOrderTest, WaitingThreadOfAHighPriorityLeavesTheProcessorToTheHand
     std::atomic<bool> has_privilege{false};
     std::thread{[&] { has_privilege = set_priority(pthread_self(), 80).is_granted; }}.join();
     if (!has_privilege) {
-        GTEST_SKIP() << "this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
+        GTEST_SKIP()
+            << "verdict=no-privilege: this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
     }
     const auto compute_and_exit = [](const AssertionRecord&) noexcept {
         g_shared->is_in_handler = true;

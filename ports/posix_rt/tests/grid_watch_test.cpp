@@ -318,7 +318,8 @@ TEST(GridWatchRightsTest, ItsThreadGetsItsPriority) {
     sut.close();
     if (!right.is_granted) {
         ASSERT_EQ(right.system_error, EPERM);
-        GTEST_SKIP() << "this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
+        GTEST_SKIP()
+            << "verdict=no-privilege: this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
     }
     EXPECT_EQ(right.system_error, 0);
 }

@@ -197,7 +197,7 @@ TEST_F(PartitionProcessTest, AnEpochOfItsOwnIsNotHandedOnAndAWrongOneIsNone) {
 TEST_F(PartitionProcessTest, ItsStartCopiesNoMemory) {
     verifies("SWR-PRT-015", Technique::kErrorGuessing, Polarity::kViolation);
     if (kIsEachStartACopy) {
-        GTEST_SKIP() << "this sanitizer makes a copying start of every one";
+        GTEST_SKIP() << "verdict=not-shown: this sanitizer makes a copying start of every one";
     }
     constexpr std::size_t kPage = 4096U;
     constexpr std::size_t kPages = 1024U;
@@ -343,7 +343,8 @@ TEST_F(PartitionProcessTest, ItHasNoRightThatCouldMoveAWindow) {
 TEST_F(PartitionProcessTest, ItDoesNotInheritAFixedPriority) {
     verifies("SWR-PRT-016", Technique::kFaultInjection, Polarity::kViolation);
     if (!set_priority(pthread_self(), 5).is_granted) {
-        GTEST_SKIP() << "this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
+        GTEST_SKIP()
+            << "verdict=no-privilege: this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
     }
     const std::string facts = run("cut -d')' -f2 /proc/$$/stat >&3");
     ASSERT_TRUE(set_priority(pthread_self(), 0).is_granted);
@@ -388,7 +389,8 @@ TEST_F(PartitionProcessTest, ItRunsAsAnotherUserWhereThatIsAllowed) {
         EXPECT_EQ(start("true"), Status::kError);
         EXPECT_EQ(sut_.get_error(), PartitionError::kCannotBecome);
         EXPECT_EQ(sut_.get_system_error(), EPERM);
-        GTEST_SKIP() << "only root may start a process as another user (CAP_SETUID, CAP_SETGID)";
+        GTEST_SKIP()
+            << "verdict=no-privilege: only root may start a process as another user (CAP_SETUID, CAP_SETGID)";
     }
 
     const std::string facts = run("cat /proc/self/status >&3");

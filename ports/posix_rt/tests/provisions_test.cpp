@@ -61,7 +61,7 @@ TEST_F(MemoryLockedTest, LockedMemoryIsInEffect) {
     ASSERT_EQ(sut_.open(), Status::kOk);
     EXPECT_EQ(sut_.open(), Status::kPreconditionNotMet);
     if (!lock()) {
-        GTEST_SKIP() << "memory cannot be locked here";
+        GTEST_SKIP() << "verdict=no-privilege: memory cannot be locked here";
     }
 
     EXPECT_EQ(sut_.look(), Status::kOk);
@@ -73,7 +73,7 @@ TEST_F(MemoryLockedTest, MemoryThatIsNotLockedOrNotAllOfItIsNot) {
     ASSERT_EQ(sut_.open(), Status::kOk);
     EXPECT_EQ(sut_.look(), Status::kPreconditionNotMet) << "nothing is locked yet";
     if (!lock()) {
-        GTEST_SKIP() << "memory cannot be locked here";
+        GTEST_SKIP() << "verdict=no-privilege: memory cannot be locked here";
     }
     ProvisionCheck check{sut_};
     ASSERT_EQ(check.check(), SelfTestStatus::kPassed);
@@ -156,7 +156,7 @@ TEST(FloatingPointModeTest, FlushedDenormalsAreNotInEffect) {
     EXPECT_EQ(zero, Status::kPreconditionNotMet);
     EXPECT_EQ(sut.look(), Status::kOk);
 #else
-    GTEST_SKIP() << "this processor is switched in another way";
+    GTEST_SKIP() << "verdict=not-shown: this processor is switched in another way";
 #endif
 }
 
@@ -193,7 +193,7 @@ TEST(GuardAboveTest, GuardAboveTheWindowsIsInEffectAndOneBesideOrBelowIsNot) {
     sut.set_guard();
     EXPECT_EQ(look_with(sut, 0), Status::kPreconditionNotMet) << "both are ordinary threads";
     if (!set_priority(pthread_self(), 20).is_granted) {
-        GTEST_SKIP() << "no right for fixed priorities";
+        GTEST_SKIP() << "verdict=no-privilege: no right for fixed priorities";
     }
 
     const Status below = look_with(sut, 19);
@@ -235,7 +235,7 @@ TEST(GuardAboveTest, GuardOfAnOrdinaryWindowIsInEffect) {
     is_ending = true;
     guard.join();
     if (!has_right) {
-        GTEST_SKIP() << "no right for fixed priorities";
+        GTEST_SKIP() << "verdict=no-privilege: no right for fixed priorities";
     }
 
     EXPECT_EQ(status, Status::kOk);

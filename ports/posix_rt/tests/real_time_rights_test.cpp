@@ -41,7 +41,8 @@ TEST(RealTimeRightsTest, APriorityIsGrantedAndGivenBack) {
     const Right right = set_priority(pthread_self(), 10);
     if (!right.is_granted) {
         ASSERT_EQ(right.system_error, EPERM);
-        GTEST_SKIP() << "this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
+        GTEST_SKIP()
+            << "verdict=no-privilege: this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
     }
 
     EXPECT_EQ(read_priority(), 10);
@@ -127,7 +128,8 @@ TEST(RealTimeRightsTest, MemoryIsLocked) {
     const Right right = lock_memory(64U * 1024U);
     if (!right.is_granted) {
         ASSERT_TRUE(right.system_error == EPERM || right.system_error == ENOMEM);
-        GTEST_SKIP() << "this host does not let this process lock its memory (CAP_IPC_LOCK or ulimit -l)";
+        GTEST_SKIP() << "verdict=no-privilege: this host does not let this process lock its memory "
+                        "(CAP_IPC_LOCK or ulimit -l)";
     }
     EXPECT_EQ(right.system_error, 0);
     ASSERT_EQ(munlockall(), 0);

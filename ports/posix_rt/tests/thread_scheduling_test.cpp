@@ -36,7 +36,8 @@ using literals::operator""_s;
 
 constexpr int kRunnerPriority = 80;
 constexpr int kAny = ThreadPlace::kAnyProcessor;
-constexpr const char* kNoPrivilege = "this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
+constexpr const char* kNoPrivilege =
+    "verdict=no-privilege: this host grants no fixed priority (CAP_SYS_NICE or ulimit -r)";
 
 bool has_privilege() {
     bool is_granted = false;
@@ -226,7 +227,8 @@ TEST_F(HangTest, ThreadThatWasCutOffLosesItsPriorityUntilItIsBack) {
 TEST_F(HangTest, OrdinaryThreadThatWasCutOffRunsBelowAllOthersUntilItIsBack) {
     verifies("SWR-PRT-042", Technique::kFaultInjection, Polarity::kViolation);
     if (!may_leave_idle()) {
-        GTEST_SKIP() << "this host does not let a thread leave SCHED_IDLE (CAP_SYS_NICE or ulimit -e 20)";
+        GTEST_SKIP() << "verdict=no-privilege: this host does not let a thread leave SCHED_IDLE "
+                        "(CAP_SYS_NICE or ulimit -e 20)";
     }
     GuardedHost host{threads_, clock_, {}};
     ASSERT_EQ(host.open(), Status::kOk);

@@ -250,7 +250,7 @@ TEST_F(ExpiryMemoryTest, WriteThatIsCutOffBehindAnyInstructionLeavesOldNoteNewNo
     const Readings kept = read_behind_each_instruction(
         memory, [&memory] { static_cast<void>(memory.keep(3U, Violation::kAlive, Instant{5})); });
     if (!kept.is_complete) {
-        GTEST_SKIP() << "this machine lets no process be traced";
+        GTEST_SKIP() << "verdict=no-privilege: this machine lets no process be traced";
     }
     ASSERT_EQ(kept.notes.size(), 3U);
     EXPECT_TRUE(is_same(kept.notes[0], none));

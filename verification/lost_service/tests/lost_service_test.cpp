@@ -28,9 +28,9 @@ TEST(LostServiceTest, OutputsAreClosedInTimeAfterEachLossAndNotBefore) {
     RecordProperty("seed", static_cast<int>(kRequest.seed));
     EXPECT_EQ(run.verdict.requested, 60U);
     if (!run.has_priority) {
-        GTEST_SKIP()
-            << "no fixed priority: any thread of the machine may hold up the watchdog, or what tells "
-               "of stalls";
+        GTEST_SKIP() << "verdict=no-privilege: no fixed priority: any thread of the machine may hold up the "
+                        "watchdog, or what tells "
+                        "of stalls";
     }
     report_run(assess_run(run.get_evidence()), facts);
 }

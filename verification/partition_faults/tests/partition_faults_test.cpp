@@ -29,7 +29,8 @@ TEST(PartitionFaultsTest, NoWindowMovesAndEachFaultEndsInItsReactionInTime) {
     RecordProperty("seed", static_cast<int>(kRequest.seed));
     EXPECT_TRUE(verdict.has_run || verdict.is_too_slow) << facts;
     if (!verdict.has_priority) {
-        GTEST_SKIP() << "no fixed priority: any thread of the machine may hold up what tells of stalls, or "
+        GTEST_SKIP() << "verdict=no-privilege: no fixed priority: any thread of the machine may hold up what "
+                        "tells of stalls, or "
                         "the windows";
     }
     report_run(verification::assess_run(verdict.get_evidence()), facts);

@@ -30,7 +30,7 @@ TEST(OccupancyWatchTest, AnotherProcessOnTheProcessorIsSeenAndOurOwnThreadsAreNo
     const int processor = find_processor();
     OccupancyWatch watch{clock, processor};
     if (!watch.knows()) {
-        GTEST_SKIP() << "the kernel does not tell this process who runs";
+        GTEST_SKIP() << "verdict=no-privilege: the kernel does not tell this process who runs";
     }
     ASSERT_TRUE(ports::posix_rt::set_processor(pthread_self(), processor).is_granted);
     const Instant begin = clock.get_now();
@@ -59,7 +59,8 @@ TEST(OccupancyWatchTest, AnotherProcessOnTheProcessorIsSeenAndOurOwnThreadsAreNo
         EXPECT_LE(foreign[i - 1U].end, foreign[i].begin);
     }
     if (!has_priority) {
-        GTEST_SKIP() << "no fixed priority: any thread of the host may run beside the one that must be alone";
+        GTEST_SKIP() << "verdict=no-privilege: no fixed priority: any thread of the host may run beside the "
+                        "one that must be alone";
     }
     if (calc_loss(foreign, alone, end) > Duration{kWork.ns / 4}) {
         // A program of a higher priority was there in truth when this thread was ready and did not run.

@@ -50,8 +50,8 @@ TEST(RunDelayTest, OnlyAThreadThatIsReadyAndDoesNotRunIsDelayed) {
     }};
     thread.join();
     if (!has_priority || delayed == Duration{0}) {
-        GTEST_SKIP() << "no fixed priority, or the kernel does not count the delay: " << has_priority << ' '
-                     << delayed.ns;
+        GTEST_SKIP() << "verdict=no-privilege: no fixed priority, or the kernel does not count the delay: "
+                     << has_priority << ' ' << delayed.ns;
     }
     RecordProperty("delayed_ns", std::to_string(delayed.ns));
     EXPECT_LT(asleep, Duration{kWork.ns / 2});

@@ -35,9 +35,9 @@ class TimeFaultsRunTest : public ::testing::Test {
         RecordProperty("seed", static_cast<int>(kRequest.seed));
         ASSERT_EQ(verdict_.frames, kRequest.frame_count);
         if (!verdict_.has_priority) {
-            GTEST_SKIP()
-                << "no fixed priority: any thread of the machine may hold up what tells of stalls, or "
-                   "the windows";
+            GTEST_SKIP() << "verdict=no-privilege: no fixed priority: any thread of the machine may hold up "
+                            "what tells of stalls, or "
+                            "the windows";
         }
     }
     static Verdict verdict_;
@@ -75,7 +75,7 @@ TEST_F(TimeFaultsRunTest, AProcessThatFaultsPagesCausesNoneInTheWindows) {
     verifies("SWR-PRT-037", Technique::kFaultInjection, Polarity::kViolation);
     EXPECT_TRUE(verdict_.has_storm) << "it must blow until the end";
     if (!verdict_.has_locked_memory) {
-        GTEST_SKIP() << "the machine does not let this process lock its memory";
+        GTEST_SKIP() << "verdict=no-privilege: the machine does not let this process lock its memory";
     }
     EXPECT_TRUE(verdict_.are_pages_well()) << facts_;
 }

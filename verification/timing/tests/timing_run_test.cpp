@@ -97,7 +97,7 @@ class TimingRunTest : public ::testing::Test {
 TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
     verifies("SWR-TIM-003");
     if (!has_two_processors()) {
-        GTEST_SKIP() << "needs two processors";
+        GTEST_SKIP() << "verdict=not-shown: needs two processors";
     }
     const TimingResult result = run_timing({{upper_, upper_threads_}, {lower_, lower_threads_}}, options_);
 
@@ -124,7 +124,7 @@ TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
 TEST_F(TimingRunTest, EachCoreOpensItsWindowsInAllFramesThatWereAskedFor) {
     verifies("SWR-TIM-002");
     if (!has_two_processors()) {
-        GTEST_SKIP() << "needs two processors";
+        GTEST_SKIP() << "verdict=not-shown: needs two processors";
     }
     EXPECT_EQ(run_timing({{upper_, upper_threads_}, {lower_, lower_threads_}}, options_).outcome,
               TimingOutcome::kWhole);
