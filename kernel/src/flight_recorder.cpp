@@ -49,8 +49,8 @@ bool is_never_formatted(Span<const std::byte> region) noexcept {
     const flight::HeaderBytes header =
         flight::encode_header(static_cast<std::uint32_t>(flight::calc_capacity(region.size())));
     std::size_t missing = 0U;
-    while (missing < header.size() && region[missing] == std::byte{0U}) {
-        ++missing;
+    for (std::size_t i = 0U; i < header.size() && region[i] == std::byte{0U}; ++i) {
+        missing = i + 1U;
     }
     for (std::size_t i = missing; i < header.size(); ++i) {
         if (region[i] != std::byte{header[i]}) {

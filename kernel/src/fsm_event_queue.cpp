@@ -69,7 +69,8 @@ Result<FsmEvent> FsmEventQueue::take() noexcept {
     FsmEvent event{};
     std::uint32_t epoch = 0U;
     // Those of an earlier epoch were in the middle of post() when the queue was cleared.
-    for (std::size_t i = 0U; i <= cells_.size() && take_front(event, epoch); ++i) {
+    const std::size_t count = cells_.size() + 1U;
+    for (std::size_t i = 0U; i < count && take_front(event, epoch); ++i) {
         if (epoch == epoch_.load(std::memory_order_relaxed)) {
             return event;
         }
