@@ -327,6 +327,7 @@ TEST_F(DataPortTest, ACrossingBringsNothingThatWasPublishedUpToARestart) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues, Polarity::kViolation);
     Crossing<std::int32_t> crossing;
     in_.restart(Instant{100}, 0U);
+    EXPECT_EQ(in_.get_restart_count(), 1U);
     out_.write(5);
     ASSERT_TRUE(out_.publish(Instant{100}));
     crossing.deliver(out_);

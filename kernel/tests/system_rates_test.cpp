@@ -206,14 +206,16 @@ TEST(SystemRatesTest, AFaultIsDeclaredOnce) {
 
 TEST(SystemRatesTest, AValueCanBeFreshForAWhile) {
     verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
-    const auto check_age = [](Duration age_max) {
+    const auto check_age = [](Duration age_max, Duration lead_max = Duration{}) {
         return list_rules(system(frame(1_ms), window("a", 0_us, 1_us, budget(1_us), run(g_counter, g_relay)),
-                                 connect(g_counter.out, g_relay.in, fresh_within(age_max))));
+                                 connect(g_counter.out, g_relay.in, fresh_within(age_max, lead_max))));
     };
 
     EXPECT_EQ(check_age(1_ns), Rules{});
     EXPECT_EQ(check_age(0_ns), Rules{Rule::kAgeLimitNotPositive});
     EXPECT_EQ(check_age(Duration{-1}), Rules{Rule::kAgeLimitNotPositive});
+    EXPECT_EQ(check_age(1_ns, 1_ns), Rules{});
+    EXPECT_EQ(check_age(1_ns, Duration{-1}), Rules{Rule::kAgeLimitNotPositive});
 }
 
 TEST(SystemRatesTest, ASlowerRateIsAWholePartOfTheFirst) {
