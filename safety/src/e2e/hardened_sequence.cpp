@@ -38,12 +38,13 @@ bool HardenedSequence::is_order_lost(std::uint32_t counter) const noexcept {
 }
 
 CheckStatus HardenedSequence::judge_against_baseline(std::uint32_t counter) noexcept {
-    count_absence();
     const std::uint32_t delta = calc_counter_delta(last_, counter, counter_max_);
     if (delta > limits_.max_delta) {
+        count_absence();
         return CheckStatus::kWrongSequence;
     }
     if (delta == 0U) {
+        count_absence();
         return CheckStatus::kRepeated;
     }
     last_ = counter;
