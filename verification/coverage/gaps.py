@@ -44,6 +44,7 @@ class Row:
     function: str
     condition: str
     reason: str
+    by_chance: bool = False  # the order of threads decides whether a run shows it, so it may be no gap
 
     def __str__(self) -> str:
         return f"{self.file}: {self.function}: {self.condition or NEVER_CALLED}"
@@ -86,9 +87,10 @@ def read_list(path: Path = LIST) -> list[Row]:
         raise ListError(f"{path}: {error}") from error
     rows: list[Row] = []
     for number, table in enumerate(tables, start=1):
-        if set(table) - {"condition"} != {"file", "function", "reason"}:
-            raise ListError(f"{path}: row {number} needs file, function and reason, and may have condition; it has {sorted(table)}")
-        row = Row(table["file"], table["function"], table.get("condition", ""), table["reason"].strip())
+        if set(table) - {"condition", "by_chance"} != {"file", "function", "reason"}:
+            raise ListError(f"{path}: row {number} needs file, function and reason, and may have condition and by_chance;"
+                            f" it has {sorted(table)}")
+        row = Row(table["file"], table["function"], table.get("condition", ""), table["reason"].strip(), table.get("by_chance", False))
         if not row.reason:
             raise ListError(f"{path}: row {number} ({row}) gives no reason")
         if any(str(row) == str(other) for other in rows):
@@ -107,5 +109,5 @@ def judge(gaps: Sequence[Gap], rows: Sequence[Row]) -> Verdict:
             unlisted.append(gap)
         else:
             accepted.append((gap, row))
-    unused = [row for row in rows if not any(row is used for _, used in accepted)]
+    unused = [row for row in rows if not row.by_chance and not any(row is used for _, used in accepted)]
     return Verdict(tuple(accepted), tuple(unlisted), tuple(unused))

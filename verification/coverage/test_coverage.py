@@ -8,6 +8,7 @@ import os
 import re
 import subprocess
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -152,6 +153,7 @@ def test_row_without_a_gap_fails() -> None:
 
     assert not verdict.passed
     assert describe(verdict) == ["verification/coverage/gaps.toml: row names no gap any more, remove it: a.cpp: f: a > 0"]
+    assert judge([], [replace(ROW, by_chance=True)]).passed
 
 
 @pytest.mark.verifies("SWR-VER-002", technique="equivalence_classes")
