@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
         sys.stdout.flush()  # what cannot be written is told here, and not when Python ends
         return status
     except BrokenPipeError:  # who read it has read enough, such as `head`
-        sys.stdout = open(os.devnull, "w", encoding="utf-8")
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (Python closes it at its end)
         return _EXIT_PIPE
     except InputError as error:
         return _refuse(str(error))

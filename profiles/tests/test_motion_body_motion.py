@@ -86,7 +86,7 @@ def test_only_the_joints_or_all_parts_of_the_model_fit(tmp_path: Path, limits: A
 def test_a_part_that_is_not_used_is_read_as_a_number_too(tmp_path: Path, limits: ArmLimits) -> None:
     text = FINGERS.read_text().replace("-0.02, 0.02 ]", "-0.02, .nan ]", 1)
 
-    with pytest.raises(InputError, match="frame 1, joint 9 is .nan"):
+    with pytest.raises(InputError, match=r"frame 1, joint 9 is .nan"):
         read_motion(write(tmp_path, text), limits)
 
 
@@ -171,7 +171,7 @@ def test_a_body_motion_cut_anywhere_is_refused(tmp_path: Path, limits: ArmLimits
 
 @pytest.mark.verifies("SWR-MOT-003", technique="error_guessing", polarity="violation")
 def test_a_bomb_of_aliases_is_refused_at_once(tmp_path: Path, limits: ArmLimits) -> None:
-    bomb = "a: &a [x, x]\n" + "".join(f"{b}: &{b} [*{a}, *{a}, *{a}, *{a}]\n" for a, b in zip("abcdefgh", "bcdefghi"))
+    bomb = "a: &a [x, x]\n" + "".join(f"{b}: &{b} [*{a}, *{a}, *{a}, *{a}]\n" for a, b in zip("abcdefgh", "bcdefghi", strict=True))
 
     with pytest.raises(InputError, match=":2: alias"):
         read_motion(write(tmp_path, bomb), limits)

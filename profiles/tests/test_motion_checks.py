@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from mamori.profiles.input_error import InputError
-from mamori.profiles.motion import ArmLimits, Motion, load_limits, read_motion
-from mamori.profiles.motion import body_motion, table
+from mamori.profiles.motion import ArmLimits, Motion, body_motion, load_limits, read_motion, table
 
 
 def read(folder: Path, limits: ArmLimits, *samples: tuple[float, float]) -> Motion:
@@ -57,7 +56,7 @@ def test_two_samples_and_ten_minutes_are_accepted(tmp_path: Path, limits: ArmLim
 
 @pytest.mark.verifies("SWR-MOT-004", technique="boundary_values", polarity="violation")
 def test_more_than_ten_minutes_are_refused(tmp_path: Path, limits: ArmLimits) -> None:
-    with pytest.raises(InputError, match="motion.dat:3: .*600.001 s, limit 600 s"):
+    with pytest.raises(InputError, match=r"motion.dat:3: .*600.001 s, limit 600 s"):
         read(tmp_path, limits, (0.0, 0.0), (600.0, 0.0), (600.001, 0.0))
 
 
@@ -83,7 +82,7 @@ def test_one_sample_is_refused(tmp_path: Path, limits: ArmLimits) -> None:
 @pytest.mark.parametrize("second", [0.5, 0.4])
 @pytest.mark.verifies("SWR-MOT-004", technique="boundary_values", polarity="violation")
 def test_times_that_do_not_rise_are_refused(tmp_path: Path, limits: ArmLimits, second: float) -> None:
-    with pytest.raises(InputError, match="motion.dat:2: time"):
+    with pytest.raises(InputError, match=r"motion.dat:2: time"):
         read(tmp_path, limits, (0.5, 0.0), (second, 0.0))
 
 

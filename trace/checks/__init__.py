@@ -10,6 +10,8 @@ from types import ModuleType
 
 from mamori.trace.checks import (
     analysis_finding,
+    campaign_missing,
+    child_missing,
     code_missing,
     cycle,
     decomposition_unsound,
@@ -20,8 +22,6 @@ from mamori.trace.checks import (
     duplicate_id,
     evidence_altered,
     evidence_stale,
-    campaign_missing,
-    child_missing,
     function_unexecuted,
     id_reused,
     id_unrecorded,

@@ -14,9 +14,9 @@ from mamori.trace.formats.model import ForeignItem, Relation
 from mamori.trace.formats.sources import SUFFIXES
 from mamori.trace.model.evidence import CodeTag, SourceTest
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.test_heads import list_heads
 from mamori.trace.readers.files import get_shown_path, is_test_file
 from mamori.trace.readers.tag_text import FILE_SYMBOL
+from mamori.trace.readers.test_heads import list_heads
 
 
 def add_file_links(

@@ -19,9 +19,9 @@ from mamori.trace.formats.files import read_whole
 from mamori.trace.model.code import CodeBase
 from mamori.trace.model.evidence import CodeTag, SourceTest
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.cpp_tags import FILE_SYMBOL, parse_cpp_tags
 from mamori.trace.readers.cpp_heads import list_cpp_heads
 from mamori.trace.readers.cpp_plain import Plain, find_dead_lines
+from mamori.trace.readers.cpp_tags import FILE_SYMBOL, parse_cpp_tags
 from mamori.trace.readers.files import get_shown_path, is_test_file, walk_sources
 from mamori.trace.readers.tag_text import ANY_ID, VERIFIES, TagWord, find_words, has_mark
 from mamori.trace.readers.test_heads import find_head, list_heads
@@ -101,7 +101,7 @@ def _name_python_lines(text: str) -> dict[int, str]:
         first = node.body[0] if node.body else None
         if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
             name = getattr(node, "name", FILE_SYMBOL)
-            symbols.update({number: name for number in range(first.lineno, (first.end_lineno or first.lineno) + 1)})
+            symbols.update(dict.fromkeys(range(first.lineno, (first.end_lineno or first.lineno) + 1), name))
     return symbols
 
 

@@ -57,7 +57,7 @@ def format_oft(project: ForeignProject) -> str:
         parts += [f"Covers:\n\n{covers}"] if covers else []
         kind = names[item.id].partition("~")[0]
         parts += [f"Tags: {item.attributes['Tags']}"] if item.attributes.get("Tags") else []
-        needs = item.attributes.get("Needs") if "Needs" in item.attributes else dict(feat="req", req="dsn").get(kind, "impl, utest")
+        needs = item.attributes.get("Needs") if "Needs" in item.attributes else {"feat": "req", "req": "dsn"}.get(kind, "impl, utest")
         parts += [f"Needs: {needs}"] if needs else []
         blocks.append("\n\n".join(parts) + "\n")
     return "\n".join(blocks)

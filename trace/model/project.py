@@ -40,7 +40,8 @@ _CPP_FILES = (".cpp", ".cc", ".cxx", ".hpp", ".h")
 class Project:
     """All that was read. `all_items` keeps every definition in file order; `items` the first one of each id.
 
-    `sources` is the hash of the sources where the evidence tells one, too. `date` is the day of the state that is judged (ISO 8601), or empty where nothing needs or tells it. `run_checks` sets `waived`, and `told`: (rule, item) of all findings.
+    `sources` is the hash of the sources where the evidence tells one, too. `date` is the day of the state that is judged (ISO 8601),
+    or empty where nothing needs or tells it. `run_checks` sets `waived`, and `told`: (rule, item) of all findings.
     """
 
     root: Path

@@ -128,7 +128,7 @@ class Query:
     def _make_words(self) -> dict[str, Iterable[str]]:
         """Fields whose values are a closed list."""
         schema = self._project.schema
-        words: dict[str, Iterable[str]] = {name: self._project.items for name in _LINKS}
+        words: dict[str, Iterable[str]] = dict.fromkeys(_LINKS, self._project.items)
         words["level"] = schema.levels
         words["area"] = {part for key in self._project.items for part in key.split("-")[1:-1]}
         words |= {"sil": schema.sil, "verify": schema.verify, "polarity": schema.polarity, "status": schema.status}

@@ -14,8 +14,8 @@ from pathlib import Path
 
 from mamori.trace.model.bundle import MANIFEST, SIGNATURE, Content, Entry
 from mamori.trace.readers.files import InputError
-from mamori.trace.system_error import explain
 from mamori.trace.readers.tar_file import MAX_MEMBERS, TarError, read_members
+from mamori.trace.system_error import explain
 
 _CHUNK = 1 << 16
 _MAX_MANIFEST = 64 * 1024 * 1024

@@ -198,4 +198,4 @@ def _find_header(shown: str, included: str, by_name: dict[str, list[str]]) -> st
     """The file of the tree that the include means; of several the one nearest to the source."""
     tail = included.lstrip("./")
     known = [path for path in by_name.get(tail.rpartition("/")[2], ()) if f"/{path}".endswith(f"/{tail}")]
-    return min(known, key=lambda path: (-len(commonprefix((path, shown))), path), default="")
+    return min(known, key=lambda path: (-len(commonprefix((path, shown))), path), default="")  # noqa: RUF071 (a likeness, no path)

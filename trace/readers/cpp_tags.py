@@ -86,7 +86,7 @@ def parse_cpp_tags(
     for block in _list_blocks(captures) if has_mark(text) else ():
         target = _find_target(block, found)
         of_block: list[CodeTag] = []
-        for row, comment in zip(block.rows, block.texts):
+        for row, comment in zip(block.rows, block.texts, strict=True):
             for number, line in enumerate(comment.splitlines(), start=row + 1) if has_mark(comment) else ():
                 if number not in dead:
                     of_block.extend(make_tags(line, Place(shown, number), target.symbol, problems, id_pattern))

@@ -67,7 +67,7 @@ def find_changes(lines: Iterable[str]) -> dict[str, list[Change]]:
                 _add_change(changes[item], commit)
             is_told = True
         elif line.startswith(_COMMIT):
-            commit = Change(*(line[1:].split("\x1f", 2) + ["", ""])[:3])
+            commit = Change(*[*line[1:].split("\x1f", 2), "", ""][:3])
             in_hunk = False
         elif hunk := _HUNK.match(line):
             heading = _HEADING.match(hunk[1])

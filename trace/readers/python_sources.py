@@ -140,7 +140,7 @@ def _read_mark(node: ast.expr) -> tuple[str, str, str] | None:
     if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "verifies"):
         return None
     values = {"requirement": "", "technique": "requirements_based", "polarity": "nominal"}
-    named = [*zip(values, node.args), *((keyword.arg, keyword.value) for keyword in node.keywords)]
+    named = [*zip(values, node.args, strict=False), *((keyword.arg, keyword.value) for keyword in node.keywords)]
     for name, value in named:
         if name in values and isinstance(value, ast.Constant):
             values[name] = str(value.value)

@@ -58,5 +58,5 @@ def read_series(path: Path) -> Series:
             raise SeriesError(f"{path.name} line {number}: holds a value that is no finite number")
         if len(samples) > 1 and samples[-1][0] < samples[-2][0]:
             raise SeriesError(f"{path.name} line {number}: time {samples[-1][0]} does not follow the line before")
-    table = list(map(list, zip(*samples)))
+    table = list(map(list, zip(*samples, strict=True)))
     return Series(table[0], table[1 : 1 + JOINTS], table[1 + JOINTS :], states)

@@ -20,7 +20,8 @@ _PYTHON = ".py"
 _JVM = (".java", ".kt")
 _GO = ".go"
 _RUST = ".rs"
-_RUST_PART = re.compile(r"^[ \t]*(?:pub[ \t]+)?(?:mod[ \t]+(?P<mod>\w+)[ \t]*\{|(?P<mark>#\[(?:\w+::)*(?:test|rstest)\b[^\n]*\])|(?:async[ \t]+)?fn[ \t]+(?P<name>\w+))", re.MULTILINE)
+_RUST_PART = re.compile(r"^[ \t]*(?:pub[ \t]+)?(?:mod[ \t]+(?P<mod>\w+)[ \t]*\{|(?P<mark>#\[(?:\w+::)*(?:test|rstest)\b[^\n]*\])|"
+                        r"(?:async[ \t]+)?fn[ \t]+(?P<name>\w+))", re.MULTILINE)  # fmt: skip
 _CPP = (".c", ".h", ".hpp", ".hh", ".hxx", ".cpp", ".cc", ".cxx", ".ipp")
 _PYTHON_TEST = re.compile(r"^(?P<indent>[ \t]*)(?:async[ \t]+)?def[ \t]+(?P<name>test\w*)|^class[ \t]+(?P<group>\w+)", re.MULTILINE)
 _JVM_CLASS = re.compile(r"(?:^|\s)(?:class|record|object)\s+(\w+)")

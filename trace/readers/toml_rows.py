@@ -54,7 +54,7 @@ def read_rows(path: Path, schema: str, name: str, columns: Columns, root: Path, 
     if fault:
         problems.append(Problem(UNREADABLE, Place(shown, 1), fault))
         return []
-    return list(_list_whole(zip(rows, _list_places(text, shown, name, len(rows))), columns, problems))
+    return list(_list_whole(zip(rows, _list_places(text, shown, name, len(rows)), strict=True), columns, problems))
 
 
 def suggest(word: str, known: Iterable[str]) -> str:

@@ -133,7 +133,7 @@ def find_slowest(scenarios: list[ScenarioView]) -> CaseView | None:
 
 def _find_marks(case: CampaignCase) -> Marks:
     """Raises SeriesError where the run does not tell its speed limits."""
-    from mamori.trace.reports.plots import Drawing, Marks
+    from mamori.trace.reports.plots import Marks
 
     limits = _get_numbers(_get_table(case.run, "physics"), "speed_limit_rad_s")
     if len(limits) != JOINTS or min(limits) <= 0:
@@ -202,7 +202,7 @@ def _describe_peak_speed(physics: dict[str, Any]) -> str:
     speeds, limits = _get_numbers(physics, "max_speed_rad_s"), _get_numbers(physics, "speed_limit_rad_s")
     if not speeds or len(speeds) != len(limits) or not all(limits):
         return ABSENT
-    return f"{100 * max(speed / limit for speed, limit in zip(speeds, limits)):.0f} %"
+    return f"{100 * max(speed / limit for speed, limit in zip(speeds, limits, strict=True)):.0f} %"
 
 
 def _get_number(table: dict[str, Any] | None, key: str) -> float | None:

@@ -33,10 +33,15 @@ def format_json(project: Project, findings: list[Finding], verdicts: dict[str, V
         "rules": [{"id": rule.id, "severity": rule.severity, "about": rule.about} for rule in list_rules()],
         "findings": [make_finding(finding) for finding in findings],
         "waived": [
-            {**make_finding(each.finding), "reason": each.waiver.reason, "by": each.waiver.by, "expires": each.waiver.expires,
-             "waiver": str(each.waiver.place)}
+            {
+                **make_finding(each.finding),
+                "reason": each.waiver.reason,
+                "by": each.waiver.by,
+                "expires": each.waiver.expires,
+                "waiver": str(each.waiver.place),
+            }
             for each in project.waived
-        ],  # fmt: skip
+        ],
         "items": [make_item(project, project.items[key], verdicts) for key in sorted(verdicts)],
     }
     return json.dumps(content, indent=1, ensure_ascii=False) + "\n"

@@ -151,8 +151,8 @@ def _make_history(history: Mapping[str, list[Change]], numbers: Mapping[str, int
 
 def _make_rows(rows: Iterable[list], names: tuple[str, ...]) -> dict[str, list]:
     """Rows turned into columns."""
-    columns = [list(column) for column in zip(*rows)] or [[] for _ in names]
-    return dict(zip(names, columns))
+    columns = [list(column) for column in zip(*rows, strict=True)] or [[] for _ in names]
+    return dict(zip(names, columns, strict=True))
 
 
 def _name(item_id: str, numbers: Mapping[str, int]) -> int | str:

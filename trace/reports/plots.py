@@ -18,13 +18,13 @@ import matplotlib
 
 matplotlib.use("svg")
 
-from matplotlib.axes import Axes  # noqa: E402
-from matplotlib.backends.backend_svg import FigureCanvasSVG  # noqa: E402
-from matplotlib.figure import Figure  # noqa: E402
-from matplotlib.ticker import MaxNLocator  # noqa: E402
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
-from mamori.trace.readers.series import JOINTS, Series  # noqa: E402
-from mamori.trace.reports.svg import make_inline  # noqa: E402
+from mamori.trace.readers.series import JOINTS, Series
+from mamori.trace.reports.svg import make_inline
 
 POINTS_MAX = 260
 NEAR_BEFORE_S = 0.02

@@ -36,7 +36,8 @@ def format_sarif(project: Project, findings: list[Finding]) -> str:
     ordered = sorted([*findings, *waivers], key=Finding.sort_key)
     prints = _calc_fingerprints(ordered)
     results = [
-        _make_result(finding, places[finding.rule], fingerprint, waivers.get(finding)) for finding, fingerprint in zip(ordered, prints)
+        _make_result(finding, places[finding.rule], fingerprint, waivers.get(finding))
+        for finding, fingerprint in zip(ordered, prints, strict=True)
     ]
     about = describe_rules()
     run = {

@@ -78,7 +78,7 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
     right = (("Fault campaign", cases, "cases", "#campaign"), ("Integration tests", results[INTEGRATION], "tests", "#tests?kind=integration"),
              ("Unit tests", results[UNIT], "tests", "#tests?kind=unit"))  # fmt: skip
     boxes: list[Box] = []
-    for row, ((name, levels), (test_name, statuses, noun, target)) in enumerate(zip(left, right)):
+    for row, ((name, levels), (test_name, statuses, noun, target)) in enumerate(zip(left, right, strict=True)):
         y = _TOP + row * _STEP_Y
         x = row * layout.step_x
         words = [verdict.word for key, verdict in verdicts.items() if project.items[key].level in levels]
@@ -114,7 +114,7 @@ def _make_segments(words: list[str], order: Iterable[str], x: int, layout: Layou
     spare = sum(length - _SEGMENT_MIN for length in lengths)
     segments: list[Segment] = []
     at = float(x + (layout.box_width - layout.bar_width) / 2)
-    for word, length in zip(present, lengths):
+    for word, length in zip(present, lengths, strict=True):
         width = length - (excess * (length - _SEGMENT_MIN) / spare if spare else 0.0)
         segments.append(Segment(word.replace(" ", "-"), round(at, 2), round(width, 2)))
         at += width

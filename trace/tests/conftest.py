@@ -15,10 +15,11 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))  # pytest's importlib mode does not add the folder of the tests
 
-import trace_sample  # noqa: E402
-from mamori.trace.command import main  # noqa: E402
-from mamori.trace.readers.evidence_records import list_recorded  # noqa: E402
-from mamori.trace.readers.files import InputError  # noqa: E402
+import trace_sample
+
+from mamori.trace.command import main
+from mamori.trace.readers.evidence_records import list_recorded
+from mamori.trace.readers.files import InputError
 
 
 @dataclass

@@ -44,14 +44,16 @@ FRAMEWORKS = {
         "#include <gtest/gtest.h>\n// @verifies SWR-FW-001\nTEST(Arm, Stops) { EXPECT_EQ(1, 1); }\n"
         "class Rates : public testing::TestWithParam<int> {};\n// @verifies SWR-FW-002\nTEST_P(Rates, Hold) { EXPECT_LT(GetParam(), 2); }\n"
         "INSTANTIATE_TEST_SUITE_P(All, Rates, testing::Values(1, 2));\nTEST(Arm, Other) { EXPECT_EQ(1, 2); }\n" + _DEAD.format(head="TEST(Arm, Dead)"),
-        _suite(_case('classname="Arm"', "Stops"), _case('classname="Arm"', "Other", _BAD), _case('classname="All/Rates"', "Hold/0"), _case('classname="All/Rates"', "Hold/1", _BAD)),
+        _suite(_case('classname="Arm"', "Stops"), _case('classname="Arm"', "Other", _BAD),
+               _case('classname="All/Rates"', "Hold/0"), _case('classname="All/Rates"', "Hold/1", _BAD)),
         ("sh", "-c", "g++ -std=c++17 arm_test.cpp -lgtest -lgtest_main -pthread -o t && ./t --gtest_output=xml:results.xml"),
         ("g++", "gtest/gtest.h"),
     ),
     "catch2": Framework(
         "arm_test.cpp",
         '#define CATCH_CONFIG_MAIN\n#include <catch2/catch.hpp>\nTEST_CASE("Before") { CHECK(true); }\n'
-        '// @verifies SWR-FW-001\nTEST_CASE("Stops within 10 ms [fast] a/b (twice)", "[stop]") { SECTION("one") { CHECK(true); } SECTION("two") { CHECK(true); } }\n'
+        '// @verifies SWR-FW-001\n'
+        'TEST_CASE("Stops within 10 ms [fast] a/b (twice)", "[stop]") { SECTION("one") { CHECK(true); } SECTION("two") { CHECK(true); } }\n'
         '// @verifies SWR-FW-002\nTEMPLATE_TEST_CASE("Holds", "", int, char) { CHECK(sizeof(TestType) == 4); }\n'
         'TEST_CASE("Other") { CHECK(1 == 2); }\n' + _DEAD.format(head='TEST_CASE("Dead")'),
         _suite(_case('classname="t.global"', "Before"), _case('classname="t.global"', "Stops within 10 ms [fast] a/b (twice)/one"),

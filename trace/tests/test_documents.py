@@ -67,7 +67,7 @@ def test_what_does_not_exist_is_told_with_its_line(sample: Sample, trace: Callab
 def test_a_retired_id_may_not_be_named(sample: Sample, trace: Callable, write: Callable) -> None:
     write("# Plan\n\nSYS-003\n")
     text = (sample.root / "requirements/system/system.md").read_text()
-    head, mark, tail = text.rpartition("- Status: approved")
+    head, _, tail = text.rpartition("- Status: approved")
     (sample.root / "requirements/system/system.md").write_text(f"{head}- Status: retired{tail}")
 
     outcome = trace("check", "--root", sample.root, "--output", "json")

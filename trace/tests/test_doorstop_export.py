@@ -92,7 +92,8 @@ def test_a_retired_item_is_not_active(trace: Callable, tmp_path: Path) -> None:
     assert active == [False, True]
 
 
-@pytest.mark.parametrize("row", ["../R-1,,x,,,,", "R/1,,x,,,,", "R,,x,,,,", "1,,x,,,,", "R-1 b-1,,x,,,,", "R-1,,x,,no id,,", "Ü-1,,x,,,,", f"A{'1' * 50_000}x,,x,,,,"])
+@pytest.mark.parametrize("row", ["../R-1,,x,,,,", "R/1,,x,,,,", "R,,x,,,,", "1,,x,,,,", "R-1 b-1,,x,,,,", "R-1,,x,,no id,,", "Ü-1,,x,,,,",
+                                 f"A{'1' * 50_000}x,,x,,,,"])  # fmt: skip
 @pytest.mark.verifies("SWR-TRC-050", technique="equivalence_classes", polarity="violation")
 def test_an_id_that_doorstop_could_not_read_is_refused_with_its_place(row: str, trace: Callable, tmp_path: Path) -> None:
     outcome = export_csv(trace, tmp_path, f"R-9,,x,,,,\n{row}\n")

@@ -78,7 +78,7 @@ def test_odd_letters_survive_reqif(text: str, sample: Sample, trace: Callable, t
 def test_the_reqif_package_reads_exports_without_an_error(
     name: str, trace: Callable, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    project = generate(name, "", tmp_path / "project")
+    generate(name, "", tmp_path / "project")
     chosen = ("--root", tmp_path / "project") if name == "native" else ("--format", name, tmp_path / "project")
 
     outcome = trace("export", "reqif", "--out", tmp_path / "a.reqif", *chosen)

@@ -182,7 +182,8 @@ def test_two_files_that_claim_one_id_are_both_named(name: str, trace: Callable, 
 def test_needs_on_one_line_are_placed_in_their_source(folder: str, trace: Callable, tmp_path: Path) -> None:
     """As sphinx-needs 9 writes them; a link type of the project's own is known by the way back."""
     row = {"content": "It shall stop.", "docname": "arm/stop", "doctype": ".rst", "links": [], "links_back": [], "type": "req"}
-    rows = {"R_1": {**row, "id": "R_1", "lineno": 3, "shows": [], "shows_back": []}, "R_2": {**row, "id": "R_2", "lineno": 9, "shows": ["R_9"], "shows_back": []}}
+    rows = {"R_1": {**row, "id": "R_1", "lineno": 3, "shows": [], "shows_back": []},
+            "R_2": {**row, "id": "R_2", "lineno": 9, "shows": ["R_9"], "shows_back": []}}
     _write(tmp_path, "build/needs/needs.json", json.dumps({"current_version": "", "versions": {"": {"needs": rows}}}))
     _write(tmp_path, f"{folder}/arm/stop.rst", "Stop\n")
 
@@ -348,4 +349,4 @@ def test_the_report_shows_a_foreign_project(trace: Callable, tmp_path: Path) -> 
 @pytest.mark.verifies("SWR-TRC-045", technique="interface", polarity="nominal")
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_format_is_loaded_by_the_name_that_it_gives_itself(name: str) -> None:
-    assert load_format(name).NAME == name
+    assert name == load_format(name).NAME

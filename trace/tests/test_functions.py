@@ -113,7 +113,9 @@ def test_functions_of_python_are_found_with_lines_and_owners(tmp_path: Path) -> 
 
 
 @pytest.mark.verifies("SWR-TRC-030", technique="error_guessing", polarity="violation")
-@pytest.mark.parametrize("text", ["class {{{", "void f( {\n}", "bool operator", "#if 0\nvoid f() {\n#else\nvoid f() {\n#endif\n}\n", "\0\0{}", "int f() {" * 300])
+@pytest.mark.parametrize("text", [
+    "class {{{", "void f( {\n}", "bool operator", "#if 0\nvoid f() {\n#else\nvoid f() {\n#endif\n}\n", "\0\0{}", "int f() {" * 300,
+])  # fmt: skip
 def test_code_that_does_not_compile_is_no_crash(tmp_path: Path, text: str) -> None:
     functions = read(tmp_path, {"a.cpp": text})
 

@@ -21,7 +21,8 @@ PASS = '<testsuite name="s"><testcase classname="s" name="a"/></testsuite>'
 
 def write(*files: Path, status: int = 0) -> list[str]:
     """A command that writes results."""
-    return [sys.executable, "-c", "import sys, pathlib\nfor name in sys.argv[2:]:\n    pathlib.Path(name).write_text(%r)\nsys.exit(int(sys.argv[1]))" % PASS,
+    return [sys.executable, "-c", "import sys, pathlib\nfor name in sys.argv[2:]:\n    "
+            f"pathlib.Path(name).write_text({PASS!r})\nsys.exit(int(sys.argv[1]))",
             str(status), *map(str, files)]  # fmt: skip
 
 

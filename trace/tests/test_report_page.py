@@ -70,7 +70,8 @@ def test_boxes_of_the_v_and_bars_of_the_dashboard_lead_to_their_rows(page: Calla
 
     for part in ('href="#matrix" data-query="level=STK&amp;level=HAZ"', 'href="#tests" data-query="kind=unit"',
                  'href="#matrix" data-query="level=SYS&amp;verdict=verified"', 'href="#tests" data-query="kind=unit&amp;status=passed"',
-                 'data-query="sil=2">SIL 2</a> <span class="note"><b>5</b> of 5 verified', 'data-query="sil=QM">QM</a> <span class="note"><b>3</b> of 3 verified'):  # fmt: skip
+                 'data-query="sil=2">SIL 2</a> <span class="note"><b>5</b> of 5 verified',
+                 'data-query="sil=QM">QM</a> <span class="note"><b>3</b> of 3 verified'):  # fmt: skip
         assert part in text, part
 
 
@@ -252,7 +253,8 @@ def test_without_git_there_is_no_history_and_no_complaint(sample: Sample, page: 
 def test_the_history_of_an_item_is_bounded_and_odd_lines_do_no_harm() -> None:
     lines = ["noise", "+## SYS-001 before any commit", "\x1eonly a hash", "@@ -1 +1 @@", "+text above every item"]
     for number in range(CHANGES_MAX + 5):
-        lines += [f"\x1e{number}\x1f2026-01-01\x1fsubject", "diff --git a/x b/x", "--- a/x", "+++ b/x", "@@ -1 +1 @@ ## SYS-001 Title", "-a", "+b", "+", "+## SYS-002 X"]
+        lines += [f"\x1e{number}\x1f2026-01-01\x1fsubject", "diff --git a/x b/x", "--- a/x", "+++ b/x",
+                  "@@ -1 +1 @@ ## SYS-001 Title", "-a", "+b", "+", "+## SYS-002 X"]  # fmt: skip
 
     changes = find_changes(lines)
 

@@ -59,7 +59,8 @@ def test_many_faults_are_told_in_one_run(sample: Sample, trace: Callable) -> Non
 def test_each_rule_has_a_seeded_fault() -> None:
     told_elsewhere = {"unreadable-input"}  # seeded in test_results.py
     told_elsewhere |= {"untraced-function", "function-unexecuted", "mcdc-gap"}  # seeded in test_functions.py and test_coverage_files.py
-    told_elsewhere |= {"evidence-altered", "result-flaky", "analysis-finding"}  # seeded in test_evidence_records.py, test_foreign_results.py and test_analysis.py
+    # Seeded in test_evidence_records.py, test_foreign_results.py and test_analysis.py.
+    told_elsewhere |= {"evidence-altered", "result-flaky", "analysis-finding"}
     told_elsewhere |= {"not-verified", "result-not-shown", "result-unbound"}  # seeded in test_demanded_results.py
 
     assert {rule.id for rule in list_rules()} - told_elsewhere == {rule for _, rule, _ in SEEDS}

@@ -242,14 +242,14 @@ def _format_series(run: dict[str, Any], end_s: float) -> str:
     fault_s = run["fault"]["at_s"] if run["fault"] else math.inf
     angles = [0.3 * joint - 0.8 for joint in range(7)]
     previous_s = 0.0
-    for milli in range(0, round(end_s * 1000) + 1):
+    for milli in range(round(end_s * 1000) + 1):
         time_s = milli / 1000.0
         if milli % 10 and not -0.05 <= time_s - fault_s <= 0.4:
             continue
         since_s = time_s - fault_s
         factor = 1.0 if since_s < 0.02 else max(0.0, 1.0 - (since_s - 0.02) / 0.29)
         speeds = [0.45 * SPEED_LIMIT_RAD_S[j] * math.sin(time_s * (0.6 + 0.15 * j) + j) * factor for j in range(7)]
-        angles = [angle + speed * (time_s - previous_s) for angle, speed in zip(angles, speeds)]
+        angles = [angle + speed * (time_s - previous_s) for angle, speed in zip(angles, speeds, strict=True)]
         previous_s = time_s
         state = "SelfTest" if time_s < 0.05 else "Operational" if since_s < 0.02 else "ProtectiveStopSs1" if since_s < 0.31 else "Safe"
         torques = [12.0 * speed for speed in speeds]

@@ -17,8 +17,7 @@ from typing import TextIO
 from mamori.profiles.input_error import InputError, nearest_names
 from mamori.verification.bench import programs as tools
 from mamori.verification.bench.bars import Bars, load_bars
-from mamori.verification.bench.baseline import (FILE, Baseline, CountResult, calc_count, judge_count, load_baseline,
-                                                write_baseline)  # fmt: skip
+from mamori.verification.bench.baseline import FILE, Baseline, CountResult, calc_count, judge_count, load_baseline, write_baseline
 from mamori.verification.bench.callgrind import ask_about, makes_system_calls, run_profiles
 from mamori.verification.bench.grid import METRIC as GRID
 from mamori.verification.bench.grid import add_grid, measure_grid

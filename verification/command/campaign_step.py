@@ -31,7 +31,8 @@ class CampaignRequest:
     instants: int | None = None
 
     def check(self, project: Project) -> tuple[str, ...]:
-        """@return what the motion has that is not used, in words. @raise UsageError for a motion that cannot be followed, or scenarios and instants that it or the plan lacks."""
+        """@return what the motion has that is not used, in words. @raise UsageError for a motion that cannot be followed, or scenarios
+        and instants that it or the plan lacks."""
         from mamori.profiles.input_error import InputError
         from mamori.verification.campaign import resolve
 

@@ -155,7 +155,8 @@ def summarise(result: CaseResult) -> list[str]:
         ("fault", "none" if case.fault is None else case.fault.to_text()),
         ("detected", _show_event(run.get("detected_fault"), run.get("detected_at_s"), begin)),
         ("reaction", _show_event(run.get("reaction"), run.get("reacted_at_s"), begin)),
-        ("allowed", "no reaction" if case.expected.within_s is None else f"{' or '.join(case.expected.reactions)} within {1e3 * case.expected.within_s:.0f} ms"),
+        ("allowed", "no reaction" if case.expected.within_s is None
+         else f"{' or '.join(case.expected.reactions)} within {1e3 * case.expected.within_s:.0f} ms"),
         ("standstill", _show_event("reached", run.get("standstill_at_s"), begin) if run.get("standstill_at_s") is not None else "not reached"),
     ]  # fmt: skip
     if run.get("standstill_at_s") is not None:

@@ -15,7 +15,7 @@ from timing_run import make_table
 
 from mamori.verification.command.errors import StepError
 from mamori.verification.command.main import main
-from mamori.verification.command.project import ROOT, Project
+from mamori.verification.command.project import Project
 from mamori.verification.cost import command
 from mamori.verification.cost.classes import InputClass
 from mamori.verification.cost.report import SCHEMA

@@ -117,7 +117,7 @@ def test_totals_are_listed_call_by_call(tmp_path: Path) -> None:
 @pytest.mark.verifies("SWR-TIM-033", technique="fault_injection", polarity="violation")
 def test_runs_that_did_not_do_the_same_are_refused(tmp_path: Path, runs: FakeRuns, key: str) -> None:
     runs.timed[key][5] += 1
-    with pytest.raises(StepError, match="step 5 was of 'monitor'.*must do the same again"):
+    with pytest.raises(StepError, match=r"step 5 was of 'monitor'.*must do the same again"):
         count(tmp_path)
 
 

@@ -19,8 +19,7 @@ from pathlib import Path
 from mamori.profiles.input_error import nearest_names
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
 from mamori.verification.command.project import ROOT, Project
-from mamori.verification.fuzz.harness import (
-    FuzzError, Harness, Run, build_harnesses, find_harnesses, keep_inputs, run_harness)  # fmt: skip
+from mamori.verification.fuzz.harness import FuzzError, Harness, Run, build_harnesses, find_harnesses, keep_inputs, run_harness
 
 FOLDER = Path(__file__).resolve().parent
 SCHEMA = "mamori.fuzz/1"

@@ -108,5 +108,5 @@ def test_no_harness_at_all_is_a_failure(root: Path, capsys: pytest.CaptureFixtur
 
 @pytest.mark.verifies("SWR-VER-011", technique="equivalence_classes", polarity="violation")
 def test_unknown_harness_is_refused_with_the_nearest(root: Path) -> None:
-    with pytest.raises(UsageError, match="there is no harness 'summ'.*sum"):
+    with pytest.raises(UsageError, match=r"there is no harness 'summ'.*sum"):
         run(root, "summ")

@@ -9,6 +9,7 @@ others need not be built once it has.
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import re
@@ -281,8 +282,6 @@ def _run(argv: Iterable[str], timeout_s: float, cwd: Path | None = None) -> tupl
 
 
 def _end_session(child: subprocess.Popen[bytes]) -> None:
-    try:
+    with contextlib.suppress(ProcessLookupError):
         os.killpg(child.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass
     child.communicate()

@@ -218,7 +218,7 @@ class _Joiner:
         self._add_resolved(caller, place, f"virtual {call.slot} of {call.type}", targets)
 
     def _resolve_pointer(self, caller: str, place: str, count: int) -> None:
-        file, line = (place.split(":") + ["0"])[:2]
+        file, line = [*place.split(":"), "0"][:2]
         path = self._root / file
         lines = path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
         code = lines[int(line) - 1].strip() if 0 < int(line) <= len(lines) else ""

@@ -60,11 +60,8 @@ def find_includes(root: Path) -> list[str]:
 
 def link_image(root: Path, units: Sequence[Unit], result: Path, toolchain: Toolchain = CORTEX_M4) -> Path:
     """@return `result`, the image. @raise ProofError"""
-    machine: tuple[str, ...] = ()
-    if toolchain is CORTEX_M4:
-        machine = ("-nostdlib", "-nostartfiles", "-T", str(root / LINKER_SCRIPT), "-Wl,--gc-sections", "-lc", "-lgcc")
-    else:
-        machine = ("-no-pie",)
+    bare = ("-nostdlib", "-nostartfiles", "-T", str(root / LINKER_SCRIPT), "-Wl,--gc-sections", "-lc", "-lgcc")
+    machine = bare if toolchain is CORTEX_M4 else ("-no-pie",)
     run_tool([toolchain.compiler, *toolchain.flags, *(str(unit.object) for unit in units), *machine, "-o", str(result)])
     return result
 

@@ -74,15 +74,12 @@ def _read_instruction(region: Region, symbol: str, name: str, operands: str) -> 
     region.ends = stem in ENDS or loads_pc or (stem == "ldr" and operands.startswith("pc,"))
     if stem in ("push", "vpush") or (stem == "stmdb" and operands.startswith("sp!")):
         region.bytes += _count_bytes(operands)
-    elif stem in ("sub", "subw") and (match := SUBTRACT.match(operands)):
-        region.bytes += int(match["bytes"])
-    elif match := STORE.search(operands):
+    elif (stem in ("sub", "subw") and (match := SUBTRACT.match(operands))) or (match := STORE.search(operands)):
         region.bytes += int(match["bytes"])
     elif operands.startswith("sp,") and not stem.startswith(("st", "ld", "add", "cmp")):
         raise ProofError(f"{symbol}: '{name} {operands}' changes the stack pointer by an amount that is not in the code")
-    if match := BRANCH.search(operands):
-        if match["name"] != symbol:
-            region.targets.add(match["name"])
+    if (match := BRANCH.search(operands)) and match["name"] != symbol:
+        region.targets.add(match["name"])
 
 
 def _count_bytes(operands: str) -> int:

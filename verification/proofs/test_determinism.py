@@ -11,8 +11,7 @@ import pytest
 
 from mamori.profiles.motion import load_limits, read_motion, write_canonical
 from mamori.verification.command.project import SANITIZED, Project
-from mamori.verification.proofs.determinism import (
-    VARIANTS, Inputs, Variant, build_variant, find_differences, get_trace_hash)
+from mamori.verification.proofs.determinism import VARIANTS, Inputs, Variant, build_variant, find_differences, get_trace_hash
 
 RUNS = 20
 FRAMES = 2500

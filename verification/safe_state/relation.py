@@ -25,7 +25,7 @@ VALUES = {
     "demand": ("None", "Degrade", "Ss2", "Ss1", "Sto", "Invalid"),
     "self_test": ("Running", "Passed", "Failed", "Invalid"),
     "time": ("BeforeEntry", "Within", "AtBound", "Beyond"),
-    **{name: LEVELS for name in INPUTS[2:8]},
+    **dict.fromkeys(INPUTS[2:8], LEVELS),
 }
 SHAPE = tuple(len(VALUES[name]) for name in INPUTS)
 LIMITS = ("none", "ss2_within", "ss1_within")

@@ -123,7 +123,7 @@ def write_diagram(result: str, root: str, answers: Array, inputs: Sequence[tuple
 def _write_situation(machine: Machine) -> list[str]:
     """One step: its inputs, the same with something worse, the past, and which pasts can be."""
     known = []
-    for number, pasts in enumerate(machine.pasts):
+    for pasts in machine.pasts:
         words = [f"(and {' '.join(write_literal(*pair) for pair in zip(PASTS, _levels(past), strict=True))})" for past in sorted(pasts)]
         known.append(f"(or {' '.join(words)})" if words else "false")
     names = [(name, SORTS[name]) for name in INPUTS]

@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 from mamori.verification.table_dump.document import Table, Window
-from mamori.verification.table_dump.svg import COLOURS, FONT_SIZE, GRID, INK, QUIET, Drawing, calc_width, shorten
+from mamori.verification.table_dump.svg import COLOURS, FONT_SIZE, INK, QUIET, Drawing, calc_width, shorten
 from mamori.verification.table_dump.words import UNITS, format_time
 
 MARGIN = 16.0

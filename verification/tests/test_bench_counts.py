@@ -9,8 +9,7 @@ import pytest
 from mamori.profiles.input_error import InputError
 from mamori.verification.bench import command
 from mamori.verification.bench.bars import CountBar, load_bars
-from mamori.verification.bench.baseline import (Baseline, CountResult, calc_count, judge_count, load_baseline,
-                                                write_baseline)  # fmt: skip
+from mamori.verification.bench.baseline import Baseline, CountResult, calc_count, judge_count, load_baseline, write_baseline
 from mamori.verification.bench.callgrind import Profile, parse_profile
 from mamori.verification.bench.command import SEALED, Request, Work, describe_calls
 from mamori.verification.bench.judge import FAILED, PASSED
@@ -160,7 +159,7 @@ def test_broken_baseline_says_how_to_write_it_anew(tmp_path: Path, text: str) ->
     path = tmp_path / "baseline.toml"
     path.write_text(text, encoding="utf-8")
 
-    with pytest.raises(InputError, match="write it anew with ./mamori bench --accept"):
+    with pytest.raises(InputError, match=r"write it anew with ./mamori bench --accept"):
         load_baseline(path)
 
 

@@ -26,7 +26,7 @@ def test_record_has_every_field_of_the_contract(tmp_path: Path, monkeypatch: pyt
     assert record["commit"] == "unknown"  # an empty folder is no clone
     assert record["compilers"]["g++"].startswith("g++")
     assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00", record["date_utc"])
-    assert [name for name in path.parent.iterdir()] == [path]
+    assert list(path.parent.iterdir()) == [path]
 
 
 @pytest.mark.verifies("SWR-CLI-009", technique="interface")

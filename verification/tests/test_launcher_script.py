@@ -53,7 +53,8 @@ def test_second_run_installs_nothing(box: Box) -> None:
 @pytest.mark.verifies("SWR-CLI-001", technique="equivalence_classes")
 @pytest.mark.parametrize(
     ("words", "wanted", "unwanted"),
-    [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("e2e",), "python3-venv", "cmake"), (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "strace"),
+    [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("e2e",), "python3-venv", "cmake"),
+     (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "strace"),
      (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
      (("prove", "safe-state"), "spin", "cppcheck"), (("test",), "z3", "strace"), (("demo",), "cmake", "spin"),

@@ -69,7 +69,7 @@ def test_example_that_changed_its_form_is_noticed(tmp_path: Path, monkeypatch: p
         (tmp_path / file.name).write_text(file.read_text(encoding="utf-8").replace(lost, "something else "), encoding="utf-8")
     monkeypatch.setattr(new_project, "EXAMPLE", tmp_path)
 
-    with pytest.raises(RuntimeError, match="examples/minimal|must be there once"):
+    with pytest.raises(RuntimeError, match=r"examples/minimal|must be there once"):
         new_project.make_files("robot")
 
 

@@ -13,12 +13,11 @@ from pathlib import Path
 
 import pytest
 from mcap.reader import make_reader
+from recorder_files import make_crash, make_file, make_record, write
 
 from mamori.profiles.input_error import InputError
 from mamori.verification.command.main import main
 from mamori.verification.recorder.names import Names, read_names
-
-from recorder_files import make_crash, make_file, make_record, write
 
 NAMES = {"sources": {"0": "supervisor"}, "codes": {"0": {"name": "state_entered", "argument": "state"}, "1": "fault_latched"},
          "arguments": {"state": {"0": "SelfTest", "2": "Operational"}}}  # fmt: skip

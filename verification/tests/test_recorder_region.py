@@ -7,11 +7,10 @@ import random
 from pathlib import Path
 
 import pytest
+from recorder_files import HEADER_BYTES, RECORD_BYTES, make_crash, make_file, make_header, make_record, write
 
 from mamori.profiles.input_error import InputError
 from mamori.verification.recorder.region import MAX_BYTES, Crash, Recording, read_recording
-
-from recorder_files import HEADER_BYTES, RECORD_BYTES, make_crash, make_file, make_header, make_record, write
 
 # The record of kernel/tests/flight_format_test.cpp, byte for byte.
 GOLDEN = bytes.fromhex("0807060504030201feffffffffffffff8877665544332211a4a3a2a1b2b1c2c1020000c3fb5bb52d")

@@ -80,6 +80,6 @@ def test_without_a_whole_environment_nothing_is_recorded(project: Project) -> No
     for text in (None, "{", "{}"):
         if text is not None:
             (project.evidence / "environment.json").write_text(text)
-        with pytest.raises(StepError, match="environment.json"):
+        with pytest.raises(StepError, match=r"environment.json"):
             record_evidence(Context(project, 1), lambda *_: None, io.StringIO())
         assert not (project.evidence / "records.json").exists()

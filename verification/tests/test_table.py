@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from mamori.verification.command.main import main
-from mamori.verification.table_dump.graph import make_dot
 from mamori.verification.table_dump.document import read_table
+from mamori.verification.table_dump.graph import make_dot
 from mamori.verification.table_dump.svg import calc_width, shorten
 from mamori.verification.table_dump.words import format_time
 

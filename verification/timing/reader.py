@@ -109,7 +109,7 @@ def _read_run(run: JsonNode, table: Table) -> tuple[int, int, bool, int]:
         raise run.at("schema").complain(f"is '{schema}', this command reads '{SCHEMA}'")
     cycles = run.at("cycles")
     asked, done, is_partial = cycles.at("asked").count(), cycles.at("run").count(), run.at("is_partial").truth()
-    if not 1 <= asked or done > asked:
+    if asked < 1 or done > asked:
         raise cycles.complain(f"says that {done} of {asked} were run")
     if is_partial != (done < asked):
         raise run.at("is_partial").complain(f"is {is_partial}, but {done} of {asked} cycles were run")

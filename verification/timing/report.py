@@ -15,8 +15,17 @@ from typing import Any
 
 from mamori.profiles.text_file import write_text
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
-from mamori.verification.timing.analysis import (ComponentRow, Miss, WindowRow, calc_execution, count_cut, list_components,
-                                                 list_findings, list_misses, list_windows)  # fmt: skip
+from mamori.verification.timing.analysis import (
+    ComponentRow,
+    Miss,
+    WindowRow,
+    calc_execution,
+    count_cut,
+    list_components,
+    list_findings,
+    list_misses,
+    list_windows,
+)
 from mamori.verification.timing.baseline import list_ratios, make_fingerprint
 from mamori.verification.timing.chain_times import ChainRow, list_chains, list_violations
 from mamori.verification.timing.environment import calc_steal_share

@@ -4,14 +4,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from timing_run import make_run, make_table, write_run
 
-from mamori.verification.timing.analysis import (calc_execution, calc_lateness, describe, list_components, list_findings, list_misses,
-                                                 list_windows)  # fmt: skip
+from mamori.verification.timing.analysis import calc_execution, calc_lateness, describe, list_components, list_findings, list_misses, list_windows
 from mamori.verification.timing.reader import COMPLETED, MISSED, NOT_BACK, NOT_DUE, OPENING, OVERRUN, STEP, Measurement, read_measurement
 
 TABLE = make_table(windows=(("work", 0, 100, 300, 1000, 200),), components=(("first", 0, 50, 0), ("second", 0, None, 0)),

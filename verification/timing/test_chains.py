@@ -132,7 +132,7 @@ def measure(folder: Path, change: Any = None) -> Any:
 @pytest.mark.verifies("SWR-TIM-017")
 def test_latency_is_from_the_first_start_to_the_last_end(tmp_path: Path) -> None:
     table = make_table()
-    openings, steps = make_rows(table, TIMES_US, 20)
+    _, steps = make_rows(table, TIMES_US, 20)
     first, last = (steps[steps["component"] == component] for component in (0, 3))
     row = measure(tmp_path)
 

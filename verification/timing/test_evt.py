@@ -6,8 +6,19 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mamori.verification.timing.evt import (BLOCK, BLOCKS_MIN, BLOCKS_WANTED, calc_chi_squared_tail, calc_l_moments, check_correlation, check_fit, check_runs,
-                                            check_tail, estimate, fit_gumbel)  # fmt: skip
+from mamori.verification.timing.evt import (
+    BLOCK,
+    BLOCKS_MIN,
+    BLOCKS_WANTED,
+    calc_chi_squared_tail,
+    calc_l_moments,
+    check_correlation,
+    check_fit,
+    check_runs,
+    check_tail,
+    estimate,
+    fit_gumbel,
+)
 
 N = 20_000
 

@@ -13,11 +13,14 @@ ROWS = "[...document.querySelectorAll('#matrix .rows tbody a.id')].filter(a => a
 # Texts whose contrast to what lies behind them is below 4.5, which is what WCAG 2 demands of plain letters.
 FAINT = """(() => {
     const canvas = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
-    const read = (colour) => { canvas.clearRect(0, 0, 1, 1); canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1); return [...canvas.getImageData(0, 0, 1, 1).data].map(v => v / 255); };
+    const read = (colour) => { canvas.clearRect(0, 0, 1, 1); canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1);
+      return [...canvas.getImageData(0, 0, 1, 1).data].map(v => v / 255); };
     const mix = (under, [r, g, b, alpha]) => [r, g, b].map((v, i) => v * alpha + under[i] * (1 - alpha));
-    const light = (rgb) => { const [r, g, b] = rgb.map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+    const light = (rgb) => { const [r, g, b] = rgb.map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
     const listUp = (element) => element ? [...listUp(element.parentElement), element] : [];
-    return [...document.querySelectorAll('body *')].filter(e => !e.closest('svg') && e.checkVisibility() && [...e.childNodes].some(n => n.nodeType === 3 && n.data.trim())).filter(e => {
+    return [...document.querySelectorAll('body *')].filter(e => !e.closest('svg') && e.checkVisibility()
+        && [...e.childNodes].some(n => n.nodeType === 3 && n.data.trim())).filter(e => {
         const line = listUp(e);
         const ground = line.reduce((under, each) => mix(under, read(getComputedStyle(each).backgroundColor)), [1, 1, 1]);
         const opacity = line.reduce((product, each) => product * getComputedStyle(each).opacity, 1);
@@ -48,7 +51,8 @@ def test_no_view_makes_the_page_scroll_sideways(page: Any, small_file: Path, fra
 
     assert page.ask("document.documentElement.scrollWidth") <= width
     small = page.ask("[...document.querySelectorAll('button, select, input, nav a, summary, .chip, a.step')].filter(e => e.checkVisibility())"
-                     ".filter(e => !e.matches('.bare') && !e.closest('.chip') && e.getBoundingClientRect().height < 40).map(e => e.outerHTML.slice(0, 120))")  # fmt: skip
+                     ".filter(e => !e.matches('.bare') && !e.closest('.chip') && e.getBoundingClientRect().height < 40)"
+                     ".map(e => e.outerHTML.slice(0, 120))")  # fmt: skip
     assert small == []
 
 
@@ -99,7 +103,8 @@ def test_drawings_of_a_case_are_read_on_400_pixels(page: Any, full_file: Path) -
     assert len(heights) > 20 and min(heights) >= 10
     cut = page.ask(f"[...document.querySelectorAll('{case} svg')].flatMap(s => [...s.querySelectorAll('text')].filter(e => {{"
                    "const [a, b] = [e.getBoundingClientRect(), s.getBoundingClientRect()];"
-                   "return a.left < b.left - 1 || a.right > b.right + 1 || a.top < b.top - 1 || a.bottom > b.bottom + 1; })).map(e => e.textContent)")  # fmt: skip
+                   "return a.left < b.left - 1 || a.right > b.right + 1 || a.top < b.top - 1 || a.bottom > b.bottom + 1; }))"
+                   ".map(e => e.textContent)")  # fmt: skip
     assert cut == []
 
 
@@ -268,7 +273,9 @@ def test_letters_of_the_v_are_large_enough_to_be_read_and_stay_in_their_boxes(pa
     boxes = page.ask("""[...document.querySelectorAll('svg.v')].filter(svg => svg.checkVisibility()).flatMap(svg => [...svg.querySelectorAll('a')].map(a => {
         const [box, name, count, detail] = ['.box', '.name', '.count', '.detail'].map(part => a.querySelector(part).getBoundingClientRect());
         const scale = svg.getScreenCTM().a;
-        return [Math.max(name.right, count.right, detail.right) < box.right, name.bottom <= count.top + 3 && count.bottom < detail.top, detail.bottom < box.bottom, parseFloat(getComputedStyle(a.querySelector('.detail')).fontSize) * scale];
+        return [Math.max(name.right, count.right, detail.right) < box.right,
+            name.bottom <= count.top + 3 && count.bottom < detail.top, detail.bottom < box.bottom,
+            parseFloat(getComputedStyle(a.querySelector('.detail')).fontSize) * scale];
     }))""")
 
     assert len(boxes) == 7

@@ -6,8 +6,9 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from seeds.places import GTEST, HEADER, SOFTWARE, SYSTEM, Seed, find_line
 from trace_sample import Sample, format_gtest_case, format_item, format_record
+
+from seeds.places import GTEST, HEADER, SOFTWARE, SYSTEM, Seed, find_line
 
 DECOMPOSITION = "requirements/decomposition.toml"
 IDS = "requirements/ids.lock"

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from seeds.places import SYSTEM, Seed
 from trace_sample import Sample, format_item, format_review, format_technique, format_waiver
 
 from mamori.trace.readers.project import read_requirements
+from seeds.places import SYSTEM, Seed
 
 REVIEWS = "requirements/reviews.toml"
 TECHNIQUES = "requirements/schema/techniques.toml"

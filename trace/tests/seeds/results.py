@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import json
 
-from seeds.places import EVIDENCE, GTEST, HEADER, SOFTWARE, SYSTEM, Seed, find_line
 from trace_sample import Sample, format_gtest_case, format_item
+
+from seeds.places import EVIDENCE, GTEST, HEADER, SOFTWARE, SYSTEM, Seed, find_line
 
 CPP_TEST = "safety/tests/alive_test.cpp"
 CAMPAIGN = f"{EVIDENCE}/campaign/campaign.json"
@@ -118,7 +119,7 @@ def campaign_failed(s: Sample) -> Seed:
 
 def retired(s: Sample) -> Seed:
     path = s.root / SOFTWARE
-    head, mark, tail = path.read_text().rpartition("- Status: approved")
+    head, _, tail = path.read_text().rpartition("- Status: approved")
     s.append(SYSTEM, format_item("SYS-005", "Spare", "The tool shall stay.", Parents="STK-001", SIL="QM", Status="draft"))
     s.replace(SYSTEM, "- Verify: test\n- Polarity: nominal\n- Design: -\n- Status: approved",
               "- Verify: test\n- Polarity: nominal\n- Design: -\n- Status: draft")  # fmt: skip

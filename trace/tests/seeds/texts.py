@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from seeds.places import SOFTWARE, SYSTEM, Seed, find_line
 from trace_sample import Sample
+
+from seeds.places import SOFTWARE, SYSTEM, Seed, find_line
 
 
 def malformed(s: Sample) -> Seed:

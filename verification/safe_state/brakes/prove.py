@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import TypeVar
 
@@ -88,7 +89,7 @@ def describe_coupled(pair: Pair, found: smt.BrakeRefutation) -> list[str]:
 def describe_run(model: promela.Model, run: Run) -> list[str]:
     """The run of spin in words. @raise StepError when machine and brakes do not step as the run says."""
     moves = [model.moves[number] for number in run.moves or ()]
-    for move, following in zip(moves, moves[1:], strict=False):
+    for move, following in pairwise(moves):
         if following.source != move.target:
             raise StepError(f"spin steps from {move.target} to {following.source} without a cycle in between")
     lines = _describe_cycles(model.pair, [(model.views[move.source], move.letter, move.call) for move in moves])

@@ -34,7 +34,8 @@ PYTHON = ('case "$*" in *ensurepip*) test -e "$BOX/share/python3-venv"; exit;; -
           'mkdir -p "$3/bin"; cp "$BOX/share/venv-python" "$3/bin/python"; echo venv >>"$BOX/calls"')  # fmt: skip
 
 VENV_PYTHON = ('if [ "$1" = --version ]; then echo Python 3.11.2; exit 0; fi\necho "python $*" >>"$BOX/calls"\n'
-               'case "$*" in *pip*) exit "${FAKE_PIP:-0}";; *) echo "packages: $MAMORI_PACKAGES" >>"$BOX/calls"; printf %s "${FAKE_OUTPUT:-}";; esac')  # fmt: skip
+               'case "$*" in *pip*) exit "${FAKE_PIP:-0}";; '
+               '*) echo "packages: $MAMORI_PACKAGES" >>"$BOX/calls"; printf %s "${FAKE_OUTPUT:-}";; esac')  # fmt: skip
 
 # What each Debian package brings that the launcher may look for. A script where its text matters, else a name alone.
 STORE: dict[str, dict[str, str]] = {
