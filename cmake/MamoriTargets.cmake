@@ -102,6 +102,42 @@ function(mamori_test name)
     set_tests_properties(${name} PROPERTIES TIMEOUT 600)
 endfunction()
 
+# mamori_measure_coverage(): the tests of this folder write what they reach of it to <build>/evidence/profiles/<folder>. What clang
+# cannot measure does not compile. Other programs that link the library write nothing.
+# @satisfies SWR-VER-003      Design: docs/design/test_strength.md#coverage
+function(mamori_measure_coverage)
+    if(NOT MAMORI_MEASURE_COVERAGE)
+        return()
+    endif()
+    set(tools "${PROJECT_SOURCE_DIR}/verification/coverage")
+    set(launcher "${tools}/refuse_unmeasured.sh" ${CMAKE_CXX_COMPILER_LAUNCHER})
+    if(NOT TARGET mamori_flush_on_death)
+        add_library(mamori_flush_on_death OBJECT "${tools}/flush_on_death.cpp")
+        mamori_common_flags(mamori_flush_on_death)
+    endif()
+    get_property(targets DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
+    foreach(target IN LISTS targets)
+        get_target_property(type ${target} TYPE)
+        if(type STREQUAL "EXECUTABLE")
+            target_sources(${target} PRIVATE $<TARGET_OBJECTS:mamori_flush_on_death>)
+            target_link_options(${target} PRIVATE -Wl,--wrap=_exit,--wrap=_Exit)
+        elseif(type STREQUAL "STATIC_LIBRARY")
+            target_link_options(${target} INTERFACE $<BUILD_INTERFACE:-fprofile-instr-generate=/dev/null>)
+        else()
+            continue()
+        endif()
+        target_compile_options(${target} PRIVATE
+            -fprofile-instr-generate=/dev/null -fprofile-update=atomic -fcoverage-mapping -fcoverage-mcdc)
+        set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER "${launcher}")
+    endforeach()
+    get_property(tests DIRECTORY PROPERTY TESTS)
+    get_filename_component(layer "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
+    foreach(test IN LISTS tests)
+        set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT
+            "LLVM_PROFILE_FILE=${PROJECT_BINARY_DIR}/evidence/profiles/${layer}/${test}-%m.profraw")
+    endforeach()
+endfunction()
+
 # @satisfies SWR-PRF-039      Design: docs/design/launcher.md#consumer-proof
 function(mamori_install_package)
     set(mamori_model_dir "${CMAKE_INSTALL_DATADIR}/mamori/models")

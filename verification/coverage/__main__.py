@@ -19,10 +19,10 @@ from pathlib import Path
 from typing import Any
 
 from mamori.verification.command.environment import collect_environment
-from mamori.verification.command.project import ROOT, Project
+from mamori.verification.command.project import ROOT, SANITIZED, Project
 from mamori.verification.command.records import renew_records
 from mamori.verification.coverage.gaps import LIST, ListError, Verdict, find_gaps, judge, read_list
-from mamori.verification.coverage.measure import PRESET, CoverageError, measure
+from mamori.verification.coverage.measure import CoverageError, measure
 from mamori.verification.coverage.reached import Function, read_functions
 from mamori.verification.coverage.record import make_rows
 from mamori.verification.coverage.report import Figures, count, make_table, write_evidence
@@ -43,7 +43,7 @@ def check_layers(project: Project, jobs: int) -> tuple[Verdict, str]:
     table = make_table(files, verdict)
     folder = project.evidence / "coverage"
     write_evidence(folder, files, verdict, table, record)
-    environment = collect_environment(Project(project.root, PRESET), ())
+    environment = collect_environment(Project(project.root, SANITIZED), ())
     renew_records(project, sorted(folder.glob("coverage.*")), environment["inputs"])
     return verdict, table
 

@@ -10,13 +10,14 @@ import subprocess
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from mamori.verification.command.project import ROOT, Project
+from mamori.verification.command.project import ROOT, SANITIZED, Project
 from mamori.verification.coverage.__main__ import check_layers, describe
 from mamori.verification.coverage.gaps import Gap, ListError, Row, Verdict, find_gaps, judge, read_list
-from mamori.verification.coverage.measure import COMPILER, FLAGS, FLUSH, LAYERS, PRESET, WRAPPED, CoverageError, export, refuse_unmeasured, run
+from mamori.verification.coverage.measure import LAYERS, CoverageError, export, has_counters, measure_layer, run
 from mamori.verification.coverage.reached import read_functions
 from mamori.verification.coverage.report import count, make_table
 
@@ -40,8 +41,18 @@ int main() {
 """
 ALL_CALLS = ("are_both<int>(1, 1); are_both<int>(0, 1); are_both<long>(1, 1); are_both<long>(1, 0);",
              "is_small(1); is_small(10);", "demand(1, 1); demand_in_child(2, 1); demand_in_child(1, 2);", "forgotten();")  # fmt: skip
+COMPILER = "clang++-19"
+FLAGS = ("-fprofile-instr-generate=/dev/null", "-fprofile-update=atomic", "-fcoverage-mapping", "-fcoverage-mcdc")
+FLUSH = Path(__file__).with_name("flush_on_death.cpp")
+GUARD = Path(__file__).with_name("refuse_unmeasured.sh")
+WRAPPED = "-Wl,--wrap=_exit,--wrap=_Exit"
 FUNCTION_BODY = re.compile(r"\)[\w\s]*\{")
 FORGOTTEN = "are_both<int>", "is_small(10)", "demand_in_child(1, 2)", "forgotten()"
+
+
+def run_and_export(program: Path, profiles: Path, source: Path) -> dict[str, Any]:
+    run((str(program),), LLVM_PROFILE_FILE=f"{profiles}/{program.name}-%m.profraw")
+    return export((program,), profiles, (source,))
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +70,7 @@ def find_seeded(tmp_path: Path) -> Callable[[str], list[Gap]]:
         source.write_text(PROGRAM.replace("@CALLS@", calls), encoding="utf-8")
         run((COMPILER, "-c", str(FLUSH), "-o", str(flush)))
         run((COMPILER, *FLAGS, "-std=c++17", str(source), str(flush), WRAPPED, "-o", str(program)))
-        functions = read_functions(export((program,), tmp_path / "profiles", (source,)), tmp_path)
+        functions = read_functions(run_and_export(program, tmp_path / "profiles", source), tmp_path)
         return [gap for gap in find_gaps(functions) if gap.function not in ("main", "demand_in_child")]
 
     return find
@@ -124,9 +135,24 @@ def test_failing_test_program_is_no_measurement(tmp_path: Path) -> None:
     program = tmp_path / "failing"
     program.write_text("#!/bin/sh\necho 1 test failed\nexit 1\n", encoding="utf-8")
     program.chmod(0o755)
+    (tmp_path / "kernel").mkdir()
+    (tmp_path / "kernel" / "CTestTestfile.cmake").write_text(f"add_test(failing {program})\n", encoding="utf-8")
 
-    with pytest.raises(CoverageError, match=r"ended with status 1:\n1 test failed"):
-        export((program,), tmp_path / "profiles", ())
+    with pytest.raises(CoverageError, match=r"(?s)ended with status 8:.*1 test failed"):
+        measure_layer(ROOT / "kernel", tmp_path, 1)
+
+
+@pytest.mark.verifies("SWR-VER-001", technique="boundary_values")
+def test_counters_of_an_earlier_build_do_not_count(tmp_path: Path) -> None:
+    program, counters = tmp_path / "kernel_test", tmp_path / "kernel_test-1_0.profraw"
+    for path in (program, counters):
+        path.touch()
+    os.utime(program, (1000, 1000))
+
+    for age, expected in ((1000, False), (1001, True)):
+        os.utime(counters, (age, age))
+        assert has_counters(tmp_path, "kernel_test", program) is expected
+    assert not has_counters(tmp_path, "kernel_payload_test", program)
 
 
 @pytest.mark.verifies("SWR-VER-001", technique="interface")
@@ -134,7 +160,7 @@ def test_table_counts_each_place_once(tmp_path: Path) -> None:
     source, program = tmp_path / "seeded.cpp", tmp_path / "seeded"
     source.write_text(PROGRAM.replace("@CALLS@", ALL_CALLS[0] + ALL_CALLS[1]), encoding="utf-8")
     run((COMPILER, *FLAGS, "-std=c++17", str(source), "-o", str(program)))
-    exported = export((program,), tmp_path / "profiles", (source,))
+    exported = run_and_export(program, tmp_path / "profiles", source)
     functions = read_functions(exported, tmp_path)
     verdict = judge(find_gaps(functions), [])
 
@@ -184,25 +210,36 @@ def test_list_that_is_not_whole_is_refused(tmp_path: Path, text: str, message: s
 
 
 @pytest.mark.verifies("SWR-VER-003")
-def test_preset_measures_with_the_flags_of_these_tests() -> None:
+def test_build_measures_with_the_flags_of_these_tests() -> None:
     presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
-    (preset,) = (each["cacheVariables"] for each in presets if each["name"] == PRESET)
+    (preset,) = (each["cacheVariables"] for each in presets if each["name"] == SANITIZED)
+    functions = (ROOT / "cmake" / "MamoriTargets.cmake").read_text(encoding="utf-8")
 
-    assert preset["CMAKE_CXX_FLAGS"].split() == list(FLAGS)
     assert preset["CMAKE_CXX_COMPILER"] == COMPILER
+    assert preset["MAMORI_MEASURE_COVERAGE"] == "ON"
+    assert " ".join(FLAGS) in functions
+    assert WRAPPED in functions
 
 
 @pytest.mark.verifies("SWR-VER-003", technique="fault_injection", polarity="violation")
-def test_expression_that_cannot_be_measured_is_refused_with_its_place(tmp_path: Path) -> None:
-    source = tmp_path / "seeded.cpp"
-    source.write_text("bool f(bool);\nbool g(bool a, bool b, bool c) {\n    return c && f(a || b);\n}\n", encoding="utf-8")
-    done = subprocess.run((COMPILER, *FLAGS, "-Werror", "-c", str(source), "-o", str(tmp_path / "seeded.o")), text=True,
-                          capture_output=True, check=True)  # fmt: skip
+def test_expression_that_cannot_be_measured_does_not_compile(tmp_path: Path) -> None:
+    done = compile_guarded(tmp_path, "bool f(bool);\nbool g(bool a, bool b, bool c) {\n    return c && f(a || b);\n}\n")
 
-    with pytest.raises(CoverageError, match=r"seeded\.cpp:3:\d+: .*unsupported MC/DC"):
-        refuse_unmeasured(done.stdout + done.stderr)
+    assert done.returncode == 1
+    assert re.search(r"seeded\.cpp:3:\d+: .*unsupported MC/DC", done.stderr)
 
 
+@pytest.mark.parametrize(("text", "status"), [("int f(int a) { return 0; }\n", 0), ("int f(int a) { return b; }\n", 1)])
 @pytest.mark.verifies("SWR-VER-003", technique="error_guessing")
-def test_other_words_of_a_compiler_are_not_refused() -> None:
-    refuse_unmeasured("a.cpp:1:1: warning: unused variable 'a'\n[3/3] Linking CXX executable kernel_test\n")
+def test_other_words_of_a_compiler_are_passed_on(tmp_path: Path, text: str, status: int) -> None:
+    done = compile_guarded(tmp_path, text)
+
+    assert done.returncode == status
+    assert "seeded.cpp:1:" in done.stderr
+
+
+def compile_guarded(folder: Path, text: str) -> subprocess.CompletedProcess[str]:
+    source = folder / "seeded.cpp"
+    source.write_text(text, encoding="utf-8")
+    argv = (str(GUARD), COMPILER, *FLAGS, "-Wall", "-Wextra", "-c", str(source), "-o", str(folder / "seeded.o"))
+    return subprocess.run(argv, text=True, capture_output=True, check=False)

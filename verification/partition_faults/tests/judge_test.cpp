@@ -181,7 +181,7 @@ TEST(PartitionJudgeTest, CorruptionIsAFrameThatIsRefusedOrHasAWrongCheck) {
 TEST(PartitionJudgeTest, WhileSomethingGoodComesTheReactionIsNotDue) {
     verifies("SWR-PRT-018", Technique::kBoundaryValues, Polarity::kViolation);
     const std::int64_t last = 130'200;
-    const auto make = [last](std::int64_t reacted_us) {
+    const auto make = [](std::int64_t reacted_us) {
         return make_course(make_deed(Kind::kCorrupt), make_looks(last, kOver), {react(reacted_us)});
     };
 

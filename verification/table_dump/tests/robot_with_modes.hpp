@@ -46,11 +46,11 @@ class Drive final : public mamori::Component {
     using Parameters = mamori::Parameters<&Drive::gain>;
 };
 
-static MAMORI_CONSTINIT Encoder encoder;
-static MAMORI_CONSTINIT Monitor monitor;
-static MAMORI_CONSTINIT Guide planner{"planner"};
-static MAMORI_CONSTINIT Guide hand{"hand"};
-static MAMORI_CONSTINIT Drive drive;
+MAMORI_CONSTINIT static Encoder encoder;
+MAMORI_CONSTINIT static Monitor monitor;
+MAMORI_CONSTINIT static Guide planner{"planner"};
+MAMORI_CONSTINIT static Guide hand{"hand"};
+MAMORI_CONSTINIT static Drive drive;
 
 enum class Command { kStart, kTeach, kStop };
 
@@ -75,8 +75,8 @@ static constexpr auto kSystem = mamori::system(
     mamori::mode_transition("teach", Command::kStop, "idle"));
 
 MAMORI_CHECK(kSystem);
-static MAMORI_CONSTINIT mamori::SystemModes modes{mamori::make_view(kSystem)};
-static MAMORI_CONSTINIT mamori::ExecutiveFor executive{kSystem, modes};
+MAMORI_CONSTINIT static mamori::SystemModes modes{mamori::make_view(kSystem)};
+MAMORI_CONSTINIT static mamori::ExecutiveFor executive{kSystem, modes};
 
 inline std::string save_table(const std::string& path) {
     const mamori::table_dump::Names names{{}, {}, {"Start", "Teach", "Stop"}};
