@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {
@@ -87,8 +88,8 @@ TEST(BoundedSequenceDeathTest, AnElementThatIsNotInUseIsOutOfReach) {
     const Three& constant = sut;
 
     EXPECT_EQ(sut[1], 2);
-    EXPECT_DEATH(sut[2] = 1, "");
-    EXPECT_DEATH(static_cast<void>(constant[2]), "");
+    EXPECT_CHECK_FAILS(sut[2] = 1, "bounded_sequence.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(constant[2]), "bounded_sequence.hpp", 2);
 }
 
 }  // namespace

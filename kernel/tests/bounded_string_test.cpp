@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {
@@ -92,8 +93,8 @@ TEST(BoundedStringDeathTest, ACharacterBehindTheEndIsOutOfReach) {
     const char open[2] = {'a', 'b'};
 
     EXPECT_EQ(sut[1], 'b');
-    EXPECT_DEATH(static_cast<void>(sut[2]), "");
-    EXPECT_DEATH(static_cast<void>(Three(open)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut[2]), "bounded_string.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(Three(open)), "bounded_string.hpp", 2);
 }
 
 }  // namespace

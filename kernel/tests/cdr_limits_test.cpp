@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "mamori/kernel/cdr.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/cdr_checks.hpp"
 
@@ -121,8 +122,8 @@ TEST(CdrLimitsDeathTest, APayloadThatGrowsWhileItIsWrittenEndsInTheAssertionAndN
     ASSERT_EQ(g_lists.tail.resize(1U), Status::kOk);
     ASSERT_EQ(encode(g_lists, large, ByteOrder::kLittle).get_value(), 16U);
 
-    EXPECT_DEATH(encode_growing(0U, 8U), "") << "begins at the end of the buffer";
-    EXPECT_DEATH(encode_growing(1U, 12U), "") << "begins behind it";
+    EXPECT_CHECK_FAILS(encode_growing(0U, 8U), "cdr_writer.hpp", 1) << "begins at the end of the buffer";
+    EXPECT_CHECK_FAILS(encode_growing(1U, 12U), "cdr_writer.hpp", 1) << "begins behind it";
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "mamori/kernel/configuration_set.hpp"
 #include "mamori/kernel/constant_init.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/configured_components.hpp"
 
@@ -211,7 +212,8 @@ TEST_F(ConfigurationAdminTest, ParametersAreFoundByTheNamesOfComponentAndParamet
 TEST(ConfigurationAdminDeathTest, AnInitialSetThatDoesNotExistIsAnOwnBug) {
     verifies("SWR-PAR-007", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH(static_cast<void>(ConfigurationAdmin(make_view(kConfiguration), 4U)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(ConfigurationAdmin(make_view(kConfiguration), 4U)),
+                       "configuration_admin.hpp", 1);
 }
 
 }  // namespace

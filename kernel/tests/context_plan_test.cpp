@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mamori/kernel/external_trigger.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/context_fixture.hpp"
 
@@ -156,12 +157,12 @@ TEST_F(ContextPlanTest, ARangeBeyondTheListOrOutsideACycleEndsInTheAssertion) {
     verifies("SWR-RTC-002", Technique::kBoundaryValues, Polarity::kViolation);
     start_and_activate();
 
-    EXPECT_DEATH(sut_.execute_range(0U, 1U), "");
-    EXPECT_DEATH(sut_.update_range(0U, 1U), "");
-    EXPECT_DEATH(static_cast<void>(sut_.get_state_at(2U)), "");
+    EXPECT_CHECK_FAILS(sut_.execute_range(0U, 1U), "execution_cycle.cpp", 1);
+    EXPECT_CHECK_FAILS(sut_.update_range(0U, 1U), "execution_cycle.cpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.get_state_at(2U)), "span.hpp", 1);
     ASSERT_EQ(sut_.begin_cycle(now_), Status::kOk);
-    EXPECT_DEATH(sut_.execute_range(1U, 2U), "");
-    EXPECT_DEATH(sut_.update_range(2U, 1U), "");
+    EXPECT_CHECK_FAILS(sut_.execute_range(1U, 2U), "execution_cycle.cpp", 4);
+    EXPECT_CHECK_FAILS(sut_.update_range(2U, 1U), "span.hpp", 2);
     sut_.execute_range(2U, 0U);
     sut_.end_cycle();
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {
@@ -123,7 +124,7 @@ TEST_F(EventLogTest, ReadingBeyondTheKeptRecordsEndsInTheAssertion) {
     write(1);
 
     EXPECT_EQ(sut_.get(0U).argument, 1);
-    EXPECT_DEATH(static_cast<void>(sut_.get(1U)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.get(1U)), "event_log.cpp", 1);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/context_fixture.hpp"
 
@@ -343,13 +344,13 @@ TEST_F(ExecutionContextTest, StepsOutsideACycleOrBeyondTheListEndInTheAssertion)
     verifies("SWR-KRN-012", Technique::kBoundaryValues, Polarity::kViolation);
     start_and_activate();
 
-    EXPECT_DEATH(sut_.execute(0U), "");
-    EXPECT_DEATH(sut_.update_state(0U), "");
+    EXPECT_CHECK_FAILS(sut_.execute(0U), "execution_cycle.cpp", 1);
+    EXPECT_CHECK_FAILS(sut_.update_state(0U), "execution_cycle.cpp", 1);
     ASSERT_EQ(sut_.begin_cycle(now_), Status::kOk);
-    EXPECT_DEATH(sut_.execute(2U), "");
-    EXPECT_DEATH(sut_.update_state(2U), "");
-    EXPECT_DEATH(sut_.execute(3U), "");
-    EXPECT_DEATH(sut_.update_state(3U), "");
+    EXPECT_CHECK_FAILS(sut_.execute(2U), "execution_cycle.cpp", 4);
+    EXPECT_CHECK_FAILS(sut_.update_state(2U), "span.hpp", 2);
+    EXPECT_CHECK_FAILS(sut_.execute(3U), "execution_cycle.cpp", 4);
+    EXPECT_CHECK_FAILS(sut_.update_state(3U), "span.hpp", 2);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "mamori/kernel/executive.hpp"
 #include "mamori/kernel/system.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
@@ -78,8 +79,8 @@ TEST_F(ExecutiveCoresTest, ALateReaderDoesNotSeeWhatIsPublishedAfterItsOpening) 
 TEST_F(ExecutiveCoresTest, AWindowOfAnotherCoreEndsInTheAssertion) {
     verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
 
-    EXPECT_DEATH(static_cast<void>(writer_.run_window(1U, host_)), "");
-    EXPECT_DEATH(static_cast<void>(reader_.run_window(0U, host_)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(writer_.run_window(1U, host_)), "executive.cpp", 6);
+    EXPECT_CHECK_FAILS(static_cast<void>(reader_.run_window(0U, host_)), "executive.cpp", 6);
 }
 
 TEST_F(ExecutiveCoresTest, AValueThatCameTooEarlyArrivesAtTheNextOpening) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mamori/kernel/executive.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
@@ -252,7 +253,7 @@ TEST_F(ExecutiveLifeTest, AnObserverFromWithinAnActionEndsInTheAssertion) {
         }
     };
 
-    EXPECT_DEATH(static_cast<void>(sut_.run_window(0U, host_)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.run_window(0U, host_)), "executive.cpp", 5);
 }
 
 TEST_F(ExecutiveLifeTest, OperationsFromWithinAnActionAreRefused) {
@@ -281,7 +282,7 @@ TEST_F(ExecutiveLifeTest, RunningAWindowFromWithinAnActionEndsInTheAssertion) {
     ASSERT_EQ(sut_.start(), Status::kOk);
     a_.inside = [this](const std::string&) { static_cast<void>(sut_.run_window(1U, host_)); };
 
-    EXPECT_DEATH(static_cast<void>(sut_.run_window(0U, host_)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.run_window(0U, host_)), "executive.cpp", 2);
 }
 
 TEST_F(ExecutiveLifeTest, AComponentOfAnotherWindowMayBeResetFromAnAction) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
@@ -230,7 +231,7 @@ TEST_F(ExecutiveTest, AnObserverWithTooFewRecordsIsAnOwnBug) {
     sut_.set_observer(&none);
     run_frame(sut_, host_, 0);
     EXPECT_EQ(records[0].get_seen(), 0U) << "nobody measures";
-    EXPECT_DEATH(sut_.set_observer(&few), "");
+    EXPECT_CHECK_FAILS(sut_.set_observer(&few), "executive.cpp", 4);
 }
 
 TEST_F(ExecutiveTest, TheTurnOfAComponentInErrorIsNoPartOfTheNextRun) {
@@ -306,8 +307,8 @@ TEST_F(ExecutiveTest, AStoppedContextRunsNothing) {
 TEST_F(ExecutiveTest, AWindowThatDoesNotExistOrOpensBeforeItsTimeEndsInTheAssertion) {
     verifies("SWR-KRN-021", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH(static_cast<void>(sut_.run_window(2U, host_)), "");
-    EXPECT_DEATH(static_cast<void>(sut_.run_window(0U, host_.now + 1_ns, host_)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.run_window(2U, host_)), "span.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.run_window(0U, host_.now + 1_ns, host_)), "executive.cpp", 3);
 }
 
 TEST_F(ExecutiveTest, AChainInOneWindowNeedsNoExtraCycle) {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/interleaving.hpp"
 
@@ -84,7 +85,7 @@ TEST(FifoBufferDeathTest, DroppingWhatIsNotHeldHalts) {
     Fifo3<FullPolicy::kDoNothing> sut;
     push_range(sut, 1, 1);
 
-    EXPECT_DEATH(sut.drop(), "");
+    EXPECT_CHECK_FAILS(sut.drop(), "fifo_buffer.hpp", 1);
 }
 
 TEST(FifoBufferTest, AFullBufferRefusesTheNewEntryAndKeepsTheOld) {
@@ -292,14 +293,14 @@ TEST(FifoBufferDeathTest, ACorruptedWordHaltsTheWriter) {
     verifies("SWR-BUF-002", Technique::kFaultInjection, Polarity::kViolation);
     CorruptedFifo<FullPolicy::kOverwrite> sut;
 
-    EXPECT_DEATH(static_cast<void>(sut.publish()), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut.publish()), "slot_ring.hpp", 1);
 }
 
 TEST(FifoBufferDeathTest, ACorruptedWordHaltsTheReader) {
     verifies("SWR-BUF-002", Technique::kFaultInjection, Polarity::kViolation);
     CorruptedFifo<FullPolicy::kDoNothing> sut;
 
-    EXPECT_DEATH(static_cast<void>(sut.peek()), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut.peek()), "slot_ring.hpp", 1);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <limits>
 
 #include "mamori/kernel/crc32.hpp"
@@ -57,9 +58,14 @@ TEST(FlightLimitsTest, ARegionForAsManyRecordsAsAHeaderCanCountIsFormatted) {
     auto* const bytes = static_cast<std::byte*>(memory);
     ASSERT_EQ(::mprotect(bytes + page, page, PROT_NONE), 0);
     bytes[page - 1U] = std::byte{7};
+    const auto format = [bytes] {
+        static_cast<void>(std::signal(SIGSEGV, SIG_DFL));  // a sanitizer has a handler of its own
+        static_cast<void>(FlightRecorder::format({bytes, flight::calc_region_size(kMostRecords)}));
+    };
 
-    EXPECT_DEATH(static_cast<void>(FlightRecorder::format({bytes, flight::calc_region_size(kMostRecords)})),
-                 "");
+    // Not a failed check: the access to the missing page prints nothing, so the signal and the byte are the
+    // evidence.
+    EXPECT_EXIT(format(), ::testing::KilledBySignal(SIGSEGV), "^$");
     EXPECT_EQ(bytes[page - 1U], std::byte{0}) << "it was being wiped";
     EXPECT_EQ(::munmap(memory, 2U * page), 0);
 }

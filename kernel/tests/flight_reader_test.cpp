@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
-#include "support/failed_check.hpp"
 
 namespace mamori {
 namespace {
@@ -69,7 +69,7 @@ TEST(FlightReaderTest, BeforeOpenThereIsNothing) {
     EXPECT_EQ(sut.get_capacity(), 0U);
     EXPECT_EQ(sut.calc_newest_sequence(), 0U);
     EXPECT_EQ(sut.calc_session().number, 0U);
-    EXPECT_DEATH(static_cast<void>(sut.read(0U, record)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut.read(0U, record)), "flight_reader.cpp", 1);
 }
 
 TEST(FlightReaderTest, SlotBeyondTheRingEndsInTheAssertion) {
@@ -80,8 +80,7 @@ TEST(FlightReaderTest, SlotBeyondTheRingEndsInTheAssertion) {
     FlightRecord record{};
 
     EXPECT_EQ(sut.read(1U, record), SlotState::kEmpty);
-    EXPECT_DEATH(testing_support::run_telling_checks([&] { static_cast<void>(sut.read(2U, record)); }),
-                 "flight_reader.cpp check 1");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut.read(2U, record)), "flight_reader.cpp", 1);
 }
 
 TEST(FlightReaderTest, RegionOfEachOtherLengthIsRefused) {

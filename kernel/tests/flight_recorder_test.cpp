@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "mamori/kernel/flight_reader.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
-#include "support/failed_check.hpp"
 
 namespace mamori {
 namespace {
@@ -432,8 +432,7 @@ TEST_F(FlightRecorderTest, OpenRecorderRefusesASecondRegion) {
 
 TEST_F(FlightRecorderTest, WriteWithoutARegionEndsInTheAssertion) {
     verifies("SWR-REC-008", Technique::kErrorGuessing, Polarity::kViolation);
-    EXPECT_DEATH(testing_support::run_telling_checks([this] { write(sut_, 1); }),
-                 "flight_recorder.cpp check 1");
+    EXPECT_CHECK_FAILS(write(sut_, 1), "flight_recorder.cpp", 1);
 }
 
 TEST_F(FlightRecorderTest, EventsOfALogGoOnToTheRecorder) {

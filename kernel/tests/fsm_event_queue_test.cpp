@@ -8,6 +8,7 @@
 #include <array>
 #include <thread>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {
@@ -110,9 +111,9 @@ TEST_F(FsmEventQueueTest, CellsThatAreNoPowerOfTwoEndInTheAssertion) {
     FsmEventQueue single{Span<FsmEventCell>{cells_}.subspan(0U, 1U)};
     FsmEventQueue none{Span<FsmEventCell>{}};
 
-    EXPECT_DEATH(static_cast<void>(odd.post({})), "");
-    EXPECT_DEATH(static_cast<void>(single.post({})), "");
-    EXPECT_DEATH(static_cast<void>(none.take()), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(odd.post({})), "fsm_event_queue.cpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(single.post({})), "fsm_event_queue.cpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(none.take()), "fsm_event_queue.cpp", 1);
 }
 
 TEST_F(FsmEventQueueTest, TwoSendersLoseAndTearNothing) {

@@ -11,6 +11,7 @@
 #include "mamori/kernel/constant_init.hpp"
 #include "mamori/kernel/queue_in_port.hpp"
 #include "mamori/kernel/system.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
@@ -433,7 +434,7 @@ TEST_F(IntrospectionTest, OneThatBelongsToAnotherTableIsRefused) {
     const auto other = table_;
     IntrospectionFor<decltype(table_)> stranger{other};
 
-    EXPECT_DEATH(executive_.set_introspection(&stranger), "");
+    EXPECT_CHECK_FAILS(executive_.set_introspection(&stranger), "executive_introspection.cpp", 2);
 }
 
 /// Attaches an introspection while its executive is at work.
@@ -457,7 +458,7 @@ TEST(IntrospectionAttachTest, AttachingFromWithinAnActionIsAnOwnBug) {
     ASSERT_EQ(executive.start(), Status::kOk);
     FakeHost host;
 
-    EXPECT_DEATH(static_cast<void>(executive.run_window(0U, host)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(executive.run_window(0U, host)), "executive_introspection.cpp", 1);
 }
 
 MAMORI_CONSTINIT Counter g_counter;

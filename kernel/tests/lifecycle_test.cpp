@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {
@@ -88,9 +89,11 @@ TEST(LifecycleTest, NumbersAndNamesAreThoseOfTheStandard) {
 TEST(LifecycleDeathTest, ACorruptedStateOrEventEndsInTheAssertion) {
     verifies("SWR-KRN-010", Technique::kFaultInjection, Polarity::kViolation);
 
-    EXPECT_DEATH(static_cast<void>(get_transition(static_cast<LifecycleState>(4U), LifecycleEvent::kReset)),
-                 "");
-    EXPECT_DEATH(static_cast<void>(get_transition(kActive, static_cast<LifecycleEvent>(5U))), "");
+    EXPECT_CHECK_FAILS(
+        static_cast<void>(get_transition(static_cast<LifecycleState>(4U), LifecycleEvent::kReset)),
+        "lifecycle.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(get_transition(kActive, static_cast<LifecycleEvent>(5U))),
+                       "lifecycle.hpp", 1);
 }
 
 }  // namespace

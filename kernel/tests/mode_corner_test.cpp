@@ -9,6 +9,7 @@
 
 #include "mamori/kernel/queue_in_port.hpp"
 #include "mamori/kernel/system_check.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/mode_system.hpp"
@@ -207,7 +208,7 @@ TEST(ModeCornerTest, ModesCannotCountMoreSetsThanAPlanCanName) {
     EXPECT_EQ(fits.get_mode(), 0U);
     view.configuration.sets = {rows.data(), rows.size()};
 
-    EXPECT_DEATH(SystemModes{view}, "");
+    EXPECT_CHECK_FAILS(SystemModes{view}, "system_modes.hpp", 1);
 }
 
 struct SmallParts {

@@ -16,6 +16,7 @@
 
 #include "mamori/kernel/component.hpp"
 #include "mamori/kernel/constant_init.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {
@@ -207,11 +208,12 @@ TEST(ParameterDeathTest, OutsideAConstantAMalformedConstraintEndsInTheHandler) {
     verifies("SWR-PAR-004", Technique::kErrorGuessing, Polarity::kViolation);
     using Sut = Parameter<double>;
 
-    EXPECT_DEATH(static_cast<void>(Sut("p", 1.0, "x=1")), "");
-    EXPECT_DEATH(static_cast<void>(Sut("p", 1.0, "x<0.5")), "");
-    EXPECT_DEATH(static_cast<void>(Sut("p", std::numeric_limits<double>::quiet_NaN())), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(Sut("p", 1.0, "x=1")), "constraint_refusal.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(Sut("p", 1.0, "x<0.5")), "parameter.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(Sut("p", std::numeric_limits<double>::quiet_NaN())), "parameter.hpp",
+                       1);
     const std::string late = std::string(200U, ' ') + "?";
-    EXPECT_DEATH(static_cast<void>(Sut("p", 1.0, late.c_str())), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(Sut("p", 1.0, late.c_str())), "constraint_refusal.hpp", 1);
 }
 
 TEST(ParameterConstantTest, AWellFormedParameterIsAConstant) {

@@ -8,6 +8,7 @@
 #include "mamori/kernel/executive.hpp"
 #include "mamori/kernel/external_trigger.hpp"
 #include "mamori/kernel/system.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/context_fixture.hpp"
 #include "support/fake_host.hpp"
@@ -128,7 +129,7 @@ TEST_F(RtcDecisionsTest, D8_HandlesAndPositionsHaveNoOffByOne) {
     }
     EXPECT_EQ(stranger_.get_context(ContextHandle{-1, {}}), nullptr);
     EXPECT_EQ(sut_.get_state_at(1U), LifecycleState::kInactive);
-    EXPECT_DEATH(static_cast<void>(sut_.get_state_at(2U)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.get_state_at(2U)), "span.hpp", 1);
     EXPECT_EQ(a_.attach_context(sut_), Status::kUnsupported);
     EXPECT_EQ(a_.detach_context(ContextHandle{kId, {}}), Status::kUnsupported);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {
@@ -85,8 +86,8 @@ TEST(SpanDeathTest, AnIndexAtTheSizeEndsInTheAssertion) {
     const Span<int> sut{elements};
 
     EXPECT_EQ(sut[2], 3);
-    EXPECT_DEATH(static_cast<void>(sut[3]), "");
-    EXPECT_DEATH(static_cast<void>(Span<int>{}[0]), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut[3]), "span.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(Span<int>{}[0]), "span.hpp", 1);
 }
 
 TEST(SpanDeathTest, ASubspanBeyondTheEndEndsInTheAssertion) {
@@ -94,9 +95,9 @@ TEST(SpanDeathTest, ASubspanBeyondTheEndEndsInTheAssertion) {
     std::array<int, 3> elements{1, 2, 3};
     const Span<int> sut{elements};
 
-    EXPECT_DEATH(static_cast<void>(sut.subspan(4U, 0U)), "");
-    EXPECT_DEATH(static_cast<void>(sut.subspan(1U, 3U)), "");
-    EXPECT_DEATH(static_cast<void>(sut.subspan(1U, SIZE_MAX)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut.subspan(4U, 0U)), "span.hpp", 2);
+    EXPECT_CHECK_FAILS(static_cast<void>(sut.subspan(1U, 3U)), "span.hpp", 2);
+    EXPECT_CHECK_FAILS(static_cast<void>(sut.subspan(1U, SIZE_MAX)), "span.hpp", 2);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/interleaving.hpp"
 
@@ -264,14 +265,14 @@ TEST(TripleBufferDeathTest, ACorruptedWordHaltsTheWriter) {
     verifies("SWR-BUF-002", Technique::kFaultInjection, Polarity::kViolation);
     TripleBuffer<Pair, CorruptedWord> sut;
 
-    EXPECT_DEATH(sut.publish(), "");
+    EXPECT_CHECK_FAILS(sut.publish(), "triple_buffer.hpp", 1);
 }
 
 TEST(TripleBufferDeathTest, ACorruptedWordHaltsTheReader) {
     verifies("SWR-BUF-002", Technique::kFaultInjection, Polarity::kViolation);
     TripleBuffer<Pair, CorruptedWord> sut;
 
-    EXPECT_DEATH(static_cast<void>(sut.update()), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(sut.update()), "triple_buffer.hpp", 1);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -128,8 +129,8 @@ TEST_F(AliveSupervisorTest, StorageOutsideItsSizesGoesToTheAssertionHandler) {
     verifies("SWR-SUP-001", Technique::kErrorGuessing, Polarity::kViolation);
 
     std::vector<AliveSlot> slots(65536U);
-    EXPECT_DEATH(AliveSupervisor{Span<AliveSlot>{}}, "");
-    EXPECT_DEATH((AliveSupervisor{Span<AliveSlot>{slots.data(), 65536U}}), "");
+    EXPECT_CHECK_FAILS(AliveSupervisor{Span<AliveSlot>{}}, "alive_supervisor.hpp", 1);
+    EXPECT_CHECK_FAILS((AliveSupervisor{Span<AliveSlot>{slots.data(), 65536U}}), "alive_supervisor.hpp", 1);
     EXPECT_EQ((AliveSupervisor{Span<AliveSlot>{slots.data(), 65535U}}.watch(65534U, {1U, 1U})), Status::kOk);
 }
 

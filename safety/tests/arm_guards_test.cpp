@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -267,9 +268,9 @@ TEST(StandstillDetectorTest, SingleJointAboveItsLimitBeginsTheTimeAnew) {
 TEST(StandstillDetectorTest, LimitsThatCannotProtectGoToTheAssertionHandler) {
     verifies("SWR-ARM-008", Technique::kErrorGuessing, Polarity::kViolation);
 
-    EXPECT_DEATH((StandstillDetector{kZero, Duration{0}}), "");
-    EXPECT_DEATH((StandstillDetector{with(kLimits, 2U, kNan), Duration{0}}), "");
-    EXPECT_DEATH((StandstillDetector{kLimits, Duration{-1}}), "");
+    EXPECT_CHECK_FAILS((StandstillDetector{kZero, Duration{0}}), "arm/guards.hpp", 1);
+    EXPECT_CHECK_FAILS((StandstillDetector{with(kLimits, 2U, kNan), Duration{0}}), "arm/guards.hpp", 1);
+    EXPECT_CHECK_FAILS((StandstillDetector{kLimits, Duration{-1}}), "arm/guards.hpp", 1);
 }
 
 TEST(StandstillDetectorTest, ClockThatRunsBackwardsBeginsTheTimeAnew) {
@@ -287,7 +288,7 @@ TEST(JointSetTest, JointThatDoesNotExistGoesToTheAssertionHandler) {
     verifies("SWR-ARM-002", Technique::kBoundaryValues, Polarity::kViolation);
     JointSet joints;
 
-    EXPECT_DEATH(joints.insert(kArmJointCount), "");
+    EXPECT_CHECK_FAILS(joints.insert(kArmJointCount), "joint_set.hpp", 1);
     joints.insert(kArmJointCount - 1U);
     EXPECT_EQ(joints.get_first(), kArmJointCount - 1U);
 }

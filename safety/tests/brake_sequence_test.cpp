@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -234,7 +235,7 @@ TEST_F(BrakeSequenceTest, NumberThatIsNoStateHasNeitherTorqueNorOpenBrakes) {
 TEST_F(BrakeSequenceTest, ClosingTimeOfNoLengthGoesToTheAssertionHandler) {
     verifies("SWR-FSM-026", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH((BrakeSequence{{Duration{0}, true}}), "");
+    EXPECT_CHECK_FAILS((BrakeSequence{{Duration{0}, true}}), "brake_sequence.hpp", 1);
 }
 
 TEST_F(BrakeSequenceTest, BoundOfAnSs1MustBeLongerThanTheClosing) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -109,8 +110,9 @@ TEST_F(DeadlineSupervisorTest, StorageOutsideItsSizesGoesToTheAssertionHandler) 
     verifies("SWR-SUP-003", Technique::kErrorGuessing, Polarity::kViolation);
 
     std::vector<DeadlineSlot> slots(65536U);
-    EXPECT_DEATH(DeadlineSupervisor{Span<DeadlineSlot>{}}, "");
-    EXPECT_DEATH((DeadlineSupervisor{Span<DeadlineSlot>{slots.data(), 65536U}}), "");
+    EXPECT_CHECK_FAILS(DeadlineSupervisor{Span<DeadlineSlot>{}}, "deadline_supervisor.hpp", 1);
+    EXPECT_CHECK_FAILS((DeadlineSupervisor{Span<DeadlineSlot>{slots.data(), 65536U}}),
+                       "deadline_supervisor.hpp", 1);
     EXPECT_EQ((DeadlineSupervisor{Span<DeadlineSlot>{slots.data(), 65535U}}.watch(65534U, {1_ns, 2_ns})),
               Status::kOk);
 }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -300,13 +301,13 @@ TEST_F(ExecutionSupervisorTest, LowestIndexIsNamedAmongThoseThatExpireInOneCycle
 
 TEST_F(ExecutionSupervisorTest, ComponentIndexBeyondTheStorageGoesToTheAssertionHandler) {
     verifies("SWR-SUP-008", Technique::kErrorGuessing, Polarity::kViolation);
-    EXPECT_DEATH(sut_.on_budget_overrun(0U, 3U, now_), "");
+    EXPECT_CHECK_FAILS(sut_.on_budget_overrun(0U, 3U, now_), "execution_supervisor.cpp", 3);
 }
 
 TEST_F(ExecutionSupervisorTest, NegativeLatenessLimitGoesToTheAssertionHandler) {
     verifies("SWR-SUP-010", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH((ExecutionSupervisor{storage_, Duration{-1}}), "");
+    EXPECT_CHECK_FAILS((ExecutionSupervisor{storage_, Duration{-1}}), "execution_supervisor.hpp", 1);
     EXPECT_EQ((ExecutionSupervisor{storage_, Duration{0}}.get_late_release().count), 0U);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fault_register_fixture.hpp"
 
@@ -80,15 +81,15 @@ TEST_F(FaultRegisterTest, ConfirmationIsRefusedOutOfRangeAndWhileTheFaultIsPrese
 TEST_F(FaultRegisterTest, FaultBeyondTheRegisterGoesToTheAssertionHandler) {
     verifies("SWR-FLT-001", Technique::kErrorGuessing, Polarity::kViolation);
 
-    EXPECT_DEATH(sut_.report(4U, true, Instant{}), "");
+    EXPECT_CHECK_FAILS(sut_.report(4U, true, Instant{}), "span.hpp", 1);
 }
 
 TEST_F(FaultRegisterTest, StorageOutsideItsSizesGoesToTheAssertionHandler) {
     verifies("SWR-FLT-001", Technique::kBoundaryValues, Polarity::kViolation);
 
     std::vector<FaultRecord> records(65536U);
-    EXPECT_DEATH(FaultRegister{Span<FaultRecord>{}}, "");
-    EXPECT_DEATH((FaultRegister{Span<FaultRecord>{records.data(), 65536U}}), "");
+    EXPECT_CHECK_FAILS(FaultRegister{Span<FaultRecord>{}}, "fault_register.hpp", 1);
+    EXPECT_CHECK_FAILS((FaultRegister{Span<FaultRecord>{records.data(), 65536U}}), "fault_register.hpp", 1);
     EXPECT_EQ((FaultRegister{Span<FaultRecord>{records.data(), 65535U}}.get_capacity()), 65535U);
 }
 

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "mamori/safety/stop_outputs.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -155,8 +156,8 @@ TEST_F(SafeStateMachineTest, LeavingTheHeldPositionIsAStopSs1) {
 TEST_F(SafeStateMachineTest, StopWithoutABoundGoesToTheAssertionHandler) {
     verifies("SWR-FSM-004", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH((SafeStateMachine{{Duration{0}, Duration{1}}}), "");
-    EXPECT_DEATH((SafeStateMachine{{Duration{1}, Duration{0}}}), "");
+    EXPECT_CHECK_FAILS((SafeStateMachine{{Duration{0}, Duration{1}}}), "safe_state_machine.hpp", 1);
+    EXPECT_CHECK_FAILS((SafeStateMachine{{Duration{1}, Duration{0}}}), "safe_state_machine.hpp", 1);
 }
 
 TEST_F(SafeStateMachineTest, DegradedMachineMovesOnUntilAPersonRestoresIt) {

@@ -3,6 +3,7 @@
 // Method: all combinations of health; both sides of both ends of the window; a device that refuses.
 #include "mamori/safety/watchdog_gate.hpp"
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -107,8 +108,8 @@ TEST_F(WatchdogGateTest, ServiceThatTheDeviceRefusesIsTriedAgain) {
 TEST_F(WatchdogGateTest, WindowThatIsEmptyGoesToTheAssertionHandler) {
     verifies("SWR-WDG-002", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH((WatchdogGate{watchdog_, {Duration{100}, Duration{100}}}), "");
-    EXPECT_DEATH((WatchdogGate{watchdog_, {Duration{-1}, Duration{100}}}), "");
+    EXPECT_CHECK_FAILS((WatchdogGate{watchdog_, {Duration{100}, Duration{100}}}), "watchdog_gate.hpp", 1);
+    EXPECT_CHECK_FAILS((WatchdogGate{watchdog_, {Duration{-1}, Duration{100}}}), "watchdog_gate.hpp", 1);
 }
 
 TEST_F(WatchdogGateTest, WindowThatIsKeptLeavesTheGateOpen) {

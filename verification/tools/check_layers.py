@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Proves the layer table of CONTRIBUTING.md: who includes, links and imports whom, and what target code may contain.
+"""Proves the layer table of CONTRIBUTING.md: who includes, links and imports whom, what target code may contain, and that death
+tests state their cause.
 
     python -m mamori.verification.tools.check_layers [--root FOLDER]
 
@@ -18,6 +19,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from mamori.verification.tools.death_tests import check_death_tests
 from mamori.verification.tools.deviations import check_deviations
 from mamori.verification.tools.layer_table import FORBIDDEN_IMPORTS, LISTED_STD, TEST_INCLUDES, Layer, get_layer
 from mamori.verification.tools.target_limits import MEASURED_HEADERS, check_headers, check_size, check_words
@@ -84,6 +86,8 @@ def _check_file(root: Path, path: Path) -> Iterator[Finding]:
         text = path.read_text(encoding="utf-8")
         for line, message in _check_includes(root, path, layer, text, is_test="tests" in parts):
             yield Finding(name, line, "include", message)
+        for line, message in check_death_tests(text):
+            yield Finding(name, line, "death", message)
         if _is_target_code(root, path):
             for line, rule, message in (*check_words(text), *check_size(text)):
                 yield Finding(name, line, rule, message)

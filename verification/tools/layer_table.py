@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 # A new name needs an ADR.
 LISTED_STD = frozenset("array atomic cstddef cstdint limits new type_traits utility".split())
-TEST_INCLUDES = ("mamori/verification/verifies.hpp", "gtest/", "gmock/")
+TEST_INCLUDES = ("mamori/verification/verifies.hpp", "mamori/verification/failed_check.hpp", "gtest/", "gmock/")
 PORT_TEST_INCLUDES = ("mamori/ports/conformance/",)  # the rules that each port must pass: ADR 0012
 SIMULATION_INCLUDES = ("Simbody.h", "SimTK", "simbody/", "simmath/", "kdl/", "Eigen/", "yaml-cpp/")
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "mamori/ports/conformance/rule_trial.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::ports::conformance {
@@ -158,8 +159,8 @@ TEST(RuleRunnerTest, AChoiceOfRulesIsTriedAsIfThereWereNoOthers) {
 
 TEST(RuleRunnerTest, AChoiceThatNamesNoRuleEndsInTheAssertion) {
     verifies("SWR-CNF-010", Technique::kErrorGuessing, Polarity::kViolation);
-    EXPECT_DEATH(static_cast<void>(select_rules(make(make_steps(10)), {"u"})()), "");
-    EXPECT_DEATH(static_cast<void>(select_rules(make(make_steps(10)), {})()), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(select_rules(make(make_steps(10)), {"u"})()), "trial.cpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(select_rules(make(make_steps(10)), {})()), "trial.cpp", 1);
 }
 
 TEST(RuleRunnerTest, APortThatAnswersOtherwiseTheSecondTimeIsAFinding) {

@@ -10,6 +10,7 @@
 
 #include "mamori/kernel/frame_schedule.hpp"
 #include "mamori/ports/conformance/rule_runner.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::ports::conformance {
@@ -146,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(All, TimerFlawTest,
 
 TEST(TimerContractTest, ATimerThatOpensEarlyEndsInTheAssertionOfTheKernel) {
     verifies("SWR-CNF-011", Technique::kErrorGuessing, Polarity::kViolation);
-    EXPECT_DEATH(static_cast<void>(run_in_order(make(TimerFlaw::kOpensEarly))), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(run_in_order(make(TimerFlaw::kOpensEarly))), "executive.cpp", 3);
 }
 
 TEST(TimerContractTest, ATimerThatKeepsItIsAcceptedInEachOrder) {

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_driver.hpp"
 
@@ -201,15 +202,15 @@ void make(const FrameClock& clock, safety::WatchdogWindow window, WatchdogReacti
 TEST_F(SoftwareWatchdogTest, ProcessIsEndedAfterTheOutputsWhereThatIsAskedFor) {
     verifies("SWR-PRT-021", Technique::kFaultInjection, Polarity::kViolation);
     EXPECT_EXIT(hang_under_a_watchdog_that_ends_the_process(clock_), ::testing::KilledBySignal(SIGABRT),
-                "outputs closed");
+                "^outputs closed\n$");
 }
 
 TEST_F(SoftwareWatchdogTest, OneThatGoesWhileItIsOpenAndOneThatCannotWatchAreOwnBugs) {
     verifies("SWR-PRT-021", Technique::kErrorGuessing, Polarity::kViolation);
-    EXPECT_DEATH(leave_it_open(clock_, make_reaction()), "");
-    EXPECT_DEATH(make(clock_, {1_ms, 1_ms}, make_reaction()), "");
-    EXPECT_DEATH(make(clock_, {Duration{-1}, 1_ms}, make_reaction()), "");
-    EXPECT_DEATH(make(clock_, {0_ms, 1_ms}, {nullptr}), "");
+    EXPECT_CHECK_FAILS(leave_it_open(clock_, make_reaction()), "software_watchdog.hpp", 3);
+    EXPECT_CHECK_FAILS(make(clock_, {1_ms, 1_ms}, make_reaction()), "software_watchdog.hpp", 1);
+    EXPECT_CHECK_FAILS(make(clock_, {Duration{-1}, 1_ms}, make_reaction()), "software_watchdog.hpp", 1);
+    EXPECT_CHECK_FAILS(make(clock_, {0_ms, 1_ms}, {nullptr}), "software_watchdog.hpp", 2);
 }
 
 TEST_F(SoftwareWatchdogTest, RightsOfTheThreadAreToldAndARefusalDoesNotStopIt) {

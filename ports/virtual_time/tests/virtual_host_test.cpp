@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::ports::virtual_time {
@@ -65,7 +66,7 @@ TEST_F(VirtualHostTest, TimePassesWithoutWorkAndNeverGoesBack) {
     sut_.advance_to(Instant{50});
 
     EXPECT_EQ(sut_.get_now(), Instant{50});
-    EXPECT_DEATH(sut_.advance_to(Instant{49}), "");
+    EXPECT_CHECK_FAILS(sut_.advance_to(Instant{49}), "virtual_host.cpp", 1);
 }
 
 TEST_F(VirtualHostTest, AModelledTimeCanBeChangedWithinItsRange) {
@@ -131,7 +132,7 @@ TEST_F(VirtualHostTest, ANegativeModelledTimeEndsInTheAssertion) {
     verifies("SWR-VTM-002", Technique::kErrorGuessing, Polarity::kViolation);
     durations_[0] = Duration{-1};
 
-    EXPECT_DEATH(static_cast<void>(run(0U, Instant{100})), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(run(0U, Instant{100})), "virtual_host.cpp", 2);
 }
 
 }  // namespace

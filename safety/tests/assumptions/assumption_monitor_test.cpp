@@ -14,6 +14,7 @@
 #include "mamori/safety/self_test/ram_area.hpp"
 #include "mamori/safety/self_test/region_crc.hpp"
 #include "mamori/safety/self_test/schedule.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -174,7 +175,7 @@ TEST(AllAssumptionsTest, OfSeveralFailuresTheFirstRowIsNamed) {
 TEST(AllAssumptionsTest, EmptyTableGoesToTheAssertionHandler) {
     verifies("SWR-AOU-001", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH(AssumptionMonitor{Span<const AssumptionRow>{}}, "");
+    EXPECT_CHECK_FAILS(AssumptionMonitor{Span<const AssumptionRow>{}}, "assumption_monitor.hpp", 1);
 }
 
 /// The whole chain as the manual shows it: real tests, a schedule, a monitor, the safe-state machine.

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -130,7 +131,7 @@ TEST_F(DiscrepancyTimerTest, LatchedDisagreementIsAcknowledgedOnceItIsGone) {
 TEST_F(DiscrepancyTimerTest, NegativeTimeGoesToTheAssertionHandler) {
     verifies("SWR-RED-007", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH(DiscrepancyTimer{Duration{-1}}, "");
+    EXPECT_CHECK_FAILS(DiscrepancyTimer{Duration{-1}}, "discrepancy.hpp", 1);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -49,11 +50,11 @@ TEST(WorseValueTest, LimitsAreInsideTheirRange) {
 TEST(WorseValueTest, LimitsOutsideTheirRangeGoToTheAssertionHandler) {
     verifies("SWR-RED-003", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH((ValueVoter1oo2{{-1.0, Duration{0}, WorseValue::kGreater}}), "");
-    EXPECT_DEATH((ValueVoter1oo2{{kNan, Duration{0}, WorseValue::kGreater}}), "");
-    EXPECT_DEATH((ValueVoter2oo3{{0.0, Duration{-1}, WorseValue::kGreater}}), "");
-    EXPECT_DEATH((ValueVoter2oo3{{0.0, Duration{0}, static_cast<WorseValue>(4)}}), "");
-    EXPECT_DEATH(static_cast<void>(ValueVoter1oo2{kLimits}.get_discrepancy(2U)), "");
+    EXPECT_CHECK_FAILS((ValueVoter1oo2{{-1.0, Duration{0}, WorseValue::kGreater}}), "voter.hpp", 1);
+    EXPECT_CHECK_FAILS((ValueVoter1oo2{{kNan, Duration{0}, WorseValue::kGreater}}), "voter.hpp", 1);
+    EXPECT_CHECK_FAILS((ValueVoter2oo3{{0.0, Duration{-1}, WorseValue::kGreater}}), "discrepancy.hpp", 1);
+    EXPECT_CHECK_FAILS((ValueVoter2oo3{{0.0, Duration{0}, static_cast<WorseValue>(4)}}), "voter.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(ValueVoter1oo2{kLimits}.get_discrepancy(2U)), "voter.hpp", 2);
 }
 
 TEST(ValueVoter1oo2Test, ChannelsThatAgreeGiveTheWorseValue) {

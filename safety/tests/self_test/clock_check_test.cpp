@@ -3,6 +3,7 @@
 // Method: two scripted clocks, both sides of the bound.
 #include "mamori/safety/self_test/clock_check.hpp"
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_clock.hpp"
 
@@ -67,7 +68,7 @@ TEST_F(ClockCheckTest, ClocksThatBothStandOrCrawlFail) {
 TEST_F(ClockCheckTest, PassOfOneStepGoesToTheAssertionHandler) {
     verifies("SWR-SLF-011", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH((ClockCheck{reference_, checked_, {Duration{1}, 1U}, 1U}), "");
+    EXPECT_CHECK_FAILS((ClockCheck{reference_, checked_, {Duration{1}, 1U}, 1U}), "clock_check.hpp", 1);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -322,8 +323,10 @@ TEST_F(CpuCheckTest, StepThatIsNoneWasNotDone) {
 TEST_F(CpuCheckTest, OperationThatIsNoneGoesToTheAssertionHandler) {
     verifies("SWR-SLF-008", Technique::kErrorGuessing, Polarity::kViolation);
 
-    EXPECT_DEATH(static_cast<void>(NativeCpu::calc(static_cast<ArithmeticOperation>(9), 1U, 1U)), "");
-    EXPECT_DEATH(static_cast<void>(NativeCpu::calc(static_cast<WordOperation>(9), 1U, 1U)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(NativeCpu::calc(static_cast<ArithmeticOperation>(9), 1U, 1U)),
+                       "native_cpu.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(NativeCpu::calc(static_cast<WordOperation>(9), 1U, 1U)),
+                       "native_cpu.hpp", 2);
 }
 
 TEST_F(CpuCheckTest, UnitInTheDeclaredModePasses) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstring>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -104,8 +105,8 @@ TEST_F(RegionCrcTest, WrongExpectationIsFound) {
 TEST_F(RegionCrcTest, NothingToCheckGoesToTheAssertionHandler) {
     verifies("SWR-SLF-007", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH((RegionCrc{Span<const std::byte>{}, 0U, 1U}), "");
-    EXPECT_DEATH((RegionCrc{view(), 0U, 0U}), "");
+    EXPECT_CHECK_FAILS((RegionCrc{Span<const std::byte>{}, 0U, 1U}), "region_crc.hpp", 1);
+    EXPECT_CHECK_FAILS((RegionCrc{view(), 0U, 0U}), "region_crc.hpp", 1);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mamori/safety/safe_state_machine.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -269,8 +270,8 @@ TEST_F(SelfTestScheduleTest, TestThatGoesOnAfterItsStepsIsAFailure) {
 TEST_F(SelfTestScheduleTest, EmptyScheduleGoesToTheAssertionHandler) {
     verifies("SWR-SLF-001", Technique::kBoundaryValues, Polarity::kViolation);
 
-    EXPECT_DEATH((SelfTestSchedule{Span<SelfTest* const>{}, Duration{1}}), "");
-    EXPECT_DEATH((SelfTestSchedule{span_, Duration{0}}), "");
+    EXPECT_CHECK_FAILS((SelfTestSchedule{Span<SelfTest* const>{}, Duration{1}}), "self_test/schedule.hpp", 1);
+    EXPECT_CHECK_FAILS((SelfTestSchedule{span_, Duration{0}}), "self_test/schedule.hpp", 1);
 }
 
 }  // namespace

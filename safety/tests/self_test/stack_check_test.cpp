@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -127,12 +128,12 @@ TEST_F(StackCheckTest, LimitsOutsideTheirRangeGoToTheAssertionHandler) {
     verifies("SWR-SLF-010", Technique::kBoundaryValues, Polarity::kViolation);
     const RamArea area(words_.data(), kWords);
 
-    EXPECT_DEATH((StackCheck{area, {0U, 8U, 5U}}), "");
-    EXPECT_DEATH((StackCheck{area, {2U, 8U, 0U}}), "");
-    EXPECT_DEATH((StackCheck{area, {21U, 0U, 1U}}), "");
-    EXPECT_DEATH((StackCheck{area, {2U, 19U, 1U}}), "");
-    EXPECT_DEATH(sut_.paint(11U), "");
-    EXPECT_DEATH(sut_.paint(21U), "");
+    EXPECT_CHECK_FAILS((StackCheck{area, {0U, 8U, 5U}}), "stack_check.hpp", 1);
+    EXPECT_CHECK_FAILS((StackCheck{area, {2U, 8U, 0U}}), "stack_check.hpp", 1);
+    EXPECT_CHECK_FAILS((StackCheck{area, {21U, 0U, 1U}}), "stack_check.hpp", 2);
+    EXPECT_CHECK_FAILS((StackCheck{area, {2U, 19U, 1U}}), "stack_check.hpp", 3);
+    EXPECT_CHECK_FAILS(sut_.paint(11U), "stack_check.cpp", 4);
+    EXPECT_CHECK_FAILS(sut_.paint(21U), "stack_check.cpp", 4);
     static_cast<void>(StackCheck{area, {20U, 0U, 1U}});
     static_cast<void>(StackCheck{area, {2U, 18U, 1U}});
 }

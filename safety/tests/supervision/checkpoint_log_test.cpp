@@ -10,6 +10,7 @@
 #include <limits>
 #include <thread>
 
+#include "mamori/verification/failed_check.hpp"
 #include "supervision_rig.hpp"
 
 namespace mamori::safety {
@@ -121,7 +122,7 @@ TEST(CheckpointLogTest, LogOfAnEntityThatDoesNotExistGoesToTheAssertionHandler) 
     verifies("SWR-SUP-031", Technique::kInterface, Polarity::kViolation);
     Rig rig;
 
-    EXPECT_DEATH(static_cast<void>(rig.storage.get_log(static_cast<Entity>(2))), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(rig.storage.get_log(static_cast<Entity>(2))), "span.hpp", 1);
 }
 
 TEST(CheckpointLogTest, ReportsOfAThreadComeWholeAndInOrder) {

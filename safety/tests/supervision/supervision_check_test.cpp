@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "broken_tables.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
@@ -311,7 +312,7 @@ TEST(SupervisionCheckTest, MoreCheckpointsThanThereIsRoomForGoToTheAssertionHand
     SupervisionTable table = broken::kSound;
     table.checkpoints = checkpoints;
 
-    EXPECT_DEATH(static_cast<void>(find_fault<kCheckpointMax>(table)), "");
+    EXPECT_CHECK_FAILS(static_cast<void>(find_fault<kCheckpointMax>(table)), "supervision_check.hpp", 1);
 }
 
 }  // namespace

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finds death tests that accept any death, because their pattern also matches unrelated output.
+
+@satisfies SWR-VER-024      Design: docs/design/test_strength.md#death-tests
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+DEATH_TEST = re.compile(r"\b(?:EXPECT|ASSERT)_(?:DEBUG_)?(?:DEATH|EXIT)(?:_IF_SUPPORTED)?\s*\(")
+TEXT = re.compile(r'R"(?P<mark>[^\s()\\]*)\((?P<raw>.*?)\)(?P=mark)"|(?P<plain>"(?:\\.|[^"\\\n])*")', re.DOTALL)
+MASKED = re.compile(rf"//[^\n]*|/\*.*?\*/|'(?:\\[^'\n]+|[^'\\\n])'|{TEXT.pattern}", re.DOTALL)
+# What may surround a literal: nothing, a constructor or a matcher, and the suffix of a std::string.
+AROUND_LITERAL = re.compile(r"(?:[\w:]+\s*[({]\s*[)}])?s?")
+EMPTY_STRING = re.compile(r"std::string(?:_view)?\s*[({]\s*[)}]")
+UNRELATED_OUTPUT = "\x01"  # no literal of a test contains this character
+
+
+def check_death_tests(text: str) -> Iterator[tuple[int, str]]:
+    """@return (line, message) for each death test whose pattern accepts unrelated output. Calculated patterns are not read."""
+    code = MASKED.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
+    for call in DEATH_TEST.finditer(code):
+        first, last = _find_last_argument(code, call.end())
+        around = code[first:last].strip()
+        literals = [_read(match) for match in MASKED.finditer(text, first, last) if match["raw"] is not None or match["plain"]]
+        is_literal = literals and AROUND_LITERAL.fullmatch(around)
+        if (is_literal or EMPTY_STRING.fullmatch(around)) and _accepts_unrelated("".join(literals)):
+            yield (code.count("\n", 0, call.start()) + 1,
+                   f"{call[0].rstrip('( ')} accepts any death; use EXPECT_CHECK_FAILS, or state the expected output ('^$': none)")  # fmt: skip
+
+
+def _find_last_argument(code: str, start: int) -> tuple[int, int]:
+    """@return where the last argument of the macro begins and ends. To the preprocessor only parentheses keep commas together."""
+    first, depth = start, 1
+    for place in range(start, len(code)):
+        depth += {"(": 1, ")": -1}.get(code[place], 0)
+        if depth == 0:
+            return first, place
+        if depth == 1 and code[place] == ",":
+            first = place + 1
+    return first, len(code)
+
+
+def _read(literal: re.Match[str]) -> str:
+    return literal["raw"] if literal["plain"] is None else str(ast.literal_eval(literal["plain"]))
+
+
+def _accepts_unrelated(pattern: str) -> bool:
+    try:
+        return re.search(re.sub(r"\[:\w+:\]", r"\\w", pattern), UNRELATED_OUTPUT) is not None
+    except re.error:  # GoogleTest reports it when the test runs
+        return False
