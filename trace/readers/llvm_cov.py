@@ -68,7 +68,7 @@ def calc_line_counts(segments: Iterable[list[Any]]) -> dict[int, int]:
     counts: dict[int, int] = {}
     above: list[Any] | None = None
     lines = sorted(by_line)
-    for line, following in zip(lines, [*lines[1:], None], strict=True):
+    for line, following in zip(lines, [*lines[1:], None], strict=False):
         here = by_line[line]
         begun = [int(one[2]) for one in here if one[3] and one[4] and not one[5]]
         is_skipped = not here[0][3] and here[0][4]
