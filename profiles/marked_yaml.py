@@ -54,6 +54,7 @@ def parse_events(source: SourceText) -> Iterator[yaml.Event]:
 
 def line_of(event: yaml.Event) -> int:
     """Line of the event's beginning, counted from 1."""
+    assert event.start_mark is not None  # the parser gives each event its place
     return event.start_mark.line + 1
 
 
@@ -79,7 +80,9 @@ class Node:
         """The entries. Raises InputError where this is no mapping or holds a key that is not in `allowed`."""
         if not isinstance(self.value, dict):
             raise self.error("write a mapping (key: value) here")
-        for key in self.value if allowed is not None else ():
+        if allowed is None:
+            return self.value
+        for key in self.value:
             if key not in allowed:
                 raise InputError(f"unknown key '{key}' in {self.name}; {nearest_names(key, sorted(allowed))}",
                                  self.path, self.key_lines[key])

@@ -6,9 +6,13 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from typing import TYPE_CHECKING
 
 from mamori.trace.actions.common import EXIT_CLEAN, add_input, add_output, read_input
 from mamori.trace.readers.files import InputError
+
+if TYPE_CHECKING:
+    from mamori.trace.model.project import Project
 
 HELP = "list the items for which an expression holds, for example: level=SWR and sil>=2 and verdict!=verified"
 
@@ -52,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     return EXIT_CLEAN
 
 
-def _group_rules(project: object) -> dict[str, set[str]]:
+def _group_rules(project: Project) -> dict[str, set[str]]:
     from mamori.trace.checks import run_checks
 
     rules: dict[str, set[str]] = {}

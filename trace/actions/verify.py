@@ -6,9 +6,13 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mamori.trace.actions.common import EXIT_CLEAN, EXIT_FINDINGS, add_output
 from mamori.trace.readers.files import InputError
+
+if TYPE_CHECKING:
+    from mamori.trace.signature import Opinion
 
 HELP = "hold a bundle against its manifest and its signature"
 
@@ -52,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     return EXIT_FINDINGS if faults else EXIT_CLEAN
 
 
-def _describe(signed: bool, opinion: object) -> str:
+def _describe(signed: bool, opinion: Opinion) -> str:
     """What a reader may conclude from the signature."""
     if not signed:
         return "not signed"

@@ -107,7 +107,7 @@ def _run_and_keep(words: Sequence[str], root: str, key: list[Any], path: str, ru
     named = _list_named(words, root)
     out, err = _Copy(sys.stdout), _Copy(sys.stderr)
     watch = inputs.start()
-    sys.stdout, sys.stderr = out, err  # type: ignore[assignment]
+    sys.stdout, sys.stderr = out, err
     try:
         status = run()
     finally:

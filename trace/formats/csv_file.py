@@ -10,11 +10,15 @@ import csv
 import io
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mamori.trace.formats.files import read_texts
 from mamori.trace.formats.model import ForeignItem, ForeignProject, Relation
 from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.files import UNREADABLE
+
+if TYPE_CHECKING:
+    from _csv import Reader
 
 NAME = "csv"
 TITLE = "CSV"
@@ -59,7 +63,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
     return project
 
 
-def _read_rows(reader, shown: str, project: ForeignProject, problems: list[Problem]) -> None:
+def _read_rows(reader: Reader, shown: str, project: ForeignProject, problems: list[Problem]) -> None:
     names = [unescape_cell(name) for name in next(reader, [])]
     lowered = [name.lower() for name in names]
     id_column = next((lowered.index(name) for name in _ID if name in lowered), -1)

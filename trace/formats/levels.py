@@ -52,7 +52,8 @@ def _group_by_prefix(ids: list[str]) -> list[str]:
 
 def split_refined(groups: list[str], parents: list[list[int]], share: float) -> list[str]:
     """Where items of a group refine each other, those that are refined become a level of their own."""
-    inside, sizes = Counter(), Counter(groups)
+    inside: Counter[str] = Counter()
+    sizes = Counter(groups)
     refined = set()
     for index, above in enumerate(parents):
         own = [each for each in above if groups[each] == groups[index] and each != index]
@@ -75,18 +76,18 @@ def infer_levels(items: list[ForeignItem], groups: list[str], parents: list[list
     coded = _count(groups, [item.needs is None or bool(CODE_KINDS & set(item.needs)) for item in items])
     levels = {}
     for position, group in enumerate(order):
-        above = tuple(sorted(edges.get(group, ())))
+        higher = tuple(sorted(edges.get(group, ())))
         below = any(group in each for each in edges.values())
         size, shares = sizes[group], mapping.shares
-        demanded = bool(above) and with_parent[group] >= shares["parent"] * size
-        top = not above and below and with_child[group] >= shares["child"] * size
+        demanded = bool(higher) and with_parent[group] >= shares["parent"] * size
+        top = not higher and below and with_child[group] >= shares["child"] * size
         also = set(order[:position]) | ({group} if up[group][group] >= shares["link"] * size else set())
         levels[group] = Level(
             key=group,
             name=group,
             pattern=_NO_ID,
-            parents=above if demanded else (),
-            also=tuple(each for each in order if each in also - (set(above) if demanded else set())),
+            parents=higher if demanded else (),
+            also=tuple(each for each in order if each in also - (set(higher) if demanded else set())),
             shall=with_shall[group] >= shares["shall"] * size,
             needs_child=top,
             needs_code=not below and coded[group] >= 0.5 * size,

@@ -79,8 +79,8 @@ class _File:
             self._section = "Description"
         elif _FORWARD.fullmatch(line):
             self._project.losses.append(Loss(Place(self._shown, number), f"forwarding: {line.strip()}"))
-        elif _BROKEN.fullmatch(line):
-            message = f"'{_BROKEN.fullmatch(line)[1]}' is no id of the form type~name~revision"
+        elif broken := _BROKEN.fullmatch(line):
+            message = f"'{broken[1]}' is no id of the form type~name~revision"
             self._problems.append(Problem(UNREADABLE, Place(self._shown, number), message))
         elif self._item is not None:
             self._take_part(self._item, number, line)

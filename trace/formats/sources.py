@@ -134,8 +134,8 @@ def _read_cpp_tests(text: str, shown: str, words: list[Numbered]) -> list[Source
         ends.update(dict.fromkeys(range(first, first + comment[0].count("\n") + 1), comment))
     named = []
     for number, word in words:
-        comment = ends.get(number)
-        head = comment and (heads.find_around(comment.start()) or heads.find_below(comment.end()))
+        tagged = ends.get(number)
+        head = (heads.find_around(tagged.start()) or heads.find_below(tagged.end())) if tagged is not None else None
         named.append((number, word.requirement, "nominal", head))
     for match in _CPP_CALL.finditer(plain.code):
         if plain.shape[match.start()] != " ":

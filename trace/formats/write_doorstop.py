@@ -54,9 +54,9 @@ def make_doorstop(project: ForeignProject) -> dict[str, str]:
     documents: dict[str, _Document] = {}
     homes: dict[str, str] = {}
     for item in project.items:
-        for name in (item.id, *(each.target for each in item.relations)):
-            _demand_uid(name, item)
-        parts = _UID.fullmatch(item.id)
+        parts = _demand_uid(item.id, item)
+        for relation in item.relations:
+            _demand_uid(relation.target, item)
         prefix, number = parts["prefix"], parts["number"]
         document = documents.setdefault(prefix.casefold(), _Document(prefix, parts["sep"], len(number)))
         document.digits = max(document.digits, len(number))
@@ -71,10 +71,13 @@ def make_doorstop(project: ForeignProject) -> dict[str, str]:
     return files
 
 
-def _demand_uid(name: str, item: ForeignItem) -> None:
-    if len(name) > _UID_LENGTH_MAX or _UID.fullmatch(name) is None:
+def _demand_uid(name: str, item: ForeignItem) -> re.Match[str]:
+    """@return the parts of `name`."""
+    parts = _UID.fullmatch(name) if len(name) <= _UID_LENGTH_MAX else None
+    if parts is None:
         raise InputError(f"{item.place}: {name} is no id for Doorstop, which wants letters, digits and -_. with a number at the end; "
                          "give it such an id, or choose another format")  # fmt: skip
+    return parts
 
 
 def _build_tree(documents: list[_Document], homes: dict[str, str]) -> None:

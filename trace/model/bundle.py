@@ -73,8 +73,8 @@ def parse_manifest(data: bytes) -> Manifest:
         raise ManifestError(f"is no JSON text: {error}") from None
     if not isinstance(table, dict) or table.get("schema") != SCHEMA or not isinstance(table.get("files"), list):
         raise ManifestError(f"is no manifest of schema {SCHEMA}")
-    words = {name: str(table.get(name, "")) for name in ("commit", "worktree", "version", "evidence_commit")}
-    manifest = Manifest(**words)
+    commit, worktree, version, evidence_commit = (str(table.get(name, "")) for name in ("commit", "worktree", "version", "evidence_commit"))
+    manifest = Manifest(commit, worktree, version, evidence_commit)
     for index, row in enumerate(table["files"]):
         _take_row(manifest, index, row)
     return manifest

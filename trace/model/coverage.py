@@ -44,9 +44,9 @@ class FileCoverage:
             old = self.branches.get(line, (0, 0))
             self.branches[line] = (max(old[0], reached), max(old[1], known))
         for key, condition in other.conditions.items():
-            mine = self.conditions.setdefault(key, Condition(condition.text, False))
-            mine.shown |= condition.shown
-            mine.reason = mine.reason or condition.reason
+            known_one = self.conditions.setdefault(key, Condition(condition.text, False))
+            known_one.shown |= condition.shown
+            known_one.reason = known_one.reason or condition.reason
 
 
 @dataclass(slots=True)

@@ -51,9 +51,9 @@ def split_waived(findings: list[Finding], waivers: list[Waiver], date: str) -> t
     counting: list[Finding] = []
     waived: list[Waived] = []
     for finding in findings:
-        waiver = next((each for each in of_rule.get(finding.rule, ()) if each.covers(finding)), None)
-        if waiver is None:
+        covering = next((each for each in of_rule.get(finding.rule, ()) if each.covers(finding)), None)
+        if covering is None:
             counting.append(finding)
         else:
-            waived.append(Waived(finding, waiver))
+            waived.append(Waived(finding, covering))
     return counting, waived

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import tree_sitter
 import tree_sitter_cpp
 
-from mamori.trace.readers.cpp_functions import capture, find_class_name, find_definitions, find_function_name, has_body, list_classes, qualify
+from mamori.trace.readers.cpp_functions import capture, find_class_name, find_definitions, find_function_name, get_text, has_body, list_classes, qualify
 from mamori.trace.readers.python_functions import Definition, list_definitions
 
 CPP_SUFFIXES = (".hpp", ".h", ".cpp", ".cc", ".ipp")
@@ -92,8 +92,9 @@ def _list_cpp(text: str) -> list[Span]:
 def _make_cpp_span(node: tree_sitter.Node, name: str) -> Span:
     first, last = _find_start(node), node.end_point.row + 1
     if name in _TESTS:
-        parameters = node.child_by_field_name("declarator").child_by_field_name("parameters")
-        parts = [child.text.decode() for child in parameters.named_children] if parameters is not None else []
+        declarator = node.child_by_field_name("declarator")
+        parameters = declarator.child_by_field_name("parameters") if declarator is not None else None
+        parts = [get_text(child) for child in parameters.named_children] if parameters is not None else []
         if len(parts) == 2:
             return Span(".".join(parts), first, last, is_test=True)
     return Span(name, first, last)
@@ -105,7 +106,7 @@ def _find_start(node: tree_sitter.Node) -> int:
         node = node.parent
     row = node.start_point.row
     above = node.prev_named_sibling
-    while above is not None and above.type == "comment" and above.end_point.row == row - 1 and b"@file" not in above.text:
+    while above is not None and above.type == "comment" and above.end_point.row == row - 1 and "@file" not in get_text(above):
         row = above.start_point.row
         above = above.prev_named_sibling
     return row + 1
@@ -120,4 +121,4 @@ def _list_python(text: str) -> list[Span]:
 
 
 def _is_python_test(one: Definition) -> bool:
-    return one.node.name.startswith("test") and not isinstance(one.node, ast.ClassDef)
+    return isinstance(one.node, ast.FunctionDef | ast.AsyncFunctionDef) and one.node.name.startswith("test")

@@ -96,10 +96,16 @@ def has_body(node: tree_sitter.Node) -> bool:
     return node.child_by_field_name("body") is not None
 
 
+def get_text(node: tree_sitter.Node) -> str:
+    """What stands in the source."""
+    assert node.text is not None  # a tree that was parsed from bytes has all its texts
+    return node.text.decode(errors="replace")
+
+
 def find_class_name(node: tree_sitter.Node) -> str:
     """Name of a class or enumeration; empty where it has none."""
     name = node.child_by_field_name("name")
-    return _strip_arguments(name.text.decode(errors="replace")) if name is not None else ""
+    return _strip_arguments(get_text(name)) if name is not None else ""
 
 
 def find_definitions(captures: Captures, classes: list[Class], bodies: tuple[str, ...] = ()) -> Iterator[tuple[tree_sitter.Node, str]]:
@@ -134,9 +140,9 @@ def find_function_name(node: tree_sitter.Node) -> str:
             return ""
         if inner.type == "function_declarator":
             name = inner.child_by_field_name("declarator")
-            return _strip_arguments(name.text.decode(errors="replace")) if name is not None else ""
+            return _strip_arguments(get_text(name)) if name is not None else ""
         if inner.type in ("operator_cast", "qualified_identifier"):  # a conversion has no further declarator
-            return _strip_arguments(inner.text.decode(errors="replace").partition("(")[0])
+            return _strip_arguments(get_text(inner).partition("(")[0])
         inner = inner.child_by_field_name("declarator") or (inner.named_children[-1] if inner.type in _WRAPPED else None)
     return ""
 
@@ -157,7 +163,7 @@ def find_name(node: tree_sitter.Node) -> str:
     """Name that a declaration declares: follows the declarator, or takes the `name` of a class, enum or namespace."""
     for _ in range(_DEPTH_MAX):
         if node.type in _NAME_TYPES:
-            return node.text.decode(errors="replace")
+            return get_text(node)
         inner = node.child_by_field_name("declarator") or node.child_by_field_name("name")
         if inner is None and node.type in _WRAPPED:
             inner = node.named_children[-1] if node.named_children else None

@@ -15,7 +15,7 @@ import tree_sitter_cpp
 from mamori.trace.model.code import CodeBase, Scope
 from mamori.trace.model.evidence import CodeTag
 from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.cpp_functions import Captures, FileFunctions, add_own_headers, capture, find_name, list_functions
+from mamori.trace.readers.cpp_functions import Captures, FileFunctions, add_own_headers, capture, find_name, get_text, list_functions
 from mamori.trace.readers.cpp_plain import find_dead_lines
 from mamori.trace.readers.files import is_test_file, read_text, walk_sources
 from mamori.trace.readers.tag_text import FILE_SYMBOL, ID_PATTERN, has_mark, make_tags
@@ -117,7 +117,7 @@ def _list_blocks(captures: Captures) -> list[_Block]:
             blocks.append(_Block([], [], node, node))
         block = blocks[-1]
         block.rows.append(row)
-        block.texts.append(node.text.decode(errors="replace"))
+        block.texts.append(get_text(node))
         block.last = node
         end = node.end_point[0]
     return [block for block in blocks if has_mark(block.text)]

@@ -156,18 +156,20 @@ def read_blobs(root: Path, entries: list[tuple[str, bytes]]) -> Iterator[tuple[s
     command = make_git_command(root, ["cat-file", "--batch"])
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=get_git_environment()) as process:
+        stdin, stdout = process.stdin, process.stdout
+        assert stdin is not None and stdout is not None  # both are pipes
         for path, name in entries:
-            process.stdin.write(name + b"\n")
-            process.stdin.flush()
-            head = process.stdout.readline().split()
+            stdin.write(name + b"\n")
+            stdin.flush()
+            head = stdout.readline().split()
             if len(head) != 3:
                 raise InputError(f"{root}: git has not the content of {path}; the clone is partial, fetch it whole")
             size = int(head[2])
-            data = process.stdout.read(size)
-            process.stdout.read(1)
+            data = stdout.read(size)
+            stdout.read(1)
             if size <= _MAX_FILE:
                 yield path, data
-        process.stdin.close()
+        stdin.close()
 
 
 def _demand(root: Path, arguments: list[str]) -> bytes:

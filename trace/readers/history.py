@@ -52,9 +52,9 @@ def read_texts(root: Path) -> Iterator[str]:
     listing = run_git(root, ["rev-list", "--all", "--objects", "--", _FOLDER]) or b""
     entries = []
     for line in listing.splitlines():
-        name, _, path = line.partition(b" ")
-        if path.endswith((b".md", b".lock")):
-            entries.append((os.fsdecode(path), name))
+        name, _, stored = line.partition(b" ")
+        if stored.endswith((b".md", b".lock")):
+            entries.append((os.fsdecode(stored), name))
     for _, data in read_blobs(root, entries):
         yield data.decode("utf-8", errors="replace")
 

@@ -40,7 +40,7 @@ def take_llvm(content: dict[str, Any], names: SourceNames, run: CoverageRun) -> 
 
 def _take_file(entry: dict[str, Any], file: FileCoverage) -> None:
     taken = FileCoverage(lines=calc_line_counts(entry["segments"]))
-    seen: dict[tuple[int, ...], list[bool]] = defaultdict(lambda: [False, False])
+    seen: dict[tuple[int, int, int, int], list[bool]] = defaultdict(lambda: [False, False])
     for branch in entry.get("branches", ()):
         place = (int(branch[0]), int(branch[1]), int(branch[2]), int(branch[3]))
         both = seen[place]
@@ -68,13 +68,13 @@ def calc_line_counts(segments: Iterable[list[Any]]) -> dict[int, int]:
     counts: dict[int, int] = {}
     above: list[Any] | None = None
     lines = sorted(by_line)
-    for line, following in zip(lines, [*lines[1:], None], strict=True):
+    for line, following in zip(lines, [*lines[1:], None], strict=False):
         here = by_line[line]
         begun = [int(one[2]) for one in here if one[3] and one[4] and not one[5]]
         is_skipped = not here[0][3] and here[0][4]
-        is_inside = above is not None and above[3]
-        if (begun or is_inside) and not is_skipped:
-            counts[line] = max([*begun, int(above[2]) if is_inside else 0])
+        inside = int(above[2]) if above is not None and above[3] else None
+        if (begun or inside is not None) and not is_skipped:
+            counts[line] = max([*begun, inside or 0])
         above = here[-1]
         if above[3] and following is not None:
             counts.update(dict.fromkeys(range(line + 1, following), int(above[2])))

@@ -46,11 +46,11 @@ def _walk(node: ast.AST, around: str, inner: bool) -> Iterator[Definition]:
 
 def make_functions(definitions: list[Definition], shown: str) -> list[Function]:
     """The functions among them; one that stands in another is part of that."""
-    plain = (one for one in definitions if not isinstance(one.node, ast.ClassDef | ast.Module) and not one.inner)
-    return [Function(shown, one.name, one.first, one.last, _find_body(one.node)) for one in plain]
+    return [Function(shown, one.name, one.first, one.last, _find_body(one.node)) for one in definitions
+            if isinstance(one.node, ast.FunctionDef | ast.AsyncFunctionDef) and not one.inner]  # fmt: skip
 
 
-def _find_body(node: ast.AST) -> int:
+def _find_body(node: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
     """Line of the first statement that a call executes: the head is executed by whoever loads the module."""
     first, *others = node.body
     is_text = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)

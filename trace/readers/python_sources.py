@@ -60,7 +60,7 @@ def _find_tags(
     for one in [whole, *definitions]:
         first = one.node.body[0] if one.node.body else None
         if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
-            for number in range(first.lineno, first.end_lineno + 1):
+            for number in range(first.lineno, (first.end_lineno or first.lineno) + 1):
                 tags += _add_tags(lines[number - 1], Place(shown, number), one, problems, code, id_pattern)
     starts = {one.first: one for one in definitions}
     comments = _list_comments(text)
@@ -116,9 +116,9 @@ def _find_tagged(tree: ast.Module, text: str, shown: str, id_pattern: str) -> li
         chosen = one.first - 1
         while chosen in comments and lines[chosen - 1].lstrip().startswith("#"):
             chosen -= 1
-        last = one.node.body[0].end_lineno if ast.get_docstring(one.node) is not None else one.first - 1
-        body = one.node.body[0].lineno
-        for number in (*range(chosen + 1, one.first), *range(body, last + 1)):
+        body = one.node.body[0]
+        last = (body.end_lineno or body.lineno) if ast.get_docstring(one.node) is not None else one.first - 1
+        for number in (*range(chosen + 1, one.first), *range(body.lineno, last + 1)):
             tests += [
                 SourceTest(word, suite, name, "requirements_based", "nominal", Place(shown, number), by_comment=True)
                 for _, word in find_verified(lines[number - 1], id_pattern)

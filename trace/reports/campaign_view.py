@@ -11,7 +11,7 @@ import re
 from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 from mamori.trace.model.evidence import PASSED, CampaignCase
 from mamori.trace.model.finding import Place, Problem
@@ -175,7 +175,7 @@ def _describe_case(case: CampaignCase, index: int) -> CaseView:
         final_state=str(run.get("final_state") or ABSENT),
         origin=", ".join(f"{name} {run[key]}" for name, key in _ORIGIN if run.get(key) is not None),
         checks=[
-            (*(str(check.get(key, ABSENT)) for key in ("name", "wanted", "measured")), check.get("passed") is True)
+            (str(check.get("name", ABSENT)), str(check.get("wanted", ABSENT)), str(check.get("measured", ABSENT)), check.get("passed") is True)
             for check in case.checks
         ],
     )
@@ -221,7 +221,7 @@ def _get_table(table: dict[str, Any], key: str) -> dict[str, Any]:
     return value if isinstance(value, dict) else {}
 
 
-def _is_number(value: object) -> bool:
+def _is_number(value: object) -> TypeGuard[int | float]:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 

@@ -13,6 +13,7 @@ import io
 import itertools
 from dataclasses import dataclass
 from html import escape
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 
@@ -25,6 +26,9 @@ from matplotlib.ticker import MaxNLocator
 
 from mamori.trace.readers.series import JOINTS, Series
 from mamori.trace.reports.svg import make_inline
+
+if TYPE_CHECKING:
+    from matplotlib.typing import RcKeyType
 
 POINTS_MAX = 260
 NEAR_BEFORE_S = 0.02
@@ -46,7 +50,7 @@ _LETTER = 0.58 * _FONT
 """Mean width of a letter, in drawing units: which state bands have room for their names."""
 _WIDTH_INCHES, _HEIGHT_INCHES, _DPI = 5.2, 5.0, 72
 _LEFT, _RIGHT = 0.135, 0.975
-_STYLE = {
+_STYLE: dict[RcKeyType, Any] = {
     "svg.fonttype": "none", "svg.hashsalt": "mamori", "path.simplify": True, "path.simplify_threshold": 0.15,
     "font.family": "sans-serif", "font.size": _FONT, "axes.edgecolor": "#b9c0ca", "axes.labelcolor": _INK, "axes.titlesize": _FONT,
     "axes.titlelocation": "left", "axes.titlepad": 4.0, "xtick.color": _INK, "ytick.color": _INK, "text.color": _INK,
@@ -152,8 +156,9 @@ def _draw(series: Series, marks: Marks, span: tuple[float, float] | None, shaded
         _draw_states(states, series, (first, last))
         _draw_positions(positions, series, marks, span is not None)
         _draw_speeds(speeds, series, marks)
-        for axes in (positions, speeds) if shaded else ():
-            axes.axvspan(*shaded, color="#eef1f5", linewidth=0, zorder=0)
+        if shaded:
+            for axes in (positions, speeds):
+                axes.axvspan(*shaded, color="#eef1f5", linewidth=0, zorder=0)
         _mark_instants(states, (positions, speeds), marks, (first, last))
         speeds.set_xlim(first, last)
         speeds.xaxis.set_major_locator(MaxNLocator(5 if span else 6))

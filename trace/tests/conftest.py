@@ -4,42 +4,20 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))  # pytest's importlib mode does not add the folder of the tests
 
 import trace_sample
+from trace_sample import Outcome
 
 from mamori.trace.command import main
 from mamori.trace.readers.evidence_records import list_recorded
 from mamori.trace.readers.files import InputError
-
-
-@dataclass
-class Outcome:
-    """What one run of the command gave."""
-
-    status: int
-    out: str
-    err: str
-
-    @property
-    def content(self) -> dict[str, Any]:
-        return json.loads(self.out)
-
-    @property
-    def rules(self) -> set[str]:
-        return {finding["rule"] for finding in self.content["findings"]}
-
-    def get_verdict(self, item: str) -> str:
-        return next(row["verdict"] for row in self.content["items"] if row["id"] == item)
 
 
 @pytest.fixture

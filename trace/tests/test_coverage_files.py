@@ -247,7 +247,7 @@ def test_lines_are_counted_as_llvm_cov_shows_them() -> None:
     assert calc_line_counts([]) == {}
 
 
-BROKEN = {
+BROKEN: dict[str, tuple[str, str | bytes, str]] = {
     "json-cut": ("a.json", make_llvm()[:-9], "not whole JSON"),
     "json-other": ("a.json", '{"type": "other"}', "neither"),
     "json-list": ("a.json", "[1]", "no coverage"),

@@ -27,6 +27,12 @@ def judge(trace: Callable, s: Sample, *options: object, recorded: bool = True) -
     return outcome.status, outcome.rules, outcome.get_verdict("SWR-SUP-001")
 
 
+def read_answers(page: Path) -> str:
+    found = re.search(r'<div class="answers">(.*?)<div class="tiles">', page.read_text(), re.DOTALL)
+    assert found is not None
+    return found[1]
+
+
 @pytest.mark.verifies("SWR-TRC-100", technique="requirements_based", polarity="nominal")
 def test_a_project_whose_items_are_shown_has_no_finding(sample: Sample, trace: Callable) -> None:
     assert judge(trace, sample) == (0, set(), "verified")
@@ -89,7 +95,7 @@ def test_text_json_and_report_agree_on_what_is_not_shown(sample: Sample, trace: 
     count = summary["verdicts"]["not shown here"]
     assert summary["statuses"]["not shown here"] == 1 and report.status == 0
     assert f"{count} not shown here" in text and "1 not shown here\n" in text and f"{count} not shown here" in report.out
-    answers = re.search(r'<div class="answers">(.*?)<div class="tiles">', out.read_text(), re.DOTALL)[1]
+    answers = read_answers(out)
     assert f">{count} not shown here<" in answers and "0 of" in answers and ">Yes" not in answers
 
 
@@ -139,7 +145,7 @@ def test_results_without_any_record_are_unbound(sample: Sample, trace: Callable,
     assert len(outcome.content["findings"]) == 3  # two files of results and the campaign
     out = tmp_path / "page.html"
     trace("report", "--root", sample.root, "--out", out, "--allow-missing", recorded=False)
-    answers = re.search(r'<div class="answers">(.*?)<div class="tiles">', out.read_text(), re.DOTALL)[1]
+    answers = read_answers(out)
     assert f">{verdicts['unbound']} unbound<" in answers and ">Yes" not in answers
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from trace_sample import Sample
+from trace_sample import Outcome, Sample
 
 from mamori.trace.checks import document_link
 from mamori.trace.readers.cpp_tests import read_cpp_tests
@@ -29,7 +29,7 @@ def write(sample: Sample) -> Callable[[str], None]:
     return run
 
 
-def list_messages(outcome: object) -> list[tuple[str, str]]:
+def list_messages(outcome: Outcome) -> list[tuple[str, str]]:
     return [(f"{row['file']}:{row['line']}", row["message"]) for row in outcome.content["findings"]]
 
 

@@ -7,10 +7,11 @@ import errno
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 import yaml
-from trace_sample import Sample, format_item
+from trace_sample import Outcome, Sample, format_item
 
 from mamori.trace.formats import doorstop
 from mamori.trace.formats.own import make_neutral
@@ -24,7 +25,7 @@ def read_settings(folder: Path) -> dict[str, dict]:
     return {path.parent.name: yaml.safe_load(path.read_text())["settings"] for path in sorted(folder.glob("*/.doorstop.yml"))}
 
 
-def export_csv(trace: Callable, tmp_path: Path, rows: str) -> Callable:
+def export_csv(trace: Callable[..., Outcome], tmp_path: Path, rows: str) -> Outcome:
     (tmp_path / "items.csv").write_text(HEAD + rows)
     return trace("export", "doorstop", "--format", "csv", tmp_path / "items.csv", "--out", tmp_path / "out")
 
@@ -106,7 +107,8 @@ def test_an_id_that_doorstop_could_not_read_is_refused_with_its_place(row: str, 
 @pytest.mark.verifies("SWR-TRC-050", technique="error_guessing", polarity="violation")
 def test_what_is_there_already_stays(kind: str, sample: Sample, trace: Callable, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    {"folder": out.mkdir, "file": out.touch, "link": lambda: out.symlink_to("nowhere")}[kind]()
+    makers: dict[str, Callable[[], None]] = {"folder": out.mkdir, "file": out.touch, "link": lambda: out.symlink_to("nowhere")}
+    makers[kind]()
 
     outcome = trace("export", "doorstop", "--root", sample.root, "--out", out)
 
@@ -119,7 +121,7 @@ def test_what_is_there_already_stays(kind: str, sample: Sample, trace: Callable,
 def test_a_full_disk_leaves_no_half_of_a_folder(sample: Sample, trace: Callable, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     real = Path.write_text
 
-    def fill(path: Path, *words: object, **more: object) -> int:
+    def fill(path: Path, *words: Any, **more: Any) -> int:
         if path.name == "SYS-002.yml":
             raise OSError(errno.ENOSPC, "No space left on device", str(path))
         return real(path, *words, **more)

@@ -20,7 +20,7 @@ from trace_sample import Sample
 
 from mamori.trace.formats.csv_file import _read_rows, escape_cell, format_csv, unescape_cell
 from mamori.trace.formats.model import ForeignItem, ForeignProject
-from mamori.trace.model.finding import Place
+from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.project import read_requirements
 
 _PAGE = '<?xml version="1.0"?>\n<REQ-IF xmlns="http://www.omg.org/spec/ReqIF/20110401/reqif.xsd">\n'
@@ -31,7 +31,7 @@ def _make_empty(root: Path) -> Path:
     return root
 
 
-def _list_items(root: Path) -> list[dict]:
+def _list_items(root: Path) -> list[object]:
     """Every attribute of every item in order, and the reviews, as the readers see them."""
     project = read_requirements(root)
     assert project.problems == []
@@ -41,7 +41,7 @@ def _list_items(root: Path) -> list[dict]:
                                                         "polarity", "design", "status")}  # fmt: skip
         rows.append({**words, "file": item.place.file, "line": item.place.line, "fingerprint": item.calc_fingerprint()})
     reviews = project.lock.reviews if project.lock else {}
-    return [*rows, *(vars_of for vars_of in sorted(map(repr, reviews.values())))]
+    return [*rows, *sorted(map(repr, reviews.values()))]
 
 
 @pytest.mark.verifies("SWR-TRC-051", technique="back_to_back", polarity="nominal")
@@ -305,7 +305,8 @@ def test_a_csv_cell_comes_back_as_it_was(cell: str) -> None:
     item.attributes = {"Note": cell, "=Note": cell}
     text = format_csv(ForeignProject("csv", [item]))
 
-    problems, found = [], ForeignProject("csv")
+    problems: list[Problem] = []
+    found = ForeignProject("csv")
     _read_rows(csv.reader(io.StringIO(text, newline=""), strict=True), "a.csv", found, problems)
 
     back = found.items[0]

@@ -9,12 +9,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from trace_sample import Outcome
 
 _SPEC = "## Stop\n`req~stop~1`\n\nThe arm shall stop.\n\nNeeds: utest\n"
 _REQIF = '<REQ-IF xmlns="http://www.omg.org/spec/ReqIF/20110401/reqif.xsd"/>\n'
 
 
-def list_broken(outcome) -> list[tuple[str, int, str]]:
+def list_broken(outcome: Outcome) -> list[tuple[str, int, str]]:
     return [(row["file"], row["line"], row["message"]) for row in outcome.content["findings"] if row["rule"] == "unreadable-input"]
 
 

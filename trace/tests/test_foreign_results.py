@@ -170,7 +170,7 @@ def test_a_test_that_crashed_before_it_named_its_requirement_fails_it(sample: Sa
 
 
 BOMB = "".join(f'<!ENTITY a{number} "{f"&a{number - 1};" * 10 if number else "ha"}">' for number in range(12))
-HOSTILE = {
+HOSTILE: dict[str, tuple[str | bytes, int, str]] = {
     "bomb": (f"{HEAD}<!DOCTYPE a [{BOMB}]>\n<testsuite>&a11;</testsuite>", 2, "DTD"),
     "bomb-of-values": ('<!DOCTYPE a [<!ENTITY % b "x">]>\n<testsuite/>', 1, "DTD"),
     "cut-tag": (wrap('<testcase name="t')[:-14], 3, "not whole XML"),

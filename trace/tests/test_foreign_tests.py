@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from trace_sample import Outcome
 
 _SPEC = "## Stop\n`req~stop~1`\n\nThe arm shall stop.\n\nNeeds: utest\n"
 _TAG = "// [utest->req~stop~1]"
@@ -15,7 +16,7 @@ _KOTLIN = f"class StopTest {{\n    {_TAG}\n    @Test\n    fun `it stops`() {{}}\
 _GO = f"package stop\n\n{_TAG}\nfunc TestStop(t *testing.T) {{}}\n"
 
 
-def check(trace: Callable, folder: Path, file: str, source: str, case: str):
+def check(trace: Callable[..., Outcome], folder: Path, file: str, source: str, case: str) -> Outcome:
     for name, text in (("spec.md", _SPEC), (file, source), ("junit.xml", f"<testsuite>\n{case}\n</testsuite>\n")):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")

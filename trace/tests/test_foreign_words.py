@@ -8,14 +8,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from trace_sample import Outcome
 
 
-def check(trace: Callable, name: str, folder: Path, file: str, text: str):
+def check(trace: Callable[..., Outcome], name: str, folder: Path, file: str, text: str) -> Outcome:
     (folder / file).write_text(text, encoding="utf-8")
     return trace("check", "--format", name, folder, "--output", "json", "--allow-missing")
 
 
-def list_rows(outcome, rule: str) -> list[tuple[str, int]]:
+def list_rows(outcome: Outcome, rule: str) -> list[tuple[str, int]]:
     return [(row["item"], row["line"]) for row in outcome.content["findings"] if row["rule"] == rule]
 
 

@@ -23,6 +23,12 @@ def make_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def list_choices(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    """The parsers of its commands."""
+    [commands] = [action for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
+    return commands.choices
+
+
 @pytest.mark.parametrize("line", EXAMPLES)
 @pytest.mark.verifies("SWR-TRC-010", technique="interface", polarity="nominal")
 def test_each_example_of_the_manual_is_taken(line: str) -> None:
@@ -34,7 +40,7 @@ def test_each_example_of_the_manual_is_taken(line: str) -> None:
 
 @pytest.mark.verifies("SWR-TRC-010", technique="interface", polarity="nominal")
 def test_each_action_has_an_example_a_row_and_a_line_of_help() -> None:
-    [choices] = [each.choices for each in make_parser()._subparsers._group_actions[0].choices["trace"]._subparsers._group_actions]
+    choices = list_choices(list_choices(make_parser())["trace"])
     shown = {shlex.split(line)[2] for line in EXAMPLES}
     commands = (ROOT / "docs" / "manual" / "commands.md").read_text(encoding="utf-8")
     launcher = (ROOT / "mamori").read_text(encoding="utf-8")

@@ -32,7 +32,7 @@ def _refuse_listing(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
     for name in ("scandir", "listdir"):
         real = getattr(os, name)
 
-        def refuse(path: object = ".", real: Callable = real) -> object:
+        def refuse(path: str | os.PathLike[str] | int = ".", real: Callable = real) -> object:
             if not isinstance(path, int) and os.path.abspath(os.fspath(path)) == str(folder):
                 raise PermissionError(errno.EACCES, "Permission denied", str(path))
             return real(path)

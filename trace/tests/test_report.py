@@ -131,6 +131,7 @@ def test_a_fault_inside_the_run_is_drawn_again_with_the_100_ms_around_it(fault_s
     # One time base: the axis of each drawing has the same words, and the ticks of the near one lie inside its 100 ms.
     assert all("time since the start of the run [s]" in drawing.svg for drawing in drawings)
     for drawing in drawings[1:]:
+        assert fault_s is not None
         ticks = [float(text) for text in re.findall(r">(-?\d\.\d{3})<", drawing.svg.replace("\u2212", "-"))]
         assert len(ticks) >= 4 and all(fault_s - 0.0205 <= tick <= fault_s + 0.0805 for tick in ticks)
 

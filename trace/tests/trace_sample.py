@@ -91,6 +91,26 @@ def format_technique(**lists: list[str]) -> str:
 
 
 @dataclass
+class Outcome:
+    """What one run of the command gave."""
+
+    status: int
+    out: str
+    err: str
+
+    @property
+    def content(self) -> dict[str, Any]:
+        return json.loads(self.out)
+
+    @property
+    def rules(self) -> set[str]:
+        return {finding["rule"] for finding in self.content["findings"]}
+
+    def get_verdict(self, item: str) -> str:
+        return next(row["verdict"] for row in self.content["items"] if row["id"] == item)
+
+
+@dataclass
 class Sample:
     """A project in `root`. Its files are changed in place; `review` renews the lock afterwards."""
 
@@ -123,6 +143,7 @@ class Sample:
     def review(self) -> None:
         project = read_requirements(self.root)
         review_links(project, set(project.items), "2026-11-21", "Sample Reviewer")
+        assert project.lock is not None  # the reviews stand there
         write_lock(self.root, project.lock)
 
 

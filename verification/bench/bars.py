@@ -68,7 +68,8 @@ class Bars:
 
     @property
     def metrics(self) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(bar.metric for bar in (*self.ratios, *self.growths)))
+        bars: tuple[RatioBar | GrowthBar, ...] = (*self.ratios, *self.growths)
+        return tuple(dict.fromkeys(bar.metric for bar in bars))
 
 
 def load_bars(path: Path = FILE) -> Bars:

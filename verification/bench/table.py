@@ -48,7 +48,7 @@ def tabulate_times(samples: Samples, metric: str) -> tuple[Row, list[Row]]:
 
 
 def tabulate_ratios(ratios: Sequence[RatioResult]) -> tuple[Row, list[Row]]:
-    rows = []
+    rows: list[Row] = []
     for one in ratios:
         size = f"{one.size} {SIZE_UNITS.get(one.metric, '')}".strip()
         if one.ratio is None:
@@ -65,7 +65,7 @@ def tabulate_counts(counts: Sequence[CountResult]) -> tuple[Row, list[Row]]:
     def show(number: int | None) -> str:
         return "-" if number is None else str(number)
 
-    rows = [(one.id, one.title, str(one.count), show(one.baseline), show(one.limit), one.verdict, one.note) for one in counts]
+    rows: list[Row] = [(one.id, one.title, str(one.count), show(one.baseline), show(one.limit), one.verdict, one.note) for one in counts]
     return ("bar", "exact instructions", "count", "baseline", "limit", "result", ""), rows
 
 

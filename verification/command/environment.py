@@ -13,6 +13,7 @@ import platform
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from mamori.profiles.text_file import write_text
 from mamori.trace.git_run import run_git
@@ -31,7 +32,7 @@ def write_environment(project: Project, command: Sequence[str]) -> Path:
     return path
 
 
-def collect_environment(project: Project, command: Sequence[str]) -> dict[str, object]:
+def collect_environment(project: Project, command: Sequence[str]) -> dict[str, Any]:
     """The record as a dictionary. What the machine cannot tell is "unknown" or left out."""
     names = os.environ.get("MAMORI_PACKAGES", "").split()
     compilers = {name: line for name in COMPILERS if (line := _ask([name, "--version"]).partition("\n")[0])}

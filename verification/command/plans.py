@@ -117,6 +117,7 @@ def safe_state_step() -> Step:
 HOST_TOOLS = Step(name="tests of the host tools", commands=(PYTEST,), result="python-tools.xml")
 REPORT_IN_BROWSER = Step(name="report in a browser", commands=((*PYTEST, "trace/tests/browser"),), result="report-browser.xml")
 LAYERS = Step(name="layer check", commands=((*PYTHON, "mamori.verification.tools.check_layers"),))
+PYTHON_CHECKS = Step(name="Python checks", commands=((*PYTHON, "mamori.verification.tools.check_python", "--root", "{root}"),))
 
 
 def format_step(project: Project) -> Step:
@@ -254,6 +255,7 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         REPORT_IN_BROWSER,
         LAYERS,
         format_step(project),
+        PYTHON_CHECKS,
         tidy_step(),
         cppcheck_step(project),
         proof_step("symbol proof", "symbols"),

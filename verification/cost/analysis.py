@@ -178,7 +178,7 @@ def _describe(values: Array, releases: Array, table: Table) -> Count:
 
 def _pick(ordered: Array, permille: int) -> float:
     """Nearest rank: a value that is there."""
-    return ordered[-(-permille * len(ordered) // 1000) - 1]  # type: ignore[no-any-return]
+    return ordered[-(-permille * len(ordered) // 1000) - 1]
 
 
 def _make_limit(what: str, name: str, limit_ns: int, members: Sequence[int], runs: Sequence[ClassRun], pace: Pace, margin_percent: float

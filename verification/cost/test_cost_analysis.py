@@ -52,7 +52,8 @@ def test_greatest_median_of_a_component_is_the_ratio(table: Table) -> None:
 
     assert [(row.component, row.openings) for row in ratios] == [("reader", 8), ("monitor", 8), ("controller", 8), ("drive", 8)]
     assert [row.median_ns for row in ratios] == pytest.approx(list(NS_PER_INSTRUCTION.values()), rel=0.01)
-    assert (pace.component, pace.ns_per_instruction, pace.least_ns) == ("drive", 2.0, pytest.approx(0.25))
+    assert (pace.component, pace.ns_per_instruction) == ("drive", 2.0)
+    assert pace.least_ns == pytest.approx(0.25)
     assert pace.reference_ns == (2520 - 20) / 10_000
 
 

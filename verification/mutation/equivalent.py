@@ -57,7 +57,8 @@ def match(rows: Sequence[Row], mutants: Sequence[Mutant], sources: Mapping[str, 
     by_change = {(row.file, _keep_code(row.before), _keep_code(row.after)): row for row in rows}
     found: dict[Mutant, Row] = {}
     for mutant in mutants:
-        row = by_change.get((mutant.file, *map(_keep_code, mutant.get_change(sources[mutant.file]))))
+        before, after = mutant.get_change(sources[mutant.file])
+        row = by_change.get((mutant.file, _keep_code(before), _keep_code(after)))
         if row is not None:
             found[mutant] = row
     used = set(map(str, found.values()))

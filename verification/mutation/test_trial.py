@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -86,7 +87,7 @@ def test_tests_that_fail_by_themselves_kill_nothing(sources: Sources) -> None:
 
 
 @pytest.mark.verifies("SWR-VER-005", technique="interface")
-def test_test_whose_program_is_the_same_is_not_run(sources: Sources) -> None:
+def test_test_whose_program_is_the_same_is_not_run(sources: Sources, monkeypatch: pytest.MonkeyPatch) -> None:
     """The second test takes nothing of limit.cpp, so only the first may kill its mutants; those of the header reach both."""
     other = "tests/other_test.cpp"
     (sources.folder / other).write_text("TEST(Other, Holds) { EXPECT_TRUE(true); }\n", encoding="utf-8")
@@ -97,7 +98,12 @@ def test_test_whose_program_is_the_same_is_not_run(sources: Sources) -> None:
     ran: list[str] = []
     bench = Bench(original, "bench")
     run = bench.run_test
-    bench.run_test = lambda test, *rest: (ran.append(test.path), run(test, *rest))[1]  # type: ignore[method-assign]
+
+    def run_test(test: Unit, *rest: Any) -> tuple[int, str]:
+        ran.append(test.path)
+        return run(test, *rest)
+
+    monkeypatch.setattr(bench, "run_test", run_test)
     source = (sources.root / SOURCE).read_bytes()
     survivor = next(mutant for mutant in make_mutants(SOURCE, source) if "value <= calc" in mutant.get_change(source)[1])
     assert try_alone(bench, survivor, source).verdict == SURVIVED
@@ -208,7 +214,13 @@ def test_mutant_that_never_ends_is_killed_in_time(sources: Sources) -> None:
 def test_stopped_run_begins_no_other_test(sources: Sources, monkeypatch: pytest.MonkeyPatch) -> None:
     """Stopped by the first result, as by Ctrl-C; both benches are at work then."""
     calls: list[float] = []
-    monkeypatch.setattr(workbench, "_run", lambda *rest, run=workbench._run: (calls.append(time.monotonic()), run(*rest))[1])
+    run = workbench._run
+
+    def note(*rest: Any) -> tuple[int, str]:
+        calls.append(time.monotonic())
+        return run(*rest)
+
+    monkeypatch.setattr(workbench, "_run", note)
     plan = make_plan(sources.root, Selection((SOURCE,)), ())
     stopped: list[float] = []
 

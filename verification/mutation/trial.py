@@ -187,8 +187,9 @@ class Court:
 
     def close(self) -> list[Result]:
         """@return the results of all suspects."""
-        for seen in (self._together, *self._alive):
-            self._keep(seen.differing)
+        self._keep(self._together.differing)
+        for suspect in self._alive:
+            self._keep(suspect.differing)
         units = self._sort_by_code()
         for suspect in self._alive:
             own = {unit.path for unit in suspect.differing}

@@ -206,12 +206,13 @@ class _Joiner:
                 self._resolve_pointer(self._get_key(unit, caller), place, count - len(virtual))
 
     def _resolve_virtual(self, caller: str, place: str, call: VirtualCall) -> None:
-        targets = set()
+        targets: set[str] = set()
         for table, bases in self._graph.bases.items():
             for name, offset in bases:
                 if name == call.type and table in self._graph.tables:
                     entry = self._graph.tables[table].get(offset + call.slot * self._toolchain.word_bytes)
-                    targets.update({entry} - {None, PURE})
+                    if entry is not None and entry != PURE:
+                        targets.add(entry)
         if not targets:
             self._fail("indirect call", place, f"{self._get_name(caller)}: calls virtual function {call.slot} of {call.type}, "
                        "which no class of the image overrides; add the source of one that does")  # fmt: skip

@@ -6,6 +6,7 @@ from __future__ import annotations
 import dataclasses
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -60,7 +61,7 @@ def test_sanitized_build_runs_clean_and_gives_the_same_hash(
 @pytest.mark.parametrize("change", [{"fault": FAULT.replace("at=1.5", "at=1.501")}, {"frames": FRAMES - 1}], ids=str)
 @pytest.mark.verifies("SWR-PRF-005", technique="error_guessing", polarity="violation")
 def test_other_inputs_give_another_hash(
-    project: Project, inputs: Inputs, wanted: str, tmp_path: Path, change: dict[str, object]
+    project: Project, inputs: Inputs, wanted: str, tmp_path: Path, change: dict[str, Any]
 ) -> None:
     changed = dataclasses.replace(inputs, **change)
 

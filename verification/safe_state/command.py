@@ -85,7 +85,8 @@ def choose_defect(name: str | None) -> Defect | BrakeDefect | None:
     """@raise UsageError when there is no property of that name."""
     if name is None:
         return None
-    known: dict[str, Defect | BrakeDefect] = {defect.breaks: defect for defect in (*DEFECTS, *BRAKE_DEFECTS)}
+    defects: tuple[Defect | BrakeDefect, ...] = (*DEFECTS, *BRAKE_DEFECTS)
+    known = {defect.breaks: defect for defect in defects}
     if name not in known:
         raise UsageError(f"prove: there is no defect '{name}'; {nearest_names(name, known)}")
     return known[name]
@@ -166,7 +167,7 @@ def show(results: Sequence[Result], defect: Defect | BrakeDefect | None, screen:
     """A line per property, the steps of those that do not hold, and a closing line."""
     if defect is not None:
         screen.say(f"seeded defect: {defect.sentence}")
-    rows = [(result.property.name, result.property.requirement, result.verdicts.get("z3", "-"), result.verdicts.get("spin", "-"))
+    rows: list[tuple[str, ...]] = [(result.property.name, result.property.requirement, result.verdicts.get("z3", "-"), result.verdicts.get("spin", "-"))
             for result in results]  # fmt: skip
     screen.print_table(("property", "requirement", "z3", "spin"), rows)
     for result in results:

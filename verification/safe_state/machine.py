@@ -28,6 +28,10 @@ class Past:
     has_run: bool = False
 
 
+Roads = dict[tuple[int, Past], tuple[tuple[int, Past], tuple[int, ...]] | None]
+"""For each situation with a past: the one before it, and the letter in between; nothing for that after power-up."""
+
+
 @dataclass(frozen=True)
 class Machine:
     """Like Relation, with the fewest situations. `first` is that after power-up, `corrupted` that after a flipped bit."""
@@ -45,13 +49,13 @@ class Machine:
         return tuple(frozenset(found) for found in self._walk()[0])
 
     @cached_property
-    def roads(self) -> Mapping[tuple[int, Past], tuple[tuple[int, Past], tuple[int, ...]] | None]:
+    def roads(self) -> Roads:
         """For each situation with a past, the one before it on a shortest way from power-up, and the letter in between."""
         return self._walk()[1]
 
-    def _walk(self):  # type: ignore[no-untyped-def]
+    def _walk(self) -> tuple[list[set[Past]], Roads]:
         begin = (self.first, Past())
-        roads: dict[tuple[int, Past], tuple[tuple[int, Past], tuple[int, ...]] | None] = {begin: None}
+        roads: Roads = {begin: None}
         pasts: list[set[Past]] = [set() for _ in self.labels]
         pasts[self.first].add(Past())
         pending = deque([begin])

@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import builtins
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,7 +29,7 @@ class Result:
     verdicts: Mapping[str, str]
     steps: tuple[str, ...]
 
-    @property
+    @builtins.property
     def is_proved(self) -> bool:
         return all(verdict == PROVED for verdict in self.verdicts.values())
 

@@ -67,8 +67,10 @@ def _write_views(machine: Machine) -> list[str]:
         return f"(or {' '.join(members)})" if members else "false"
 
     arrows = sorted({(state, target) for (state, _), target in machine.table.items() if state != target})
-    wanted = [f"(and (= wanted {state}) {_is_one_of(lambda label, state=state: label.is_consistent and label.state == state)})"
-              for state in machine.states]  # fmt: skip
+    def is_wanted(state: str) -> str:
+        return f"(and (= wanted {state}) {_is_one_of(lambda label: label.is_consistent and label.state == state)})"
+
+    wanted = [is_wanted(state) for state in machine.states]
     return [
         f"(define-fun state ((s Int)) Int {_choose('s', [label.state for label in machine.labels])})",
         f"(define-fun rank ((s Int)) Int {_choose('s', [str(RANKS[label.state]) for label in machine.labels])})",

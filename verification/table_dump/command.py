@@ -53,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _choose_outputs(arguments: argparse.Namespace) -> list[tuple[Path, Callable[[Table], str]]]:
     makers = {"text": _make_text, "time_line": _make_time_line, "graph": _make_graph, "modes": _make_modes}
     pictures = {"time_line": arguments.svg_time_line, "graph": arguments.svg_graph, "modes": arguments.svg_modes}
-    outputs = [(path, makers[kind]) for kind, path in pictures.items() if path is not None]
+    outputs: list[tuple[Path, Callable[[Table], str]]] = [(path, makers[kind]) for kind, path in pictures.items() if path is not None]
     if arguments.out is not None:
         outputs += [(arguments.out / name, makers[kind]) for kind, name in FILES.items()]
     seen = [arguments.file.absolute()]

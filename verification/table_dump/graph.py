@@ -111,7 +111,7 @@ def _name_columns(table: Table, index: int) -> list[str]:
     """
     components = table.components_of(index)
     is_past_another = any(
-        connection.way == "same_window" and connection.source.component in components
+        connection.way == "same_window" and connection.source.component in components and connection.sink.component in components
         and abs(components.index(connection.source.component) - components.index(connection.sink.component)) > 1
         for connection in table.connections)  # fmt: skip
     return [*([f"bow_{index}"] if is_past_another else []), f"c{components[0]}"]

@@ -12,6 +12,7 @@ import sys
 import time
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -109,7 +110,7 @@ class Bench:
                                        "environment": {"commit": "abc"}} | options  # fmt: skip
         return run_campaign(select(load_plan(self.plan)), **settings)  # type: ignore[arg-type]
 
-    def read_json(self) -> dict[str, object]:
+    def read_json(self) -> dict[str, Any]:
         return json.loads((self.evidence / "campaign/campaign.json").read_text())
 
     def read_testcases(self) -> list[ElementTree.Element]:
@@ -134,14 +135,14 @@ def test_every_case_is_run_and_written_in_the_order_of_the_plan(bench: Bench) ->
     content = bench.read_json()
     assert content["schema"] == "mamori.campaign/1"
     assert content["environment"] == {"commit": "abc"}
-    assert [case["id"] for case in content["cases"]] == ["none-1", "message_late-1", "message_late-2"]  # type: ignore[index]
+    assert [case["id"] for case in content["cases"]] == ["none-1", "message_late-1", "message_late-2"]
     assert sorted(seen) == sorted((case, place, 3) for place, (case, _, _) in enumerate(seen, start=1))
 
 
 @pytest.mark.verifies("SWR-CMP-005", technique="interface")
 def test_a_case_in_campaign_json_keeps_the_contract(bench: Bench) -> None:
     bench.run()
-    case = bench.read_json()["cases"][1]  # type: ignore[index]
+    case = bench.read_json()["cases"][1]
 
     assert case["title"] == "Late & <quoted>"
     assert case["requirements"] == ["SYS-023", "SYS-026"]
@@ -150,7 +151,7 @@ def test_a_case_in_campaign_json_keeps_the_contract(bench: Bench) -> None:
     assert case["run"] == json.loads((bench.evidence / "campaign" / case["folder"] / "run.json").read_text())
     assert {"name": "final state", "wanted": "Safe", "measured": "Safe", "passed": True} in case["checks"]
     assert case["verdict"] == "pass"
-    assert bench.read_json()["cases"][0]["polarity"] == "nominal"  # type: ignore[index]
+    assert bench.read_json()["cases"][0]["polarity"] == "nominal"
 
 
 @pytest.mark.verifies("SWR-CMP-005", technique="interface")
@@ -184,7 +185,7 @@ def test_a_run_that_went_wrong_is_a_failed_case_with_its_reason(bench: Bench, mo
 
     assert [each.case.id for each in result.failed_cases] == ["message_late-1", "message_late-2"]
     assert words in result.failed_cases[0].failure
-    case = bench.read_json()["cases"][1]  # type: ignore[index]
+    case = bench.read_json()["cases"][1]
     assert case["verdict"] == "fail"
     failures = [each for each in bench.read_testcases() if each.find("failure") is not None]
     assert len(failures) == 4

@@ -9,7 +9,7 @@ import pytest
 from mamori.trace.model.code import Function as TracedFunction
 from mamori.trace.model.coverage import Coverage, Gap
 from mamori.trace.model.evidence import Evidence
-from mamori.trace.model.finding import Place
+from mamori.trace.model.finding import Place, Problem
 from mamori.trace.readers.coverage import read_coverage
 from mamori.trace.readers.source_names import SourceNames
 from mamori.verification.coverage.gaps import Row, find_gaps, judge
@@ -22,6 +22,7 @@ FILE = "safety/src/alive.cpp"
 
 @pytest.mark.verifies("SWR-TRC-032", technique="interface")
 def test_the_trace_tool_reads_what_the_gate_writes(tmp_path: Path) -> None:
+    conditions: dict[tuple[object, ...], Condition]
     conditions = {(1,): Condition(4, "silent > limit", True, True, False, True), (2,): Condition(5, "limit > 0", True, False, False, False)}
     functions = [Function(FILE, 3, "judge", 5, 8, conditions), Function(FILE, 10, "never", 0, 11), Function(FILE, 20, "alone", 2, 21)]
     segments = [[3, 43, 5, True, True, False], [6, 1, 0, True, True, False], [7, 1, 5, True, False, False], [8, 2, 0, False, False, False],
@@ -31,7 +32,8 @@ def test_the_trace_tool_reads_what_the_gate_writes(tmp_path: Path) -> None:
     rows = make_rows(exported, functions, tmp_path)
     write_evidence(tmp_path / "evidence" / "coverage", [Figures(FILE)], verdict, "table", rows)
 
-    evidence, problems = Evidence(), []
+    evidence = Evidence()
+    problems: list[Problem] = []
     read_coverage(tmp_path / "evidence", tmp_path, SourceNames(tmp_path, [FILE]), evidence, problems)
     coverage = Coverage(evidence.coverage_runs)
     judge_, never, alone = (coverage.measure(TracedFunction(FILE, one.name, one.line, one.last_line, one.line)) for one in functions)

@@ -3,6 +3,7 @@
 # words without installing. Method: a copy of the script on a machine in a folder (support/launcher_box.py).
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import shutil
@@ -325,7 +326,7 @@ def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
 @pytest.mark.parametrize("command", ["demo", "run", "test", "build", "verify", "log", "bench", "timing", "cost", "e2e", "table", "prove", "new"])
 def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
-    subparsers = next(action for action in make_parser()._actions if action.dest == "command")
+    [subparsers] = [action for action in make_parser()._actions if isinstance(action, argparse._SubParsersAction)]
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}
 
     # What follows a bare -- is another program's.

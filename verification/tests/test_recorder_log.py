@@ -265,7 +265,9 @@ def test_cut_file_is_printed_and_exported_as_far_as_it_goes(recorder: Path, caps
     assert said.err.count("\n") == 1
     assert "the file ends here, at 150 of 224 bytes" in said.err
     with out.open("rb") as stream:
-        assert make_reader(stream).get_summary().statistics.message_count == 2
+        summary = make_reader(stream).get_summary()
+    assert summary is not None and summary.statistics is not None
+    assert summary.statistics.message_count == 2
 
 
 @pytest.mark.verifies("SWR-REC-011", technique="error_guessing", polarity="violation")

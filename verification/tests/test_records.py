@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from mamori.trace.model.evidence import Evidence
+from mamori.trace.model.finding import Problem
 from mamori.trace.readers.evidence_records import read_evidence_records
 from mamori.verification.command.environment import write_environment
 from mamori.verification.command.errors import StepError
@@ -33,7 +34,8 @@ def project(tmp_path: Path) -> Project:
 
 
 def read_back(project: Project) -> tuple[Evidence, list[str]]:
-    evidence, problems = Evidence(), []
+    evidence = Evidence()
+    problems: list[Problem] = []
     read_evidence_records(project.evidence, project.root, evidence, problems)
     return evidence, [f"{problem.place.file}: {problem.message}" for problem in problems]
 

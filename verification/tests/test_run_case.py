@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -114,7 +115,7 @@ def test_values_at_their_limits_are_taken(plan: Plan, motion: Motion, fault: str
 
 
 @pytest.fixture
-def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):  # type: ignore[no-untyped-def]
+def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
     """Runs the command in a copy of the data of the project, with a program that ends in `state`."""
     program = tmp_path / "program"
 
@@ -139,7 +140,7 @@ def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):  # type: ignore[no
 @pytest.mark.parametrize(("state", "status", "closing"), [
     ("Safe", 0, "end state as expected"), ("LockedOut", 1, "end state NOT as expected"), ("crashes", 1, "end state NOT as expected"),
 ])  # fmt: skip
-def test_the_status_tells_whether_the_end_state_is_the_expected_one(command, state: str, status: int, closing: str,  # type: ignore[no-untyped-def]
+def test_the_status_tells_whether_the_end_state_is_the_expected_one(command: Callable[..., int], state: str, status: int, closing: str,
                                                                     capsys: pytest.CaptureFixture[str]) -> None:
     assert command(state, "--fault", "power_loss") == status
 
@@ -149,7 +150,7 @@ def test_the_status_tells_whether_the_end_state_is_the_expected_one(command, sta
 
 
 @pytest.mark.verifies("SWR-CLI-013")
-def test_one_screen_shows_states_reaction_and_stopping_figures_and_names_the_page(command, tmp_path: Path,  # type: ignore[no-untyped-def]
+def test_one_screen_shows_states_reaction_and_stopping_figures_and_names_the_page(command: Callable[..., int], tmp_path: Path,
                                                                                   capsys: pytest.CaptureFixture[str]) -> None:
     assert command("Safe", "--fault", "power_loss,at=1") == 0
 
@@ -162,7 +163,7 @@ def test_one_screen_shows_states_reaction_and_stopping_figures_and_names_the_pag
 
 
 @pytest.mark.verifies("SWR-MOT-009", technique="interface")
-def test_what_the_motion_has_that_is_not_used_is_one_note(command, capsys: pytest.CaptureFixture[str]) -> None:  # type: ignore[no-untyped-def]
+def test_what_the_motion_has_that_is_not_used_is_one_note(command: Callable[..., int], capsys: pytest.CaptureFixture[str]) -> None:
     motion = ROOT / "profiles" / "tests" / "data" / "arm_with_fingers.yaml"
 
     assert command("Safe", "--motion", str(motion), "--fault", "power_loss,at=0.002") == 0
@@ -203,7 +204,7 @@ def test_the_arm_follows_the_example_of_the_predecessors_to_its_last_posture(tmp
 
 
 @pytest.mark.verifies("SWR-CLI-013", technique="fault_injection", polarity="violation")
-def test_a_value_that_the_program_rejects_is_one_line(command, capsys: pytest.CaptureFixture[str]) -> None:  # type: ignore[no-untyped-def]
+def test_a_value_that_the_program_rejects_is_one_line(command: Callable[..., int], capsys: pytest.CaptureFixture[str]) -> None:
     assert command("rejects", "--fault", "message_late,magnitude=99") == 2
 
     said = capsys.readouterr().err
@@ -211,7 +212,7 @@ def test_a_value_that_the_program_rejects_is_one_line(command, capsys: pytest.Ca
 
 
 @pytest.mark.verifies("SWR-CLI-013", technique="fault_injection", polarity="violation")
-def test_a_file_in_the_place_of_the_folder_is_one_line(command, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:  # type: ignore[no-untyped-def]
+def test_a_file_in_the_place_of_the_folder_is_one_line(command: Callable[..., int], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "build").mkdir()
     (tmp_path / "build" / "run").write_text("")
 

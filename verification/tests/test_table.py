@@ -103,7 +103,7 @@ def test_names_do_not_steer_the_terminal(tmp_path: Path, capsys: pytest.CaptureF
 
 @pytest.mark.verifies("SWR-TAB-004", technique="boundary_values")
 def test_empty_table_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    empty = {key: [] for key, value in TABLE.items() if isinstance(value, list)}
+    empty: dict[str, object] = {key: [] for key, value in TABLE.items() if isinstance(value, list)}
     assert table(write(tmp_path, frame_ns=1, **empty), "--text", "--svg-time-line", tmp_path / "t.svg") == 0
     assert "0 windows" in capsys.readouterr().out
     ElementTree.parse(tmp_path / "t.svg")

@@ -63,11 +63,18 @@ def test_work_grows_no_faster_than_the_project(projects: dict[int, Path], capsys
 
 
 @pytest.mark.verifies("SWR-TRC-093")
-def test_no_file_is_read_again_and_again(projects: dict[int, Path], capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_file_is_read_again_and_again(
+    projects: dict[int, Path], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     opened: collections.Counter[str] = collections.Counter()
     watch = inputs.start()
     take = watch.take
-    watch.take = lambda event, arguments: (opened.update([str(arguments[0])] if event == "open" else []), take(event, arguments))  # type: ignore
+
+    def count(event: str, arguments: tuple[Any, ...]) -> None:
+        opened.update([str(arguments[0])] if event == "open" else [])
+        take(event, arguments)
+
+    monkeypatch.setattr(watch, "take", count)
     try:
         assert main(["check", "--root", str(projects[SMALL])]) == 0
     finally:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import platform
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,7 +49,7 @@ def collect_state() -> dict[str, object]:
     }
 
 
-def calc_steal_share(before: dict[str, object], after: dict[str, object]) -> float:
+def calc_steal_share(before: Mapping[str, object], after: Mapping[str, object]) -> float:
     """@param before, after what collect_state() gave. @return share of all processor time that other machines had, 0 .. 1."""
     total, steal = (int(str(after[key])) - int(str(before[key])) for key in ("ticks", "steal_ticks"))
     return steal / total if total > 0 else 0.0

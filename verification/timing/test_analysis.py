@@ -17,20 +17,24 @@ TABLE = make_table(windows=(("work", 0, 100, 300, 1000, 200),), components=(("fi
 US = 1000
 
 
+Instants = tuple[int, int, int, float, float | None]
+"""Frame, component, pass, start and end [us]; an end that did not come is None."""
+
+
 class Rows:
     """A run of four openings in frames 1 .. 4, each late by 10 us, with two steps of 30 us and 40 us; one table of instants [us]
     from the release."""
 
     def __init__(self) -> None:
         self.openings = [[10, 90, COMPLETED] for _ in range(4)]
-        self.steps = [[[frame, 0, 0, 12, 42], [frame, 1, 0, 43, 83]] for frame in range(4)]
+        self.steps: list[list[Instants]] = [[(frame, 0, 0, 12, 42), (frame, 1, 0, 43, 83)] for frame in range(4)]
 
     def read(self, folder: Path) -> Measurement:
         openings = np.zeros(4, OPENING)
         for frame, (woke, closed, outcome) in enumerate(self.openings):
             release = (1000 * (frame + 1) + 100) * US
             openings[frame] = (release, release + woke * US, release + closed * US, 0, outcome)
-        rows = [row for frame in self.steps for row in frame]
+        rows = [row for step in self.steps for row in step]
         steps = np.zeros(len(rows), STEP)
         for index, (frame, component, step_pass, start, end) in enumerate(rows):
             release = (1000 * (frame + 1) + 100) * US
@@ -60,7 +64,7 @@ def test_nothing_measured_has_no_distribution() -> None:
 
 @pytest.mark.verifies("SWR-TIM-012")
 def test_execution_time_is_the_sum_of_the_steps_of_an_opening(rows: Rows, tmp_path: Path) -> None:
-    rows.steps[2].append([2, 0, 1, 84, 89])
+    rows.steps[2].append((2, 0, 1, 84, 89))
 
     series, unfinished = calc_execution(rows.read(tmp_path), 0)
 
@@ -71,7 +75,7 @@ def test_execution_time_is_the_sum_of_the_steps_of_an_opening(rows: Rows, tmp_pa
 
 @pytest.mark.verifies("SWR-TIM-012", technique="error_guessing", polarity="violation")
 def test_step_that_never_came_back_has_no_time_and_is_counted(rows: Rows, tmp_path: Path) -> None:
-    rows.steps[3][1] = [3, 1, 0, 43, None]
+    rows.steps[3][1] = (3, 1, 0, 43, None)
 
     series, unfinished = calc_execution(rows.read(tmp_path), 1)
 
@@ -107,8 +111,8 @@ def test_schedulability_shows_plan_measurement_and_margins(rows: Rows, tmp_path:
 @pytest.mark.verifies("SWR-TIM-013", technique="boundary_values", polarity="violation")
 @pytest.mark.parametrize(("end_us", "count"), [(62, 0), (62.001, 1)])
 def test_declared_worst_case_below_the_measured_maximum_is_a_finding(rows: Rows, tmp_path: Path, end_us: float, count: int) -> None:
-    rows.steps[1][0] = [1, 0, 0, 12, end_us]  # type: ignore[list-item]
-    rows.steps[1][1] = [1, 1, 0, 63, 83]
+    rows.steps[1][0] = (1, 0, 0, 12, end_us)
+    rows.steps[1][1] = (1, 1, 0, 63, 83)
 
     run = rows.read(tmp_path)
     findings = list_findings(list_windows(run), list_components(run), list_misses(run))
@@ -121,7 +125,7 @@ def test_declared_worst_case_below_the_measured_maximum_is_a_finding(rows: Rows,
 @pytest.mark.parametrize(("end", "guilty", "said"), [(211, "first", "came back 1.0 us after the deadline"), (None, "first", "never came back")])
 def test_component_that_is_not_back_at_the_deadline_is_guilty(rows: Rows, tmp_path: Path, end: int | None, guilty: str, said: str) -> None:
     rows.openings[2] = [10, 211, OVERRUN]
-    rows.steps[2] = [[2, 0, 0, 12, end]]
+    rows.steps[2] = [(2, 0, 0, 12, end)]
     rows.openings[3] = [10, 211, OVERRUN] if end is None else rows.openings[3]
     rows.steps[3] = [] if end is None else rows.steps[3]
 
@@ -136,7 +140,7 @@ def test_component_that_is_not_back_at_the_deadline_is_guilty(rows: Rows, tmp_pa
 @pytest.mark.verifies("SWR-TIM-014", technique="boundary_values")
 def test_step_that_ends_on_the_deadline_is_not_the_guilty_one(rows: Rows, tmp_path: Path) -> None:
     rows.openings[2] = [10, 215, OVERRUN]
-    rows.steps[2] = [[2, 0, 0, 12, 210], [2, 1, 0, 210, 214]]
+    rows.steps[2] = [(2, 0, 0, 12, 210), (2, 1, 0, 210, 214)]
 
     assert list_misses(rows.read(tmp_path))[0].component == "second"
 
@@ -145,7 +149,7 @@ def test_step_that_ends_on_the_deadline_is_not_the_guilty_one(rows: Rows, tmp_pa
 @pytest.mark.parametrize(("end", "is_host"), [(450, True), (451, False), (None, False)])
 def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Path, end: int | None, is_host: bool) -> None:
     rows.openings[2] = [250, 301, OVERRUN]  # with its whole budget it would have had until 450 us
-    rows.steps[2] = [[2, 0, 0, 252, 290], [2, 1, 0, 291, end]]
+    rows.steps[2] = [(2, 0, 0, 252, 290), (2, 1, 0, 291, end)]
     rows.steps[3] = [] if end is None else rows.steps[3]
 
     run = rows.read(tmp_path)
@@ -159,7 +163,7 @@ def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Pa
 @pytest.mark.verifies("SWR-TIM-014", technique="error_guessing")
 def test_component_that_had_not_begun_is_named_when_no_step_was_late(rows: Rows, tmp_path: Path) -> None:
     rows.openings[2] = [10, 211, OVERRUN]
-    rows.steps[2] = [[2, 0, 0, 12, 42]]
+    rows.steps[2] = [(2, 0, 0, 12, 42)]
 
     miss = list_misses(rows.read(tmp_path))[0]
 
@@ -191,7 +195,7 @@ def test_missed_opening_blames_nobody_and_is_no_finding(rows: Rows, tmp_path: Pa
 @pytest.mark.verifies("SWR-TIM-014", polarity="violation")
 def test_overrun_is_a_finding_with_cycle_and_component(rows: Rows, tmp_path: Path) -> None:
     rows.openings[2] = [10, 211, OVERRUN]
-    rows.steps[2] = [[2, 0, 0, 12, 42], [2, 1, 0, 43, 260]]
+    rows.steps[2] = [(2, 0, 0, 12, 42), (2, 1, 0, 43, 260)]
 
     run = rows.read(tmp_path)
     found = list_findings(list_windows(run), list_components(run), list_misses(run))

@@ -23,7 +23,7 @@ from mamori.verification.timing.evt import (
 N = 20_000
 
 
-def draw(seed: int = 7, count: int = N) -> np.ndarray:  # type: ignore[type-arg]
+def draw(seed: int = 7, count: int = N) -> np.ndarray:
     return np.random.default_rng(seed).gumbel(50_000.0, 2_000.0, count).astype(np.int64)
 
 

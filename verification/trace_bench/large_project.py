@@ -142,6 +142,7 @@ def write_native(plan: Plan, root: Path, with_git: bool = False) -> None:
     _write_results(plan, root / EVIDENCE / "junit")
     project = read_requirements(root)
     review_links(project, set(project.items), "2026-01-05", "the maintainers")
+    assert project.lock is not None  # the reviews stand there
     write_lock(root, project.lock)
     commit = _make_commit(root) if with_git else COMMIT_WITHOUT_GIT
     _write(root / EVIDENCE / "environment.json", json.dumps(_make_environment(commit), indent=1) + "\n")

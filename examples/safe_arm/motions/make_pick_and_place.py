@@ -37,7 +37,7 @@ def calc_blend(fraction: float) -> float:
 def make_frames() -> list[tuple[float, ...]]:
     """All poses [rad], one per frame."""
     rest = round(REST_S * FRAME_RATE_HZ)
-    frames = [START_RAD] * rest
+    frames: list[tuple[float, ...]] = [START_RAD] * rest
     begin = START_RAD
     for duration_s, end in PARTS:
         steps = round(duration_s * FRAME_RATE_HZ)

@@ -193,12 +193,9 @@ def _set_outcome(outcome: str) -> Callable[[Plan, random.Random], list[Seed]]:
     return spoil
 
 
-def test_unlinked(plan: Plan, chance: random.Random) -> list[Seed]:
+def unlinked_test(plan: Plan, chance: random.Random) -> list[Seed]:
     plan.tests += [Test(f"Free{number}Test", f"Free{number}", "", result_only=True) for number in range(2)]
     return [(f"Free{number}", f"Free{number}", ("result",)) for number in range(2)]
-
-
-test_unlinked.__test__ = False
 
 
 def unknown_technique(plan: Plan, chance: random.Random) -> list[Seed]:
@@ -247,7 +244,7 @@ FAULTS = {
     "skipped": Fault("result-skipped", _set_outcome("skipped")),
     "disabled": Fault("result-skipped", _set_outcome("disabled")),
     "not-run": Fault("result-missing", _set_outcome("")),
-    "test-unlinked": Fault("test-unlinked", test_unlinked),
+    "test-unlinked": Fault("test-unlinked", unlinked_test),
     "unknown-technique": Fault("unknown-word", unknown_technique),
     "stale": Fault("evidence-stale", stale, evidence=True),
     "results-cut-off": Fault("unreadable-input", results_cut_off),

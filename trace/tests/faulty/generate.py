@@ -11,7 +11,7 @@ from pathlib import Path
 from faulty.faults import FAULTS
 from faulty.page import Pages
 from faulty.plan import COMMIT, Plan, make_plan
-from faulty.writers import WRITERS, add_native_schema
+from faulty.writers import WRITERS, Writer, add_native_schema
 from mamori.trace.actions.review import review_links
 from mamori.trace.checks import list_rule_ids
 from mamori.trace.formats.in_place import LOCK_NAME, ForeignInput, read_in_place
@@ -73,7 +73,7 @@ def _find(pages: Pages, key: str, parts: tuple[str, ...], root: Path, native: bo
     return name, next(number for number, line in enumerate(lines, start=1) if key in line.split())
 
 
-def _write(plan: Plan, writer, root: Path) -> Pages:
+def _write(plan: Plan, writer: Writer, root: Path) -> Pages:
     pages = Pages()
     writer.write(plan, pages)
     for file, lines in plan.beside.items():

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 
 from faulty.fault import Fault, Seed, pick
 from faulty.plan import MIDDLE, TOP, Plan, Requirement
@@ -30,7 +31,7 @@ def _add_row(plan: Plan, file: tuple[str, str, str], key: str, **columns: str | 
         lines.append((f"{column} = {shown}", ""))
 
 
-def _waiver(**columns: str):
+def _waiver(**columns: str) -> Callable[[Plan, random.Random], list[Seed]]:
     def spoil(plan: Plan, chance: random.Random) -> list[Seed]:
         chosen = pick(plan, chance)
         for each in chosen:

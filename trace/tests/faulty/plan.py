@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
@@ -55,7 +56,7 @@ class Plan:
     `unexecuted` were never called and those in `gaps` have a condition that was not shown.
     """
 
-    make_id: object
+    make_id: Callable[[int, int], str]
     requirements: list[Requirement] = field(default_factory=list)
     code: list[Code] = field(default_factory=list)
     tests: list[Test] = field(default_factory=list)
@@ -75,7 +76,7 @@ class Plan:
         return [each for each in self.requirements if each.level == level]
 
 
-def make_plan(make_id, count: int) -> Plan:
+def make_plan(make_id: Callable[[int, int], str], count: int) -> Plan:
     """A clean project: a tenth of the requirements on top, three tenths in the middle, the others below with code and a passed test."""
     plan = Plan(make_id)
     tops, middles = max(count // 10, 1), max(count * 3 // 10, 1)

@@ -43,7 +43,7 @@ STORE: dict[str, dict[str, str]] = {
     "python3-venv": {"share/python3-venv": ""},
     "g++": {"bin/c++": f'exec {shutil.which("g++")} -nostdinc -isystem "$BOX/include" "$@"', "bin/g++": 'exec c++ "$@"'},
     "clang-19": {"bin/clang++-19": 'echo "$BOX/share/libclang-rt-19-dev"'},
-    "gcc-arm-none-eabi": {"bin/arm-none-eabi-g++": 'test -e "$BOX/share/libstdc++-arm-none-eabi-newlib"'},
+    "gcc-arm-none-eabi": {"bin/arm-none-eabi-g++": 'cat >/dev/null; test -e "$BOX/share/libstdc++-arm-none-eabi-newlib"'},
     **{name: {f"bin/{program}": ""} for name, program in {
         "cmake": "cmake", "ninja-build": "ninja", "valgrind": "valgrind", "cppcheck": "cppcheck", "chromium": "chromium",
         "stress-ng": "stress-ng", "spin": "spin", "z3": "z3", "git": "git", "clang-tidy-19": "run-clang-tidy-19",
