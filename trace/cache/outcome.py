@@ -27,7 +27,7 @@ OFF = "--no-cache"
 
 _ACTION = "check"
 _REPEATABLE = (0, 1)
-_HARMLESS = {"_", "SHLVL", "OLDPWD", "PYTEST_CURRENT_TEST"}
+_HARMLESS = {"_", "SHLVL", "OLDPWD", "PYTEST_CURRENT_TEST", "MAMORI_LOCK_KEYS"}
 
 
 def run_kept(words: Sequence[str], run: Callable[[], int]) -> int:

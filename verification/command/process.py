@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -28,7 +29,7 @@ def run_logged(argv: Sequence[str], log: Path, cwd: Path, tick: Tick, env: Mappi
         print("$", *argv, file=out, flush=True)
         try:
             child = subprocess.Popen(
-                argv, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT
+                argv, cwd=cwd, env={**(os.environ if env is None else env), "PWD": str(cwd)}, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT
             )
         except OSError as error:
             print(f"{argv[0]}: {error.strerror}", file=out)
@@ -54,6 +55,11 @@ def read_last_line(log: Path) -> str:
         file.seek(max(0, file.seek(0, os.SEEK_END) - LOG_TAIL_BYTES))
         lines = file.read().decode("utf-8", errors="replace").split("\n")
     return next((line.strip() for line in reversed(lines) if line.strip()), "")
+
+
+def discard_output() -> None:
+    """Sends standard output to nowhere, so that Python does not complain at its end about a reader that is gone."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def raise_on_signals() -> None:
