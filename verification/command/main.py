@@ -3,7 +3,7 @@
 
 The help texts are those of the launcher script, which answers --help before anything is installed.
 
-@satisfies SWR-CLI-005, SWR-CLI-008      Design: docs/design/launcher.md#launcher
+@satisfies SWR-CLI-005, SWR-CLI-008, SWR-CLI-044      Design: docs/design/launcher.md#launcher
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import NoReturn
 
 from mamori.profiles.input_error import InputError, nearest_names
-from mamori.verification.command import jobs
 from mamori.trace.system_error import describe
+from mamori.verification.command import jobs
 from mamori.verification.command.errors import EXIT_INTERRUPTED, EXIT_MISSING, EXIT_PIPE, EXIT_USAGE, MissingError, UsageError
 from mamori.verification.command.locks import hold_locks
 from mamori.verification.command.process import discard_output, end_children, raise_on_signals
