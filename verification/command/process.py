@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Child processes: output to a log, progress while they run, none left behind when the command is stopped.
 
-@satisfies SWR-CLI-008      Design: docs/design/launcher.md#interrupt
+@satisfies SWR-CLI-008, SWR-CLI-045      Design: docs/design/launcher.md#interrupt
 """
 
 from __future__ import annotations
 
+import ctypes
 import os
 import signal
 import subprocess
@@ -18,8 +19,9 @@ from typing import NoReturn
 Tick = Callable[[str], None]
 
 POLL_S = 0.1
-GRACE_S = 5.0
+GRACE_S = 10.0  # a stopped timing run draws its pictures in 3 to 5 s
 LOG_TAIL_BYTES = 4096
+PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
 
 
 def run_logged(argv: Sequence[str], log: Path, cwd: Path, tick: Tick, env: Mapping[str, str] | None = None) -> int:
@@ -63,7 +65,11 @@ def discard_output() -> None:
 
 
 def raise_on_signals() -> None:
-    """SIGINT and SIGTERM both stop the command in order, also where a parent shell had told it to ignore SIGINT."""
+    """SIGINT and SIGTERM both stop the command in order, also where a parent shell had told it to ignore SIGINT.
+
+    A child of a child whose own parent is ended first by the same signal becomes a child of this process, not of init.
+    """
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
     def stop(number: int, _frame: object) -> NoReturn:
         raise KeyboardInterrupt(signal.Signals(number).name)
