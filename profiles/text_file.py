@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import hashlib
-import os
 from dataclasses import dataclass
 from pathlib import Path
 
 from mamori.profiles.input_error import InputError
+from mamori.trace.whole_file import TargetError, whole_file
 
 MAX_BYTES = 200_000_000
 """Largest file that is read. A joint motion of ten minutes at 1 kHz has less."""
@@ -62,15 +62,18 @@ def write_text(path: Path | str, text: str) -> None:
 
     Raises InputError where the folder is missing or does not take the file; nothing is left behind then.
     """
-    path = Path(path)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        partial.write_text(text, encoding="utf-8", newline="\n")
-        os.replace(partial, path)
+        with whole_file(Path(path)) as part:
+            part.write_text(text, encoding="utf-8", newline="\n")
     except OSError as error:
-        raise InputError(f"cannot be written: {error.strerror}; check the folder and its permissions", path) from error
-    finally:
-        partial.unlink(missing_ok=True)
+        raise refuse_output(path, error) from error
+
+
+def refuse_output(path: Path | str, error: OSError) -> InputError:
+    """What to raise when `path` cannot be written."""
+    if isinstance(error, TargetError):
+        return InputError(f"cannot be written: {error}", path)
+    return InputError(f"cannot be written: {error.strerror}; check the folder, its permissions and the room on its disk", path)
 
 
 def _line_at(data: bytes, offset: int) -> int:

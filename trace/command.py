@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """`mamori trace ACTION`: hands over to the module of the action.
 
-Exit status: 0 clean, 1 findings of severity error, 2 wrong usage or input that could not be read; of `record` that of its command.
+Exit status: 0 clean, 1 findings of severity error, 2 wrong usage or input that could not be read, 3 another command writes there; of `record` that
+of its command.
 
 @satisfies SWR-TRC-010, SWR-TRC-008      Design: docs/design/trace.md#command
 """
@@ -14,9 +15,10 @@ import importlib
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from types import ModuleType
 
+from mamori.trace.project_lock import LockedError, hold_lock
 from mamori.trace.readers.files import InputError
 from mamori.trace.system_error import describe
 
@@ -37,7 +39,10 @@ _ACTIONS = {
     "export": "export_items",
 }
 """Module of each action, below `actions`."""
+_WRITERS = ("report", "review", "init", "new", "record", "import", "bundle")
+"""Actions that change the project, or need its evidence unchanged while they work."""
 _EXIT_INPUT = 2
+_EXIT_LOCKED = 3
 _EXIT_PIPE = 141
 """As a shell counts a program that wrote to a reader who is gone."""
 _SHOWN_MAX = 400
@@ -51,13 +56,16 @@ def add_arguments(subparsers: argparse._SubParsersAction) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Runs what `add_arguments` parsed. @return the exit status."""
     try:
-        with _without_collector():
+        with _without_collector(), _hold_lock(arguments):
             status = int(_load(arguments.trace_action).run(arguments))
         sys.stdout.flush()  # what cannot be written is told here, and not when Python ends
         return status
     except BrokenPipeError:  # who read it has read enough, such as `head`
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (Python closes it at its end)
         return _EXIT_PIPE
+    except LockedError as error:
+        _refuse(str(error))
+        return _EXIT_LOCKED
     except InputError as error:
         return _refuse(str(error))
     except OSError as error:
@@ -94,6 +102,16 @@ def _without_collector() -> Iterator[None]:
     finally:
         if was_enabled:
             gc.enable()
+
+
+@contextmanager
+def _hold_lock(arguments: argparse.Namespace) -> Iterator[None]:
+    """The lock of the project while a writer works. Where its file cannot be made, the action itself reports what it cannot write."""
+    with ExitStack() as stack:
+        if arguments.trace_action in _WRITERS and arguments.root.is_dir():
+            with suppress(OSError):
+                stack.enter_context(hold_lock(arguments.root, f"mamori trace {arguments.trace_action}"))
+        yield
 
 
 def _add_actions(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:

@@ -9,6 +9,7 @@ every question to git, the tool, its arguments, the environment and the date are
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import io
 import json
@@ -16,6 +17,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 from mamori.trace.cache import inputs, state
@@ -27,7 +29,7 @@ OFF = "--no-cache"
 
 _ACTION = "check"
 _REPEATABLE = (0, 1)
-_HARMLESS = {"_", "SHLVL", "OLDPWD", "PYTEST_CURRENT_TEST"}
+_HARMLESS = {"_", "SHLVL", "OLDPWD", "PYTEST_CURRENT_TEST", "MAMORI_LOCK_KEYS"}
 
 
 def run_kept(words: Sequence[str], run: Callable[[], int]) -> int:
@@ -140,17 +142,14 @@ def _store(path: str, kept: dict[str, Any]) -> None:
     """Writes it whole or not at all; a full disk is no reason to fail a check that is done."""
     body = json.dumps(kept, ensure_ascii=True).encode()
     folder = os.path.dirname(path)
-    temporary = f"{path}.{os.getpid()}.part"
-    try:
-        with open(temporary, "wb") as file:
-            file.write(hashlib.sha256(body).hexdigest().encode() + b"\n" + body)
-        os.replace(temporary, path)
+    from mamori.trace.whole_file import whole_file  # not needed where an outcome is repeated
+
+    with contextlib.suppress(OSError):
+        with whole_file(Path(path)) as part:
+            part.write_bytes(hashlib.sha256(body).hexdigest().encode() + b"\n" + body)
         others = sorted((entry for entry in os.scandir(folder) if entry.is_file()), key=lambda entry: entry.stat().st_mtime_ns)
         for entry in others[:-KEPT_MAX]:
             os.unlink(entry.path)
-    except OSError:
-        if os.path.exists(temporary):
-            os.unlink(temporary)
 
 
 class _Copy(io.TextIOBase):

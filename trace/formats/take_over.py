@@ -191,7 +191,7 @@ def write_takeover(outcome: Takeover, folder: Path, map_name: str) -> list[Path]
     except OSError as error:
         take_back(written)
         raise InputError(f"{path}: cannot be written: {explain(error)}; nothing was taken over") from None
-    except UnicodeEncodeError:
+    except BaseException:  # half of a letter, or Ctrl-C
         take_back(written)
         raise
     return written

@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import os
 import shutil
@@ -18,7 +17,8 @@ from mamori.trace.model.bundle import MANIFEST, SIGNATURE, Entry, Manifest, desc
 from mamori.trace.readers.files import InputError, walk_whole
 from mamori.trace.signature import sign
 from mamori.trace.system_error import explain
-from mamori.trace.write import find_target, name_part
+from mamori.trace.whole_file import name_part, whole_file
+from mamori.trace.write import find_target
 
 FIXED_TIME_S = 315532800  # 1980-01-01: no archive format is too young for it
 _CHUNK = 1 << 16
@@ -59,13 +59,8 @@ def finish(folder: Path, manifest: Manifest, key: Path | None, out: Path) -> Non
 
 
 def _place_archive(folder: Path, names: list[str], out: Path) -> None:
-    part = name_part(out)
-    try:
+    with whole_file(out) as part:
         _write_tar(folder, names, part)
-        part.replace(out)
-    finally:
-        with contextlib.suppress(OSError):
-            part.unlink(missing_ok=True)
 
 
 def _place_folder(folder: Path, names: list[str], out: Path) -> None:

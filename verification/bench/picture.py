@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ matplotlib.use("Agg")
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullFormatter, NullLocator
 
+from mamori.trace.whole_file import whole_file
 from mamori.verification.bench.judge import PASSED, RatioResult
 from mamori.verification.bench.record import Run
 from mamori.verification.bench.samples import Samples
@@ -57,12 +57,8 @@ def draw_run(run: Run, folder: Path, subtitle: str) -> list[Path]:
 
 
 def _save(figure: Figure, path: Path) -> Path:
-    partial = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
-    try:
-        figure.savefig(partial, dpi=130, metadata={"Date": None} if path.suffix == ".svg" else None)
-        os.replace(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
+    with whole_file(path) as part:
+        figure.savefig(part, format=path.suffix[1:], dpi=130, metadata={"Date": None} if path.suffix == ".svg" else None)
     return path
 
 

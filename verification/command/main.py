@@ -3,7 +3,7 @@
 
 The help texts are those of the launcher script, which answers --help before anything is installed.
 
-@satisfies SWR-CLI-005, SWR-CLI-008      Design: docs/design/launcher.md#launcher
+@satisfies SWR-CLI-005, SWR-CLI-008, SWR-CLI-044      Design: docs/design/launcher.md#launcher
 """
 
 from __future__ import annotations
@@ -16,9 +16,11 @@ from pathlib import Path
 from typing import NoReturn
 
 from mamori.profiles.input_error import InputError, nearest_names
+from mamori.trace.system_error import describe
 from mamori.verification.command import jobs
-from mamori.verification.command.errors import EXIT_INTERRUPTED, EXIT_USAGE, UsageError
-from mamori.verification.command.process import end_children, raise_on_signals
+from mamori.verification.command.errors import EXIT_INTERRUPTED, EXIT_MISSING, EXIT_PIPE, EXIT_USAGE, MissingError, UsageError
+from mamori.verification.command.locks import hold_locks
+from mamori.verification.command.process import discard_output, end_children, raise_on_signals
 from mamori.verification.command.project import RELEASE
 from mamori.verification.recorder import command as recorder_log
 from mamori.verification.table_dump import command as table_dump
@@ -134,6 +136,11 @@ def run(argv: list[str]) -> int:
     """Runs the command. @return the exit status."""
     own, passed_on = _split(argv)
     arguments = make_parser(with_trace=argv[:1] == ["trace"]).parse_args(own)
+    with hold_locks(arguments, argv):
+        return _dispatch(arguments, passed_on)
+
+
+def _dispatch(arguments: argparse.Namespace, passed_on: tuple[str, ...]) -> int:
     match arguments.command:
         case "demo":
             return jobs.demo(arguments.jobs, arguments.motion, tuple(arguments.scenario), arguments.instants)
@@ -216,14 +223,32 @@ def _run_timing(arguments: argparse.Namespace, passed_on: tuple[str, ...]) -> in
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input), 4 (timing without rights) or 130 (stopped)."""
+    """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input), 3 (a tool is missing, or another command holds
+    the lock), 4 (timing without rights), 130 (stopped) or 141 (nobody reads the output)."""
     raise_on_signals()
     try:
-        return run(list(sys.argv[1:] if argv is None else argv))
+        status = run(list(sys.argv[1:] if argv is None else argv))
+        sys.stdout.flush()  # what cannot be written is reported here, not when Python ends
+        return status
+    except BrokenPipeError:  # whoever reads standard output has read enough
+        discard_output()
+        return EXIT_PIPE
     except (UsageError, InputError) as error:
-        print(f"{PROGRAM}: {error}", file=sys.stderr)
-        return EXIT_USAGE
+        return _refuse(str(error), EXIT_USAGE)
+    except MissingError as error:
+        return _refuse(str(error), EXIT_MISSING)
+    except OSError as error:
+        return _refuse(describe(error), EXIT_USAGE)
+    except UnicodeEncodeError as error:
+        return _refuse(f"{error.object!a} has a character that is not valid text; use names in UTF-8", EXIT_USAGE)
     except KeyboardInterrupt:
         end_children()
         print(f"\n{PROGRAM}: stopped; no report was written", file=sys.stderr)
         return EXIT_INTERRUPTED
+
+
+def _refuse(message: str, status: int) -> int:
+    """One line, whatever a name of the user's contains."""
+    line = " ".join(message.split())
+    print(f"{PROGRAM}: {line.encode('utf-8', 'backslashreplace').decode('utf-8')}", file=sys.stderr)
+    return status

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Child processes: output to a log, progress while they run, none left behind when the command is stopped.
 
-@satisfies SWR-CLI-008      Design: docs/design/launcher.md#interrupt
+@satisfies SWR-CLI-008, SWR-CLI-045      Design: docs/design/launcher.md#interrupt
 """
 
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -18,8 +20,9 @@ from typing import NoReturn
 Tick = Callable[[str], None]
 
 POLL_S = 0.1
-GRACE_S = 5.0
+GRACE_S = 10.0  # a stopped timing run draws its pictures in 3 to 5 s
 LOG_TAIL_BYTES = 4096
+PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
 
 
 def run_logged(argv: Sequence[str], log: Path, cwd: Path, tick: Tick, env: Mapping[str, str] | None = None) -> int:
@@ -29,7 +32,7 @@ def run_logged(argv: Sequence[str], log: Path, cwd: Path, tick: Tick, env: Mappi
         print("$", *argv, file=out, flush=True)
         try:
             child = subprocess.Popen(
-                argv, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT
+                argv, cwd=cwd, env={**(os.environ if env is None else env), "PWD": str(cwd)}, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT
             )
         except OSError as error:
             print(f"{argv[0]}: {error.strerror}", file=out)
@@ -57,8 +60,17 @@ def read_last_line(log: Path) -> str:
     return next((line.strip() for line in reversed(lines) if line.strip()), "")
 
 
+def discard_output() -> None:
+    """Sends standard output to nowhere, so that Python does not complain at its end about a reader that is gone."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def raise_on_signals() -> None:
-    """SIGINT and SIGTERM both stop the command in order, also where a parent shell had told it to ignore SIGINT."""
+    """SIGINT and SIGTERM both stop the command in order, also where a parent shell had told it to ignore SIGINT.
+
+    A child of a child whose own parent is ended first by the same signal becomes a child of this process, not of init.
+    """
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
     def stop(number: int, _frame: object) -> NoReturn:
         raise KeyboardInterrupt(signal.Signals(number).name)

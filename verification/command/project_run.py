@@ -16,6 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TextIO
 
+from mamori.profiles.text_file import write_text
+from mamori.trace.whole_file import whole_file
 from mamori.verification.command import ctest_run, gtest_program
 from mamori.verification.command.ctest_run import ProjectTest, Record
 from mamori.verification.command.errors import StepError
@@ -189,9 +191,8 @@ def _name_result(junit: Path, test: ProjectTest, index: int) -> Path:
 
 def _give(path: Path, junit: Path, test: ProjectTest, index: int) -> Path:
     target = _name_result(junit, test, index)
-    part = junit / f".{target.name}.part"
-    shutil.copy(path, part)
-    part.replace(target)
+    with whole_file(target) as part:
+        shutil.copyfile(path, part)
     return target
 
 
@@ -202,12 +203,11 @@ def _write_record(record: Record, junit: Path, test: ProjectTest, index: int) ->
     if record.verdict != "passed":
         ElementTree.SubElement(case, "failure" if record.verdict == "failed" else "skipped", message=record.message)
     target = _name_result(junit, test, index)
-    part = junit / f".{target.name}.part"
-    ElementTree.ElementTree(suite).write(part, encoding="utf-8", xml_declaration=True)
-    part.replace(target)
+    with whole_file(target) as part:
+        ElementTree.ElementTree(suite).write(part, encoding="utf-8", xml_declaration=True)
     return target
 
 
 def _write_programs(tests: list[ProjectTest], collected: Collected, folder: Path) -> None:
     programs = {path.name: test.command[0] for test in tests if test.command for path in collected.files.get(test.number, ())}
-    (folder / PROGRAMS).write_text(json.dumps(programs, indent=1) + "\n", encoding="utf-8")
+    write_text(folder / PROGRAMS, json.dumps(programs, indent=1) + "\n")

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TextIO
 
+from mamori.profiles.input_error import InputError
 from mamori.verification.command.console import Screen
 from mamori.verification.command.errors import StepError
 from mamori.verification.command.junit import Counts, count_results, list_failures
@@ -153,20 +154,31 @@ def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:
     part = project.junit / f".{step.result}.part"
     values = {"root": str(project.root), "build": str(project.build), "evidence": str(project.evidence),
               "junit": str(project.junit), "python": sys.executable, "jobs": str(context.jobs), "result": str(part)}
-    for command in step.commands:
-        argv = [word for template in command for word in _expand(template, step.lists, values)]
-        status = run_logged(argv, log, project.root, tick)
-        if step.result and part.exists():
-            os.replace(part, project.junit / step.result)
-        if status not in step.accepted:
-            return f"{Path(argv[0]).name} ended with status {status}"
+    try:
+        reason = _run_commands(step, values, part, context, log, tick)
+    finally:
+        part.unlink(missing_ok=True)
+    if reason:
+        return reason
     if step.function is not None:
         with log.open("a", encoding="utf-8") as out:
             try:
                 step.function(context, tick, out)
-            except (StepError, OSError) as error:
+            except (StepError, InputError, OSError) as error:
                 print(error, file=out)
                 return str(error)
+    return ""
+
+
+def _run_commands(step: Step, values: dict[str, str], part: Path, context: Context, log: Path, tick: Tick) -> str:
+    """@return which command failed, or nothing."""
+    for command in step.commands:
+        argv = [word for template in command for word in _expand(template, step.lists, values)]
+        status = run_logged(argv, log, context.project.root, tick)
+        if step.result and part.exists():
+            os.replace(part, context.project.junit / step.result)
+        if status not in step.accepted:
+            return f"{Path(argv[0]).name} ended with status {status}"
     return ""
 
 

@@ -7,12 +7,12 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from mamori.profiles.text_file import write_text
 from mamori.verification.coverage.gaps import Gap, Verdict
 from mamori.verification.coverage.reached import Function
 
@@ -103,6 +103,4 @@ def write_evidence(
     }
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in (("coverage.json", json.dumps(content, indent=1)), ("coverage.txt", table + "\n")):
-        part = folder / f"{name}.part"
-        part.write_text(text, encoding="utf-8")
-        os.replace(part, folder / name)
+        write_text(folder / name, text)

@@ -14,12 +14,12 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
-import os
 import sys
 from collections.abc import Sequence
 from itertools import islice
 from pathlib import Path
 
+from mamori.profiles.text_file import write_text
 from mamori.verification.e2e.residual import CRC32, CRC32_P4, Checksum, Spectrum, calc_spectrum, count_patterns
 
 FOLDER = Path(__file__).parent / "spectra"
@@ -64,9 +64,7 @@ def check(spectrum: Spectrum) -> None:
 def store(spectrum: Spectrum) -> Path:
     """Writes the file whole or not at all. @return its path."""
     path = locate(spectrum.checksum, spectrum.bits // 8)
-    unfinished = path.with_suffix(".part")
-    unfinished.write_text(json.dumps(_describe(spectrum), separators=(",", ":")) + "\n", encoding="utf-8")
-    os.replace(unfinished, path)
+    write_text(path, json.dumps(_describe(spectrum), separators=(",", ":")) + "\n")
     return path
 
 

@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import shlex
 import sys
@@ -17,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mamori.profiles.input_error import nearest_names
+from mamori.profiles.text_file import write_text
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
 from mamori.verification.command.project import ROOT, Project
 from mamori.verification.fuzz.harness import FuzzError, Harness, Run, build_harnesses, find_harnesses, keep_inputs, run_harness
@@ -113,9 +113,7 @@ def write_json(path: Path, runs: Sequence[Run], seconds: int) -> None:
         ],
     }  # fmt: skip
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_suffix(".part")
-    part.write_text(json.dumps(content, indent=1), encoding="utf-8")
-    os.replace(part, path)
+    write_text(path, json.dumps(content, indent=1))
 
 
 def _say(text: str) -> None:

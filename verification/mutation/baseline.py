@@ -7,12 +7,12 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import tomllib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from mamori.profiles.text_file import write_text
 from mamori.verification.mutation.operators import iterate_words
 from mamori.verification.mutation.score import Counts, add_up_layers
 from mamori.verification.mutation.sources import LAYERS, Layer, MutationError, get_layer
@@ -114,9 +114,7 @@ def write_store(entries: Mapping[str, Entry], path: Path = STORE) -> None:
         counts = ", ".join(f"{name} = {value}" for name, value in asdict(entry.counts).items())
         lines.append(f'["{file}"]\nfingerprint = "{entry.fingerprint}"\ncommit = "{entry.commit}"\ndate = "{entry.date}"\n'
                      f"counts = {{{counts}}}\n")  # fmt: skip
-    part = path.with_suffix(".part")
-    part.write_text("\n".join(lines), encoding="utf-8")
-    os.replace(part, path)
+    write_text(path, "\n".join(lines))
 
 
 def judge_store(entries: Mapping[str, Entry], mutated: Mapping[str, Mutated]) -> Standing:

@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 import json
-import os
 import queue
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -16,6 +15,7 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
+from mamori.profiles.text_file import write_text
 from mamori.verification.mutation.baseline import Standing
 from mamori.verification.mutation.equivalent import Row, match
 from mamori.verification.mutation.operators import Mutant, make_mutants
@@ -183,9 +183,7 @@ def write_json(path: Path, report: Report, selection: Selection, stored: Standin
         "mutants": [_describe(result, report.plan) for result in report.results],
     }
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_suffix(".part")
-    part.write_text(json.dumps(content, indent=1), encoding="utf-8")
-    os.replace(part, path)
+    write_text(path, json.dumps(content, indent=1))
 
 
 def _sum_up(counts: Counts, layer: Layer) -> dict[str, object]:

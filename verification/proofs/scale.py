@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from mamori.profiles.text_file import write_text
 from mamori.verification.proofs.determinism import HASH, ProofError, Variant
 
 PROGRAM = Path("verification") / "integration" / "scale_run"
@@ -91,6 +92,4 @@ def write_record(path: Path, runs: Sequence[tuple[str, Run]]) -> None:
     """Writes the named runs with their speed, whole or not at all."""
     record = {"runs": [{"name": name, **asdict(run), "times_real_time": round(run.speed, 1)} for name, run in runs]}
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_suffix(".part")
-    part.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
-    part.replace(path)
+    write_text(path, json.dumps(record, indent=2) + "\n")

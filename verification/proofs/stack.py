@@ -19,6 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from mamori.profiles.text_file import write_text
 from mamori.verification.command.project import ROOT
 from mamori.verification.proofs.call_graph import CallGraph, Finding, Rules, make_call_graph, read_rules, split_signature
 from mamori.verification.proofs.depth import calc_deepest_paths, find_groups, is_recursive
@@ -98,9 +99,7 @@ def write_evidence(analyses: Sequence[Analysis], folder: Path, **more: object) -
     folder.mkdir(parents=True, exist_ok=True)
     record = {**make_record(analyses), **more}
     for name, text in (("stack.json", json.dumps(record, indent=1) + "\n"), ("stack.txt", make_table(analyses))):
-        part = folder / f".{name}.part"
-        part.write_text(text, encoding="utf-8")
-        part.replace(folder / name)
+        write_text(folder / name, text)
 
 
 def _find_entries(graph: CallGraph) -> list[Entry]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -20,8 +19,8 @@ from typing import BinaryIO
 
 from mcap.writer import Writer
 
-from mamori.profiles.input_error import InputError
-from mamori.profiles.text_file import write_text
+from mamori.profiles.text_file import refuse_output, write_text
+from mamori.trace.whole_file import whole_file
 from mamori.verification.recorder.names import Names
 from mamori.verification.recorder.region import Finding, Record, Recording
 from mamori.verification.recorder.show import format_crash, format_time
@@ -126,12 +125,8 @@ def _make_crash(recording: Recording) -> dict[str, object] | None:
 @contextmanager
 def _replace(path: Path) -> Iterator[BinaryIO]:
     """A file that takes the place of `path` when the block ends well, and is gone otherwise."""
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        with partial.open("wb") as stream:
+        with whole_file(path) as part, part.open("wb") as stream:
             yield stream
-        os.replace(partial, path)
     except OSError as error:
-        raise InputError(f"cannot be written: {error.strerror}; check the folder and its permissions", path) from error
-    finally:
-        partial.unlink(missing_ok=True)
+        raise refuse_output(path, error) from error

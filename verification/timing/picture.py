@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +18,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullFormatter, NullLocator
 
+from mamori.trace.whole_file import whole_file
 from mamori.verification.timing.analysis import calc_execution, calc_lateness
 from mamori.verification.timing.reader import Array
 from mamori.verification.timing.report import Report
@@ -211,11 +211,7 @@ def _save(figure: Figure, folder: Path, name: str) -> list[Path]:
     paths = []
     for suffix in SUFFIXES:
         path = folder / f"{name}{suffix}"
-        partial = path.with_name(f".{name}.{os.getpid()}.part{suffix}")
-        try:
-            figure.savefig(partial, dpi=130, metadata={"Date": None} if suffix == ".svg" else None)
-            os.replace(partial, path)
-        finally:
-            partial.unlink(missing_ok=True)
+        with whole_file(path) as part:
+            figure.savefig(part, format=suffix[1:], dpi=130, metadata={"Date": None} if suffix == ".svg" else None)
         paths.append(path)
     return paths

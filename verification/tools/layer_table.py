@@ -62,3 +62,6 @@ FORBIDDEN_IMPORTS = {
     "trace/reports": ("mamori.trace.formats", *_TRACE_UPPER[2:]),
     "profiles": ("mamori.trace", "mamori.verification"),
 }
+
+# Exceptions: there is one way to write a file, and both products use it.
+ALLOWED_IMPORTS = {"profiles": ("mamori.trace.whole_file.",)}

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The one way in which the host tools write a file: complete, or not at all. `profiles` and `verification` use it as well.
+
+A link stays what it is; the file that it leads to is replaced and keeps its mode. Devices and folders are rejected.
+
+@satisfies SWR-CLI-043      Design: docs/design/launcher.md#files-that-are-written
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+
+
+class TargetError(OSError):
+    """The path cannot be a file. `str()` is the reason and the remedy, without the path."""
+
+
+@contextlib.contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """A temporary name beside the file that `path` leads to; it takes the place of that file when the block ends without an exception.
+
+    Raises OSError. After any exception, KeyboardInterrupt included, the old file is untouched and the temporary one is gone.
+    """
+    target = find_target(path)
+    part = name_part(target)
+    try:
+        yield part
+        with contextlib.suppress(FileNotFoundError):
+            part.chmod(stat.S_IMODE(target.stat().st_mode))
+        part.replace(target)
+    finally:
+        with contextlib.suppress(OSError):
+            part.unlink(missing_ok=True)
+
+
+def find_target(path: Path) -> Path:
+    """The file that is to be written, links followed. Raises TargetError, and OSError."""
+    if not path.name:
+        raise TargetError(f"'{path}' names no file")
+    target = Path(os.path.realpath(path))
+    if target.is_symlink():
+        raise TargetError("is a loop of links; mend the link")
+    if target.exists() and not target.is_file():  # the rename would put a file in the place of a device, such as /dev/stdout
+        raise TargetError("is a folder or a device; name a file")
+    if path.is_symlink() and not target.parent.is_dir():
+        raise TargetError(f"leads to {target}, and there is no such folder; mend the link")
+    return target
+
+
+def name_part(target: Path) -> Path:
+    """A name beside `target` for what is not whole yet."""
+    return target.with_name(f".{target.name}.{os.getpid()}.part")

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+# Goal: Ctrl-C at any step gives status 130 and one line, ends the children, leaves no half-written file, and the next run works.
+# Method: a plan of real steps that is stopped in each of them, and each light command that is stopped at many times; the signal goes to
+# the whole process group, as a terminal sends it, or to the command alone.
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pytest
+
+from mamori.trace.project_lock import LOCK
+from mamori.verification.command.project import ROOT, Project
+
+PLAN = """
+import sys
+from pathlib import Path
+from mamori.profiles.text_file import write_text
+from mamori.trace.project_lock import hold_lock
+from mamori.verification.command import main as command
+from mamori.verification.command.process import end_children
+from mamori.verification.command.project import Project
+from mamori.verification.command.steps import Context, Step, all_passed, run_steps
+
+folder, stopped_in = Path(sys.argv[1]), sys.argv[2]
+project = Project(folder)
+project.junit.mkdir(parents=True, exist_ok=True)
+waiting = f"echo $$ >{folder}/pid; sleep 60 & wait"
+half = '<testsuite><testcase name="a">'
+
+def shell(name, text):
+    return ("sh", "-c", f"{waiting}" if name == stopped_in else text)
+
+def write(context, tick, log):
+    if stopped_in == "function":
+        with open(folder / "pid", "w") as file:
+            print("0", file=file)
+        while True:
+            write_text(project.evidence / "figures.json", "x" * 5_000_000)
+    write_text(project.evidence / "figures.json", "{}")
+
+def results(name):
+    text = f"printf '%s' '{half}' >{{result}}; " + (waiting if name == stopped_in else "printf '%s' '</testcase></testsuite>' >>{result}")
+    return Step(name, (("sh", "-c", text),), result=f"{name}.xml")
+
+STEPS = [Step("build", (shell("build", "true"),)), results("tests"), Step("two", (shell("two", "true"), shell("second", "true"))),
+         Step("function", function=write), results("last")]
+
+def run(argv):
+    with hold_lock(folder, "plan"):
+        try:
+            return 0 if all_passed(run_steps(STEPS, Context(project, 1))) else 1
+        except KeyboardInterrupt:
+            end_children()
+            raise
+
+command.run = run
+sys.exit(command.main([]))
+"""
+TIMEOUT_S = 20.0
+LIGHT = [
+    "e2e --profile 4 --length 4096 --rate 100 --pe 0.01",
+    "trace check --no-cache --root {folder}",
+    "trace report --allow-missing --root {folder}",
+    "trace export csv --root {folder} --out {folder}/items.csv",
+    "trace review --all --by me --root {folder}",
+    "mutate --list",
+    "new {folder}/robot",
+]
+DELAYS_S = (0.08, 0.15, 0.25, 0.4)
+
+
+def list_session(leader: int) -> list[str]:
+    """Living processes of a session."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            text = path.read_text(encoding="utf-8", errors="replace")
+        except OSError:
+            continue
+        state, _, _, session = text.rsplit(") ", 1)[1].split()[:4]
+        if state != "Z" and int(session) == leader:
+            found.append(text)
+    return found
+
+
+def start(*words: str) -> subprocess.Popen[str]:
+    return subprocess.Popen([sys.executable, "-P", *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
+                            cwd=ROOT)  # fmt: skip
+
+
+def stop(process: subprocess.Popen[str], is_group: bool) -> tuple[int, str]:
+    """@return exit status and what was said on standard error; nothing that it started is alive."""
+    (os.killpg if is_group else os.kill)(process.pid, signal.SIGINT)
+    _, said = process.communicate(timeout=TIMEOUT_S)
+    assert list_session(process.pid) == []
+    return process.returncode, said
+
+
+def list_unfinished(folder: Path) -> list[Path]:
+    return [*folder.rglob("*.part"), *folder.rglob(LOCK.name)]
+
+
+@pytest.mark.parametrize("is_group", [False, True], ids=["alone", "group"])
+@pytest.mark.parametrize("step", ["build", "tests", "two", "second", "function", "last"])
+@pytest.mark.verifies("SWR-CLI-045", technique="fault_injection")
+def test_a_plan_that_is_stopped_in_any_step_leaves_nothing_half_written_and_runs_again(step: str, is_group: bool, tmp_path: Path) -> None:
+    runner = start("-c", PLAN, str(tmp_path), step)
+    deadline = time.monotonic() + TIMEOUT_S
+    while not ((tmp_path / "pid").exists() and (tmp_path / "pid").read_text().strip()):
+        assert time.monotonic() < deadline, "the step did not start"
+        time.sleep(0.02)
+    time.sleep(0.1)
+
+    status, said = stop(runner, is_group)
+
+    assert (status, said.strip()) == (130, "mamori: stopped; no report was written")
+    assert list_unfinished(tmp_path) == []
+    for path in Project(tmp_path).junit.iterdir():
+        ElementTree.parse(path)
+    figures = Project(tmp_path).evidence / "figures.json"
+    assert not figures.exists() or figures.stat().st_size in (2, 5_000_000)
+
+    again = start("-c", PLAN, str(tmp_path), "")
+
+    assert again.communicate(timeout=TIMEOUT_S)[1] == ""
+    assert again.returncode == 0
+    assert sorted(path.name for path in Project(tmp_path).junit.iterdir()) == ["last.xml", "tests.xml"]
+
+
+@pytest.fixture(scope="module")
+def sample(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("sample")
+    done = start("-m", "mamori.verification.command", "trace", "init", "--root", str(folder))
+    assert done.communicate(timeout=TIMEOUT_S)[1] == ""
+    evidence = folder / "build" / "host-release" / "evidence" / "junit"
+    evidence.mkdir(parents=True)
+    (evidence / "a.xml").write_text('<testsuite><testcase name="a"/></testsuite>', encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("delay_s", DELAYS_S)
+@pytest.mark.parametrize("words", LIGHT, ids=lambda words: " ".join(words.split()[:2]))
+@pytest.mark.verifies("SWR-CLI-045", technique="fault_injection")
+def test_a_light_command_that_is_stopped_at_any_time_leaves_nothing_half_written(words: str, delay_s: float, sample: Path) -> None:
+    process = start("-m", "mamori.verification.command", *words.format(folder=sample).split())
+    time.sleep(delay_s)
+
+    if process.poll() is not None:
+        process.communicate()
+        return  # it was done earlier
+    status, said = stop(process, is_group=True)
+
+    # The signal may come when the work is done: Python's own end is ended by it, which a shell counts as 130.
+    assert status in (130, 0, 1, -signal.SIGINT), said
+    assert "Traceback" not in said
+    if status == 130:
+        assert said.strip().endswith("mamori: stopped; no report was written")
+    assert list_unfinished(sample) == []
+    assert [path.name for path in sample.iterdir() if path.name.startswith(".")] == []
