@@ -16,6 +16,7 @@ POLARITIES = ("nominal", "violation")
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line("markers", "long: only `./mamori test --all` runs the test")
     config.addinivalue_line(
         "markers",
         "verifies(requirement, technique='requirements_based', polarity='nominal'): the requirement that the test verifies",

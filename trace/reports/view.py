@@ -49,6 +49,16 @@ def group_tags(tags: list[CodeTag]) -> list[tuple[str, list[CodeTag]]]:
     return sorted(files.items())
 
 
+def describe_full_run(record: object) -> dict[str, Any]:
+    """Date, commit and failed steps of the last whole run; nothing where the environment tells of none."""
+    if not isinstance(record, dict) or not isinstance(record.get("steps"), list):
+        return {}
+    steps = [step for step in record["steps"] if isinstance(step, dict)]
+    failed = [str(step.get("name")) for step in steps if step.get("verdict") != "passed"]
+    return {"date": str(record.get("date_utc"))[:10], "commit": str(record.get("commit")), "dirty": record.get("dirty") is True,
+            "count": len(steps), "failed": failed}  # fmt: skip
+
+
 def describe_environment(environment: dict[str, Any]) -> dict[str, Any]:
     """The record with every entry present, as text or as a table of texts; empty where there is no record."""
     if not environment:
@@ -59,4 +69,5 @@ def describe_environment(environment: dict[str, Any]) -> dict[str, Any]:
         table = environment.get(name)
         shown[name] = {str(key): str(value) for key, value in table.items()} if isinstance(table, dict) else {}
     shown["dirty"] = environment.get("dirty") is True
+    shown["full_run"] = describe_full_run(environment.get("full_run"))
     return shown

@@ -17,6 +17,7 @@ from typing import Any
 
 from mamori.profiles.text_file import write_text
 from mamori.trace.git_run import run_git
+from mamori.verification.command.full_run import read_full_run
 from mamori.verification.command.project import Project
 from mamori.verification.command.records import collect_inputs
 
@@ -48,6 +49,7 @@ def collect_environment(project: Project, command: Sequence[str]) -> dict[str, A
         "compilers": compilers,
         "packages": _get_packages(names),
         "python": platform.python_version(),
+        "full_run": read_full_run(project.root),
         "inputs": collect_inputs(project, compilers, platform.python_version()),
     }
 

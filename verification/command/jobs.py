@@ -21,7 +21,7 @@ from mamori.verification.command.campaign_table import summarise_campaign
 from mamori.verification.command.environment import write_environment
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
 from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
-from mamori.verification.command.steps import FAILURES_SHOWN, Context, Outcome, all_passed, run_steps, total
+from mamori.verification.command.steps import FAILURES_SHOWN, Context, Outcome, Tier, all_passed, run_steps, total
 
 FAILURE_LENGTH = 2000  # characters of a failed result in the closing lines
 SHOWN_WIDTH = 110  # characters of a line of names
@@ -37,17 +37,17 @@ def demo(jobs: int, motion: Path | None, scenarios: tuple[str, ...], instants: i
     plan = plans.demo_plan(request.run)
     outcomes = run_steps(plan, context)
     show_campaign(context)
-    show_not_run(plans.find_not_run(plan, plans.test_plan(project, request.run, quick=False)), context)
+    show_not_run(plans.find_not_run(plan, plans.test_plan(project, request.run, Tier.GATE)), context)
     return finish(outcomes, context)
 
 
-def test(jobs: int, quick: bool) -> int:
-    """Everything that CI runs. @return exit status."""
+def test(jobs: int, tier: Tier) -> int:
+    """The steps of `tier`. @return exit status."""
     project = Project(ROOT)
     request = CampaignRequest(project.motion)
     request.check(project)
     context = begin(project, jobs, (RELEASE, SANITIZED))
-    outcomes = run_steps(plans.test_plan(project, request.run, quick), context)
+    outcomes = run_steps(plans.test_plan(project, request.run, tier), context)
     show_steps(outcomes, context)
     return finish(outcomes, context)
 

@@ -22,6 +22,7 @@ from mamori.verification.command.errors import EXIT_INTERRUPTED, EXIT_MISSING, E
 from mamori.verification.command.locks import hold_locks
 from mamori.verification.command.process import discard_output, end_children, raise_on_signals
 from mamori.verification.command.project import RELEASE
+from mamori.verification.command.steps import Tier
 from mamori.verification.recorder import command as recorder_log
 from mamori.verification.table_dump import command as table_dump
 
@@ -79,7 +80,9 @@ def make_parser(with_trace: bool = False) -> Parser:
     one = add("run")
     one.add_argument("--motion", type=Path, metavar="FILE")
     one.add_argument("--fault", metavar="FAULT")
-    add("test").add_argument("--quick", action="store_true")
+    tier = add("test").add_mutually_exclusive_group()
+    for option, steps in (("--quick", Tier.QUICK), ("--all", Tier.ALL)):
+        tier.add_argument(option, action="store_const", dest="tier", const=steps, default=Tier.GATE)
     add("build", with_project=True).add_argument("--preset", default=RELEASE, metavar="NAME")
     add("verify", with_project=True)
     commands.add_parser("new", allow_abbrev=False).add_argument("path", type=Path, metavar="NAME")
@@ -96,6 +99,7 @@ def make_parser(with_trace: bool = False) -> Parser:
     mutate.add_argument("--seed", type=int, default=1, metavar="S")
     mutate.add_argument("--list", action="store_true")
     mutate.add_argument("--store", action="store_true")
+    mutate.add_argument("--missing", action="store_true")
     timing = add("timing")
     timing.add_argument("system", metavar="SYSTEM")
     timing.add_argument("--cycles", type=at_least_one, default=60_000, metavar="N")
@@ -149,7 +153,7 @@ def _dispatch(arguments: argparse.Namespace, passed_on: tuple[str, ...]) -> int:
 
             return run_case(arguments.jobs, arguments.motion, arguments.fault)
         case "test":
-            return jobs.test(arguments.jobs, arguments.quick)
+            return jobs.test(arguments.jobs, arguments.tier)
         case "build":
             return jobs.build(arguments.jobs, arguments.project, arguments.preset)
         case "verify":
@@ -181,7 +185,7 @@ def _dispatch(arguments: argparse.Namespace, passed_on: tuple[str, ...]) -> int:
 
             return mutation.mutate(
                 mutation.Request(tuple(arguments.files), arguments.sample, arguments.seed, arguments.jobs, arguments.list,
-                                 arguments.store)
+                                 arguments.store, arguments.missing)
             )  # fmt: skip
         case "prove":
             from mamori.verification.safe_state import command as proving

@@ -6,10 +6,11 @@
 
 from __future__ import annotations
 
+from mamori.verification.command.full_run import record_full_run
 from mamori.verification.command.project import CHECKED_LAYERS, RELEASE, ROOT, SANITIZED, Project
 from mamori.verification.command.project_run import run_project_tests
 from mamori.verification.command.records import record_evidence
-from mamori.verification.command.steps import Action, Step
+from mamori.verification.command.steps import Action, Step, Tier
 
 PYTHON = ("{python}", "-P", "-m")
 PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
@@ -21,10 +22,11 @@ INSTALL = "install the package"
 BUILD_USER = "build the project"
 REPORT = "report"
 TIMING_CYCLES = "2000"
+FUZZ_S, LONG_FUZZ_S = 5, 600  # time for each harness
 EXAMPLE_TARGET = "safe_arm"
 
 
-def build_step(preset: str, slow: bool = False, targets: tuple[str, ...] = ("all",)) -> Step:
+def build_step(preset: str, tier: Tier = Tier.QUICK, targets: tuple[str, ...] = ("all",)) -> Step:
     """Mamori itself, or only its `targets` and what they need."""
     return Step(
         name=f"build {preset}",
@@ -32,17 +34,17 @@ def build_step(preset: str, slow: bool = False, targets: tuple[str, ...] = ("all
             ("cmake", "-S", str(ROOT), "--preset", preset),
             ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}", "--target", *targets),
         ),
-        slow=slow,
+        tier=tier,
     )
 
 
-def ctest_step(preset: str, slow: bool = False) -> Step:
+def ctest_step(preset: str, tier: Tier = Tier.QUICK) -> Step:
     return Step(
         name=f"tests {preset}",
         commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error"), (*REPEAT, preset)),
         needs=(f"build {preset}",),
         junit=f"build/{preset}/evidence/junit",
-        slow=slow,
+        tier=tier,
     )
 
 
@@ -58,26 +60,24 @@ def race_steps() -> tuple[Step, ...]:
             ("cmake", "-S", str(ROOT), "--preset", preset, "-DMAMORI_WITH_SIMBODY_SIM=OFF"),
             ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}", "--target", *targets),
         ),
-        slow=True,
     )
     run = Step(
         name=f"tests {preset}",
         commands=(("ctest", "--preset", preset, "--no-tests=error", "--tests-regex", "|".join(targets)), (*REPEAT, preset, *targets)),
         needs=(build.name,),
         junit=f"build/{preset}/evidence/junit",
-        slow=True,
     )
     return build, run
 
 
-def proof_step(name: str, file: str, needs: tuple[str, ...] = (BUILD,), slow: bool = False) -> Step:
+def proof_step(name: str, file: str, needs: tuple[str, ...] = (BUILD,), tier: Tier = Tier.GATE) -> Step:
     """One proof: a pytest file of verification/proofs."""
     return Step(
         name=name,
         commands=((*PYTEST, f"verification/proofs/test_{file}.py"),),
         needs=needs,
         result=f"proof-{file}.xml",
-        slow=slow,
+        tier=tier,
     )
 
 
@@ -116,8 +116,8 @@ def safe_state_step() -> Step:
 
 HOST_TOOLS = Step(name="tests of the host tools", commands=(PYTEST,), result="python-tools.xml")
 REPORT_IN_BROWSER = Step(name="report in a browser", commands=((*PYTEST, "trace/tests/browser"),), result="report-browser.xml")
-LAYERS = Step(name="layer check", commands=((*PYTHON, "mamori.verification.tools.check_layers"),))
-PYTHON_CHECKS = Step(name="Python checks", commands=((*PYTHON, "mamori.verification.tools.check_python", "--root", "{root}"),))
+LAYERS = Step(name="layer check", commands=((*PYTHON, "mamori.verification.tools.check_layers"),), tier=Tier.QUICK)
+PYTHON_CHECKS = Step(name="Python checks", commands=((*PYTHON, "mamori.verification.tools.check_python", "--root", "{root}"),), tier=Tier.QUICK)
 
 
 def format_step(project: Project) -> Step:
@@ -125,6 +125,7 @@ def format_step(project: Project) -> Step:
         name="format check",
         commands=(("clang-format-19", "--dry-run", "--Werror", "{files}"),),
         lists={"{files}": project.cpp_sources()},
+        tier=Tier.QUICK,
     )
 
 
@@ -139,7 +140,6 @@ def tidy_step() -> Step:
             ),
         ),
         needs=(BUILD,),
-        slow=True,
     )  # fmt: skip
 
 
@@ -160,14 +160,19 @@ def cppcheck_step(project: Project) -> Step:
             ),
         ),
         lists={"{includes}": includes, "{files}": sources},
+        tier=Tier.QUICK,
     )  # fmt: skip
 
 
 def trace_steps(*options: str) -> tuple[Step, ...]:
     """Records, trace check and report: the end of every plan. The report is written also when something failed before."""
     return (
-        Step(name="evidence records", function=record_evidence),
-        Step(name="trace check", commands=((*COMMAND, "trace", "check", "--no-cache", "--root", "{root}", *options),)),
+        Step(name="evidence records", function=record_evidence, tier=Tier.QUICK),
+        Step(
+            name="trace check",
+            commands=((*COMMAND, "trace", "check", "--no-cache", "--root", "{root}", *options),),
+            tier=Tier.QUICK,
+        ),
         Step(
             name=REPORT,
             commands=((*COMMAND, "trace", "report", "--root", "{root}", *options),),
@@ -182,17 +187,41 @@ def strength_steps() -> tuple[Step, ...]:
     folder = "verification"
     return (
         Step(name="MC/DC of kernel and safety", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
-             result="strength-coverage.xml", slow=True),
-        Step(name="mutation samples", commands=((*PYTEST, f"{folder}/mutation"),),
-             result="strength-mutation.xml", slow=True),
-        Step(name="fuzz 30 s", commands=((*PYTEST, f"{folder}/fuzz/test_fuzz.py"),
-                                         (*COMMAND, "fuzz", "--seconds", "30", "--jobs", "{jobs}")),
-             result="strength-fuzz.xml", slow=True),
+             result="strength-coverage.xml"),
+        Step(name="mutation", commands=((*PYTEST, f"{folder}/mutation"),), result="strength-mutation.xml"),
+        Step(name=f"fuzz {FUZZ_S} s each", commands=((*PYTEST, f"{folder}/fuzz/test_fuzz.py"), make_fuzz_command(FUZZ_S)), result="strength-fuzz.xml"),
     )  # fmt: skip
 
 
+def make_fuzz_command(seconds: int) -> tuple[str, ...]:
+    return (*COMMAND, "fuzz", "--seconds", str(seconds), "--jobs", "{jobs}")
+
+
+def long_steps() -> tuple[Step, ...]:
+    """What takes hours, or a host of its own for a while: run before a release, and recorded with date and commit."""
+
+    def campaign(name: str, *arguments: str) -> Step:
+        return Step(
+            name=f"long run of {name}",
+            commands=((f"{{build}}/verification/{name}/{name}", *arguments),),
+            needs=(BUILD,),
+            accepted=(0, 4),  # 4: the host is at fault, with the figure in the log
+            tier=Tier.ALL,
+        )
+
+    return (
+        Step(name="mutation rows", commands=((*COMMAND, "mutate", "--missing", "--store", "--jobs", "{jobs}"),), tier=Tier.ALL),
+        Step(name="mutation samples", commands=((*PYTEST, "-m", "long", "verification/mutation"),), result="strength-sample.xml", tier=Tier.ALL),
+        Step(name=f"fuzz {LONG_FUZZ_S} s each", commands=(make_fuzz_command(LONG_FUZZ_S),), tier=Tier.ALL),
+        campaign("time_faults", "610000", "1000", "1", "storm"),
+        campaign("partition_faults", "1000", "1"),
+        Step(name="verdicts in real time", commands=((*PYTHON, "mamori.verification.real_time", "--all"),), needs=(BUILD,), tier=Tier.ALL),
+        Step(name="record of the whole run", function=record_full_run, tier=Tier.ALL),
+    )
+
+
 def campaign_step(campaign: Action) -> Step:
-    return Step(name="fault campaign", function=campaign, needs=(BUILD,))
+    return Step(name="fault campaign", function=campaign, needs=(BUILD,), tier=Tier.QUICK)
 
 
 def timing_step() -> Step:
@@ -214,7 +243,6 @@ def cost_step() -> Step:
         commands=((*COMMAND, "cost", "examples/safe_arm", "--check", "examples/safe_arm/cost_baseline.toml", "--jobs", "{jobs}"),),
         needs=(BUILD,),
         produces=f"build/{RELEASE}/evidence/cost/safe_arm/cost.json",
-        slow=True,
     )
 
 
@@ -247,7 +275,7 @@ def verify_own_plan(campaign: Action) -> tuple[Step, ...]:
     )
 
 
-def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ...]:
+def test_plan(project: Project, campaign: Action, tier: Tier) -> tuple[Step, ...]:
     steps = (
         build_step(RELEASE),
         ctest_step(RELEASE),
@@ -258,27 +286,28 @@ def test_plan(project: Project, campaign: Action, quick: bool) -> tuple[Step, ..
         PYTHON_CHECKS,
         tidy_step(),
         cppcheck_step(project),
-        proof_step("symbol proof", "symbols"),
+        proof_step("symbol proof", "symbols", tier=Tier.QUICK),
         proof_step("bare-metal proof", "bare_metal", needs=()),
         proof_step("stack proof", "stack", needs=()),
-        proof_step("loop proof", "loops", needs=()),
+        proof_step("loop proof", "loops", needs=(), tier=Tier.QUICK),
         proof_step("consumer proof", "consumer"),
         proof_step("plain CMake proof", "plain_cmake"),
         proof_step("scale proof", "scale"),
         benchmark_step(),
         comparison_step(),
         safe_state_step(),
-        build_step(SANITIZED, slow=True),
-        ctest_step(SANITIZED, slow=True),
+        build_step(SANITIZED, Tier.GATE),
+        ctest_step(SANITIZED, Tier.GATE),
         *race_steps(),
-        proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}"), slow=True),
+        proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}")),
         *strength_steps(),
         campaign_step(campaign),
         timing_step(),
         cost_step(),
-        *trace_steps(*(("--allow-missing",) if quick else ())),
+        *long_steps(),
+        *trace_steps(*(("--allow-missing",) if tier == Tier.QUICK else ())),
     )
-    return tuple(step for step in steps if not (quick and step.slow))
+    return tuple(step for step in steps if step.tier <= tier)
 
 
 def build_plan(project: Project, target: str = "all") -> tuple[Step, ...]:

@@ -12,6 +12,7 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from enum import IntEnum
 from pathlib import Path
 from typing import TextIO
 
@@ -27,6 +28,14 @@ FAILURES_SHOWN = 10
 FAILURE_LENGTH = 200
 
 
+class Tier(IntEnum):
+    """The three runs of `./mamori test`. Each one has all steps of the one before."""
+
+    QUICK = 0
+    GATE = 1
+    ALL = 2
+
+
 @dataclass(frozen=True)
 class Context:
     """What a step may know about the run it is part of."""
@@ -34,6 +43,7 @@ class Context:
     project: Project
     jobs: int
     screen: Screen = field(default_factory=Screen)
+    outcomes: dict[str, Outcome] = field(default_factory=dict)  # of the steps that have ended
 
 
 Action = Callable[[Context, Tick, TextIO], None]
@@ -58,7 +68,7 @@ class Step:
     junit: str = ""  # folder, relative to the root, whose new JUnit files hold the results; default: that of the evidence
     produces: str = ""  # file, relative to the root, that the step must have written
     accepted: tuple[int, ...] = (0,)  # exit statuses of a command that did its work
-    slow: bool = False  # left out by --quick
+    tier: Tier = Tier.GATE  # the smallest run that has this step
 
 
 @dataclass(frozen=True)
@@ -78,7 +88,7 @@ class Outcome:
 def run_steps(steps: Sequence[Step], context: Context) -> list[Outcome]:
     """Runs all `steps` in order. @return one outcome per step."""
     context.project.logs.mkdir(parents=True, exist_ok=True)
-    outcomes: dict[str, Outcome] = {}
+    outcomes = context.outcomes
     for number, step in enumerate(steps, start=1):
         missing = [name for name in step.needs if name in outcomes and outcomes[name].verdict != "passed"]
         if missing:

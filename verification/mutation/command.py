@@ -40,6 +40,7 @@ class Request:
     jobs: int = 1
     only_list: bool = False
     store: bool = False
+    missing: bool = False  # only files without a row that counts
 
 
 def mutate(request: Request) -> int:
@@ -48,8 +49,11 @@ def mutate(request: Request) -> int:
     if request.store and request.sample is not None:
         raise UsageError("mutate: --store keeps the result of all mutants; leave --sample out")
     known = list_files(project.root)
-    selection = Selection(choose_files(request.files, known), request.sample, request.seed)
+    files = choose_files(request.files, known)
     try:
+        if request.missing:
+            files = tuple(file for file in files if file in read_standing(project.root).open_mutants)
+        selection = Selection(files, request.sample, request.seed)
         plan = make_plan(project.root, selection, read_list())
         if request.only_list:
             return show_plan(plan)

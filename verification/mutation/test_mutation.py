@@ -100,6 +100,7 @@ def test_stored_result_meets_the_bar_of_each_layer() -> None:
     assert read_standing(ROOT).findings == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("layer", LAYERS, ids=lambda layer: layer.name)
 @pytest.mark.verifies("SWR-VER-006")
 def test_sample_does_not_contradict_the_bar(layer: Layer) -> None:

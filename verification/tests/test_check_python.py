@@ -12,7 +12,7 @@ import pytest
 
 from mamori.verification.command import plans
 from mamori.verification.command.project import ROOT, Project
-from mamori.verification.command.steps import Context, run_steps
+from mamori.verification.command.steps import Context, Tier, run_steps
 from mamori.verification.tools import check_python
 
 CLEAN = "from __future__ import annotations\n\n\ndef double(value: int) -> int:\n    return 2 * value\n"
@@ -75,6 +75,6 @@ def test_a_missing_tool_is_one_line(root: Path, monkeypatch: pytest.MonkeyPatch,
 
 
 @pytest.mark.verifies("SWR-CLI-006", technique="interface")
-@pytest.mark.parametrize("quick", [False, True])
-def test_the_step_is_in_the_plan_of_every_test_run(quick: bool) -> None:
-    assert plans.PYTHON_CHECKS in plans.test_plan(Project(ROOT), lambda *_: None, quick)
+@pytest.mark.parametrize("tier", Tier)
+def test_the_step_is_in_the_plan_of_every_test_run(tier: Tier) -> None:
+    assert plans.PYTHON_CHECKS in plans.test_plan(Project(ROOT), lambda *_: None, tier)

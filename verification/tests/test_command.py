@@ -2,16 +2,19 @@
 # Goal: wrong arguments and input end with status 2 and one line that helps, before anything is built or thrown away.
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from mamori.verification.command import jobs, plans
+from mamori.verification.command.environment import collect_environment, write_environment
 from mamori.verification.command.errors import UsageError
+from mamori.verification.command.full_run import FILE, read_full_run, record_full_run
 from mamori.verification.command.main import main, make_parser
 from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
-from mamori.verification.command.steps import Context, Step, run_steps
+from mamori.verification.command.steps import Context, Outcome, Step, Tier, run_steps
 
 
 @pytest.mark.parametrize(
@@ -70,11 +73,11 @@ def test_a_run_begins_with_the_record_of_its_environment(tmp_path: Path) -> None
 
 
 @pytest.mark.verifies("SWR-CLI-006", technique="interface")
-@pytest.mark.parametrize("quick", [False, True])
-def test_each_step_of_the_plans_is_named_once_and_needs_earlier_ones_only(quick: bool) -> None:
+@pytest.mark.parametrize("tier", Tier)
+def test_each_step_of_the_plans_is_named_once_and_needs_earlier_ones_only(tier: Tier) -> None:
     nothing = lambda context, tick, log: None  # noqa: E731
     project = Project(ROOT)
-    for plan in (plans.demo_plan(nothing), plans.verify_own_plan(nothing), plans.test_plan(project, nothing, quick), plans.verify_plan(Project(Path("/x")))):
+    for plan in (plans.demo_plan(nothing), plans.verify_own_plan(nothing), plans.test_plan(project, nothing, tier), plans.verify_plan(Project(Path("/x")))):
         seen: list[str] = []
         for step in plan:
             assert step.name not in seen
@@ -98,7 +101,7 @@ def test_the_demo_builds_the_program_of_the_example_and_runs_no_test() -> None:
 
 @pytest.mark.verifies("SWR-CLI-012", polarity="violation")
 def test_each_step_of_the_gate_that_the_demo_leaves_out_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    demo, whole = plans.demo_plan(no_campaign), plans.test_plan(Project(ROOT), no_campaign, quick=False)
+    demo, whole = plans.demo_plan(no_campaign), plans.test_plan(Project(ROOT), no_campaign, Tier.GATE)
     names = plans.find_not_run(demo, whole)
 
     assert {step.name for step in demo} | set(names) == {step.name for step in whole}
@@ -109,6 +112,73 @@ def test_each_step_of_the_gate_that_the_demo_leaves_out_is_named(tmp_path: Path,
     shown = " ".join(capsys.readouterr().out.split())
     assert "not run (./mamori test" in shown
     assert ", ".join(names) in shown
+
+
+@pytest.mark.verifies("SWR-CLI-050")
+def test_the_table_of_the_manual_names_each_step_with_its_tier() -> None:
+    page = (ROOT / "docs" / "manual" / "test_tiers.md").read_text(encoding="utf-8")
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines() if line.startswith("| ")]
+    told = {row[0]: row[1] for row in rows if len(row) == 4 and row[0] != "step"}
+    steps = {step.name: "default" if step.tier == Tier.GATE else f"--{step.tier.name.lower()}"
+             for step in plans.test_plan(Project(ROOT), no_campaign, Tier.ALL)}  # fmt: skip
+
+    assert {name: tier.strip("`") for name, tier in told.items()} == steps
+
+
+@pytest.mark.verifies("SWR-CLI-050", technique="equivalence_classes")
+def test_each_tier_has_all_steps_of_the_one_before() -> None:
+    quick, gate, whole = ([step.name for step in plans.test_plan(Project(ROOT), no_campaign, tier)] for tier in Tier)
+
+    assert set(quick) < set(gate) < set(whole)
+    assert make_parser().parse_args(["test"]).tier == Tier.GATE
+    assert [make_parser().parse_args(["test", option]).tier for option in ("--quick", "--all")] == [Tier.QUICK, Tier.ALL]
+
+
+@pytest.mark.verifies("SWR-CLI-050", technique="error_guessing", polarity="violation")
+def test_two_tiers_at_once_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["test", "--quick", "--all"]) == 2
+    assert "not allowed with" in capsys.readouterr().err
+
+
+def record(project: Project, *steps: Step) -> Outcome:
+    """Runs `steps` and the record of a whole run after them."""
+    context = Context(project, 1)
+    return run_steps((*steps, Step("record", function=record_full_run)), context)[-1]
+
+
+@pytest.mark.verifies("SWR-CLI-050")
+def test_a_whole_run_is_recorded_with_date_commit_and_steps(tmp_path: Path) -> None:
+    project = Project(tmp_path)
+    (tmp_path / FILE).parent.mkdir()
+    write_environment(project, ["./mamori", "test", "--all"])
+    assert read_full_run(tmp_path) == {}
+
+    assert record(project, Step("good", (("true",),)), Step("bad", (("false",),))).verdict == "passed"
+
+    kept = read_full_run(tmp_path)
+    environment = json.loads((project.evidence / "environment.json").read_text(encoding="utf-8"))
+    assert environment["full_run"] == kept
+    assert (kept["date_utc"], kept["commit"]) == (environment["date_utc"], environment["commit"])
+    assert [(step["name"], step["verdict"]) for step in kept["steps"]] == [("good", "passed"), ("bad", "failed")]
+    assert collect_environment(project, ())["full_run"] == kept
+
+
+@pytest.mark.verifies("SWR-CLI-050", technique="error_guessing", polarity="violation")
+def test_a_whole_run_without_environment_is_not_recorded(tmp_path: Path) -> None:
+    outcome = record(Project(tmp_path))
+
+    assert (outcome.verdict, read_full_run(tmp_path)) == ("failed", {})
+    assert "environment.json: no record of what this run is made from" in outcome.reason
+
+
+@pytest.mark.verifies("SWR-CLI-050", technique="error_guessing", polarity="violation")
+@pytest.mark.parametrize("text", ["", "[]", '{"schema": "mamori.full_run/2"}'])
+def test_a_record_that_cannot_be_read_counts_as_none(tmp_path: Path, text: str) -> None:
+    path = tmp_path / FILE
+    path.parent.mkdir()
+    path.write_text(text, encoding="utf-8")
+
+    assert read_full_run(tmp_path) == {}
 
 
 @pytest.mark.verifies("SWR-CLI-006", technique="interface")

@@ -56,7 +56,7 @@ def test_second_run_installs_nothing(box: Box) -> None:
     ("words", "wanted", "unwanted"),
     [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("e2e",), "python3-venv", "cmake"),
      (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "strace"),
-     (("build", "--preset", "host-coverage"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
+     (("build", "--preset", "host-asan"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
      (("prove", "safe-state"), "spin", "cppcheck"), (("test",), "z3", "strace"), (("demo",), "cmake", "spin"),
      (("demo",), "cmake", "graphviz"), (("verify",), "graphviz", "cppcheck"), (("verify", "x"), "cmake", "graphviz"),
