@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
 import signal
@@ -94,10 +95,8 @@ def end_children() -> None:
 
 
 def _send(pid: int, number: signal.Signals) -> None:
-    try:
+    with contextlib.suppress(ProcessLookupError):  # it ended by itself in the meantime
         os.kill(pid, number)
-    except ProcessLookupError:
-        pass  # it ended by itself in the meantime
 
 
 def _get_descendants(ancestor: int) -> set[int]:

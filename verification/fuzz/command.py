@@ -19,15 +19,7 @@ from mamori.profiles.input_error import nearest_names
 from mamori.profiles.text_file import write_text
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
 from mamori.verification.command.project import ROOT, Project
-from mamori.verification.fuzz.harness import (
-    FuzzError,  # fmt: skip
-    Harness,
-    Run,
-    build_harnesses,
-    find_harnesses,
-    keep_inputs,
-    run_harness,
-)
+from mamori.verification.fuzz.harness import FuzzError, Harness, Run, build_harnesses, find_harnesses, keep_inputs, run_harness
 
 FOLDER = Path(__file__).resolve().parent
 SCHEMA = "mamori.fuzz/1"

@@ -14,15 +14,15 @@ from typing import Any
 import matplotlib
 
 matplotlib.use("Agg")
-import numpy as np  # noqa: E402
-from matplotlib.figure import Figure  # noqa: E402
-from matplotlib.ticker import FixedFormatter, FixedLocator, NullFormatter, NullLocator  # noqa: E402
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedFormatter, FixedLocator, NullFormatter, NullLocator
 
 from mamori.trace.whole_file import whole_file
-from mamori.verification.timing.analysis import calc_execution, calc_lateness  # noqa: E402
-from mamori.verification.timing.reader import Array  # noqa: E402
-from mamori.verification.timing.report import Report  # noqa: E402
-from mamori.verification.timing.text import format_us, make_printable, shorten  # noqa: E402
+from mamori.verification.timing.analysis import calc_execution, calc_lateness
+from mamori.verification.timing.reader import Array
+from mamori.verification.timing.report import Report
+from mamori.verification.timing.text import format_us, make_printable, shorten
 
 # Told apart by everybody, also in grey: measured, limit, and what is drawn beside them.
 MEASURED, LIMIT, INK, FAINT, WARN = "#0072b2", "#d55e00", "#222222", "#cccccc", "#b00020"
