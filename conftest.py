@@ -8,7 +8,12 @@
 
 from __future__ import annotations
 
+import contextlib
+from pathlib import Path
+
 import pytest
+
+from mamori.trace.project_lock import LockedError, hold_lock
 
 TECHNIQUES = ("requirements_based", "boundary_values", "equivalence_classes", "fault_injection", "state_transition",
               "error_guessing", "interface", "back_to_back")  # fmt: skip
@@ -21,6 +26,11 @@ def pytest_configure(config: pytest.Config) -> None:
         "markers",
         "verifies(requirement, technique='requirements_based', polarity='nominal'): the requirement that the test verifies",
     )
+    # Tests write to their checkout: parallel workers inherit one lock. Beside another command the tests run without it.
+    stack = contextlib.ExitStack()
+    with contextlib.suppress(LockedError, OSError):
+        stack.enter_context(hold_lock(Path(__file__).resolve().parent, "pytest"))
+    config.add_cleanup(stack.close)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

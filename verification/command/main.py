@@ -3,7 +3,7 @@
 
 The help texts are those of the launcher script, which answers --help before anything is installed.
 
-@satisfies SWR-CLI-005, SWR-CLI-008, SWR-CLI-044      Design: docs/design/launcher.md#launcher
+@satisfies SWR-CLI-005, SWR-CLI-008, SWR-CLI-044, SWR-CLI-046      Design: docs/design/launcher.md#launcher
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from mamori.verification.recorder import command as recorder_log
 from mamori.verification.table_dump import command as table_dump
 
 PROGRAM = "mamori"
+DIGITS_MAX = 12  # of an option that counts something
 
 
 class Parser(argparse.ArgumentParser):
@@ -56,8 +57,10 @@ class Parser(argparse.ArgumentParser):
 
 def at_least_one(text: str) -> int:
     """Type of an option that counts something."""
-    if not text.isdecimal() or int(text) < 1:
+    if not (text.isascii() and text.isdecimal()) or not text.strip("0"):
         raise argparse.ArgumentTypeError(f"'{text}' is no whole number from 1 on")
+    if len(text) > DIGITS_MAX:
+        raise argparse.ArgumentTypeError(f"'{text[:DIGITS_MAX]}...' has more than {DIGITS_MAX} digits; give a smaller number")
     return int(text)
 
 

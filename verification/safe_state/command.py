@@ -32,6 +32,7 @@ from mamori.verification.safe_state.defects import DEFECTS, Defect
 from mamori.verification.safe_state.machine import Machine, merge
 from mamori.verification.safe_state.prove import Result, make_record, prove
 from mamori.verification.safe_state.relation import read_relation, run_program
+from mamori.verification.timing.command import check_folder
 
 TARGET = "mamori_safe_state_relation"
 BRAKE_TARGET = "mamori_brake_sequence_relation"
@@ -62,10 +63,12 @@ class Proof:
 
 def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
     """@return exit status; 1 when a property is not proved, or when nothing could be proved, which is said on standard error.
-    @raise UsageError for an unknown defect."""
+    @raise UsageError for an unknown defect, or a folder that cannot be written to."""
     defect = choose_defect(request.defect)
     try:
         check_tools()
+        if request.out is not None:
+            check_folder(request.out, "prove")
         _build(project, request.jobs)
         programs = project.build / "verification" / "safe_state"
         proofs = _prove(run_program(programs / TARGET), run_program(programs / BRAKE_TARGET), defect)

@@ -3,19 +3,20 @@
 
 Exit status: 0 shown, 1 shown, but the table breaks a rule, 2 nothing to show or wrong usage.
 
-@satisfies SWR-TAB-004, SWR-TAB-007, SWR-TAB-008      Design: docs/design/table_dump.md#the-command-table
+@satisfies SWR-TAB-004, SWR-TAB-007, SWR-TAB-008, SWR-CLI-047      Design: docs/design/table_dump.md#the-command-table
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 from mamori.profiles.input_error import InputError
-from mamori.profiles.text_file import write_text
+from mamori.profiles.text_file import read_text, write_text
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
 from mamori.verification.table_dump.document import Table, read_table
 
@@ -24,7 +25,9 @@ FILES = {"text": "table.txt", "time_line": "time_line.svg", "graph": "graph.svg"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, metavar="FILE")
-    parser.add_argument("--text", action="store_true")
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--text", action="store_true")
+    form.add_argument("--json", action="store_true")
     parser.add_argument("--svg-time-line", type=Path, metavar="OUT")
     parser.add_argument("--svg-graph", type=Path, metavar="OUT")
     parser.add_argument("--svg-modes", type=Path, metavar="OUT")
@@ -42,7 +45,9 @@ def run(arguments: argparse.Namespace) -> int:
     for path, text in texts:
         write_text(path, text)
         print(f"mamori: wrote {path}", file=sys.stderr)
-    if arguments.text or not outputs:
+    if arguments.json:
+        print(json.dumps(json.loads(read_text(arguments.file, "table").text), indent=1))
+    elif arguments.text or not outputs:
         _print(table)
     elif table.findings:
         print(f"mamori: {arguments.file}: the table breaks {len(table.findings)} rule(s), first: {table.findings[0]}; --text shows all",

@@ -91,6 +91,14 @@ def test_every_finding_is_printed_and_the_status_tells(tmp_path: Path, capsys: p
     assert "  window 'a': too long\n  fault 1 has no reaction\n" in out
 
 
+@pytest.mark.parametrize(("findings", "status"), [([], 0), (["window 'a': too long"], 1)])
+@pytest.mark.verifies("SWR-CLI-047", technique="interface")
+def test_json_is_the_table_and_nothing_else(findings: list[str], status: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert table(write(tmp_path, findings=findings), "--json", "--svg-time-line", tmp_path / "a.svg") == status
+
+    assert json.loads(capsys.readouterr().out) == {**TABLE, "findings": findings}
+
+
 @pytest.mark.verifies("SWR-TAB-004", technique="error_guessing", polarity="violation")
 def test_names_do_not_steer_the_terminal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     windows = copy.deepcopy(TABLE["windows"])
