@@ -212,7 +212,8 @@ def long_steps() -> tuple[Step, ...]:
 
     return (
         Step(name="mutation rows", commands=((*COMMAND, "mutate", "--missing", "--store", "--jobs", "{jobs}"),), tier=Tier.ALL),
-        Step(name="mutation samples", commands=((*PYTEST, "-m", "long", "verification/mutation"),), result="strength-sample.xml", tier=Tier.ALL),
+        Step(name="long tests", commands=((*PYTEST, "-m", "long", *(f"verification/{folder}" for folder in ("mutation", "proofs", "safe_state"))),),
+             needs=(BUILD,), result="long-tests.xml", tier=Tier.ALL),
         Step(name=f"fuzz {LONG_FUZZ_S} s each", commands=(make_fuzz_command(LONG_FUZZ_S),), tier=Tier.ALL),
         campaign("time_faults", "610000", "1000", "1", "storm"),
         campaign("partition_faults", "1000", "1"),

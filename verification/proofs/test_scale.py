@@ -21,6 +21,7 @@ LONG_HASH = "3bebefdc2d11f998"
 CYCLES = 20_000
 HASH = "9c6680aca52b6f7d"
 RUNS = 20
+GATE_VARIANTS = ("gcc-Os", "clang-O2")
 
 Runs = list[tuple[str, Run]]
 
@@ -67,7 +68,10 @@ def test_a_tool_that_reads_1000_times_per_second_changes_no_hash(program: Path, 
     assert run.rows_read >= CYCLES * run.components
 
 
-@pytest.mark.parametrize("variant", VARIANTS, ids=lambda variant: variant.name)
+@pytest.mark.parametrize(
+    "variant", [pytest.param(each, marks=() if each.name in GATE_VARIANTS else pytest.mark.long) for each in VARIANTS],
+    ids=lambda variant: variant.name,
+)
 @pytest.mark.verifies("SWR-INS-006", technique="back_to_back")
 def test_compilers_and_levels_give_one_hash(project: Project, runs: Runs, variant: Variant) -> None:
     other = dataclasses.replace(project, preset=f"scale-{variant.name}")
