@@ -115,7 +115,8 @@ CALLS: list[Case] = [
     (["prove", "no-such-machine"], 2), (["prove", "safe-state", "--defect", "no-such-defect"], 2),
     *[(["prove", "safe-state", "--out", name], 2) for name in ("text.txt", "text.txt/x")],
     *[(["table", "list.json", option, "x"], 2) for option in ("--svg-time-line", "--svg-graph", "--svg-modes", "--out")],
-    (["table", "list.json", "--json"], 2), (["table", "list.json", "--json", "--text"], 2), (["log", "empty", "--csv", "x", "--json"], 2), (["log", "empty", "--names", "half.json"], 2), (["log", "empty", "--mcap"], 2),
+    (["table", "list.json", "--json"], 2), (["table", "list.json", "--json", "--text"], 2),
+    (["log", "empty", "--csv", "x", "--json"], 2), (["log", "empty", "--names", "half.json"], 2), (["log", "empty", "--mcap"], 2),
 ]  # fmt: skip
 TRACE: list[Case] = [
     *[([action, "--no-such-option"], 2) for action in ("check", "report", "show", "review", "impact", "init", "new", "query", "bundle", "verify",
