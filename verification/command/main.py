@@ -232,8 +232,8 @@ def _run_timing(arguments: argparse.Namespace, passed_on: tuple[str, ...]) -> in
 def main(argv: Sequence[str] | None = None) -> int:
     """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input), 3 (a tool is missing, or another command holds
     the lock), 4 (timing without rights), 130 (stopped) or 141 (nobody reads the output)."""
-    raise_on_signals()
     try:
+        raise_on_signals()
         status = run(list(sys.argv[1:] if argv is None else argv))
         sys.stdout.flush()  # what cannot be written is reported here, not when Python ends
         return status

@@ -98,6 +98,9 @@ def stop(process: subprocess.Popen[str], is_group: bool) -> tuple[int, str]:
     """@return exit status and what was said on standard error; nothing that it started is alive."""
     (os.killpg if is_group else os.kill)(process.pid, signal.SIGINT)
     _, said = process.communicate(timeout=TIMEOUT_S)
+    deadline = time.monotonic() + 1.0  # a part of the launcher that has no more to do ends by itself
+    while list_session(process.pid) and time.monotonic() < deadline:
+        time.sleep(0.02)
     assert list_session(process.pid) == []
     return process.returncode, said
 
@@ -163,3 +166,35 @@ def test_a_light_command_that_is_stopped_at_any_time_leaves_nothing_half_written
         assert said.strip().endswith("mamori: stopped; no report was written")
     assert list_unfinished(sample) == []
     assert [path.name for path in sample.iterdir() if path.name.startswith(".")] == []
+
+
+@pytest.mark.parametrize("is_group", [False, True], ids=["alone", "group"])
+@pytest.mark.parametrize("first_s", [0.01, 0.03, 0.05])
+@pytest.mark.verifies("SWR-CLI-045", technique="fault_injection")
+def test_a_signal_to_the_launcher_or_to_python_as_it_starts_gives_no_traceback(first_s: float, is_group: bool) -> None:
+    """Status 1 is that of the command, when the signal came after its work."""
+    for number in range(8):
+        process = subprocess.Popen([str(ROOT / "mamori"), *"e2e --profile 4 --length 4096 --rate 100 --pe 0.01".split()],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)  # fmt: skip
+        time.sleep(first_s + number * 0.0025)
+
+        status, said = stop(process, is_group)
+
+        assert status in (130, 1, -signal.SIGINT), said
+        assert "Traceback" not in said and "trap" not in said
+
+
+@pytest.mark.verifies("SWR-CLI-045", technique="boundary_values")
+def test_a_signal_that_came_before_python_could_listen_is_not_lost() -> None:
+    code = """
+import os, signal, sys
+from mamori.verification.command.main import main
+signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+os.kill(os.getpid(), signal.SIGINT)
+sys.exit(main(["mutate", "--list"]))
+"""
+    process = start("-c", code)
+
+    said = process.communicate(timeout=TIMEOUT_S)[1]
+
+    assert (process.returncode, said.strip()) == (130, "mamori: stopped; no report was written")
