@@ -14,6 +14,7 @@ from mamori.verification.command.steps import Action, Step, Tier
 
 PYTHON = ("{python}", "-P", "-m")
 PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
+PARALLEL = ("-n", "{jobs}", "--dist", "worksteal")
 REPEAT = (*PYTHON, "mamori.verification.real_time.repeat")
 COMMAND = (*PYTHON, "mamori.verification.command")
 
@@ -109,13 +110,13 @@ def safe_state_step() -> Step:
     """Properties of the compiled safe-state machine, proved by z3 and spin, and a seeded defect for each."""
     return Step(
         name="proofs of the safe-state machine",
-        commands=((*PYTEST, "verification/safe_state"),),
+        commands=((*PYTEST, *PARALLEL, "verification/safe_state"),),
         needs=(BUILD,),
         result="proof-safe_state.xml",
     )
 
 
-HOST_TOOLS = Step(name="tests of the host tools", commands=(PYTEST,), result="python-tools.xml")
+HOST_TOOLS = Step(name="tests of the host tools", commands=((*PYTEST, *PARALLEL),), result="python-tools.xml")
 REPORT_IN_BROWSER = Step(name="report in a browser", commands=((*PYTEST, "trace/tests/browser"),), result="report-browser.xml")
 LAYERS = Step(name="layer check", commands=((*PYTHON, "mamori.verification.tools.check_layers"),), tier=Tier.QUICK)
 PYTHON_CHECKS = Step(name="Python checks", commands=((*PYTHON, "mamori.verification.tools.check_python", "--root", "{root}"),), tier=Tier.QUICK)

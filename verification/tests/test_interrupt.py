@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -90,7 +91,8 @@ def list_session(leader: int) -> list[str]:
 
 
 def start(*words: str) -> subprocess.Popen[str]:
-    return subprocess.Popen([sys.executable, "-P", *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
+    """As the launcher starts Python: a signal stays pending until the command listens."""
+    return subprocess.Popen(["env", "--block-signal=INT,TERM", sys.executable, "-P", *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
                             cwd=ROOT)  # fmt: skip
 
 
@@ -98,7 +100,7 @@ def stop(process: subprocess.Popen[str], is_group: bool) -> tuple[int, str]:
     """@return exit status and what was said on standard error; nothing that it started is alive."""
     (os.killpg if is_group else os.kill)(process.pid, signal.SIGINT)
     _, said = process.communicate(timeout=TIMEOUT_S)
-    deadline = time.monotonic() + 1.0  # a part of the launcher that has no more to do ends by itself
+    deadline = time.monotonic() + TIMEOUT_S  # a part of the launcher that has no more to do ends by itself
     while list_session(process.pid) and time.monotonic() < deadline:
         time.sleep(0.02)
     assert list_session(process.pid) == []
@@ -151,6 +153,7 @@ def sample(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("words", LIGHT, ids=lambda words: " ".join(words.split()[:2]))
 @pytest.mark.verifies("SWR-CLI-045", technique="fault_injection")
 def test_a_light_command_that_is_stopped_at_any_time_leaves_nothing_half_written(words: str, delay_s: float, sample: Path) -> None:
+    shutil.rmtree(sample / "robot", ignore_errors=True)
     process = start("-m", "mamori.verification.command", *words.format(folder=sample).split())
     time.sleep(delay_s)
 
