@@ -100,9 +100,9 @@ def test_stored_result_meets_the_bar_of_each_layer() -> None:
     assert read_standing(ROOT).findings == []
 
 
+# No `verifies`: a result that the gate lacks would be a missing one. SWR-VER-006 has its results from the stored rows.
 @pytest.mark.long
 @pytest.mark.parametrize("layer", LAYERS, ids=lambda layer: layer.name)
-@pytest.mark.verifies("SWR-VER-006")
 def test_sample_does_not_contradict_the_bar(layer: Layer) -> None:
     project = Project(ROOT)
     selection = Selection(tuple(list_files(ROOT, (layer,))), SAMPLES[layer.name], SEED)
