@@ -66,7 +66,13 @@ def _acquire(path: Path) -> int | None:
     tries = 0
     while True:
         path.parent.mkdir(exist_ok=True)
-        descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+        try:
+            descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+        except FileNotFoundError:  # the previous holder removed the folder that it had made
+            tries += 1
+            if tries >= _READ_TRIES:
+                raise
+            continue
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if _is_same_file(descriptor, path):
@@ -74,7 +80,7 @@ def _acquire(path: Path) -> int | None:
                 return kept
         except BlockingIOError:
             holder = _read_holder(descriptor)
-            if holder is not None and holder.get("key") in os.environ.get(KEYS, "").split():
+            if holder is not None and holder.get("key") in os.environ.get(KEYS, "").split() and _is_running(holder):
                 return None
             tries += 1
             if _is_running(holder) or tries >= _READ_TRIES:

@@ -54,7 +54,7 @@ def describe_full_run(record: object) -> dict[str, Any]:
     if not isinstance(record, dict) or not isinstance(record.get("steps"), list):
         return {}
     steps = [step for step in record["steps"] if isinstance(step, dict)]
-    failed = [str(step.get("name")) for step in steps if step.get("verdict") != "passed"]
+    failed = [f"{step.get('name')} ({step.get('verdict')})" for step in steps if step.get("verdict") != "passed"]
     return {"date": str(record.get("date_utc"))[:10], "commit": str(record.get("commit")), "dirty": record.get("dirty") is True,
             "count": len(steps), "failed": failed}  # fmt: skip
 

@@ -23,12 +23,19 @@ NEWS_LENGTH = 70
 STYLES = {"passed": "green", "failed": "bold red", "skipped": "yellow"}
 
 
+class _Output(Console):
+    """rich ends the process with status 1 where nobody reads any more; the command has a status for that."""
+
+    def on_broken_pipe(self) -> None:
+        raise  # rich calls this while it handles the BrokenPipeError
+
+
 class Screen:
     """Writes to standard output, or to standard error where standard output takes a result only. Thread safety: none."""
 
     def __init__(self, to_stderr: bool = False) -> None:
         is_terminal = os.isatty(2 if to_stderr else 1)
-        self._console = Console(highlight=False, width=None if is_terminal else 110, soft_wrap=not is_terminal, stderr=to_stderr)
+        self._console = _Output(highlight=False, width=None if is_terminal else 110, soft_wrap=not is_terminal, stderr=to_stderr)
 
     def say(self, text: str = "", style: str = "") -> None:
         """One line of plain text."""

@@ -11,15 +11,18 @@ import json
 import os
 import platform
 import subprocess
+import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 from mamori.profiles.text_file import write_text
 from mamori.trace.git_run import run_git
 from mamori.verification.command.full_run import read_full_run
+from mamori.verification.command.process import Tick
 from mamori.verification.command.project import Project
 from mamori.verification.command.records import collect_inputs
+from mamori.verification.command.steps import Context
 
 COMPILERS = ("g++", "clang++-19", "arm-none-eabi-g++")
 
@@ -31,6 +34,11 @@ def write_environment(project: Project, command: Sequence[str]) -> Path:
     path = project.evidence / "environment.json"
     write_text(path, json.dumps(record, indent=1) + "\n")
     return path
+
+
+def renew_environment(context: Context, _tick: Tick, _log: TextIO) -> None:
+    """Writes the record of the running command anew, after a step that changed what results are made from."""
+    write_environment(context.project, ["./mamori", *sys.argv[1:]])
 
 
 def collect_environment(project: Project, command: Sequence[str]) -> dict[str, Any]:

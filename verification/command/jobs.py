@@ -20,6 +20,7 @@ from mamori.verification.command.campaign_step import CampaignRequest
 from mamori.verification.command.campaign_table import summarise_campaign
 from mamori.verification.command.environment import write_environment
 from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
+from mamori.verification.command.full_run import FILE, record_full_run
 from mamori.verification.command.project import RELEASE, ROOT, SANITIZED, Project
 from mamori.verification.command.steps import FAILURES_SHOWN, Context, Outcome, Tier, all_passed, run_steps, total
 
@@ -49,6 +50,9 @@ def test(jobs: int, tier: Tier) -> int:
     context = begin(project, jobs, (RELEASE, SANITIZED))
     outcomes = run_steps(plans.test_plan(project, request.run, tier), context)
     show_steps(outcomes, context)
+    if tier == Tier.ALL:
+        record_full_run(project, outcomes)
+        context.screen.say(f"recorded in {FILE}: add it to the commit")
     return finish(outcomes, context)
 
 

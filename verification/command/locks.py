@@ -41,7 +41,7 @@ def hold_locks(arguments: argparse.Namespace, words: Sequence[str]) -> Iterator[
             discard_moved_trees(folder)
         try:
             yield
-        except KeyboardInterrupt:
+        except BaseException:  # also the end of a reader of the output: the lock is held for as long as a child writes
             end_children()
             raise
 
@@ -79,7 +79,7 @@ def _find_project(system: str) -> Path | None:
 
 def discard_moved_trees(root: Path) -> None:
     """Lets CMake configure anew what was configured before the folder was moved or copied to this place: it refuses such a tree."""
-    for cache in sorted((root / "build").glob("*/CMakeCache.txt")):
+    for cache in sorted(path for pattern in ("*", "*/*") for path in (root / "build").glob(f"{pattern}/CMakeCache.txt")):
         found = MADE_IN.search(cache.read_text(encoding="utf-8", errors="replace"))
         if found is None or os.path.realpath(found[1]) == os.path.realpath(cache.parent):
             continue

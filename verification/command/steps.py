@@ -26,6 +26,7 @@ from mamori.verification.command.project import Project
 TAIL_LINES = 20
 FAILURES_SHOWN = 10
 FAILURE_LENGTH = 200
+INCONCLUSIVE = "inconclusive"
 
 
 class Tier(IntEnum):
@@ -68,6 +69,7 @@ class Step:
     junit: str = ""  # folder, relative to the root, whose new JUnit files hold the results; default: that of the evidence
     produces: str = ""  # file, relative to the root, that the step must have written
     accepted: tuple[int, ...] = (0,)  # exit statuses of a command that did its work
+    inconclusive: tuple[int, ...] = ()  # exit statuses of a command that the host kept from showing anything
     tier: Tier = Tier.GATE  # the smallest run that has this step
 
 
@@ -127,6 +129,8 @@ def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
     before = {path: _get_stamp(path) for path in (*folder.glob("*.xml"), product)}
     start, cpu_start = time.monotonic(), _get_children_cpu_s()
     reason = _do_work(step, context, log, tick)
+    if reason.startswith(INCONCLUSIVE):
+        return Outcome(step.name, "passed", time.monotonic() - start, _get_children_cpu_s() - cpu_start, Counts(skipped=1), log, reason)
     if not reason and step.produces and _get_stamp(product) in (None, before[product]):
         reason = f"{step.produces} was not written"
     files = [path for path in sorted(folder.glob("*.xml")) if _get_stamp(path) != before.get(path)]
@@ -187,6 +191,8 @@ def _run_commands(step: Step, values: dict[str, str], part: Path, context: Conte
         status = run_logged(argv, log, context.project.root, tick)
         if step.result and part.exists():
             os.replace(part, context.project.junit / step.result)
+        if status in step.inconclusive:
+            return f"{INCONCLUSIVE}: {Path(argv[0]).name} ended with status {status}; the log has the figure"
         if status not in step.accepted:
             return f"{Path(argv[0]).name} ended with status {status}"
     return ""

@@ -8,8 +8,9 @@
 /// (LLVM_PROFILE_FILE with %m), so what a child adds is kept beside what its parent writes.
 ///
 /// @satisfies SWR-VER-001      Design: docs/design/test_strength.md#coverage
+#include <array>
 #include <csignal>
-#include <initializer_list>
+#include <cstddef>
 
 extern "C" {
 int __llvm_profile_write_file(void);
@@ -29,16 +30,27 @@ int __llvm_profile_write_file(void);
 
 namespace {
 
-/// Writes and dies of the same signal, so that the death test sees what it waits for.
+constexpr std::array<int, 6U> kSignals{SIGILL, SIGTRAP, SIGABRT, SIGSEGV, SIGBUS, SIGFPE};
+std::array<struct sigaction, kSignals.size()> g_earlier{};
+
+/// Writes and dies of the same signal by what was installed before, so that a sanitizer reports and the death
+/// test sees what it waits for.
 void write_and_die(int signal) {
     static_cast<void>(__llvm_profile_write_file());
-    static_cast<void>(std::signal(signal, SIG_DFL));
+    for (std::size_t i = 0U; i < kSignals.size(); ++i) {
+        if (kSignals[i] == signal) {
+            static_cast<void>(sigaction(signal, &g_earlier[i], nullptr));
+        }
+    }
     static_cast<void>(std::raise(signal));
 }
 
 [[gnu::constructor]] void install() {
-    for (const int signal : {SIGILL, SIGTRAP, SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) {
-        static_cast<void>(std::signal(signal, &write_and_die));
+    struct sigaction action{};
+    action.sa_handler = &write_and_die;
+    action.sa_flags = SA_ONSTACK;
+    for (std::size_t i = 0U; i < kSignals.size(); ++i) {
+        static_cast<void>(sigaction(kSignals[i], &action, &g_earlier[i]));
     }
 }
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +44,7 @@ def measure_layer(folder: Path, build: Path, jobs: int) -> dict[str, Any]:
         raise CoverageError(f"{tests} has no test program; nothing was measured")
     profiles = build / "evidence" / "profiles" / folder.name
     missing = [name for name, program in programs.items() if not has_counters(profiles, name, program)]
+    discard_counters(profiles, set(programs) - set(missing))
     if missing:
         run(("ctest", "--test-dir", str(tests), "--output-on-failure", "--parallel", str(jobs), "--tests-regex", f"^({'|'.join(missing)})$"))
     return export(list(programs.values()), profiles, (folder / "include", folder / "src"))
@@ -53,6 +54,13 @@ def has_counters(profiles: Path, test: str, program: Path) -> bool:
     """True when `test` has written its counters since `program` was built."""
     built = program.stat().st_mtime
     return any(path.stat().st_mtime > built for path in profiles.glob(f"{test}-*.profraw"))
+
+
+def discard_counters(profiles: Path, kept: Container[str]) -> None:
+    """Removes the counters of all tests but those in `kept`: of an earlier build, or of a test that is no more."""
+    for path in profiles.glob("*.profraw"):
+        if path.name.rpartition("-")[0] not in kept:
+            path.unlink()
 
 
 def export(programs: Sequence[Path], profiles: Path, sources: Sequence[Path]) -> dict[str, Any]:

@@ -92,8 +92,8 @@ def list_session(leader: int) -> list[str]:
 
 def start(*words: str) -> subprocess.Popen[str]:
     """As the launcher starts Python: a signal stays pending until the command listens."""
-    return subprocess.Popen(["env", "--block-signal=INT,TERM", sys.executable, "-P", *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
-                            cwd=ROOT)  # fmt: skip
+    return subprocess.Popen(["env", "--block-signal=INT,TERM", sys.executable, "-P", *words], stdout=subprocess.DEVNULL,
+                            stderr=subprocess.PIPE, text=True, start_new_session=True, cwd=ROOT)  # fmt: skip
 
 
 def stop(process: subprocess.Popen[str], is_group: bool) -> tuple[int, str]:

@@ -9,7 +9,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -82,12 +81,10 @@ def test_a_second_writer_is_refused_at_once(
 ) -> None:
     monkeypatch.setattr(locks, "ROOT", tmp_path)
     monkeypatch.setattr("mamori.verification.command.main._dispatch", lambda *_: pytest.fail("the command began"))
-    start = time.monotonic()
 
     assert main(words) == 3
 
     said = capsys.readouterr().err
-    assert time.monotonic() - start < 2.0
     assert said.startswith(f"mamori: {tmp_path}: './mamori test --quick' (process {holder.process.pid}, started 20")
     assert said.count("\n") == 1
 
