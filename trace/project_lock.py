@@ -68,11 +68,8 @@ def _acquire(path: Path) -> int | None:
         path.parent.mkdir(exist_ok=True)
         try:
             descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
-        except FileNotFoundError:  # the previous holder removed the folder that it had made
-            tries += 1
-            if tries >= _READ_TRIES:
-                raise
-            continue
+        except FileNotFoundError:
+            continue  # the previous holder removed the folder that it had made
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if _is_same_file(descriptor, path):

@@ -201,11 +201,10 @@ while done < 100:
     except LockedError:
         time.sleep(0.0005)
 """
-    (tmp_path / "build").mkdir()
     many = [subprocess.Popen([sys.executable, "-P", "-c", code], stderr=subprocess.PIPE, text=True) for _ in range(4)]
 
     assert [one.communicate(timeout=60)[1] for one in many] == [""] * 4
-    assert list(tmp_path.rglob("*")) == [tmp_path / "build"]
+    assert list(tmp_path.rglob("*")) in ([], [tmp_path / "build"])
 
 
 def make_tree(root: Path, name: str, made_in: Path) -> Path:

@@ -148,6 +148,29 @@ def test_a_reader_that_leaves_is_no_error(words: str) -> None:
     assert (done.returncode, done.stderr) == (141, "")
 
 
+SCREEN = """
+import sys
+from pathlib import Path
+from mamori.verification.command import main as command
+from mamori.verification.command.project import Project
+from mamori.verification.command.steps import Context, Step, run_steps
+
+command.run = lambda argv: run_steps([Step("one", (("sleep", "0"),))], Context(Project(Path(sys.argv[1])), 1)) and 0
+sys.exit(command.main([]))
+"""
+
+
+@pytest.mark.verifies("SWR-CLI-044", technique="error_guessing", polarity="violation")
+def test_a_reader_that_leaves_a_table_of_steps_is_no_error(tmp_path: Path) -> None:
+    read, write = os.pipe()
+    os.close(read)
+
+    done = subprocess.run([sys.executable, "-P", "-c", SCREEN, str(tmp_path)], stdout=write, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(write)
+
+    assert (done.returncode, done.stderr) == (141, "")
+
+
 @pytest.mark.verifies("SWR-CLI-044", technique="fault_injection", polarity="violation")
 def test_output_to_a_full_disk_ends_in_one_line() -> None:
     with open("/dev/full", "wb") as full:
