@@ -245,6 +245,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     except MissingError as error:
         return _refuse(str(error), EXIT_MISSING)
     except OSError as error:
+        try:
+            sys.stdout.flush()
+        except OSError:  # what is left would fail once more when Python ends
+            discard_output()
         return _refuse(describe(error), EXIT_USAGE)
     except UnicodeEncodeError as error:
         return _refuse(f"{error.object!a} has a character that is not valid text; use names in UTF-8", EXIT_USAGE)

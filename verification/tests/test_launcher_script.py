@@ -400,7 +400,7 @@ def test_seed_below_zero_reaches_the_command(box: Box) -> None:
 
 @pytest.mark.verifies("SWR-CLI-008", technique="fault_injection", polarity="violation")
 def test_ctrl_c_during_the_installation_ends_the_package_manager(box: Box) -> None:
-    launcher = subprocess.Popen([str(box.folder / "mamori"), "demo", "--install"], env=box.environment(FAKE_APT_HANGS="yes"),
+    launcher = subprocess.Popen(["env", "--default-signal=INT", str(box.folder / "mamori"), "demo", "--install"], env=box.environment(FAKE_APT_HANGS="yes"),
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
     deadline = time.monotonic() + 20.0
     pid_file = box.folder / "apt.pid"
