@@ -14,6 +14,7 @@ import fcntl
 import json
 import os
 import secrets
+import stat
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -65,11 +66,13 @@ def _acquire(path: Path) -> int | None:
     """A descriptor that holds the lock; None where a caller of this process holds it. Raises LockedError and OSError."""
     tries = 0
     while True:
-        path.parent.mkdir(exist_ok=True)
         try:
+            path.parent.mkdir(exist_ok=True)
             descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
-        except FileNotFoundError:
-            continue  # the previous holder removed the folder that it had made
+        except (FileExistsError, FileNotFoundError):  # between two steps the previous holder removed the folder that it had made
+            if not path.parents[1].is_dir() or _is_in_the_way(path.parent):
+                raise
+            continue
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if _is_same_file(descriptor, path):
@@ -86,6 +89,15 @@ def _acquire(path: Path) -> int | None:
         finally:
             if descriptor >= 0:
                 os.close(descriptor)
+
+
+def _is_in_the_way(folder: Path) -> bool:
+    """True where something else than a folder, or a link to one, has its name."""
+    try:
+        mode = folder.lstat().st_mode
+    except FileNotFoundError:
+        return False
+    return not stat.S_ISDIR(mode) and not folder.is_dir()
 
 
 def _is_same_file(descriptor: int, path: Path) -> bool:

@@ -41,7 +41,7 @@ def hold_locks(arguments: argparse.Namespace, words: Sequence[str]) -> Iterator[
             discard_moved_trees(folder)
         try:
             yield
-        except BaseException:  # also the end of a reader of the output: the lock is held for as long as a child writes
+        except (KeyboardInterrupt, OSError):  # also when the reader of the output is gone: no child writes without the lock
             end_children()
             raise
 

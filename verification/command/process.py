@@ -20,6 +20,7 @@ from typing import NoReturn
 Tick = Callable[[str], None]
 
 POLL_S = 0.1
+AGAIN_S = 0.01
 GRACE_S = 10.0  # a stopped timing run draws its pictures in 3 to 5 s
 LOG_TAIL_BYTES = 4096
 PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
@@ -75,8 +76,15 @@ def raise_on_signals() -> None:
     def stop(number: int, _frame: object) -> NoReturn:
         raise KeyboardInterrupt(signal.Signals(number).name)
 
-    signal.signal(signal.SIGINT, stop)
-    signal.signal(signal.SIGTERM, stop)
+    def stop_later(dropped: sys.UnraisableHookArgs) -> None:
+        if isinstance(dropped.exc_value, KeyboardInterrupt):  # it came in a destructor, which cannot raise: once more, after it
+            signal.setitimer(signal.ITIMER_REAL, AGAIN_S)
+        else:
+            sys.__unraisablehook__(dropped)
+
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):
+        signal.signal(number, stop)
+    sys.unraisablehook = stop_later
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT, signal.SIGTERM})  # the launcher starts Python with both blocked
 
 

@@ -205,3 +205,29 @@ sys.exit(main(["mutate", "--list"]))
     said = process.communicate(timeout=TIMEOUT_S)[1]
 
     assert (process.returncode, said.strip()) == (130, "mamori: stopped; no report was written")
+
+
+@pytest.mark.verifies("SWR-CLI-045", technique="fault_injection")
+def test_a_signal_that_comes_in_a_destructor_is_not_lost() -> None:
+    code = """
+import os, signal, sys, time
+from mamori.verification.command import main as command
+
+class Closed:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(0.01)
+
+def run(argv):
+    Closed()
+    time.sleep(10)
+    return 0
+
+command.run = run
+sys.exit(command.main([]))
+"""
+    process = start("-c", code)
+
+    said = process.communicate(timeout=TIMEOUT_S)[1]
+
+    assert (process.returncode, said.strip()) == (130, "mamori: stopped; no report was written")
