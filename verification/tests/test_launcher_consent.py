@@ -6,12 +6,11 @@ from __future__ import annotations
 import os
 import pty
 import select
-import signal
 import time
 from pathlib import Path
 
 import pytest
-from launcher_box import APT_INSTALL, PACKAGES_OF_BUILD, Box
+from launcher_box import APT_INSTALL, PACKAGES_OF_BUILD, Box, listen_to_ctrl_c
 
 
 @pytest.fixture
@@ -58,7 +57,7 @@ def run_on_terminal(box: Box, answer: bytes, *words: str) -> tuple[int, str]:
     """The launcher on a terminal, where the user types `answer` when asked. @return exit status and screen."""
     child, terminal = pty.fork()
     if child == 0:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)  # bash cannot take back that a parent ignores it
+        listen_to_ctrl_c()
         os.execve(box.folder / "mamori", ["mamori", *words], box.environment())
     screen, typed, deadline = b"", False, time.monotonic() + 30.0
     while time.monotonic() < deadline:
