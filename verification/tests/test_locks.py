@@ -249,7 +249,7 @@ def call_read_only(words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(["unshare", "-rm", "sh", "-c", f"{script} {words}"], capture_output=True, text=True, check=False)
 
 
-NAMESPACES = pytest.mark.skipif(not has_namespaces(), reason="this host grants no mount namespace")
+NAMESPACES = pytest.mark.skipif(not has_namespaces(), reason="verdict=no-privilege: this host grants no mount namespace")
 
 
 @NAMESPACES

@@ -104,7 +104,7 @@ def has_namespaces() -> bool:
     return shutil.which("unshare") is not None and subprocess.run(["unshare", "-rm", "true"], check=False, capture_output=True).returncode == 0
 
 
-@pytest.mark.skipif(not has_namespaces(), reason="this host grants no mount namespace")
+@pytest.mark.skipif(not has_namespaces(), reason="verdict=no-privilege: this host grants no mount namespace")
 @pytest.mark.verifies("SWR-CLI-043", technique="fault_injection", polarity="violation")
 def test_a_full_disk_keeps_the_previous_report(tmp_path: Path) -> None:
     """The disk has room for one report, not for a second one beside it."""
