@@ -26,7 +26,7 @@ def pytest_configure(config: pytest.Config) -> None:
         "markers",
         "verifies(requirement, technique='requirements_based', polarity='nominal'): the requirement that the test verifies",
     )
-    # Tests write to their checkout: parallel workers inherit one lock. Beside another command the tests run without it.
+    # Tests write to their checkout: parallel workers inherit one lock. While another command runs, the tests run without the lock.
     stack = contextlib.ExitStack()
     with contextlib.suppress(LockedError, OSError):
         stack.enter_context(hold_lock(Path(__file__).resolve().parent, "pytest"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Says in words what the system refused and how to mend it; its own text has a number in it and no remedy.
+"""Says in words what the system refused and how to correct it; its own text has a number in it and no remedy.
 
 @satisfies SWR-TRC-009      Design: docs/design/trace.md#refusals-of-the-system
 """

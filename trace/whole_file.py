@@ -21,7 +21,7 @@ class TargetError(OSError):
 
 @contextlib.contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """A temporary name beside the file that `path` leads to; it takes the place of that file when the block ends without an exception.
+    """A temporary name in the folder of the file that `path` leads to; it takes the place of that file when the block ends without an exception.
 
     Raises OSError. After any exception, KeyboardInterrupt included, the old file is untouched and the temporary one is gone.
     """

@@ -80,7 +80,7 @@ class _File:
         elif _FORWARD.fullmatch(line):
             self._project.losses.append(Loss(Place(self._shown, number), f"forwarding: {line.strip()}"))
         elif broken := _BROKEN.fullmatch(line):
-            message = f"'{broken[1]}' is no id of the form type~name~revision"
+            message = f"'{broken[1]}' is not an id of the form type~name~revision"
             self._problems.append(Problem(UNREADABLE, Place(self._shown, number), message))
         elif self._item is not None:
             self._take_part(self._item, number, line)

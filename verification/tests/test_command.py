@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from mamori.trace.reports.view import describe_full_run
 from mamori.verification.command import jobs, plans
 from mamori.verification.command.environment import collect_environment, write_environment
 from mamori.verification.command.errors import UsageError
@@ -156,6 +157,8 @@ def test_a_whole_run_is_recorded_with_date_commit_and_steps(tmp_path: Path) -> N
     assert (kept["date_utc"], kept["commit"]) == (environment["date_utc"], environment["commit"])
     assert [(step["name"], step["verdict"]) for step in kept["steps"]] == [("good", "passed"), ("bad", "failed"), ("disturbed", "inconclusive")]
     assert collect_environment(project, ())["full_run"] == kept
+    shown = describe_full_run(kept)
+    assert (shown["date"], shown["count"], shown["failed"]) == (environment["date_utc"][:10], 3, ["bad (failed)", "disturbed (inconclusive)"])
     assert (str(outcomes[2].counts), outcomes[2].verdict) == ("0 passed, 0 failed, 1 skipped", "passed")
 
 
