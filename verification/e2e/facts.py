@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from mamori.profiles.text_file import write_text
 from mamori.verification.command.project import ROOT
 from mamori.verification.e2e.residual import CRC16, CRC32_P4, Checksum, Distance, Spectrum, calc_spectrum, find_distance
 from mamori.verification.e2e.spectra import P4_LENGTHS, load
@@ -153,7 +154,7 @@ def make_header() -> str:
 def main(path: Path = HEADER) -> int:
     """@return exit status."""
     try:
-        path.write_text(make_header(), encoding="utf-8")
+        write_text(path, make_header())
     except ValueError as error:
         print(error, file=sys.stderr)
         return 1

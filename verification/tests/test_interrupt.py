@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Goal: Ctrl-C at any step gives status 130 and one line, ends the children, leaves no half-written file, and the next run works.
-# Method: a plan of real steps that is stopped in each of them, and each light command that is stopped at many times; the signal goes to
-# the whole process group, as a terminal sends it, or to the command alone.
+# Method: a plan of real steps that is stopped in each of them, and each light command that is stopped at a counted operation on files; the
+# signal goes to the whole process group, as a terminal sends it, or to the command alone.
 from __future__ import annotations
 
 import os
@@ -73,7 +73,28 @@ LIGHT = [
     "mutate --list",
     "new {folder}/robot",
 ]
-DELAYS_S = (0.08, 0.15, 0.25, 0.4)
+# Runs a command, tells how many operations on files it did, and is stopped before the one of a given number: the work is not done then,
+# whatever the load of the host.
+COUNTED = """
+import os, signal, sys
+
+place, done = int(sys.argv.pop(1)), 0
+
+def count(event, arguments):
+    global done
+    if event in ("open", "os.rename", "os.remove", "os.mkdir", "os.rmdir", "os.chmod", "os.scandir", "os.listdir"):
+        done += 1
+        if done == place:
+            signal.raise_signal(signal.SIGINT)
+
+sys.addaudithook(count)
+from mamori.verification.command.main import main
+status = main()
+if not place:
+    print(done, file=sys.stderr)
+sys.exit(status)
+"""
+PARTS = (0.1, 0.6, 0.9, 0.99)
 
 
 def list_session(leader: int) -> list[str]:
@@ -149,26 +170,29 @@ def sample(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("delay_s", DELAYS_S)
+def run_counted(words: str, place: int, folder: Path) -> tuple[int, str]:
+    """@param place number of the operation that is interrupted; 0: none. @return status and standard error."""
+    process = start("-c", COUNTED, str(place), *words.format(folder=folder).split())
+    _, said = process.communicate(timeout=TIMEOUT_S)
+    assert list_session(process.pid) == []
+    return process.returncode, said
+
+
 @pytest.mark.parametrize("words", LIGHT, ids=lambda words: " ".join(words.split()[:2]))
 @pytest.mark.verifies("SWR-CLI-045", technique="fault_injection")
-def test_a_light_command_that_is_stopped_at_any_time_leaves_nothing_half_written(words: str, delay_s: float, sample: Path) -> None:
-    shutil.rmtree(sample / "robot", ignore_errors=True)
-    process = start("-m", "mamori.verification.command", *words.format(folder=sample).split())
-    time.sleep(delay_s)
+def test_a_light_command_that_is_stopped_at_any_operation_leaves_nothing_half_written(words: str, sample: Path, tmp_path: Path) -> None:
+    _, said = run_counted(words, 0, shutil.copytree(sample, tmp_path / "whole"))
+    total = int(said.splitlines()[-1])
+    for part in PARTS:
+        folder = shutil.copytree(sample, tmp_path / f"part-{part}")
+        before = {path for path in folder.rglob("*")}
 
-    if process.poll() is not None:
-        process.communicate()
-        return  # it was done earlier
-    status, said = stop(process, is_group=True)
+        status, said = run_counted(words, int(total * part), folder)
 
-    # The signal may come when the work is done: Python's own end is ended by it, which a shell counts as 130.
-    assert status in (130, 0, 1, -signal.SIGINT), said
-    assert "Traceback" not in said
-    if status == 130:
-        assert said.strip().endswith("mamori: stopped; no report was written")
-    assert list_unfinished(sample) == []
-    assert [path.name for path in sample.iterdir() if path.name.startswith(".")] == []
+        assert (status, said.strip().splitlines()[-1:]) == (130, ["mamori: stopped; no report was written"]), (part, said)
+        assert "Traceback" not in said
+        assert list_unfinished(folder) == []
+        assert [path for path in set(folder.rglob("*")) - before if path.name.startswith(".")] == []
 
 
 @pytest.mark.parametrize("is_group", [False, True], ids=["alone", "group"])
