@@ -21,8 +21,9 @@ STORE = Path(__file__).resolve().with_name("baseline.toml")
 HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
 # Mutation score of kernel and safety, file by file, as `./mamori mutate --store` found it. Written by that command only.
-# `fingerprint` is that of the code in the mutated file, comments aside: the row of a file whose code has changed since counts for
-# nothing until its next run.
+# `fingerprint` is that of the code in the mutated file, without comments and includes: the row of a file whose code has changed since
+# counts for nothing until its next run.
+
 """
 
 
@@ -60,7 +61,7 @@ class Standing:
     @property
     def findings(self) -> list[str]:
         """What is wrong; nothing when the measured files of each layer together meet its bar."""
-        found = [f"{file} is stored but gives no mutants any more; remove its table" for file in self.gone]
+        found = [f"{file} is stored but gives no mutants any more; remove its row" for file in self.gone]
         return found + [
             f"the stored mutation score of {layer.name} is {counts.score:.1%} ({counts.killed} of {counts.valid}); {layer.bar:.0%} is the bar"
             for layer, counts in self.layers.items()
@@ -90,31 +91,29 @@ class Standing:
 
 
 def fingerprint(source: bytes) -> str:
-    """Of the code alone: its words in their order, whatever comments and spaces stand between them."""
+    """Of the code alone: its words in their order, whatever comments and spaces stand between them, and whichever folders it includes from."""
     return hashlib.sha256(b"\0".join(iterate_words(source))).hexdigest()[:16]
 
 
 def read_store(path: Path = STORE) -> dict[str, Entry]:
     """@raise MutationError when the file is no such store."""
     try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+        rows = tomllib.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
         return {
-            file: Entry(table["fingerprint"], table["commit"], table["date"], Counts(**table["counts"]))
-            for file, table in tables.items()
+            file: Entry(row.pop("fingerprint"), row.pop("commit"), row.pop("date"), Counts(**row))
+            for file, row in rows.items()
         }
-    except (tomllib.TOMLDecodeError, KeyError, TypeError) as error:
+    except (tomllib.TOMLDecodeError, AttributeError, KeyError, TypeError) as error:
         raise MutationError(f"{path} is no stored result ({error}); write it anew: ./mamori mutate --store") from error
 
 
 def write_store(entries: Mapping[str, Entry], path: Path = STORE) -> None:
     """Writes the whole file or nothing."""
-    lines = [HEAD]
-    for file in sorted(entries):
-        entry = entries[file]
+    rows = [HEAD]
+    for file, entry in sorted(entries.items()):
         counts = ", ".join(f"{name} = {value}" for name, value in asdict(entry.counts).items())
-        lines.append(f'["{file}"]\nfingerprint = "{entry.fingerprint}"\ncommit = "{entry.commit}"\ndate = "{entry.date}"\n'
-                     f"counts = {{{counts}}}\n")  # fmt: skip
-    write_text(path, "\n".join(lines))
+        rows.append(f'"{file}" = {{fingerprint = "{entry.fingerprint}", commit = "{entry.commit}", date = "{entry.date}", {counts}}}\n')
+    write_text(path, "".join(rows))
 
 
 def judge_store(entries: Mapping[str, Entry], mutated: Mapping[str, Mutated]) -> Standing:

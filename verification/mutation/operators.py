@@ -75,13 +75,14 @@ class Mutant:
 
 
 def iterate_words(source: bytes) -> Iterator[bytes]:
-    """The words of the code in their order, without comments and the spaces between words."""
+    """The words of the code in their order, without includes, comments and the spaces between words."""
     left = [Parser(LANGUAGE).parse(source).root_node]
     while left:
         node = left.pop()
+        if node.type in ("comment", "preproc_include"):
+            continue
         if node.child_count == 0 or node.type in LITERALS:
-            if node.type != "comment":
-                yield source[node.start_byte : node.end_byte]
+            yield source[node.start_byte : node.end_byte]
         else:
             left.extend(reversed(node.children))
 

@@ -144,15 +144,16 @@ def test_row_of_another_state_of_its_file_counts_for_nothing(now: tuple[bytes, i
     assert standing.to_json()["not_measured"] == {"files": {"kernel/a.cpp": now[1]}, "mutants": now[1]}
 
 
-CODE = b"#define A 1\nint f(int a) { return a < 1; }\nauto t = \"a  b\"; auto c = ' ';\n"
+CODE = b"#include <a/b.hpp>\n#define A 1\nint f(int a) { return a < 1; }\nauto t = \"a  b\"; auto c = ' ';\n"
 
 
 @pytest.mark.parametrize(
-    "same", [CODE.replace(b"{ ", b"{\n  // why\n  "), b"// Licence\n/// @file\n" + CODE, CODE.replace(b"a < 1", b"a /* x */  <  1")],
-    ids=["line broken", "comment before", "comment within"],
+    "same", [CODE.replace(b"{ ", b"{\n  // why\n  "), b"// Licence\n/// @file\n" + CODE, CODE.replace(b"a < 1", b"a /* x */  <  1"),
+             CODE.replace(b"a/b", b"c/b")],
+    ids=["line broken", "comment before", "comment within", "header moved"],
 )  # fmt: skip
 @pytest.mark.verifies("SWR-VER-009", technique="equivalence_classes")
-def test_row_outlives_a_change_of_comments_and_spaces(same: bytes) -> None:
+def test_row_outlives_a_change_of_comments_spaces_and_includes(same: bytes) -> None:
     assert baseline.fingerprint(same) == baseline.fingerprint(CODE)
 
 
