@@ -185,7 +185,7 @@ def test_a_light_command_that_is_stopped_at_any_operation_leaves_nothing_half_wr
     total = int(said.splitlines()[-1])
     for part in PARTS:
         folder = shutil.copytree(sample, tmp_path / f"part-{part}")
-        before = {path for path in folder.rglob("*")}
+        before = set(folder.rglob("*"))
 
         status, said = run_counted(words, int(total * part), folder)
 
