@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdio>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 
 using mamori::Status;

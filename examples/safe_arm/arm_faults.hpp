@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/safety/reaction_table.hpp"
+#include "mamori/safety/reaction/reaction_table.hpp"
 
 namespace safe_arm {
 

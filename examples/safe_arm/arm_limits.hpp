@@ -12,11 +12,11 @@
 #include <cstdint>
 
 #include "arm_faults.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/arm/guards.hpp"
-#include "mamori/safety/execution_supervisor.hpp"
-#include "mamori/safety/safe_state_machine.hpp"
-#include "mamori/safety/watchdog_gate.hpp"
+#include "mamori/safety/reaction/safe_state_machine.hpp"
+#include "mamori/safety/supervision/execution_supervisor.hpp"
+#include "mamori/safety/supervision/watchdog_gate.hpp"
 
 namespace safe_arm {
 

@@ -6,7 +6,7 @@
 #ifndef EXAMPLES_SAFE_ARM_ARM_READER_HPP
 #define EXAMPLES_SAFE_ARM_ARM_READER_HPP
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 #include "messages.hpp"
 

@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/simbody_sim/arm_model.hpp"
 #include "mamori/simbody_sim/computed_torque_controller.hpp"
 #include "mamori/simbody_sim/fault_plan.hpp"

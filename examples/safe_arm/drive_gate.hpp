@@ -7,7 +7,7 @@
 #ifndef EXAMPLES_SAFE_ARM_DRIVE_GATE_HPP
 #define EXAMPLES_SAFE_ARM_DRIVE_GATE_HPP
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 #include "messages.hpp"
 

@@ -13,8 +13,8 @@
 
 #include "arm_faults.hpp"
 #include "arm_limits.hpp"
-#include "mamori/kernel/system.hpp"
-#include "mamori/safety/rising_edge.hpp"
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/safety/base/rising_edge.hpp"
 #include "messages.hpp"
 
 namespace safe_arm {

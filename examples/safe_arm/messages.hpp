@@ -10,9 +10,9 @@
 #include <array>
 #include <cstdint>
 
-#include "mamori/kernel/fields.hpp"
+#include "mamori/kernel/payload/fields.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
-#include "mamori/safety/safe_state.hpp"
+#include "mamori/safety/reaction/safe_state.hpp"
 
 namespace safe_arm {
 

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "messages.hpp"
 #include "motion_track.hpp"
 

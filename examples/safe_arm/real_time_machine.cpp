@@ -2,7 +2,7 @@
 #include "real_time_machine.hpp"
 
 #include "machine.hpp"
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 #include "safe_arm_system.hpp"
 

@@ -12,9 +12,9 @@
 #include <optional>
 #include <string>
 
-#include "mamori/kernel/event_log.hpp"
-#include "mamori/safety/fault_register.hpp"
-#include "mamori/safety/reaction_table.hpp"
+#include "mamori/kernel/record/event_log.hpp"
+#include "mamori/safety/reaction/fault_register.hpp"
+#include "mamori/safety/reaction/reaction_table.hpp"
 #include "mamori/simbody_sim/arm_plant.hpp"
 #include "mamori/simbody_sim/fault_plan.hpp"
 #include "mamori/simbody_sim/physical_verdict.hpp"

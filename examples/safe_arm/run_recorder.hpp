@@ -9,8 +9,8 @@
 
 #include <string>
 
-#include "mamori/kernel/event_log.hpp"
-#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/kernel/record/event_log.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/ports/posix_rt/mapped_file.hpp"
 
 namespace safe_arm {

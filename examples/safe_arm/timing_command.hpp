@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "mamori/safety/safe_state.hpp"
+#include "mamori/safety/reaction/safe_state.hpp"
 #include "run_options.hpp"
 
 namespace safe_arm {

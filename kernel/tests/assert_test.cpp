@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a failed check reaches the application's handler with its place and never comes back.
 // Method: death tests, since the program must not go on.
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a sequence holds up to its bound and refuses more without a change.
 // Method: both sides of the bound for each operation that makes it longer; comparison; constant expressions.
-#include "mamori/kernel/bounded_sequence.hpp"
+#include "mamori/kernel/payload/bounded_sequence.hpp"
 
 #include <gtest/gtest.h>
 

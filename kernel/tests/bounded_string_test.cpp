@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a string holds up to its bound, is always closed by NUL, and holds none inside.
 // Method: both sides of the bound, NUL in every place, comparison, constant expressions.
-#include "mamori/kernel/bounded_string.hpp"
+#include "mamori/kernel/payload/bounded_string.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,9 +11,9 @@
 #include <set>
 #include <sstream>
 
-#include "mamori/kernel/extended_types_2d.hpp"
-#include "mamori/kernel/extended_types_3d.hpp"
-#include "mamori/kernel/timed_types.hpp"
+#include "mamori/kernel/payload/extended_types_2d.hpp"
+#include "mamori/kernel/payload/extended_types_3d.hpp"
+#include "mamori/kernel/payload/timed_types.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/cdr_checks.hpp"
 

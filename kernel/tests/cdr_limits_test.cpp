@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/cdr.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/cdr_checks.hpp"

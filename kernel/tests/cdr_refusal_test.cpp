@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <random>
 
-#include "mamori/kernel/cdr.hpp"
-#include "mamori/kernel/extended_types_3d.hpp"
-#include "mamori/kernel/timed_types.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
+#include "mamori/kernel/payload/extended_types_3d.hpp"
+#include "mamori/kernel/payload/timed_types.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/cdr_checks.hpp"
 

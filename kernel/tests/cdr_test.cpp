@@ -2,13 +2,13 @@
 // Goal: payloads are written as CDR and read back, in both byte orders.
 // Method: bytes worked out by hand from the rules of alignment, for each kind of field and each kind of
 // nesting.
-#include "mamori/kernel/cdr.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "mamori/kernel/timed_types.hpp"
+#include "mamori/kernel/payload/timed_types.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/cdr_checks.hpp"
 

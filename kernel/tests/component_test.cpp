@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a component comes alive once and ends once, and only when it may.
 // Method: a spy component; each status of both operations; calls from within the actions.
-#include "mamori/kernel/component.hpp"
+#include "mamori/kernel/component/component.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "mamori/kernel/execution_context.hpp"
+#include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/spy_component.hpp"
 

@@ -3,15 +3,15 @@
 // follow it; the outside may ask at any time. Method: requests and boundaries in every order; a table with a
 // value that the compiler could not judge, to show that nothing of a bad set is switched; two threads that
 // send requests while cycles run (also under the thread sanitizer).
-#include "mamori/kernel/configuration_admin.hpp"
+#include "mamori/kernel/parameter/configuration_admin.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <thread>
 
-#include "mamori/kernel/configuration_set.hpp"
-#include "mamori/kernel/constant_init.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
+#include "mamori/kernel/parameter/configuration_set.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/configured_components.hpp"

@@ -3,8 +3,8 @@
 // Method: a table that breaks one rule after the other, judged while the program runs.
 #include <gtest/gtest.h>
 
-#include "mamori/kernel/configuration_admin.hpp"
-#include "mamori/kernel/configuration_set.hpp"
+#include "mamori/kernel/parameter/configuration_admin.hpp"
+#include "mamori/kernel/parameter/configuration_set.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/configured_components.hpp"
 

@@ -2,7 +2,7 @@
 // Goal: a configuration is what its description says, and each rule finds its guilty row.
 // Method: a constant table read back row by row; tables that break one rule each. That the compiler refuses a
 // broken table: parameter_compile_fail_test.cpp.
-#include "mamori/kernel/configuration_set.hpp"
+#include "mamori/kernel/parameter/configuration_set.hpp"
 
 #include <gtest/gtest.h>
 

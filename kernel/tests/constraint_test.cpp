@@ -2,7 +2,7 @@
 // Goal: every form of the grammar admits what it says and nothing else, and every other text is refused with
 // the first wrong character. Method: tables of texts, with values on both sides of each limit. The forms are
 // those that RTSystemEditor reads; where it accepts half of a broken text, this parser refuses the whole.
-#include "mamori/kernel/constraint.hpp"
+#include "mamori/kernel/parameter/constraint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/constraint_parser.hpp"
+#include "mamori/kernel/parameter/constraint_parser.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {

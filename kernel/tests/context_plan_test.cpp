@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a context takes a plan that is whole and refuses every other; ranges run as single positions do.
 // Method: each field on both sides of its limit; two spies; a range that ends its own cycle from within.
-#include "mamori/kernel/context_plan.hpp"
+#include "mamori/kernel/component/context_plan.hpp"
 
 #include <limits>
 
-#include "mamori/kernel/external_trigger.hpp"
+#include "mamori/kernel/component/external_trigger.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/context_fixture.hpp"

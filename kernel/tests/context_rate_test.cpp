@@ -3,7 +3,7 @@
 // Method: two spies, windows counted; each refusal; on_rate_changed with each answer in each state.
 #include <limits>
 
-#include "mamori/kernel/external_trigger.hpp"
+#include "mamori/kernel/component/external_trigger.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/context_fixture.hpp"
 

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <thread>
 
-#include "mamori/kernel/fifo_buffer.hpp"
-#include "mamori/kernel/snapshot_cell.hpp"
-#include "mamori/kernel/triple_buffer.hpp"
+#include "mamori/kernel/dataflow/fifo_buffer.hpp"
+#include "mamori/kernel/dataflow/snapshot_cell.hpp"
+#include "mamori/kernel/dataflow/triple_buffer.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a written value is seen by others only when it was published or handed on, once, with its age.
 // Method: one output and one input, moved by hand as the executive does it.
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/system/system.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdint>
 
-#include "mamori/kernel/connection.hpp"
+#include "mamori/kernel/dataflow/connection.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::testing_support {

@@ -2,7 +2,7 @@
 // Goal: a decimal number becomes exactly the value that its type has for it, or is refused.
 // Method: limits and ties by hand; back to back with the C library over many numbers of a fixed seed. The
 // fuzz harness constraint_parse_fuzz.cpp does the same with any text.
-#include "mamori/kernel/decimal.hpp"
+#include "mamori/kernel/parameter/detail/decimal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/scalar.hpp"
+#include "mamori/kernel/parameter/scalar.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {

@@ -4,16 +4,16 @@
 // is made.
 #include <gtest/gtest.h>
 
-#include "mamori/kernel/configuration_finding.hpp"
-#include "mamori/kernel/configuration_table.hpp"
-#include "mamori/kernel/decimal.hpp"
-#include "mamori/kernel/event_log.hpp"
-#include "mamori/kernel/flight_format.hpp"
-#include "mamori/kernel/fsm_machine.hpp"
-#include "mamori/kernel/introspection_rows.hpp"
-#include "mamori/kernel/system_finding.hpp"
-#include "mamori/kernel/system_table.hpp"
-#include "mamori/kernel/timed_types.hpp"
+#include "mamori/kernel/component/detail/fsm_machine.hpp"
+#include "mamori/kernel/parameter/configuration_finding.hpp"
+#include "mamori/kernel/parameter/configuration_table.hpp"
+#include "mamori/kernel/parameter/detail/decimal.hpp"
+#include "mamori/kernel/payload/timed_types.hpp"
+#include "mamori/kernel/record/event_log.hpp"
+#include "mamori/kernel/record/flight_format.hpp"
+#include "mamori/kernel/run/introspection_rows.hpp"
+#include "mamori/kernel/table/system_finding.hpp"
+#include "mamori/kernel/table/system_table.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the log keeps the newest records in order and counts every one that it could not keep.
 // Method: below, at and above its capacity; several turns of the ring; capacities 1 and 0.
-#include "mamori/kernel/event_log.hpp"
+#include "mamori/kernel/record/event_log.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Goal: each operation of the context does what the standard says and refuses everything else unchanged.
 // Method: two spies in one context; each status of each operation; calls from within actions and cycles.
 // What a cycle does: execution_cycle_test.cpp.
-#include "mamori/kernel/execution_context.hpp"
+#include "mamori/kernel/component/execution_context.hpp"
 
 #include <limits>
 

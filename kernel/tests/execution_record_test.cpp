@@ -2,7 +2,7 @@
 // Goal: a run is held against its limits on the whole time line, and no run hides another.
 // Method: both sides of both limits, the ends of the time line, a clock that runs backwards, runs one after
 // the other.
-#include "mamori/kernel/execution_record.hpp"
+#include "mamori/kernel/component/execution_record.hpp"
 
 #include <gtest/gtest.h>
 

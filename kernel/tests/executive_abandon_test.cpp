@@ -9,7 +9,7 @@
 #include <optional>
 #include <thread>
 
-#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"

@@ -3,8 +3,8 @@
 // often as they say. Method: two executives of one table, run by hand in orders that a real machine may show.
 #include <gtest/gtest.h>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"

@@ -3,7 +3,7 @@
 // Method: three spies in two windows; a refusal at each step; each status of each operation.
 #include <gtest/gtest.h>
 
-#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"

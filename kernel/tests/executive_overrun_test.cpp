@@ -4,7 +4,7 @@
 // after it was cut off: executive_abandon_test.cpp.
 #include <gtest/gtest.h>
 
-#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"

@@ -3,9 +3,9 @@
 // Method: a schedule walked by hand; the cycles of each window are counted.
 #include <gtest/gtest.h>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/frame_schedule.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/frame_schedule.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 

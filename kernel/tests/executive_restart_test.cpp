@@ -6,9 +6,9 @@
 
 #include <vector>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/queue_in_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"

@@ -2,7 +2,7 @@
 // Goal: windows move data at their boundaries only, as the plan says and not as the clock says.
 // Method: counters, relays and sinks in one or two windows under a fake host. Overruns:
 // executive_overrun_test.
-#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/run/executive.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: one cycle for each tick, no tick lost without a count. Method: ticks before, between and during
 // cycles, at the limit of the backlog, while Stopped, across the wrap of the counter, and from two threads.
-#include "mamori/kernel/external_trigger.hpp"
+#include "mamori/kernel/component/external_trigger.hpp"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "mamori/kernel/execution_context.hpp"
+#include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/spy_component.hpp"
 

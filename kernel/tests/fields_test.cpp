@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a field list leads to every scalar of a payload once, in declaration order.
 // Method: nested payloads, arrays, enums and bounds of the list's length are visited and written down.
-#include "mamori/kernel/fields.hpp"
+#include "mamori/kernel/payload/fields.hpp"
 
 #include <gtest/gtest.h>
 

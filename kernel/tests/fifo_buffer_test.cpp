@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: entries come out in the order they went in, and each policy, status and count is as declared.
 // Method: one thread; capacities 1 and 3; positions that wrap after 127 by means of a 16-bit word.
-#include "mamori/kernel/fifo_buffer.hpp"
+#include "mamori/kernel/dataflow/fifo_buffer.hpp"
 
 #include <gtest/gtest.h>
 

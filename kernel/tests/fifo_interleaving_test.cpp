@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mamori/kernel/fifo_buffer.hpp"
+#include "mamori/kernel/dataflow/fifo_buffer.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/interleaving.hpp"
 

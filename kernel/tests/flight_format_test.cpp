@@ -2,7 +2,7 @@
 // Goal: the bytes are those of docs/design/recorder.md on each machine, and no small damage passes for a
 // record. Method: bytes that a script computed apart from this code; every change of up to four bits, by the
 // linearity of the checksum; every single byte with every value.
-#include "mamori/kernel/flight_format.hpp"
+#include "mamori/kernel/record/flight_format.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mamori/kernel/crc32.hpp"
+#include "mamori/kernel/base/crc32.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 

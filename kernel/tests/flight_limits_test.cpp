@@ -9,9 +9,9 @@
 #include <csignal>
 #include <limits>
 
-#include "mamori/kernel/crc32.hpp"
-#include "mamori/kernel/flight_reader.hpp"
-#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/kernel/base/crc32.hpp"
+#include "mamori/kernel/record/flight_reader.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {

@@ -2,14 +2,14 @@
 // Goal: the reader gives back what was written and believes nothing else. Method: regions made by the
 // recorder, cut, changed and replaced; random bytes from a seeded generator; a region of another version made
 // by hand.
-#include "mamori/kernel/flight_reader.hpp"
+#include "mamori/kernel/record/flight_reader.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 

@@ -2,14 +2,14 @@
 // Goal: the recorder keeps the newest records, goes on where an earlier session ended, and changes nothing
 // that it refuses. Method: below, at and above the capacity; several sessions over one region; damage between
 // two sessions.
-#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <vector>
 
-#include "mamori/kernel/flight_reader.hpp"
+#include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 

@@ -11,8 +11,8 @@
 #include <csignal>
 #include <vector>
 
-#include "mamori/kernel/flight_reader.hpp"
-#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/kernel/record/flight_reader.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {

@@ -2,7 +2,7 @@
 // Goal: windows open at their instants, in order, whatever their periods are.
 // Method: schedules of harmonic and non-harmonic periods against a list that is made by counting every
 // nanosecond.
-#include "mamori/kernel/frame_schedule.hpp"
+#include "mamori/kernel/run/frame_schedule.hpp"
 
 #include <gtest/gtest.h>
 

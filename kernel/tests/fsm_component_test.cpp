@@ -2,7 +2,7 @@
 // Goal: a state machine moves through its table, in its context's cycle, and those that act on a state or a
 // transition are called for exit, transition and entry. Method: a door with two spies beside it; each answer
 // of send_stimulus; failures and cut-offs in each phase; each rule of the table.
-#include "mamori/kernel/fsm_component.hpp"
+#include "mamori/kernel/component/fsm_component.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "mamori/kernel/execution_context.hpp"
-#include "mamori/kernel/fsm_check.hpp"
+#include "mamori/kernel/component/execution_context.hpp"
+#include "mamori/kernel/component/fsm_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/spy_component.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: events come out in the order in which they went in, none is lost or torn, and a full queue says so.
 // Method: each size on both sides of its limit, the wrap of the cells, and two senders against one reader.
-#include "mamori/kernel/fsm_event_queue.hpp"
+#include "mamori/kernel/component/detail/fsm_event_queue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "mamori/kernel/fsm_event_queue.hpp"
-#include "mamori/kernel/parameter.hpp"
+#include "mamori/kernel/component/detail/fsm_event_queue.hpp"
+#include "mamori/kernel/parameter/parameter.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/page_steps.hpp"
 

@@ -8,9 +8,9 @@
 #include <atomic>
 #include <thread>
 
-#include "mamori/kernel/introspection.hpp"
-#include "mamori/kernel/queue_in_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/run/introspection.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {

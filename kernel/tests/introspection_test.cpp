@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: what a tool reads is what happened; looking changes nothing; who asks for what is not there is told.
 // Method: two windows with a queue between them, run by hand on a clock that the test sets.
-#include "mamori/kernel/introspection.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/constant_init.hpp"
-#include "mamori/kernel/queue_in_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the life-cycle table allows exactly the transitions of the standard. Method: every cell, by hand.
-#include "mamori/kernel/lifecycle.hpp"
+#include "mamori/kernel/component/lifecycle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "mamori/kernel/queue_in_port.hpp"
-#include "mamori/kernel/system_check.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/table/system_check.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"

@@ -4,7 +4,7 @@
 // feed one drive, in one window or two, directly and through a crossing.
 #include <gtest/gtest.h>
 
-#include "mamori/kernel/system_check.hpp"
+#include "mamori/kernel/table/system_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/mode_system.hpp"
 

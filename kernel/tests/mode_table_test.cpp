@@ -7,7 +7,7 @@
 #include <array>
 #include <functional>
 
-#include "mamori/kernel/system_check.hpp"
+#include "mamori/kernel/table/system_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/mode_system.hpp"
 

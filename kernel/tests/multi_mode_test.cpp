@@ -2,13 +2,13 @@
 // Goal: a mode changes at the component's next turn, or at once, and the component is told before it
 // executes. Method: a spy with three modes beside a plain one; pending and immediate changes in each state,
 // from inside and outside; each answer of on_mode_changed.
-#include "mamori/kernel/multi_mode.hpp"
+#include "mamori/kernel/component/multi_mode.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "mamori/kernel/execution_context.hpp"
+#include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/spy_component.hpp"
 

@@ -2,7 +2,7 @@
 // Goal: a parameter never has a value that its constraint refuses, and changes at the commit only.
 // Method: both sides of each limit through each way in; requests and commits in every order; a component that
 // compares what it reads at the beginning and at the end of its cycle while another thread sends requests.
-#include "mamori/kernel/parameter.hpp"
+#include "mamori/kernel/parameter/parameter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 #include <string>
 #include <thread>
 
-#include "mamori/kernel/component.hpp"
-#include "mamori/kernel/constant_init.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
+#include "mamori/kernel/component/component.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a queue gives every publication once, in order, not before its instant, and counts what it cannot.
 // Method: a source and a queue moved by hand; a whole system with two rates on one core and on two.
-#include "mamori/kernel/queue_in_port.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"

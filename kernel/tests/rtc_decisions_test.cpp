@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/external_trigger.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/component/external_trigger.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/context_fixture.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/execution_context.hpp"
-#include "mamori/kernel/multi_mode.hpp"
+#include "mamori/kernel/component/execution_context.hpp"
+#include "mamori/kernel/component/multi_mode.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/every_status.hpp"
 #include "support/spy_component.hpp"

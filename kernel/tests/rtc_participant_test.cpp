@@ -8,8 +8,8 @@
 #include <iostream>
 #include <string>
 
-#include "mamori/kernel/execution_context.hpp"
-#include "mamori/kernel/fsm_component.hpp"
+#include "mamori/kernel/component/execution_context.hpp"
+#include "mamori/kernel/component/fsm_component.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/every_status.hpp"
 #include "support/spy_component.hpp"

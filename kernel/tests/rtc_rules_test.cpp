@@ -3,8 +3,8 @@
 // R31 actions, R32 data flow, R33 events, R34 modes, R35 several contexts. Method: two spies in one context.
 #include <algorithm>
 
-#include "mamori/kernel/fsm_component.hpp"
-#include "mamori/kernel/multi_mode.hpp"
+#include "mamori/kernel/component/fsm_component.hpp"
+#include "mamori/kernel/component/multi_mode.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/context_fixture.hpp"
 

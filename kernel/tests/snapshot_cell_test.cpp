@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a reader gets a whole value that was current during the call, or is told that it got none.
 // Method: one thread, then every interleaving of two writes with one read of the real code; seeded defects.
-#include "mamori/kernel/snapshot_cell.hpp"
+#include "mamori/kernel/dataflow/snapshot_cell.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a span shows exactly the elements it was given and nothing beyond. Method: both sides of each limit.
-#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/base/span.hpp"
 
 #include <cstdint>
 #include <type_traits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the return codes are those of the standard, and a missing value cannot be taken for a present one.
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/status.hpp"
 
 #include <string>
 

@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "mamori/kernel/execution_context.hpp"
-#include "mamori/kernel/fsm_check.hpp"
-#include "mamori/kernel/fsm_component.hpp"
+#include "mamori/kernel/component/execution_context.hpp"
+#include "mamori/kernel/component/fsm_check.hpp"
+#include "mamori/kernel/component/fsm_component.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/external_trigger.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/component/external_trigger.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/flow_components.hpp"
 

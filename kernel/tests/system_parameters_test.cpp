@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "mamori/kernel/system_check.hpp"
+#include "mamori/kernel/table/system_check.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/mode_system.hpp"
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/external_trigger.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/component/external_trigger.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/flow_components.hpp"
 

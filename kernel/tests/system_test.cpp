@@ -2,7 +2,7 @@
 // Goal: a system table is what its description says, and each rule finds its guilty row.
 // Method: a constant table read back row by row; tables that break one rule each, on both sides of its limit.
 // That the compiler refuses a broken table: compile_fail_test.cpp.
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/external_trigger.hpp"
-#include "mamori/kernel/introspection.hpp"
-#include "mamori/kernel/queue_in_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/component/external_trigger.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/introspection.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 

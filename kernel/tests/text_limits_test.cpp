@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "mamori/kernel/parameter.hpp"
+#include "mamori/kernel/parameter/parameter.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 

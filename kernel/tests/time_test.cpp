@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: time is exact in nanoseconds, and durations and instants cannot be mixed.
 // Method: arithmetic at both signs and at the limits; the forbidden mixtures are asked of the compiler.
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,16 +2,16 @@
 // Goal: the types of BasicDataType.idl and ExtendedDataTypes.idl have the fields, order and size of the
 // originals. Method: encoded sizes worked out by hand from the IDL; each field gets its place as its value;
 // both ends of time.
-#include "mamori/kernel/timed_types.hpp"
+#include "mamori/kernel/payload/timed_types.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "mamori/kernel/cdr_size.hpp"
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/extended_types_2d.hpp"
-#include "mamori/kernel/extended_types_3d.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/payload/detail/cdr_size.hpp"
+#include "mamori/kernel/payload/extended_types_2d.hpp"
+#include "mamori/kernel/payload/extended_types_3d.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::rtc {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the hash is FNV-1a over the values in little-endian order and over nothing else.
 // Method: published FNV vectors; payloads that differ in padding only, in one bit, in order.
-#include "mamori/kernel/trace_hash.hpp"
+#include "mamori/kernel/payload/trace_hash.hpp"
 
 #include <gtest/gtest.h>
 

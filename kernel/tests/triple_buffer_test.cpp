@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the reader always gets the newest published value, whole and in order, and no side waits.
 // Method: single-threaded use, then every interleaving of three writes with three reads of the real code.
-#include "mamori/kernel/triple_buffer.hpp"
+#include "mamori/kernel/dataflow/triple_buffer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: silence is judged against its limits, worst first, and an expired entity cannot be talked healthy.
 // Method: both sides of each limit, each status, repetition after a failure, full storage.
-#include "mamori/safety/alive_supervisor.hpp"
+#include "mamori/safety/supervision/alive_supervisor.hpp"
 
 #include <array>
 #include <vector>

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "mamori/safety/brake_sequence.hpp"
+#include "mamori/safety/reaction/brake_sequence.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {

@@ -2,7 +2,7 @@
 // Goal: torque holds the machine until its brakes bite wherever there is time for it, and never longer; where
 // torque is to go at once, it goes. Method: both sides of the closing time, with and without contacts, alone
 // and together with the safe-state machine.
-#include "mamori/safety/brake_sequence.hpp"
+#include "mamori/safety/reaction/brake_sequence.hpp"
 
 #include <cstdint>
 

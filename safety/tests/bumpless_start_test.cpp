@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: no start jumps. Method: both sides of one encoder step on each axis, numbers that are none, and the
 // first setpoint after each way of switching torque on.
-#include "mamori/safety/bumpless_start.hpp"
+#include "mamori/safety/reaction/bumpless_start.hpp"
 
 #include <limits>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: every run is judged, one that never ends too, and no later checkpoint hides a violation.
 // Method: both sides of each limit, the three known ways to lose a violation, ends of the time line.
-#include "mamori/safety/deadline_supervisor.hpp"
+#include "mamori/safety/supervision/deadline_supervisor.hpp"
 
 #include <array>
 #include <cstdint>

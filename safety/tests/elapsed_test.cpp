@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: no instant of the 64-bit range makes a time limit pass by overflow. Method: both ends of the range.
-#include "mamori/safety/elapsed.hpp"
+#include "mamori/safety/base/elapsed.hpp"
 
 #include <cstdint>
 #include <limits>

@@ -2,7 +2,7 @@
 // Goal: what an executive tells about its course becomes a status per component and one for the whole.
 // Method: runs are noted and calls made as an executive does it, with hangs, overruns and late windows put
 // in.
-#include "mamori/safety/execution_supervisor.hpp"
+#include "mamori/safety/supervision/execution_supervisor.hpp"
 
 #include <array>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a fault is confirmed over its cycles, latched with its first occurrence, and cleared only by a
 // deliberate acknowledgement after it is gone. Method: both sides of each limit, each status, full storage.
-#include "mamori/safety/fault_register.hpp"
+#include "mamori/safety/reaction/fault_register.hpp"
 
 #include <limits>
 #include <vector>

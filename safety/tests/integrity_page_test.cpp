@@ -13,7 +13,7 @@
 
 #include "mamori/safety/assumptions/assumption_checks.hpp"
 #include "mamori/safety/assumptions/assumption_monitor.hpp"
-#include "mamori/safety/fault_register.hpp"
+#include "mamori/safety/reaction/fault_register.hpp"
 #include "mamori/safety/redundancy/complement_stored.hpp"
 #include "mamori/safety/redundancy/cross_comparison.hpp"
 #include "mamori/safety/redundancy/time_base_check.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the worst latched fault decides, and a fault that the table forgot gets the severest reaction.
 // Method: all subsets of a set of faults with each reaction, against the plain definition of "worst".
-#include "mamori/safety/reaction_table.hpp"
+#include "mamori/safety/reaction/reaction_table.hpp"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 // Goal: stops are confirmed or escalate in time, the most urgent event wins, and only a deliberate push under
 // its conditions starts or resets. Method: both sides of each bound, each condition withheld, every bit
 // flipped.
-#include "mamori/safety/safe_state_machine.hpp"
+#include "mamori/safety/reaction/safe_state_machine.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "mamori/safety/stop_outputs.hpp"
+#include "mamori/safety/reaction/stop_outputs.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 

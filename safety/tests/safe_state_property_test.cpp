@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "mamori/safety/safe_state_machine.hpp"
-#include "mamori/safety/stop_outputs.hpp"
+#include "mamori/safety/reaction/safe_state_machine.hpp"
+#include "mamori/safety/reaction/stop_outputs.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "mamori/safety/safe_state.hpp"
+#include "mamori/safety/reaction/safe_state.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {

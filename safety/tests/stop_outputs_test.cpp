@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: torque is on, and brakes are open, in the five moving or holding states and in no other.
 // Method: every value that fits into the state's byte.
-#include "mamori/safety/stop_outputs.hpp"
+#include "mamori/safety/reaction/stop_outputs.hpp"
 
 #include "mamori/verification/verifies.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the watchdog is serviced on proven health, inside its window, and never again after a missed window.
 // Method: all combinations of health; both sides of both ends of the window; a device that refuses.
-#include "mamori/safety/watchdog_gate.hpp"
+#include "mamori/safety/supervision/watchdog_gate.hpp"
 
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"

@@ -4,7 +4,7 @@
 #ifndef MAMORI_SIMBODY_SIM_SRC_DRIVE_HPP
 #define MAMORI_SIMBODY_SIM_SRC_DRIVE_HPP
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/simbody_sim/arm_model.hpp"
 
 namespace mamori::sim::detail {

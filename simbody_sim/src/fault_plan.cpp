@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/simbody_sim/fault_plan.hpp"
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::sim {
 

@@ -3,9 +3,9 @@
 // do.
 #include <cstdio>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 #include "mamori/version.hpp"
 

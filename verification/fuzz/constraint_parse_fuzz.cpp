@@ -13,8 +13,8 @@
 #include <string>
 #include <type_traits>
 
-#include "mamori/kernel/constraint_parser.hpp"
-#include "mamori/kernel/decimal_rounding.hpp"
+#include "mamori/kernel/parameter/constraint_parser.hpp"
+#include "mamori/kernel/parameter/decimal_rounding.hpp"
 
 namespace {
 

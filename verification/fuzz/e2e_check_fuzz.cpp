@@ -9,8 +9,8 @@
 #include <cstring>
 #include <vector>
 
-#include "mamori/kernel/bounded_string.hpp"
-#include "mamori/kernel/queue_in_port.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/payload/bounded_string.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
 
 namespace mamori::fuzz {

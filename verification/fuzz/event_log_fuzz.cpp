@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/event_log.hpp"
+#include "mamori/kernel/record/event_log.hpp"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "mamori/kernel/crc32.hpp"
-#include "mamori/kernel/flight_reader.hpp"
-#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/kernel/base/crc32.hpp"
+#include "mamori/kernel/record/flight_reader.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
 
 namespace {
 

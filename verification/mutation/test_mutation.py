@@ -48,8 +48,8 @@ def test_one_seed_gives_one_sample_and_another_seed_another(sources: Sources) ->
 
 @pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")
 def test_file_that_is_none_of_the_kernels_is_refused_with_the_nearest() -> None:
-    with pytest.raises(UsageError, match=r"'kernel/src/event_lock.cpp' is no source or header of kernel or safety.*kernel/src/event_log.cpp"):
-        choose_files(("kernel/src/event_lock.cpp",), ("kernel/src/event_log.cpp", "kernel/src/assert.cpp"))
+    with pytest.raises(UsageError, match=r"'kernel/src/event_lock.cpp' is no source or header of kernel or safety.*kernel/src/record/event_log.cpp"):
+        choose_files(("kernel/src/event_lock.cpp",), ("kernel/src/record/event_log.cpp", "kernel/src/base/assert.cpp"))
 
 
 @pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")

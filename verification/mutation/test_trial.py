@@ -73,7 +73,7 @@ def test_every_file_is_of_one_layer() -> None:
     files = list_files(ROOT)
 
     assert [get_layer(file).name for file in files] == [file.partition("/")[0] for file in files]
-    assert {"kernel/src/assert.cpp", "safety/src/safe_state.cpp"} <= set(files)
+    assert {"kernel/src/base/assert.cpp", "safety/src/reaction/safe_state.cpp"} <= set(files)
     assert not any("/tests/" in file for file in files)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the file of a flight recorder: every record that can be believed, and a finding for everything else.
 
-The bytes are described in docs/design/recorder.md#region; kernel/include/mamori/kernel/flight_format.hpp writes them.
+The bytes are described in docs/design/recorder.md#region; kernel/include/mamori/kernel/record/flight_format.hpp writes them.
 
 A file of the real-time port ends with the note of a crash, which ports/posix_rt/src/crash_note.cpp writes.
 

@@ -15,9 +15,9 @@ from mamori.verification.safe_state.prove import prove
 from mamori.verification.safe_state.relation import read_relation, run_program
 from mamori.verification.safe_state.source_slip import Slip
 
-TABLE = "safety/include/mamori/safety/safe_state.hpp"
-EDGE = "safety/include/mamori/safety/rising_edge.hpp"
-MACHINE = "safety/src/safe_state_machine.cpp"
+TABLE = "safety/include/mamori/safety/reaction/safe_state.hpp"
+EDGE = "safety/include/mamori/safety/base/rising_edge.hpp"
+MACHINE = "safety/src/reaction/safe_state_machine.cpp"
 
 
 GATE_SLIPS = ("cell of the table", "bound")  # the others are `long`
@@ -52,7 +52,7 @@ def build_with(slip: Slip, folder: Path) -> Path:
         shutil.copytree(ROOT / "safety" / name, folder / "safety" / name)
     slip.put_into(folder)
     program = folder / "relation"
-    sources = [ROOT / "verification/safe_state/src/main.cpp", ROOT / "kernel/src/assert.cpp", *(folder / "safety/src").glob("safe_state*.cpp")]
+    sources = [ROOT / "verification/safe_state/src/main.cpp", ROOT / "kernel/src/base/assert.cpp", *(folder / "safety/src").glob("safe_state*.cpp")]
     subprocess.run(("g++", "-std=c++17", "-O1", f"-I{folder / 'safety/include'}", f"-I{ROOT / 'kernel/include'}",
                     *map(str, sources), "-o", str(program)), check=True)  # fmt: skip
     return program

@@ -10,6 +10,7 @@ import pytest
 
 from mamori.verification.command.project import ROOT
 from mamori.verification.tools.check_layers import check_tree, main
+from mamori.verification.tools.component_folders import UMBRELLA_HEADERS
 from mamori.verification.tools.layer_table import LISTED_STD
 from mamori.verification.tools.target_limits import MEASURED_HEADERS
 
@@ -18,8 +19,8 @@ def seed(root: Path, name: str, text: str) -> list[str]:
     """@return findings in a tree with three ports and the seeded file."""
     for port in ("conformance", "posix_rt", "virtual_time"):
         (root / "ports" / port).mkdir(parents=True)
-    (root / "safety" / "src").mkdir(parents=True)
-    for hidden in ("src/inner.hpp", "hidden.hpp"):
+    (root / "safety" / "src" / "reaction").mkdir(parents=True)
+    for hidden in ("src/reaction/inner.hpp", "hidden.hpp"):
         (root / "safety" / hidden).touch()
     path = root / name
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -29,7 +30,7 @@ def seed(root: Path, name: str, text: str) -> list[str]:
 
 @pytest.mark.verifies("SWR-PRF-006")
 def test_shipped_tree_keeps_the_table() -> None:
-    assert [finding for finding in check_tree(ROOT) if finding.rule in ("include", "link", "import")] == []
+    assert [finding for finding in check_tree(ROOT) if finding.rule in ("include", "folder", "link", "import")] == []
 
 
 @pytest.mark.verifies("SWR-PRF-007")
@@ -52,11 +53,11 @@ def test_listed_headers_are_those_of_the_written_table() -> None:
 
 
 ALLOWED = {
-    "kernel/include/mamori/kernel/a.hpp": "#include <array>\n#include <cstdint>\n#include \"mamori/kernel/span.hpp\"\n",
+    "kernel/include/mamori/kernel/run/a.hpp": "#include <array>\n#include <cstdint>\n#include \"mamori/kernel/base/span.hpp\"\n",
     "kernel/tests/a_test.cpp": "#include <string>\n#include <gtest/gtest.h>\n#include \"mamori/verification/verifies.hpp\"\n",
     "kernel/tests/support/a.hpp": "#include <sys/wait.h>\n#include \"support/a.hpp\"\n",
-    "safety/src/arm/a.cpp": "#include <Eigen/Core>\n#include \"mamori/kernel/span.hpp\"\n",
-    "safety/src/a.cpp": "#include \"inner.hpp\"\n",
+    "safety/src/arm/a.cpp": "#include <Eigen/Core>\n#include \"mamori/kernel/base/span.hpp\"\n",
+    "safety/src/reaction/a.cpp": "#include \"inner.hpp\"\n",
     "ports/virtual_time/src/a.cpp": "#include <vector>\n#include <time.h>\n#include \"mamori/virtual_time/clock.hpp\"\n",
     "safety/tests/a_test.cpp": "#include \"mamori/verification/failed_check.hpp\"\n",
     "ports/virtual_time/tests/a_test.cpp": "#include \"mamori/ports/conformance/host_contract.hpp\"\n",
@@ -79,16 +80,16 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
 @pytest.mark.parametrize(
     ("name", "line", "message"),
     [
-        ("kernel/src/a.cpp", "#include <vector>", "include: kernel may not include 'vector'"),
-        ("kernel/src/a.cpp", "#  include <stdint.h>", "include: kernel may not include 'stdint.h'"),
-        ("kernel/src/a.cpp", '#include "mamori/safety/arm.hpp"', "include: kernel may not include 'mamori/safety/arm.hpp'"),
-        ("kernel/src/a.cpp", '#include "mamori/verification/verifies.hpp"', "include: kernel may not include"),
+        ("kernel/src/run/a.cpp", "#include <vector>", "include: kernel may not include 'vector'"),
+        ("kernel/src/run/a.cpp", "#  include <stdint.h>", "include: kernel may not include 'stdint.h'"),
+        ("kernel/src/run/a.cpp", '#include "mamori/safety/arm.hpp"', "include: kernel may not include 'mamori/safety/arm.hpp'"),
+        ("kernel/src/run/a.cpp", '#include "mamori/verification/verifies.hpp"', "include: kernel may not include"),
         ("kernel/tests/a.cpp", '#include "mamori/safety/arm.hpp"', "include: kernel may not include"),
         ("kernel/tests/a.cpp", "#include <Eigen/Core>", "include: kernel may not include 'Eigen/Core'"),
-        ("kernel/src/a.cpp", "#include <unistd.h>", "include: kernel may not include 'unistd.h'"),
-        ("kernel/src/a.cpp", '#include "safety/hidden.hpp"', "include: 'safety/hidden.hpp' belongs to another layer"),
-        ("safety/src/a.cpp", "#include <Eigen/Core>", "include: safety may not include 'Eigen/Core'"),
-        ("safety/src/a.cpp", '#include "mamori/virtual_time/clock.hpp"', "include: safety may not include"),
+        ("kernel/src/run/a.cpp", "#include <unistd.h>", "include: kernel may not include 'unistd.h'"),
+        ("kernel/src/run/a.cpp", '#include "safety/hidden.hpp"', "include: 'safety/hidden.hpp' belongs to another layer"),
+        ("safety/src/reaction/a.cpp", "#include <Eigen/Core>", "include: safety may not include 'Eigen/Core'"),
+        ("safety/src/reaction/a.cpp", '#include "mamori/virtual_time/clock.hpp"', "include: safety may not include"),
         ("ports/posix_rt/src/a.cpp", '#include "mamori/virtual_time/clock.hpp"', "include: ports/posix_rt may not include"),
         ("ports/posix_rt/src/a.cpp", '#include "mamori/ports/conformance/trial.hpp"', "include: ports/posix_rt may not include"),
         ("ports/posix_rt/tests/a.cpp", '#include "mamori/ports/virtual_time/virtual_host.hpp"', "include: ports/posix_rt may not"),
@@ -96,8 +97,8 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
         ("safety/tests/a.cpp", '#include "mamori/ports/conformance/trial.hpp"', "include: safety may not include"),
         ("simbody_sim/src/a.cpp", '#include "mamori/posix_rt/clock.hpp"', "include: simbody_sim may not include"),
         ("simbody_sim/src/a.cpp", "#include <boost/any.hpp>", "include: simbody_sim may not include 'boost/any.hpp'"),
-        ("examples/a/main.cpp", '#include "../../safety/src/inner.hpp"', "include: '../../safety/src/inner.hpp' reaches into"),
-        ("examples/a/main.cpp", '#include "safety/src/inner.hpp"', "include: 'safety/src/inner.hpp' reaches into"),
+        ("examples/a/main.cpp", '#include "../../safety/src/reaction/inner.hpp"', "include: '../../safety/src/reaction/inner.hpp' reaches into"),
+        ("examples/a/main.cpp", '#include "safety/src/reaction/inner.hpp"', "include: 'safety/src/reaction/inner.hpp' reaches into"),
         ("trace/a.cpp", "", "include: this layer has no C++"),
         ("kernel/CMakeLists.txt", "mamori_library(kernel DEPENDS mamori::safety)", "link: kernel may not link mamori::safety"),
         ("ports/posix_rt/CMakeLists.txt", "mamori_library(posix_rt DEPENDS mamori::virtual_time)", "link: ports/posix_rt may"),
@@ -115,6 +116,52 @@ def test_seeded_breach_of_the_table_is_found_with_its_line(tmp_path: Path, name:
 
     assert len(findings) == 1
     assert findings[0].startswith(f"{name}:{2 if line else 1}: {message}")
+
+
+@pytest.mark.parametrize(
+    ("name", "include"),
+    [
+        ("kernel/src/run/a.cpp", "mamori/kernel/table/system_table.hpp"), ("kernel/src/run/a.cpp", "mamori/kernel/run/detail/mode_plan.hpp"),
+        ("kernel/include/mamori/kernel/dataflow/detail/a.hpp", "mamori/kernel/dataflow/connection.hpp"),
+        ("kernel/tests/a_test.cpp", "mamori/kernel/run/detail/mode_plan.hpp"), ("kernel/tests/a_test.cpp", "mamori/kernel/system/system.hpp"),
+        ("kernel/include/mamori/kernel.hpp", "mamori/kernel/system/system.hpp"), ("safety/src/base/a.cpp", "mamori/kernel/run/executive.hpp"),
+        ("safety/src/assumptions/a.cpp", "mamori/safety/self_test/march.hpp"),
+    ],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-PRF-042", technique="equivalence_classes")
+def test_include_of_the_own_folder_or_a_lower_level_is_no_finding(tmp_path: Path, name: str, include: str) -> None:
+    assert seed(tmp_path, name, f'#include "{include}"\n') == []
+
+
+@pytest.mark.parametrize(
+    ("name", "include", "message"),
+    [
+        ("kernel/src/base/a.cpp", "mamori/kernel/run/executive.hpp", "include: kernel/base (level 0) may not include"),
+        ("kernel/include/mamori/kernel/run/a.hpp", "mamori/kernel/system/system.hpp", "include: kernel/run (level 4) may not include"),
+        ("safety/src/base/a.cpp", "mamori/safety/e2e/crc.hpp", "include: safety/base (level 0) may not include"),
+        ("kernel/src/run/a.cpp", "mamori/kernel/payload/detail/cdr_size.hpp", "include: 'mamori/kernel/payload/detail/cdr_size.hpp' is a detail of"),
+        ("safety/tests/a_test.cpp", "mamori/kernel/payload/detail/cdr_size.hpp", "include: 'mamori/kernel/payload/detail/cdr_size.hpp' is a detail"),
+        ("examples/a/main.cpp", "mamori/kernel/payload/detail/cdr_size.hpp", "include: 'mamori/kernel/payload/detail/cdr_size.hpp' is a detail"),
+        ("kernel/include/mamori/kernel/a.hpp", "", "folder: kernel has component folders only"),
+        ("kernel/src/a.cpp", "", "folder: kernel has component folders only"), ("safety/src/other/a.cpp", "", "folder: safety has component"),
+    ],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-PRF-042", technique="fault_injection", polarity="violation")
+def test_include_of_a_higher_level_or_of_a_foreign_detail_is_found(tmp_path: Path, name: str, include: str, message: str) -> None:
+    findings = seed(tmp_path, name, f'#include "{include}"\n' if include else "")
+
+    assert len(findings) == 1
+    assert findings[0].startswith(f"{name}:1: {message}")
+
+
+@pytest.mark.verifies("SWR-PRF-042", technique="equivalence_classes")
+def test_users_of_the_kernel_see_at_most_25_headers() -> None:
+    umbrella = (ROOT / UMBRELLA_HEADERS[0]).read_text(encoding="utf-8")
+
+    included = re.findall(r'^#include "(mamori/kernel/[a-z]+/[a-z0-9_]+\.hpp)"$', umbrella, re.MULTILINE)
+
+    assert 0 < len(included) <= 25
+    assert len(included) == umbrella.count("#include")
 
 
 def make_function(lines: int) -> str:
@@ -136,7 +183,7 @@ def make_function(lines: int) -> str:
 )
 @pytest.mark.verifies("SWR-PRF-007", technique="boundary_values", polarity="violation")
 def test_seeded_breach_of_the_limits_is_found(tmp_path: Path, text: str, message: str) -> None:
-    findings = seed(tmp_path, "safety/src/a.cpp", text)
+    findings = seed(tmp_path, "safety/src/reaction/a.cpp", text)
 
     assert len(findings) == 1
     assert message in findings[0]
@@ -149,7 +196,7 @@ def test_seeded_breach_of_the_limits_is_found(tmp_path: Path, text: str, message
 )  # fmt: skip
 @pytest.mark.verifies("SWR-PRF-007", technique="boundary_values")
 def test_what_keeps_the_limits_is_no_finding(tmp_path: Path, text: str) -> None:
-    assert seed(tmp_path, "safety/src/a.cpp", text) == []
+    assert seed(tmp_path, "safety/src/reaction/a.cpp", text) == []
 
 
 def seed_headers(root: Path, folder: str, lines: list[int]) -> list[str]:
@@ -167,7 +214,7 @@ def seed_headers(root: Path, folder: str, lines: list[int]) -> list[str]:
 )
 @pytest.mark.verifies("SWR-PRF-008", technique="boundary_values", polarity="violation")
 def test_long_headers_of_the_kernel_are_found(tmp_path: Path, lines: list[int], median: str) -> None:
-    findings = seed_headers(tmp_path, "kernel/include/mamori/kernel", lines)
+    findings = seed_headers(tmp_path, "kernel/include/mamori/kernel/run", lines)
 
     longest = f"the longest is h{len(lines) - 1}.hpp with {lines[-1]}"
     assert findings == [f"kernel/include:1: size: median of {len(lines)} headers is {median} lines, 90 are the limit; "
@@ -177,12 +224,12 @@ def test_long_headers_of_the_kernel_are_found(tmp_path: Path, lines: list[int], 
 @pytest.mark.parametrize("lines", [[90], [10, 90, 400], [90, 90, 90, 400], [89, 91]])
 @pytest.mark.verifies("SWR-PRF-008", technique="boundary_values")
 def test_headers_of_the_kernel_at_the_limit_are_no_finding(tmp_path: Path, lines: list[int]) -> None:
-    assert seed_headers(tmp_path, "kernel/include/mamori/kernel", lines) == []
+    assert seed_headers(tmp_path, "kernel/include/mamori/kernel/run", lines) == []
 
 
 @pytest.mark.verifies("SWR-PRF-008", technique="equivalence_classes")
 def test_only_headers_of_the_kernel_count_for_the_median(tmp_path: Path) -> None:
-    assert seed_headers(tmp_path, "safety/include/mamori/safety", [400]) == []
+    assert seed_headers(tmp_path, "safety/include/mamori/safety/base", [400]) == []
     assert seed_headers(tmp_path, "kernel/tests/support", [400]) == []
 
 
@@ -191,6 +238,6 @@ def test_exit_status_tells_whether_there_were_findings(tmp_path: Path, capsys: p
     (tmp_path / "kernel").mkdir()
     assert main(["--root", str(tmp_path)]) == 0
 
-    seed(tmp_path, "kernel/src/a.cpp", "#include <map>\n")
+    seed(tmp_path, "kernel/src/run/a.cpp", "#include <map>\n")
     assert main(["--root", str(tmp_path)]) == 1
     assert capsys.readouterr().out.endswith("layer check: 1 findings\n")

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Proves the layer table of CONTRIBUTING.md: who includes, links and imports whom, what target code may contain, and that death
-tests state their cause.
+"""Proves the layer table of CONTRIBUTING.md: who includes, links and imports whom, in which order the component folders of a layer
+are, what target code may contain, and that death tests state their cause.
 
     python -m mamori.verification.tools.check_layers [--root FOLDER]
 
 One line per finding, `file:line: rule: message`; exit status 0 without findings, 1 with, 2 for wrong arguments.
 
-@satisfies SWR-PRF-006, SWR-PRF-007, SWR-PRF-008      Design: docs/design/launcher.md#layer-check
+@satisfies SWR-PRF-006, SWR-PRF-007, SWR-PRF-008, SWR-PRF-042      Design: docs/design/launcher.md#layer-check
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from mamori.verification.tools.component_folders import check_order, check_place
 from mamori.verification.tools.death_tests import check_death_tests
 from mamori.verification.tools.deviations import check_deviations
 from mamori.verification.tools.layer_table import ALLOWED_IMPORTS, FORBIDDEN_IMPORTS, LISTED_STD, TEST_INCLUDES, Layer, get_layer
@@ -86,6 +87,8 @@ def _check_file(root: Path, path: Path) -> Iterator[Finding]:
         text = path.read_text(encoding="utf-8")
         for line, message in _check_includes(root, path, layer, text, is_test="tests" in parts):
             yield Finding(name, line, "include", message)
+        for message in check_place(parts):
+            yield Finding(name, 1, "folder", message)
         for line, message in check_death_tests(text):
             yield Finding(name, line, "death", message)
         if _is_target_code(root, path):
@@ -107,6 +110,8 @@ def _check_includes(root: Path, path: Path, layer: Layer, text: str, is_test: bo
             is_for_tests = include in TEST_INCLUDES or include.startswith(layer.test_headers)
             if not include.startswith(layer.headers) and not (is_test and is_for_tests):
                 yield line, f"{layer.name} may not include '{include}'"
+            for message in check_order(path.relative_to(root).parts, include):
+                yield line, message
         elif match["open"] == '"' and (found := _find_beside(root, path, include)):
             if get_layer(found) != layer:
                 yield line, f"'{include}' belongs to another layer"

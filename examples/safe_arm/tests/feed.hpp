@@ -4,7 +4,7 @@
 #ifndef EXAMPLES_SAFE_ARM_TESTS_FEED_HPP
 #define EXAMPLES_SAFE_ARM_TESTS_FEED_HPP
 
-#include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
 
 namespace safe_arm {
 

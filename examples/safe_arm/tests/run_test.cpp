@@ -14,7 +14,7 @@
 #include <sstream>
 #include <vector>
 
-#include "mamori/kernel/flight_reader.hpp"
+#include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "run_recorder.hpp"
 #include "safety_supervisor.hpp"

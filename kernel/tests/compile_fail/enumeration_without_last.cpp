@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: an enumeration is encoded although nothing tells which of its values exist.
-#include "mamori/kernel/cdr.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
 
 enum class Mode { kIdle, kRun };
 #ifndef MAMORI_BREAK

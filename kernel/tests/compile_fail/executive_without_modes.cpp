@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: executives without the SystemModes that their tables need, 1: for modes, 2: for configuration sets.
-#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "parts.hpp"
 
 #ifndef MAMORI_BREAK

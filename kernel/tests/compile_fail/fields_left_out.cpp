@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: a field list leaves the last field out.
-#include "mamori/kernel/fields.hpp"
+#include "mamori/kernel/payload/fields.hpp"
 
 struct Sample {
     double position;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: a field list names a field that the type does not have.
-#include "mamori/kernel/fields.hpp"
+#include "mamori/kernel/payload/fields.hpp"
 
 struct Sample {
     double position;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: a state machine has a state that no transition leads to.
-#include "mamori/kernel/fsm_check.hpp"
+#include "mamori/kernel/component/fsm_check.hpp"
 
 namespace {
 constexpr std::array<mamori::FsmState, 2> kStates{{{"off"}, {"on"}}};

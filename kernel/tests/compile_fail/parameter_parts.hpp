@@ -4,8 +4,8 @@
 #ifndef MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARAMETER_PARTS_HPP
 #define MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARAMETER_PARTS_HPP
 
-#include "mamori/kernel/configuration_set.hpp"
-#include "mamori/kernel/constant_init.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
+#include "mamori/kernel/parameter/configuration_set.hpp"
 
 class Axis final : public mamori::Component {
   public:

@@ -4,7 +4,7 @@
 #ifndef MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARTS_HPP
 #define MAMORI_KERNEL_TESTS_COMPILE_FAIL_PARTS_HPP
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 
 class Producer final : public mamori::Component {
   public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: the buffer carries a payload that needs a copy constructor.
-#include "mamori/kernel/snapshot_cell.hpp"
+#include "mamori/kernel/dataflow/snapshot_cell.hpp"
 
 struct Payload {
 #ifdef MAMORI_BREAK

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: the buffer carries a payload that needs a copy constructor.
-#include "mamori/kernel/triple_buffer.hpp"
+#include "mamori/kernel/dataflow/triple_buffer.hpp"
 
 struct Payload {
 #ifdef MAMORI_BREAK

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: a character is encoded whose form on the wire depends on the peers.
-#include "mamori/kernel/cdr.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
 
 #ifdef MAMORI_BREAK
 using Character = wchar_t;

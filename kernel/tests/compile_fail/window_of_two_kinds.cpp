@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: what releases the cycles of a window is one thing.
-#include "mamori/kernel/external_trigger.hpp"
+#include "mamori/kernel/component/external_trigger.hpp"
 #include "parts.hpp"
 
 inline mamori::ExternalTrigger g_trigger;

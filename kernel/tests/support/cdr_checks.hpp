@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/cdr.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
 
 namespace mamori::cdr_checks {
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <cstdint>
 
-#include "mamori/kernel/component.hpp"
-#include "mamori/kernel/parameter.hpp"
+#include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/parameter/parameter.hpp"
 
 namespace mamori::testing_support {
 

@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "mamori/kernel/execution_context.hpp"
+#include "mamori/kernel/component/execution_context.hpp"
 #include "support/spy_component.hpp"
 
 namespace mamori::testing_support {

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/status.hpp"
 
 namespace mamori::testing_support {
 

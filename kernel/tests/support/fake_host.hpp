@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "mamori/kernel/execution_observer.hpp"
-#include "mamori/kernel/window_host.hpp"
+#include "mamori/kernel/component/window_host.hpp"
+#include "mamori/kernel/run/execution_observer.hpp"
 
 namespace mamori::testing_support {
 

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 
 namespace mamori::testing_support {
 

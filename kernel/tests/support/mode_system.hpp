@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "support/interleaving.hpp"
 
 namespace mamori::testing_support {

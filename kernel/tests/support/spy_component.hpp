@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "mamori/kernel/component.hpp"
+#include "mamori/kernel/component/component.hpp"
 
 namespace mamori::testing_support {
 

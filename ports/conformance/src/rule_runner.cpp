@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::ports::conformance {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "mamori/kernel/flight_reader.hpp"
-#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/kernel/record/flight_reader.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/ports/conformance/rule_trial.hpp"
 
 namespace mamori::ports::conformance {

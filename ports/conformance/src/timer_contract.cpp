@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/component.hpp"
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/conformance/rule_trial.hpp"
 
 namespace mamori::ports::conformance {

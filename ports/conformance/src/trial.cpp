@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::ports::conformance {
 namespace {

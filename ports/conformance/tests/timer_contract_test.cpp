@@ -8,7 +8,7 @@
 #include <array>
 #include <ostream>
 
-#include "mamori/kernel/frame_schedule.hpp"
+#include "mamori/kernel/run/frame_schedule.hpp"
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"

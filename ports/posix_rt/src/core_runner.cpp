@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

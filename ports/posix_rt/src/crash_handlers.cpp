@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "failure_order.hpp"
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/ports/posix_rt/crash_note.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mamori/kernel/crc32.hpp"
+#include "mamori/kernel/base/crc32.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

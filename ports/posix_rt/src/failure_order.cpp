@@ -6,7 +6,7 @@
 
 #include <atomic>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/ports/posix_rt/time_source.hpp"
 
 namespace mamori::ports::posix_rt::detail {

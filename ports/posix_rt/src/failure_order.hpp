@@ -7,7 +7,7 @@
 #ifndef MAMORI_PORTS_POSIX_RT_SRC_FAILURE_ORDER_HPP
 #define MAMORI_PORTS_POSIX_RT_SRC_FAILURE_ORDER_HPP
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 
 namespace mamori::ports::posix_rt::detail {
 

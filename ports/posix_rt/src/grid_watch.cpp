@@ -2,7 +2,7 @@
 #include "mamori/ports/posix_rt/grid_watch.hpp"
 
 #include "failure_order.hpp"
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::ports::posix_rt {
 

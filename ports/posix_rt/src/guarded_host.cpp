@@ -4,7 +4,7 @@
 #include <cerrno>
 
 #include "failure_order.hpp"
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
 
 namespace mamori::ports::posix_rt {

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <limits>
 
-#include "mamori/safety/opaque.hpp"
+#include "mamori/safety/base/opaque.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstdint>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

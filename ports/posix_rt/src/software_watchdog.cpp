@@ -9,7 +9,7 @@
 #include "failure_order.hpp"
 #include "mamori/ports/posix_rt/crash_handlers.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
-#include "mamori/safety/elapsed.hpp"
+#include "mamori/safety/base/elapsed.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

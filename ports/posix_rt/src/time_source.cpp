@@ -5,7 +5,7 @@
 
 #include <cerrno>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/clock_sources.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"

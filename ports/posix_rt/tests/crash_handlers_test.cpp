@@ -24,8 +24,8 @@
 #include <thread>
 #include <vector>
 
-#include "mamori/kernel/flight_reader.hpp"
-#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/kernel/record/flight_reader.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/ports/posix_rt/crash_note.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
 #include "mamori/ports/posix_rt/crash_stack.hpp"

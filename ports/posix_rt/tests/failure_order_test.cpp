@@ -15,7 +15,7 @@
 #include <new>
 #include <thread>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/ports/posix_rt/crash_handlers.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"

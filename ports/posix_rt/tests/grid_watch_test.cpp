@@ -14,8 +14,8 @@
 #include <thread>
 #include <vector>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "support/fake_clock.hpp"

@@ -16,8 +16,8 @@
 #include <thread>
 #include <vector>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/verification/verifies.hpp"
 

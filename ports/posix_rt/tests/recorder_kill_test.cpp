@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/flight_reader.hpp"
-#include "mamori/kernel/flight_recorder.hpp"
+#include "mamori/kernel/record/flight_reader.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/ports/posix_rt/mapped_file.hpp"
 #include "mamori/verification/verifies.hpp"
 

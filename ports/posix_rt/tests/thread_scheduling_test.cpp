@@ -17,8 +17,8 @@
 #include <ostream>
 #include <thread>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/clock_sources.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
 
-#include "mamori/safety/elapsed.hpp"
+#include "mamori/safety/base/elapsed.hpp"
 
 namespace mamori::ports::virtual_time {
 

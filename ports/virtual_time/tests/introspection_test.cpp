@@ -2,14 +2,14 @@
 // Goal: 1000 requests per second of virtual time change no hash and no window, and neither does a tool that
 // asks without pause. Method: one system run three times: unseen, asked from the devices of each frame of
 // one millisecond, and with a real thread that hammers beside it. One window overruns now and then.
-#include "mamori/kernel/introspection.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <thread>
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/verification/verifies.hpp"
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/verification/verifies.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Both ports of a message over each kind of input, so that the proofs about the library (symbols, stack,
 // controller's compiler) see what a user's program will hold. Nothing refers to this object.
-#include "mamori/kernel/queue_in_port.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
 
 namespace mamori::safety::detail {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/safety/redundancy/clock_ratio.hpp"
 
-#include "mamori/safety/elapsed.hpp"
+#include "mamori/safety/base/elapsed.hpp"
 
 namespace mamori::safety {
 

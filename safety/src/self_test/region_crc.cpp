@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/safety/self_test/region_crc.hpp"
 
-#include "mamori/safety/opaque.hpp"
+#include "mamori/safety/base/opaque.hpp"
 
 namespace mamori::safety {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/safety/self_test/schedule.hpp"
 
-#include "mamori/safety/elapsed.hpp"
+#include "mamori/safety/base/elapsed.hpp"
 
 namespace mamori::safety {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "mamori/safety/assumptions/assumption_checks.hpp"
-#include "mamori/safety/safe_state_machine.hpp"
+#include "mamori/safety/reaction/safe_state_machine.hpp"
 #include "mamori/safety/self_test/cpu_check.hpp"
 #include "mamori/safety/self_test/march.hpp"
 #include "mamori/safety/self_test/ram_area.hpp"

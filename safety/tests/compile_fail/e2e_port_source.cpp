@@ -2,8 +2,8 @@
 // Compiled by port_compile_test.cpp with one defect at a time; without a defect it compiles.
 #include <cstdint>
 
-#include "mamori/kernel/constant_init.hpp"
-#include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
 
 namespace defects {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled by reaction_table_compile_test.cpp with one defect at a time; without a defect it compiles.
-#include "mamori/safety/reaction_table.hpp"
+#include "mamori/safety/reaction/reaction_table.hpp"
 
 namespace {
 

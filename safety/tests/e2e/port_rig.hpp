@@ -7,9 +7,9 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/bounded_string.hpp"
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/queue_in_port.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/payload/bounded_string.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
 
 namespace e2e_port_test {

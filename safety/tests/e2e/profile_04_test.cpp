@@ -4,7 +4,7 @@
 // of each limit.
 #include "mamori/safety/e2e/profile_04.hpp"
 
-#include "mamori/kernel/constant_init.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
 #include "mamori/safety/e2e/checker.hpp"
 #include "mamori/verification/verifies.hpp"
 #include "rig.hpp"

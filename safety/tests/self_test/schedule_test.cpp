@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "mamori/safety/safe_state_machine.hpp"
+#include "mamori/safety/reaction/safe_state_machine.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "mamori/verification/verifies.hpp"
 

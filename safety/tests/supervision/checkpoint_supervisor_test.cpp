@@ -9,7 +9,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "mamori/safety/watchdog_gate.hpp"
+#include "mamori/safety/supervision/watchdog_gate.hpp"
 #include "supervision_rig.hpp"
 
 namespace mamori::safety {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "mamori/kernel/constant_init.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
 #include "mamori/verification/verifies.hpp"
 
 // clang-format off

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "mamori/kernel/constant_init.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
 #include "supervision_rig.hpp"
 
 namespace mamori::safety {

@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "mamori/safety/fault_register.hpp"
+#include "mamori/safety/reaction/fault_register.hpp"
 
 namespace mamori::safety::testing_support {
 

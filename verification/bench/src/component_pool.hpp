@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "mamori/kernel/component.hpp"
+#include "mamori/kernel/component/component.hpp"
 
 namespace mamori::verification::bench {
 

@@ -5,7 +5,7 @@
 #ifndef MAMORI_VERIFICATION_BENCH_E2E_RIG_HPP
 #define MAMORI_VERIFICATION_BENCH_E2E_RIG_HPP
 
-#include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
 #include "subject.hpp"
 

@@ -17,7 +17,7 @@
 
 #include "e2e_rig.hpp"
 #include "executive_rig.hpp"
-#include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
 #include "seal.hpp"
 #include "seqlock.hpp"
 #include "subject.hpp"

@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "component_pool.hpp"
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
-#include "mamori/safety/execution_supervisor.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/safety/supervision/execution_supervisor.hpp"
 #include "minimal_host.hpp"
 
 namespace mamori::verification::bench {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 

@@ -2,7 +2,7 @@
 /// @file
 /// Ours in the port cases: a component writes, the window closes, the next window opens, a component reads.
 #include "catalogue.hpp"
-#include "mamori/kernel/data_port.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
 
 namespace mamori::verification::bench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "mamori/kernel/window_host.hpp"
+#include "mamori/kernel/component/window_host.hpp"
 
 namespace mamori::verification::bench {
 

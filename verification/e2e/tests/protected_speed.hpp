@@ -4,7 +4,7 @@
 #ifndef MAMORI_VERIFICATION_E2E_PROTECTED_SPEED_HPP
 #define MAMORI_VERIFICATION_E2E_PROTECTED_SPEED_HPP
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
 
 struct Speed {

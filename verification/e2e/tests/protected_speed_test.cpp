@@ -8,7 +8,7 @@
 #include <array>
 #include <functional>
 
-#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
 #include "mamori/verification/verifies.hpp"

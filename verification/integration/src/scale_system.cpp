@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <utility>
 
-#include "mamori/kernel/constant_init.hpp"
-#include "mamori/kernel/introspection.hpp"
-#include "mamori/kernel/queue_in_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/run/introspection.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 
 namespace mamori::verification::integration {

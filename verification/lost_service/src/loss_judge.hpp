@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
 #include "mamori/verification/stall_watch.hpp"
 

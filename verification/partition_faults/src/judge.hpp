@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/verification/run_verdict.hpp"
 #include "mamori/verification/stall_watch.hpp"
 

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/crc32.hpp"
-#include "mamori/kernel/fields.hpp"
+#include "mamori/kernel/base/crc32.hpp"
+#include "mamori/kernel/payload/fields.hpp"
 
 namespace mamori::partition_faults {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "safety_system.hpp"
 
-#include "mamori/kernel/system.hpp"
-#include "mamori/safety/alive_supervisor.hpp"
-#include "mamori/safety/fault_register.hpp"
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/safety/reaction/fault_register.hpp"
+#include "mamori/safety/supervision/alive_supervisor.hpp"
 
 namespace mamori::partition_faults {
 

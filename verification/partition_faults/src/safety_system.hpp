@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "judge.hpp"
-#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/partition_link.hpp"
-#include "mamori/safety/reaction_table.hpp"
+#include "mamori/safety/reaction/reaction_table.hpp"
 #include "mamori/verification/seeded_defect.hpp"
 #include "messages.hpp"
 

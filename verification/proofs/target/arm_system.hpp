@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 
 namespace proof {

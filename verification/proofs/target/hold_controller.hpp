@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "messages.hpp"
 
 namespace proof {

@@ -3,13 +3,13 @@
 // guard. They are linked so that the proofs look at them too.
 #include "other_parts.hpp"
 
-#include "mamori/kernel/configuration_admin.hpp"
-#include "mamori/kernel/configuration_set.hpp"
-#include "mamori/kernel/constant_init.hpp"
-#include "mamori/kernel/fsm_check.hpp"
-#include "mamori/kernel/fsm_component.hpp"
-#include "mamori/kernel/parameter.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
+#include "mamori/kernel/component/fsm_check.hpp"
+#include "mamori/kernel/component/fsm_component.hpp"
+#include "mamori/kernel/parameter/configuration_admin.hpp"
+#include "mamori/kernel/parameter/configuration_set.hpp"
+#include "mamori/kernel/parameter/parameter.hpp"
+#include "mamori/kernel/system/system.hpp"
 
 namespace proof {
 

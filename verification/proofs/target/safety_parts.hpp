@@ -4,7 +4,7 @@
 #ifndef MAMORI_VERIFICATION_PROOFS_TARGET_SAFETY_PARTS_HPP
 #define MAMORI_VERIFICATION_PROOFS_TARGET_SAFETY_PARTS_HPP
 
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/status.hpp"
 
 namespace proof {
 

@@ -18,7 +18,7 @@ from mamori.verification.safe_state.machine import Machine
 from mamori.verification.safe_state.relation import run_program
 from mamori.verification.safe_state.source_slip import Slip
 
-HEADER = "include/mamori/safety/brake_sequence.hpp"
+HEADER = "include/mamori/safety/reaction/brake_sequence.hpp"
 SOURCE = "src/brake_sequence.cpp"
 INCLUDES = tuple(f"-I{ROOT / layer / 'include'}" for layer in ("safety", "kernel"))
 
@@ -51,7 +51,7 @@ def build_with(slip: Slip, folder: Path) -> Path:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / "safety" / name, folder / name)
     slip.put_into(folder)
-    sources = [ROOT / "verification/safe_state/src/brake_main.cpp", ROOT / "kernel/src/assert.cpp", folder / SOURCE,
+    sources = [ROOT / "verification/safe_state/src/brake_main.cpp", ROOT / "kernel/src/base/assert.cpp", folder / SOURCE,
                *(ROOT / "safety/src").glob("safe_state*.cpp")]  # fmt: skip
     program = folder / "relation"
     subprocess.run(("g++", "-std=c++17", "-O1", f"-I{folder / 'include'}", *INCLUDES, *map(str, sources), "-o", str(program)), check=True)

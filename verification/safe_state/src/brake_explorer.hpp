@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "mamori/safety/brake_sequence.hpp"
+#include "mamori/safety/reaction/brake_sequence.hpp"
 
 namespace mamori::verification {
 

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "mamori/safety/safe_state_machine.hpp"
+#include "mamori/safety/reaction/safe_state_machine.hpp"
 
 namespace mamori::verification {
 

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "explorer.hpp"
-#include "mamori/safety/stop_outputs.hpp"
+#include "mamori/safety/reaction/stop_outputs.hpp"
 
 namespace mamori::verification {
 namespace {

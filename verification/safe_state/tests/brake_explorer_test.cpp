@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "mamori/safety/safe_state_machine.hpp"
+#include "mamori/safety/reaction/safe_state_machine.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::verification {

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "mamori/kernel/system_check.hpp"
+#include "mamori/kernel/table/system_check.hpp"
 
 namespace mamori::table_dump {
 

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "mamori/kernel/system_table.hpp"
+#include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori::table_dump {
 

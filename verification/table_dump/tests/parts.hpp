@@ -4,8 +4,8 @@
 #ifndef MAMORI_TABLE_DUMP_TESTS_PARTS_HPP
 #define MAMORI_TABLE_DUMP_TESTS_PARTS_HPP
 
-#include "mamori/kernel/queue_in_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/system/system.hpp"
 
 namespace mamori::table_dump::testing_support {
 

@@ -4,10 +4,10 @@
 #ifndef MAMORI_TABLE_DUMP_TESTS_ROBOT_WITH_MODES_HPP
 #define MAMORI_TABLE_DUMP_TESTS_ROBOT_WITH_MODES_HPP
 
-#include "mamori/kernel/constant_init.hpp"
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
-#include "mamori/kernel/system_modes.hpp"
+#include "mamori/kernel/base/constant_init.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/system_modes.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 
 namespace mamori::table_dump::robot {

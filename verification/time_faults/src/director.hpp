@@ -11,7 +11,7 @@
 #include "faulty_time.hpp"
 #include "inversion.hpp"
 #include "judge.hpp"
-#include "mamori/kernel/execution_observer.hpp"
+#include "mamori/kernel/run/execution_observer.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
 #include "mamori/verification/run_delay.hpp"

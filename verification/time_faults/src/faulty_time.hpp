@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/posix_rt/time_source.hpp"
 
 namespace mamori::time_faults {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/verification/stall_watch.hpp"

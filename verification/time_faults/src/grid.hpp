@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mamori/kernel/introspection.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 
 namespace mamori::time_faults {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "grid_figures.hpp"
-#include "mamori/kernel/introspection.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 
 namespace mamori::time_faults {
 

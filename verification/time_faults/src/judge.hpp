@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mamori/kernel/system_table.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/table/system_table.hpp"
 #include "mamori/verification/run_verdict.hpp"
 #include "watch_judge.hpp"
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "judge.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
 #include "mamori/verification/seeded_defect.hpp"
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "judge.hpp"
-#include "mamori/kernel/component.hpp"
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/introspection.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/introspection.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/verification/run_delay.hpp"
 #include "page_storm.hpp"

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
 #include "mamori/verification/stall_watch.hpp"
 

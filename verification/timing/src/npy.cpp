@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "npy.hpp"
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::timing {
 namespace {

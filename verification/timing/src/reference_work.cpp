@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "mamori/kernel/crc32.hpp"
+#include "mamori/kernel/base/crc32.hpp"
 
 namespace mamori::timing {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 
 namespace mamori::timing {

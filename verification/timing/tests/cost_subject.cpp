@@ -14,7 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/timing/cost_run.hpp"
 
 namespace mamori::verification {

@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/verification/verifies.hpp"
 

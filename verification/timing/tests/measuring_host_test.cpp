@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::timing {

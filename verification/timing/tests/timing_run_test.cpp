@@ -16,7 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/verification/verifies.hpp"
 
 namespace mamori::timing {

@@ -3,7 +3,7 @@
 #ifndef MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_MY_CLOCK_HPP
 #define MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_MY_CLOCK_HPP
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 
 class MyClock final {
   public:

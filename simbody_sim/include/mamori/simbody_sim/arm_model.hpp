@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 
 namespace mamori::sim {

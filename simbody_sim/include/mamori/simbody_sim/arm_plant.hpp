@@ -10,8 +10,8 @@
 
 #include <memory>
 
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 #include "mamori/simbody_sim/arm_model.hpp"
 #include "mamori/simbody_sim/plant_faults.hpp"

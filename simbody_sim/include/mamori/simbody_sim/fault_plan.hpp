@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/simbody_sim/plant_faults.hpp"
 
 namespace mamori::sim {

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/fields.hpp"
+#include "mamori/kernel/payload/fields.hpp"
 
 namespace mamori::safety {
 

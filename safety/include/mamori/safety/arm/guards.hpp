@@ -11,10 +11,10 @@
 #include <array>
 #include <limits>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 #include "mamori/safety/arm/joint_set.hpp"
-#include "mamori/safety/elapsed.hpp"
+#include "mamori/safety/base/elapsed.hpp"
 
 namespace mamori::safety {
 

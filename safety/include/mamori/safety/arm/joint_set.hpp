@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 
 namespace mamori::safety {

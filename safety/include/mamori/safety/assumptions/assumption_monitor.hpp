@@ -10,11 +10,11 @@
 
 #include <cstddef>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/assumptions/assumption_table.hpp"
-#include "mamori/safety/self_test_status.hpp"
+#include "mamori/safety/base/self_test_status.hpp"
 
 namespace mamori::safety {
 

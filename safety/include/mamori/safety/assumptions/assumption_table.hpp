@@ -13,8 +13,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "mamori/kernel/time.hpp"
-#include "mamori/safety/self_test_status.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/safety/base/self_test_status.hpp"
 
 namespace mamori::safety {
 

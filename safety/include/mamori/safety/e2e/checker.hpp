@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/base/span.hpp"
 #include "mamori/safety/e2e/channel.hpp"
 #include "mamori/safety/e2e/check_status.hpp"
 #include "mamori/safety/e2e/frame_cause.hpp"

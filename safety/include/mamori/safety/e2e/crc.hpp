@@ -14,7 +14,7 @@
 #include <limits>
 #include <utility>
 
-#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/base/span.hpp"
 
 namespace mamori::safety {
 

@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/bounded_sequence.hpp"
-#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/payload/bounded_sequence.hpp"
 
 namespace mamori::safety {
 

@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/span.hpp"
-#include "mamori/safety/count_up.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/safety/base/count_up.hpp"
 
 namespace mamori::safety {
 

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
 
 namespace mamori::safety::detail {
 

@@ -14,12 +14,12 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "mamori/kernel/cdr.hpp"
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
-#include "mamori/safety/count_up.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
+#include "mamori/safety/base/count_up.hpp"
 #include "mamori/safety/e2e/check_status.hpp"
 #include "mamori/safety/e2e/checker.hpp"
 #include "mamori/safety/e2e/frame.hpp"

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "mamori/kernel/cdr.hpp"
-#include "mamori/kernel/type_list.hpp"
+#include "mamori/kernel/base/type_list.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
 #include "mamori/safety/e2e/channel.hpp"
 #include "mamori/safety/e2e/frame.hpp"
 #include "mamori/safety/e2e/frame_cause.hpp"

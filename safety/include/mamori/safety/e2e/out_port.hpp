@@ -9,10 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/cdr.hpp"
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
 #include "mamori/safety/e2e/frame.hpp"
 #include "mamori/safety/e2e/message.hpp"
 #include "mamori/safety/e2e/protector.hpp"

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 
 namespace mamori::safety {
 

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/base/span.hpp"
 #include "mamori/safety/e2e/channel.hpp"
 #include "mamori/safety/e2e/crc_catalogue.hpp"
 #include "mamori/safety/e2e/frame_cause.hpp"

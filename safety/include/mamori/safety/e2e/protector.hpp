@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
 #include "mamori/safety/e2e/channel.hpp"
 #include "mamori/safety/e2e/frame_cause.hpp"
 

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/base/span.hpp"
 #include "mamori/safety/e2e/profile_01.hpp"
 #include "mamori/safety/e2e/profile_02.hpp"
 #include "mamori/safety/e2e/profile_04.hpp"

@@ -10,8 +10,8 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/fields.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/payload/fields.hpp"
 
 namespace mamori::safety {
 

@@ -12,8 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
 #include "mamori/safety/e2e/check_status.hpp"
 
 namespace mamori::safety {

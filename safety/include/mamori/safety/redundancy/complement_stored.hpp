@@ -12,9 +12,9 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "mamori/kernel/fields.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/safety/opaque.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/payload/fields.hpp"
+#include "mamori/safety/base/opaque.hpp"
 
 namespace mamori::safety {
 

@@ -11,9 +11,9 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "mamori/kernel/fields.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/payload/fields.hpp"
 #include "mamori/safety/redundancy/discrepancy.hpp"
 
 namespace mamori::safety {

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
 
 namespace mamori::safety {
 

@@ -13,9 +13,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/redundancy/discrepancy.hpp"
 
 namespace mamori::safety {

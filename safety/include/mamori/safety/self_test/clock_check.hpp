@@ -8,8 +8,8 @@
 
 #include <cstddef>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/redundancy/clock_ratio.hpp"
 #include "mamori/safety/self_test/self_test.hpp"
 

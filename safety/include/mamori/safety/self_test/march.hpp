@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/safety/self_test/self_test.hpp"
 
 namespace mamori::safety {

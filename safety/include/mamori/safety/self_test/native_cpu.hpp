@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/safety/opaque.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/safety/base/opaque.hpp"
 
 namespace mamori::safety {
 

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::safety {
 

@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/span.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/span.hpp"
 #include "mamori/safety/e2e/crc.hpp"
 #include "mamori/safety/e2e/crc_catalogue.hpp"
 #include "mamori/safety/self_test/self_test.hpp"

@@ -11,10 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/self_test/self_test.hpp"
 
 namespace mamori::safety {

@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "mamori/safety/self_test_status.hpp"
+#include "mamori/safety/base/self_test_status.hpp"
 
 namespace mamori::safety {
 

@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/safety/self_test/ram_area.hpp"
 #include "mamori/safety/self_test/self_test.hpp"
 

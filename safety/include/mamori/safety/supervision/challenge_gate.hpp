@@ -12,9 +12,9 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
-#include "mamori/safety/watchdog_gate.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/safety/supervision/watchdog_gate.hpp"
 
 namespace mamori::safety {
 

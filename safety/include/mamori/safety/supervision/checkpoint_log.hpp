@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/fifo_buffer.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/dataflow/fifo_buffer.hpp"
 #include "mamori/safety/supervision/supervision_table.hpp"
 
 namespace mamori::safety {

@@ -14,9 +14,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/supervision/expiry_memory.hpp"
 #include "mamori/safety/supervision/proof_chain.hpp"
 #include "mamori/safety/supervision/supervision_status.hpp"

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/safety/supervision/supervision_status.hpp"
 #include "mamori/safety/supervision/supervision_table.hpp"
 

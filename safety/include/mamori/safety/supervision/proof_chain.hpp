@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/crc32.hpp"
+#include "mamori/kernel/base/crc32.hpp"
 #include "mamori/safety/supervision/supervision_table.hpp"
 
 namespace mamori::safety {

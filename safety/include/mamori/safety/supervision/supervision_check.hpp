@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/mode_mask.hpp"
+#include "mamori/kernel/table/mode_mask.hpp"
 #include "mamori/safety/supervision/checkpoint_log.hpp"
 #include "mamori/safety/supervision/graph_check.hpp"
 #include "mamori/safety/supervision/supervision_fault.hpp"

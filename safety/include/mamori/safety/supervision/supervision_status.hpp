@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "mamori/safety/execution_supervisor.hpp"
+#include "mamori/safety/supervision/execution_supervisor.hpp"
 
 namespace mamori::safety {
 

@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/mode_mask.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/table/mode_mask.hpp"
 #include "mamori/safety/supervision/checkpoint_log.hpp"
 #include "mamori/safety/supervision/supervision_check.hpp"
 #include "mamori/safety/supervision/supervision_status.hpp"

@@ -22,9 +22,9 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "mamori/kernel/mode_mask.hpp"
-#include "mamori/kernel/span.hpp"
-#include "mamori/safety/deadline_supervisor.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/table/mode_mask.hpp"
+#include "mamori/safety/supervision/deadline_supervisor.hpp"
 
 namespace mamori::safety {
 

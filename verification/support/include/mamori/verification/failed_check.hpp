@@ -16,7 +16,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "mamori/kernel/assert.hpp"
+#include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::verification {
 

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 
 namespace mamori::verification {
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 
 namespace mamori::verification {
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/system_check.hpp"
-#include "mamori/kernel/system_table.hpp"
+#include "mamori/kernel/table/system_check.hpp"
+#include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori::table_dump {
 

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mamori/kernel/system_table.hpp"
-#include "mamori/kernel/window_host.hpp"
+#include "mamori/kernel/component/window_host.hpp"
+#include "mamori/kernel/table/system_table.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/timing/run_log.hpp"
 

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "mamori/kernel/window_host.hpp"
+#include "mamori/kernel/component/window_host.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/timing/run_log.hpp"
 

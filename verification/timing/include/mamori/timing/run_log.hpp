@@ -13,8 +13,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/run/executive.hpp"
 
 namespace mamori::timing {
 

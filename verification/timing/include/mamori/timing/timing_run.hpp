@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/executive.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 

@@ -6,7 +6,7 @@
 #ifndef MAMORI_PORTS_CONFORMANCE_CLOCK_CONTRACT_HPP
 #define MAMORI_PORTS_CONFORMANCE_CLOCK_CONTRACT_HPP
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/conformance/trial.hpp"
 
 namespace mamori::ports::conformance {

@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "mamori/kernel/time.hpp"
-#include "mamori/kernel/window_host.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/component/window_host.hpp"
 #include "mamori/ports/conformance/clock_contract.hpp"
 #include "mamori/ports/conformance/trial.hpp"
 

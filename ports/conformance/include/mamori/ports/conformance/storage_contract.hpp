@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <functional>
 
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
 #include "mamori/ports/conformance/trial.hpp"
 
 namespace mamori::ports::conformance {

@@ -12,9 +12,9 @@
 #include <functional>
 #include <memory>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/time.hpp"
-#include "mamori/kernel/window_host.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/component/window_host.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "mamori/ports/conformance/trial.hpp"
 
 namespace mamori::ports::conformance {

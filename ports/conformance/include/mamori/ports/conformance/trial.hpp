@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 
 namespace mamori::ports::conformance {
 

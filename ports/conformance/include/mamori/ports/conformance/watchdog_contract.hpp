@@ -7,9 +7,9 @@
 #ifndef MAMORI_PORTS_CONFORMANCE_WATCHDOG_CONTRACT_HPP
 #define MAMORI_PORTS_CONFORMANCE_WATCHDOG_CONTRACT_HPP
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/conformance/trial.hpp"
-#include "mamori/safety/watchdog_gate.hpp"
+#include "mamori/safety/supervision/watchdog_gate.hpp"
 
 namespace mamori::ports::conformance {
 

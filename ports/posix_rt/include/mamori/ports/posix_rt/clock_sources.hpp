@@ -10,7 +10,7 @@
 #ifndef MAMORI_PORTS_POSIX_RT_CLOCK_SOURCES_HPP
 #define MAMORI_PORTS_POSIX_RT_CLOCK_SOURCES_HPP
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/time_source.hpp"
 #include "mamori/safety/self_test/clock_check.hpp"

@@ -11,9 +11,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/frame_schedule.hpp"
-#include "mamori/kernel/window_host.hpp"
+#include "mamori/kernel/component/window_host.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/frame_schedule.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 
 namespace mamori::ports::posix_rt {

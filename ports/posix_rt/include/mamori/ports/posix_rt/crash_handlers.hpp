@@ -13,8 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 
 namespace mamori::ports::posix_rt {

@@ -11,9 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/flight_format.hpp"
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/record/flight_format.hpp"
 #include "mamori/ports/posix_rt/crash_place.hpp"
 
 namespace mamori::ports::posix_rt {

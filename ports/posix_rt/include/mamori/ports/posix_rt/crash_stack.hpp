@@ -12,7 +12,7 @@
 #include <array>
 #include <cstddef>
 
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/status.hpp"
 
 namespace mamori::ports::posix_rt {
 

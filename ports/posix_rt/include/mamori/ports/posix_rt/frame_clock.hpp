@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/posix_rt/time_source.hpp"
 
 namespace mamori::ports::posix_rt {

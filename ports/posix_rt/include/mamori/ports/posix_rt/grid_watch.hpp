@@ -15,10 +15,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "mamori/kernel/frame_schedule.hpp"
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/system_table.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/run/frame_schedule.hpp"
+#include "mamori/kernel/table/system_table.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/rate_check.hpp"

@@ -16,9 +16,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/window_host.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/component/window_host.hpp"
 #include "mamori/ports/posix_rt/crash_stack.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"

@@ -12,10 +12,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/cdr.hpp"
-#include "mamori/kernel/component.hpp"
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/partition_news.hpp"
 #include "mamori/ports/posix_rt/shared_frame.hpp"
 

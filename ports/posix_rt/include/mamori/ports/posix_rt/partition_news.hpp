@@ -9,8 +9,8 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/cdr_scalar.hpp"
-#include "mamori/kernel/fields.hpp"
+#include "mamori/kernel/payload/cdr_scalar.hpp"
+#include "mamori/kernel/payload/fields.hpp"
 #include "mamori/ports/posix_rt/shared_frame.hpp"
 
 namespace mamori::ports::posix_rt {

@@ -14,7 +14,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/status.hpp"
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
 #include "mamori/ports/posix_rt/watchdog_device.hpp"
 #include "mamori/safety/assumptions/assumption_checks.hpp"

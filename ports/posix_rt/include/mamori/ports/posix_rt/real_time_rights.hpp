@@ -11,7 +11,7 @@
 
 #include <cstddef>
 
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/status.hpp"
 
 namespace mamori::ports::posix_rt {
 

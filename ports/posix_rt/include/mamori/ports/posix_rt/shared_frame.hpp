@@ -11,9 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
 
 namespace mamori::ports::posix_rt {
 

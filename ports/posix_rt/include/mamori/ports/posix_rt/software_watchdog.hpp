@@ -15,13 +15,13 @@
 #include <cstdint>
 #include <limits>
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/status.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/status.hpp"
 #include "mamori/ports/posix_rt/crash_stack.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 #include "mamori/ports/posix_rt/watchdog_device.hpp"
-#include "mamori/safety/watchdog_gate.hpp"
+#include "mamori/safety/supervision/watchdog_gate.hpp"
 
 namespace mamori::ports::posix_rt {
 

@@ -14,9 +14,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
-#include "mamori/safety/watchdog_gate.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/safety/supervision/watchdog_gate.hpp"
 
 namespace mamori::ports::posix_rt {
 

@@ -9,8 +9,8 @@
 
 #include <cstdint>
 
-#include "mamori/kernel/executive.hpp"
-#include "mamori/kernel/frame_schedule.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/frame_schedule.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
 
 namespace mamori::ports::virtual_time {

@@ -11,9 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mamori/kernel/component.hpp"
-#include "mamori/kernel/data_port.hpp"
-#include "mamori/kernel/system.hpp"
+#include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/system/system.hpp"
 
 namespace mamori::ports::virtual_time {
 

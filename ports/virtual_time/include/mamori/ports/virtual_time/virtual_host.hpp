@@ -12,10 +12,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "mamori/kernel/span.hpp"
-#include "mamori/kernel/status.hpp"
-#include "mamori/kernel/time.hpp"
-#include "mamori/kernel/window_host.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/component/window_host.hpp"
 
 namespace mamori::ports::virtual_time {
 

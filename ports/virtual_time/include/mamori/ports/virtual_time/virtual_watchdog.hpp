@@ -7,9 +7,9 @@
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_VIRTUAL_WATCHDOG_HPP
 #define MAMORI_PORTS_VIRTUAL_TIME_VIRTUAL_WATCHDOG_HPP
 
-#include "mamori/kernel/assert.hpp"
-#include "mamori/kernel/time.hpp"
-#include "mamori/safety/watchdog_gate.hpp"
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/safety/supervision/watchdog_gate.hpp"
 
 namespace mamori::ports::virtual_time {
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A value that one writer keeps up to date and that anybody may look at. The writer takes no notice of the
+/// readers, so looking cannot disturb it; a reader that was overtaken by the writer is told so.
+///
+/// @satisfies SWR-BUF-007, SWR-BUF-008      Design: docs/design/buffers.md#snapshots
+/// Source:   H.-J. Boehm, "Can seqlocks get along with programming language memory models?", MSPC 2012
+#ifndef MAMORI_KERNEL_SNAPSHOT_CELL_HPP
+#define MAMORI_KERNEL_SNAPSHOT_CELL_HPP
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "mamori/kernel/base/status.hpp"
+
+namespace mamori {
+
+/// Copy of one T under a sequence number that is odd while the writer is at work. `Word` is the unit of
+/// copying; only tests give another than the default.
+///
+/// Thread safety: one context writes; any number read, at any time.
+/// Time:          write() is wait-free and O(sizeof(T)); try_read() is that, kTries times at most.
+/// Memory:        one T and two words, constant-initialised; each call needs one T of stack; no heap.
+template <typename T, typename Word = std::atomic<std::uintptr_t>>
+class SnapshotCell final {
+    static_assert(std::is_trivially_copyable_v<T>,
+                  "the payload of a SnapshotCell must be trivially copyable");
+    static_assert(Word::is_always_lock_free, "this machine has no lock-free load and store of a word");
+
+  public:
+    /// Copies that one try_read() makes at most.
+    static constexpr int kTries = 3;
+
+    constexpr SnapshotCell() noexcept = default;
+    SnapshotCell(const SnapshotCell&) = delete;
+    SnapshotCell& operator=(const SnapshotCell&) = delete;
+
+    /// Writer: makes `value` what the readers see. One that is cut off in mid-write leaves nothing to be seen
+    /// until the next write.
+    void write(const T& value) noexcept {
+        std::array<Unit, kWordCount> copy{};
+        __builtin_memcpy(copy.data(), &value, sizeof(T));
+        sequence_ |= 1U;
+        shared_sequence_.store(sequence_, std::memory_order_relaxed);
+        for (std::size_t i = 0U; i < kWordCount; ++i) {
+            // Release: whoever sees this word sees the odd number too.
+            words_[i].store(copy[i], std::memory_order_release);
+        }
+        // Behind the largest number comes 2, since 0 says that nothing was ever written.
+        sequence_ = sequence_ == kLastOdd ? Unit{2U} : static_cast<Unit>(sequence_ + 1U);
+        shared_sequence_.store(sequence_, std::memory_order_release);
+    }
+
+    /// Reader: a copy of what was written last. @param[out] value written on kOk only.
+    /// @return kOk; kPreconditionNotMet (nothing was ever written); kOutOfResources (the writer was at work
+    ///         in each of kTries tries: ask again).
+    Status try_read(T& value) const noexcept {
+        for (int i = 0; i < kTries; ++i) {
+            const Unit before = shared_sequence_.load(std::memory_order_acquire);
+            if (before == 0U) {
+                return Status::kPreconditionNotMet;
+            }
+            std::array<Unit, kWordCount> copy{};
+            for (std::size_t word = 0U; word < kWordCount; ++word) {
+                copy[word] = words_[word].load(std::memory_order_acquire);
+            }
+            // The acquires above keep this load behind them.
+            const Unit after = shared_sequence_.load(std::memory_order_relaxed);
+            if (before == after && before % 2U == 0U) {
+                // As bytes: a payload with default member initialisers is trivially copyable all the same.
+                __builtin_memcpy(static_cast<void*>(&value), copy.data(), sizeof(T));
+                return Status::kOk;
+            }
+        }
+        return Status::kOutOfResources;
+    }
+
+  private:
+    using Unit = typename Word::value_type;
+    static constexpr Unit kLastOdd = std::numeric_limits<Unit>::max();
+    static constexpr std::size_t kWordCount = (sizeof(T) + sizeof(Unit) - 1U) / sizeof(Unit);
+
+    std::array<Word, kWordCount> words_{};
+    Word shared_sequence_{0U};
+    Unit sequence_{0U};  ///< the writer's own
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_SNAPSHOT_CELL_HPP

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A parameter of a component: a value with a constraint that is set from outside and never changes while its
+/// component is in a cycle. It is a member of the component, listed like a port:
+///
+///     mamori::Parameter<double> limit_rad_s{"limit_rad_s", 1.0, "0.1<=x<=3.0"};
+///     using Parameters = mamori::Parameters<&SpeedMonitor::limit_rad_s>;
+///
+/// @satisfies SWR-PAR-003, SWR-PAR-004, SWR-PAR-005      Design: docs/design/parameters.md#parameters
+#ifndef MAMORI_KERNEL_PARAMETER_HPP
+#define MAMORI_KERNEL_PARAMETER_HPP
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/text_cursor.hpp"
+#include "mamori/kernel/parameter/constraint.hpp"
+#include "mamori/kernel/parameter/constraint_parser.hpp"
+#include "mamori/kernel/parameter/detail/constraint_refusal.hpp"
+#include "mamori/kernel/parameter/detail/parameter_elements.hpp"
+#include "mamori/kernel/parameter/parameter_base.hpp"
+#include "mamori/kernel/parameter/scalar.hpp"
+
+namespace mamori {
+namespace detail {
+
+/// Stops the compiler in a constant expression with its own name in the message; while the program runs, a
+/// default outside the constraint is an own bug.
+constexpr void require_default_within_constraint(bool is_admitted) noexcept {
+    MAMORI_REQUIRE(1, is_admitted);
+}
+
+/// Who may touch the requested value. Taken with one exchange, so nobody ever waits.
+enum class RequestSlot : std::uint8_t { kEmpty, kFull, kBusy };
+
+}  // namespace detail
+
+/// Parameter of type T: bool, an integer, float, double, an enum, or a `std::array` of one of them.
+///
+/// A constraint that is malformed and a default that violates it stop the compiler when the component is a
+/// constant (MAMORI_CONSTINIT) and end in the assertion handler otherwise.
+///
+/// Thread safety: as ParameterBase; get() from its component, admits() from any thread.
+/// Time:          O(elements * kRanges); get() and commit() copy at most one T. Nothing blocks.
+/// Memory:        two T and kRanges ranges of two elements each, no heap.
+/// @tparam kRanges room for the ranges and choices of the constraint, all elements together, 1 .. 65534.
+template <typename T, std::size_t kRanges = detail::Elements<T>::kCount + 3U>
+class Parameter final : public ParameterBase {
+    using Elements = detail::Elements<T>;
+    using Element = typename Elements::Element;
+    static_assert(is_scalar<Element>(),
+                  "a parameter is a bool, integer, float, double, enum or an array of one of them");
+    static_assert(Elements::kCount > 0U, "a parameter has at least one element");
+
+  public:
+    using Value = T;
+
+    /// @param[in] name          name within the component, static storage.
+    /// @param[in] default_value value from the start on; the constraint holds for it.
+    /// @param[in] constraint    see constraint.hpp; static storage.
+    constexpr Parameter(const char* name, const T& default_value, const char* constraint = "") noexcept
+        : ParameterBase(name, constraint, Elements::kCount),
+          constraint_(parse_or_refuse(constraint)),
+          active_(default_value),
+          requested_(default_value) {
+        detail::require_default_within_constraint(admits(default_value));
+    }
+
+    /// The active value; the same from the beginning of a cycle to its end. The reference is valid as long as
+    /// the parameter.
+    constexpr const T& get() const noexcept { return active_; }
+
+    /// May the parameter have this value?
+    constexpr bool admits(const T& value) const noexcept {
+        for (std::size_t i = 0U; i < Elements::kCount; ++i) {
+            if (!constraint_.admits(Elements::get(value, i), i)) {
+                return false;
+            }
+        }
+        return true;
+    }
+    /// The same for values without their type, one per element.
+    constexpr bool admits_scalars(Span<const Scalar> values) const noexcept {
+        const Result<T> value = to_value(values);
+        return value.has_value() && admits(value.get_value());
+    }
+
+    /// Asks for `value` from the next commit() on; from any thread. @return as request_scalars().
+    Status request(const T& value) noexcept {
+        if (!admits(value)) {
+            return Status::kBadParameter;
+        }
+        if (slot_.exchange(detail::RequestSlot::kBusy, std::memory_order_acq_rel) ==
+            detail::RequestSlot::kBusy) {
+            return Status::kPreconditionNotMet;
+        }
+        requested_ = value;
+        slot_.store(detail::RequestSlot::kFull, std::memory_order_release);
+        return Status::kOk;
+    }
+
+    Status check(Span<const Scalar> values) const noexcept override {
+        return admits_scalars(values) ? Status::kOk : Status::kBadParameter;
+    }
+    Status request_scalars(Span<const Scalar> values) noexcept override {
+        return request_result(to_value(values));
+    }
+    Status request_text(Text text) noexcept override { return request_result(read_text(text)); }
+    Status read(Span<Scalar> values) const noexcept override {
+        if (values.size() != Elements::kCount) {
+            return Status::kBadParameter;
+        }
+        for (std::size_t i = 0U; i < Elements::kCount; ++i) {
+            values[i] = to_scalar(Elements::get(active_, i));
+        }
+        return Status::kOk;
+    }
+    Status activate(Span<const Scalar> values) noexcept override {
+        const Result<T> value = to_value(values);
+        if (!value.has_value() || !admits(value.get_value())) {
+            return Status::kBadParameter;
+        }
+        active_ = value.get_value();
+        return Status::kOk;
+    }
+    bool commit() noexcept override {
+        // Only this function empties the slot: what is full here is full or busy below.
+        if (slot_.load(std::memory_order_relaxed) != detail::RequestSlot::kFull ||
+            slot_.exchange(detail::RequestSlot::kBusy, std::memory_order_acq_rel) ==
+                detail::RequestSlot::kBusy) {
+            return false;
+        }
+        active_ = requested_;
+        slot_.store(detail::RequestSlot::kEmpty, std::memory_order_release);
+        return true;
+    }
+
+  private:
+    static constexpr Constraint<Element, kRanges> parse_or_refuse(const char* text) noexcept {
+        const auto parsed = parse_constraint<Element, kRanges>(make_text(text), Elements::kCount);
+        detail::require_well_formed(parsed.finding);
+        return parsed.constraint;
+    }
+
+    static constexpr Result<T> to_value(Span<const Scalar> values) noexcept {
+        if (values.size() != Elements::kCount) {
+            return Status::kBadParameter;
+        }
+        T value{};
+        for (std::size_t i = 0U; i < Elements::kCount; ++i) {
+            const Result<Element> element = from_scalar<Element>(values[i]);
+            if (!element.has_value()) {
+                return element.get_status();
+            }
+            Elements::set(value, i, element.get_value());
+        }
+        return value;
+    }
+
+    static Result<T> read_text(Text text) noexcept {
+        TextCursor cursor{text};
+        T value{};
+        for (std::size_t i = 0U; i < Elements::kCount; ++i) {
+            cursor.skip_spaces();
+            const Result<Element> element = take_value<Element>(cursor);
+            cursor.skip_spaces();
+            const bool is_last = i + 1U == Elements::kCount;
+            if (!element.has_value() || !(is_last ? cursor.is_at_end() : cursor.take(','))) {
+                return Status::kBadParameter;
+            }
+            Elements::set(value, i, element.get_value());
+        }
+        return value;
+    }
+
+    Status request_result(const Result<T>& value) noexcept {
+        return value.has_value() ? request(value.get_value()) : value.get_status();
+    }
+
+    Constraint<Element, kRanges> constraint_;
+    T active_;
+    T requested_;
+    std::atomic<detail::RequestSlot> slot_{detail::RequestSlot::kEmpty};
+};
+
+/// Parameters of a component, as pointers to its members; a component without the alias has none.
+template <auto... kMembers>
+struct Parameters {
+    static constexpr std::size_t kCount = sizeof...(kMembers);
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_PARAMETER_HPP

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The time-stamped basic types of the RT-middleware world, with bounds: names, field order and wire form are
+/// those of OpenRTM, so a port of such a type talks to the components and tools that people have.
+///
+/// @satisfies SWR-CDR-005, SWR-CDR-006      Design: docs/design/payloads.md#timed-types
+/// Source:   OpenRTM-aist, BasicDataType.idl (module RTC); wide characters are left out on purpose
+#ifndef MAMORI_KERNEL_TIMED_TYPES_HPP
+#define MAMORI_KERNEL_TIMED_TYPES_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/payload/fields.hpp"
+
+namespace mamori::rtc {
+
+/// Time stamp. Zero point: whatever sender and receiver agreed on.
+struct Time {
+    std::uint32_t sec{0U};   ///< [s]
+    std::uint32_t nsec{0U};  ///< [ns], 0 .. 999999999 by convention; no decoder enforces it
+};
+
+inline constexpr std::int64_t kNsPerS = 1'000'000'000;  ///< [ns/s]
+
+/// @return the stamp; kBadParameter when the instant is negative, or 2^32 s (136 years) or more.
+constexpr Result<Time> calc_time(Instant instant) noexcept {
+    if (instant.ns < 0 || instant.ns / kNsPerS > std::int64_t{std::numeric_limits<std::uint32_t>::max()}) {
+        return Status::kBadParameter;
+    }
+    return Time{static_cast<std::uint32_t>(instant.ns / kNsPerS),
+                static_cast<std::uint32_t>(instant.ns % kNsPerS)};
+}
+/// @return the instant, 0 .. 2^32 s; kBadParameter when nsec is 10^9 or more: such a stamp has no one
+///         reading.
+constexpr Result<Instant> calc_instant(Time time) noexcept {
+    if (time.nsec >= kNsPerS) {
+        return Status::kBadParameter;
+    }
+    return Instant{std::int64_t{time.sec} * kNsPerS + std::int64_t{time.nsec}};
+}
+
+/// A value and the time it belongs to. Each IDL type `TimedX` is Timed<X>. The unit of the value is the
+/// application's.
+template <typename T>
+struct Timed {
+    Time tm{};
+    T data{};
+};
+
+using TimedShort = Timed<std::int16_t>;
+using TimedUShort = Timed<std::uint16_t>;
+using TimedLong = Timed<std::int32_t>;
+using TimedULong = Timed<std::uint32_t>;
+using TimedFloat = Timed<float>;
+using TimedDouble = Timed<double>;
+using TimedChar = Timed<char>;
+using TimedOctet = Timed<std::uint8_t>;
+using TimedBoolean = Timed<bool>;
+/// On the wire a TimedShort, yet another type: the two do not connect.
+struct TimedState {
+    Time tm{};
+    std::int16_t data{0};
+};
+template <std::size_t N>
+using TimedString = Timed<BoundedString<N>>;
+
+/// Up to N values of T and the time they belong to.
+template <typename T, std::size_t N>
+using TimedSeq = Timed<BoundedSequence<T, N>>;
+template <std::size_t N>
+using TimedShortSeq = TimedSeq<std::int16_t, N>;
+template <std::size_t N>
+using TimedUShortSeq = TimedSeq<std::uint16_t, N>;
+template <std::size_t N>
+using TimedLongSeq = TimedSeq<std::int32_t, N>;
+template <std::size_t N>
+using TimedULongSeq = TimedSeq<std::uint32_t, N>;
+template <std::size_t N>
+using TimedFloatSeq = TimedSeq<float, N>;
+template <std::size_t N>
+using TimedDoubleSeq = TimedSeq<double, N>;
+template <std::size_t N>
+using TimedCharSeq = TimedSeq<char, N>;
+template <std::size_t N>
+using TimedOctetSeq = TimedSeq<std::uint8_t, N>;
+template <std::size_t N>
+using TimedBooleanSeq = TimedSeq<bool, N>;
+/// Up to N texts of up to M characters each.
+template <std::size_t N, std::size_t M>
+using TimedStringSeq = TimedSeq<BoundedString<M>, N>;
+
+}  // namespace mamori::rtc
+
+MAMORI_FIELDS(mamori::rtc::Time, sec, nsec)
+MAMORI_FIELDS(mamori::rtc::TimedState, tm, data)
+
+/// Field list of every Timed<T>.
+template <typename T>
+struct mamori::Fields<mamori::rtc::Timed<T>> {
+    static constexpr bool kDeclared = is_payload<T>();
+    template <typename Self, typename Call>
+    static constexpr decltype(auto) apply(Self& self, Call&& call) noexcept {
+        return call(self.tm, self.data);
+    }
+};
+
+#endif  // MAMORI_KERNEL_TIMED_TYPES_HPP

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The order in which the windows of one core open, frame after frame. It is the one place where a port
+/// learns which window is next and when.
+///
+/// @satisfies SWR-KRN-027      Design: docs/design/kernel.md#windows
+#ifndef MAMORI_KERNEL_FRAME_SCHEDULE_HPP
+#define MAMORI_KERNEL_FRAME_SCHEDULE_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "mamori/kernel/table/system_table.hpp"
+
+namespace mamori {
+
+/// Walks through the openings of one core in order of time; equal instants cannot be, windows are disjoint.
+///
+/// Thread safety: none. Time: O(windows) per opening; nothing blocks.
+/// Memory:        the view, two words and an instant.
+class FrameSchedule final {
+  public:
+    /// One opening.
+    struct Opening {
+        std::size_t window{kNoIndex};                               ///< kNoIndex: no window runs on this core
+        Instant release{std::numeric_limits<std::int64_t>::max()};  ///< planned instant
+    };
+
+    /// @param[in] view must outlive it and keep the rules (check()). @param[in] core as WindowRow::core.
+    /// @param[in] start first instant; the first opening is the earliest that is not before it.
+    constexpr FrameSchedule(const SystemView& view, std::size_t core, Instant start) noexcept
+        : view_(view), core_(core), next_(find(start)) {}
+
+    /// The opening that comes next; does not move on. The reference is valid as long as this object, its
+    /// value until advance().
+    constexpr const Opening& get_next() const noexcept { return next_; }
+
+    /// Moves on to the opening after it; without effect when no window runs on this core.
+    constexpr void advance() noexcept {
+        if (next_.window != kNoIndex) {
+            next_ = find(next_.release + Duration{1});
+        }
+    }
+
+  private:
+    constexpr Opening find(Instant from) const noexcept {
+        Opening best{};
+        for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
+            const WindowRow& row = view_.windows[w];
+            if (row.core != core_) {
+                continue;
+            }
+            const std::int64_t since = from.ns - row.offset.ns;
+            const std::int64_t count = since <= 0 ? 0 : (since + row.period.ns - 1) / row.period.ns;
+            const Instant release{row.offset.ns + count * row.period.ns};
+            if (release < best.release) {
+                best = {w, release};
+            }
+        }
+        return best;
+    }
+
+    SystemView view_;
+    std::size_t core_;
+    Opening next_;
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_FRAME_SCHEDULE_HPP

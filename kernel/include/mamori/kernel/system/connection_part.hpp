@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The word connect(...): which output feeds which input.
+///
+/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_CONNECTION_PART_HPP
+#define MAMORI_KERNEL_CONNECTION_PART_HPP
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+#include "mamori/kernel/dataflow/connection.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/system/connection_option.hpp"
+#include "mamori/kernel/system/detail/option_words.hpp"
+#include "mamori/kernel/system/detail/part_types.hpp"
+#include "mamori/kernel/table/connection_row.hpp"
+
+namespace mamori {
+
+/// One connection of the description. @tparam kModeCount modes that its only_in() names.
+template <std::size_t kModeCount>
+struct ConnectionPart {
+    struct Types : detail::NoTypes {
+        static constexpr std::size_t kConnections = 1U;
+        static constexpr std::size_t kConnectionModes = kModeCount;
+    };
+    ConnectionRow row{};
+    std::array<const char*, kModeCount> modes{};
+};
+
+/// Feeds `sink` from `source`; their payload types must be the same.
+/// @param[in] source  must outlive the table.
+/// @param[in] sink    InPort or QueueInPort; must outlive the table.
+/// @param[in] options fresh_within(...), through(...), only_in(...); each is said once.
+template <typename T, typename Sink, typename... Options>
+constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(OutPort<T>& source, Sink& sink,
+                                                                              Options... options) noexcept {
+    static_assert(std::is_base_of_v<InPortBase, Sink>, "connect() joins an output to an input");
+    static_assert(std::is_same_v<T, typename Sink::Payload>, "connect() joins ports of one payload type");
+    static_assert(detail::kIsEachSaidOnce<Options...>, "each option of a connection is said once");
+    ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> part{};
+    part.row.source = &source;
+    part.row.sink = &sink;
+    if constexpr (std::is_same_v<T, typename Sink::Payload>) {
+        using Connection = std::conditional_t<Sink::kIsQueue, detail::QueueConnection<T, Sink>,
+                                              detail::LatestConnection<T, Sink>>;
+        part.row.operations = Connection::kOperations;
+        (detail::apply<T, Sink>(part, options), ...);
+    }
+    return part;
+}
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_CONNECTION_PART_HPP

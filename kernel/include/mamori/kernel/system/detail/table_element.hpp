@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Elements of a constexpr table under the names that a compiler message shows: a component by its type, a
+/// port by its type and member, and which of several instances of one type it is. Not for users.
+///
+/// @satisfies SWR-KRN-018      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_TABLE_ELEMENT_HPP
+#define MAMORI_KERNEL_TABLE_ELEMENT_HPP
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "mamori/kernel/base/type_list.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/table/table_index.hpp"
+
+namespace mamori::detail {
+
+/// How many components of the same type the table lists before component `kIndex`.
+template <typename Components, std::size_t kIndex, std::size_t... kBefore>
+constexpr std::size_t count_same_before(std::index_sequence<kBefore...>) noexcept {
+    return ((std::is_same_v<At<Components, kBefore>, At<Components, kIndex>> ? 1U : 0U) + ... + 0U);
+}
+template <const auto& kTable, std::size_t kComponent>
+constexpr std::size_t calc_instance() noexcept {
+    using Components = typename std::remove_reference_t<decltype(kTable)>::Types::Components;
+    return count_same_before<Components, kComponent>(std::make_index_sequence<kComponent>{});
+}
+
+template <typename Table>
+constexpr std::size_t find_input(const Table& table, const InPortBase* input) noexcept {
+    for (std::size_t i = 0U; i < table.ports.size(); ++i) {
+        if (table.ports[i].input == input) {
+            return i;
+        }
+    }
+    return kNoIndex;
+}
+
+// Elements under the names that the rules want.
+template <const auto& kTable>
+using TypesOf = typename std::remove_reference_t<decltype(kTable)>::Types;
+template <const auto& kTable, std::size_t kIndex>
+using ComponentAt = At<typename TypesOf<kTable>::Components, kIndex>;
+template <const auto& kTable, std::size_t kIndex>
+using PortAt = At<typename TypesOf<kTable>::Ports, kIndex>;
+
+template <template <typename, auto, std::size_t> class RuleOf, const auto& kTable, std::size_t kPort>
+using OfPort = RuleOf<typename PortAt<kTable, kPort>::Owner, PortAt<kTable, kPort>::kPointer,
+                      calc_instance<kTable, kTable.ports[kPort].component>()>;
+template <template <typename, auto, std::size_t> class RuleOf, const auto& kTable, std::size_t kConnection>
+using OfSink = OfPort<RuleOf, kTable, find_input(kTable, kTable.connections[kConnection].sink)>;
+
+}  // namespace mamori::detail
+
+#endif  // MAMORI_KERNEL_TABLE_ELEMENT_HPP

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Which ports a component has, as pointers to its members, and the rows that they become in the table.
+///
+/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_PORT_LIST_HPP
+#define MAMORI_KERNEL_PORT_LIST_HPP
+
+#include <type_traits>
+
+#include "mamori/kernel/base/type_list.hpp"
+#include "mamori/kernel/table/connection_row.hpp"
+
+namespace mamori {
+
+/// Ports of a component, as pointers to its members; a component without the alias has no ports:
+///     using Ports = mamori::Ports<&Monitor::joints, &Monitor::verdict>;
+template <auto... kMembers>
+struct Ports {
+    static constexpr std::size_t kCount = sizeof...(kMembers);
+};
+
+/// One port of a component type, as a compiler message shows it.
+template <typename C, auto kMember>
+struct PortMember {
+    static constexpr auto kPointer = kMember;
+    using Owner = C;
+};
+
+namespace detail {
+
+template <typename C, typename = void>
+struct PortsOf {
+    using Type = Ports<>;
+};
+template <typename C>
+struct PortsOf<C, std::void_t<typename C::Ports>> {
+    using Type = typename C::Ports;
+};
+
+template <typename C, typename List>
+struct PortMembers;
+template <typename C, auto... kMembers>
+struct PortMembers<C, Ports<kMembers...>> {
+    using Type = TypeList<PortMember<C, kMembers>...>;
+};
+
+template <typename C, typename Port>
+constexpr PortRow make_port_row(C& component, Port& port) noexcept {
+    PortRow row{};
+    row.owner = &component;
+    if constexpr (std::is_base_of_v<OutPortBase, Port>) {
+        row.output = &port;
+    } else {
+        static_assert(std::is_base_of_v<InPortBase, Port>, "Ports<...> names members that are ports");
+        row.input = &port;
+        row.is_mandatory = Port::kIsMandatory;
+        if constexpr (Port::kIsQueue) {
+            row.count_queue = &Port::count;
+        }
+    }
+    return row;
+}
+
+}  // namespace detail
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_PORT_LIST_HPP

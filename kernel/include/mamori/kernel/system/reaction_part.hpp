@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The words faults(...) and react(...): which faults a system declares, and what each leads to.
+///
+/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_REACTION_PART_HPP
+#define MAMORI_KERNEL_REACTION_PART_HPP
+
+#include <cstddef>
+#include <type_traits>
+
+#include "mamori/kernel/base/enumerator.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/base/type_list.hpp"
+#include "mamori/kernel/system/detail/part_types.hpp"
+#include "mamori/kernel/table/system_table.hpp"
+
+namespace mamori {
+
+/// A fault as a compiler message shows it.
+template <auto kFault>
+struct FaultName {
+    static constexpr auto kValue = kFault;
+};
+/// Made by faults().
+template <auto... kFaults>
+struct FaultsPart {
+    struct Types : detail::NoTypes {
+        using Faults = detail::TypeList<FaultName<kFaults>...>;
+        using FaultTypes = detail::TypeList<decltype(kFaults)...>;
+    };
+};
+/// Declares faults, each an enumerator of the application or of the safety layer and declared once: the table
+/// is refused until each has one reaction.
+template <auto... kFaults>
+constexpr FaultsPart<kFaults...> faults() noexcept {
+    static_assert((std::is_enum_v<decltype(kFaults)> && ...),
+                  "faults are the enumerators of one enumeration");
+    return {};
+}
+
+/// Made by within().
+struct Within {
+    Duration limit;
+};
+/// Time from the confirmed fault to the start of its reaction. @param[in] limit > 0.
+constexpr Within within(Duration limit) noexcept {
+    return {limit};
+}
+
+/// Made by react().
+template <typename Fault, typename Reaction>
+struct ReactionPart {
+    struct Types : detail::NoTypes {
+        using FaultTypes = detail::TypeList<Fault>;
+        using ReactionTypes = detail::TypeList<Reaction>;
+        static constexpr std::size_t kReactions = 1U;
+    };
+    ReactionRow row{};
+};
+/// What a fault leads to; both are enumerators of the application or of the safety layer, of at most 32 bits.
+/// The kernel keeps the row and carries nothing out.
+template <typename Fault, typename Reaction>
+constexpr ReactionPart<Fault, Reaction> react(Fault fault, Reaction reaction, Within time) noexcept {
+    return {{detail::to_number(fault), detail::to_number(reaction), time.limit}};
+}
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_REACTION_PART_HPP

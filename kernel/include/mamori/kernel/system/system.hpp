@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The words of a system description: cores with windows, components, connections, faults and reactions, in
+/// one constant of the program that MAMORI_CHECK makes the compiler prove.
+///
+///     static constexpr auto kSystem = mamori::system(
+///         mamori::frame(10_ms),
+///         mamori::window("sense", 0_us, 200_us, mamori::every(1_ms), mamori::rate(1000_hz),
+///                        mamori::budget(150_us), mamori::run(encoder, mamori::worst_case(monitor, 40_us))),
+///         mamori::window("plan", 1200_us, 8_ms, mamori::core(1), mamori::budget(7_ms),
+///                        mamori::run(planner)),
+///         mamori::configuration_set("slow", mamori::assign(monitor.limit_rad_s, 0.5)),
+///         mamori::connect(encoder.joints, monitor.joints, mamori::fresh_within(2_ms)),
+///         mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner)),
+///         mamori::faults<Fault::kOverspeed>(),
+///         mamori::react(Fault::kOverspeed, Reaction::kSs1, mamori::within(20_ms)));
+///     MAMORI_CHECK(kSystem);
+///
+/// Modes: mode_part.hpp.
+///
+/// @satisfies SWR-KRN-017, SWR-KRN-018, SWR-MOD-002      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_SYSTEM_HPP
+#define MAMORI_KERNEL_SYSTEM_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/component/context_plan.hpp"
+#include "mamori/kernel/parameter/configuration_set.hpp"
+#include "mamori/kernel/system/connection_part.hpp"
+#include "mamori/kernel/system/detail/connection_builder.hpp"
+#include "mamori/kernel/system/detail/option_words.hpp"
+#include "mamori/kernel/system/detail/part_types.hpp"
+#include "mamori/kernel/system/detail/system_builder.hpp"
+#include "mamori/kernel/system/mode_part.hpp"
+#include "mamori/kernel/system/reaction_part.hpp"
+#include "mamori/kernel/system/system_rules.hpp"
+#include "mamori/kernel/system/window_part.hpp"
+#include "mamori/kernel/table/mode_builder.hpp"
+#include "mamori/kernel/table/system_table.hpp"
+
+namespace mamori {
+
+/// Length of the major frame, after which everything repeats; the same for all cores.
+struct Frame {
+    Duration length;
+};
+/// @param[in] length > 0; MAMORI_CHECK refuses any other.
+constexpr Frame frame(Duration length) noexcept {
+    return {length};
+}
+
+/// Made by abort_policy().
+struct AbortPolicyPart {
+    using Types = detail::NoTypes;
+    AbortPolicy policy;
+};
+/// Which actions a component gets on its way to Error, in the whole system; without it kSpecOnly.
+constexpr AbortPolicyPart abort_policy(AbortPolicy policy) noexcept {
+    return {policy};
+}
+
+namespace detail {
+
+template <typename Builder, typename... Cs>
+constexpr void add_part(Builder& builder, const WindowPart<Cs...>& part) noexcept {
+    builder.add_window(part);
+}
+template <typename Builder, auto... kFaults>
+constexpr void add_part(Builder& builder, const FaultsPart<kFaults...>&) noexcept {
+    (builder.add(FaultRow{to_number(kFaults)}), ...);
+}
+template <typename Builder, std::size_t kModeCount>
+constexpr void add_part(Builder& builder, const ConnectionPart<kModeCount>& part) noexcept {
+    builder.add_connection(part);
+}
+template <typename Builder, typename Fault, typename Reaction>
+constexpr void add_part(Builder& builder, const ReactionPart<Fault, Reaction>& part) noexcept {
+    builder.add(part.row);
+}
+template <typename Builder>
+constexpr void add_part(Builder& builder, const AbortPolicyPart& part) noexcept {
+    builder.add(part.policy);
+}
+template <typename Builder, std::size_t kAssignments, std::size_t kValues>
+constexpr void add_part(Builder& builder, const ConfigurationSet<kAssignments, kValues>& set) noexcept {
+    builder.configuration.add(set);
+}
+template <typename Builder, typename... Cs>
+constexpr void add_part(Builder& builder, const SystemModePart<Cs...>& part) noexcept {
+    builder.add_mode(part);
+}
+template <typename Builder, typename Event>
+constexpr void add_part(Builder& builder, const ModeTransitionPart<Event>& part) noexcept {
+    builder.add(part.row);
+    builder.table.modes.event_enumeration = &kEnumerationTag<Event>;
+}
+
+template <typename Types>
+using TableOf = SystemTable<
+    Types::kWindows, Types::Components::kSize, Types::Ports::kSize, Types::kConnections, Types::Faults::kSize,
+    Types::kReactions,
+    ConfigurationTable<Types::kParameters, Types::kSets, Types::kAssignments, Types::kValues>,
+    ModeTable<Types::kModes, Types::Members::kSize, Types::kModeTransitions, Types::kConnectionModes>>;
+
+}  // namespace detail
+
+/// A table that still knows the types of its components and ports, so that the compiler can name them.
+template <typename PartTypes>
+struct DescribedSystem : detail::TableOf<PartTypes> {
+    using Types = PartTypes;
+};
+
+/// Builds the table from a frame and its parts, in any order; windows, components, ports, connections, modes
+/// and reactions are numbered as they are listed. MAMORI_CHECK tells what the table breaks; what it refers to
+/// must outlive it. For constant expressions: O(rows squared).
+template <typename... Parts>
+constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
+    using Types = detail::JoinedTypes<Parts...>;
+    static_assert(Types::kModes <= kSystemModeMax, "a system has at most 32 modes");
+    static_assert(detail::kIsOfOneType<typename Types::Events>,
+                  "the events of all transitions of a system are enumerators of one enumeration");
+    static_assert(detail::kIsOfOneType<typename Types::FaultTypes> &&
+                      detail::kIsOfOneType<typename Types::ReactionTypes>,
+                  "all faults of a system are enumerators of one enumeration, and so are all reactions");
+    static_assert(detail::kTimesSaid<AbortPolicyPart, Parts...> <= 1U, "abort_policy(...) is said once");
+    detail::TableBuilder<DescribedSystem<Types>> builder{};
+    builder.table.frame = frame_part.length;
+    (detail::add_part(builder, parts), ...);
+    builder.table.configuration = builder.configuration.finish();
+    detail::resolve_connections(builder.table);
+    detail::resolve_modes(builder.table);
+    detail::sort_connections(builder.table);
+    return builder.table;
+}
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_SYSTEM_HPP

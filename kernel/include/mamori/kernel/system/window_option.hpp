@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The words that say what a window may take, where it runs, and what its cycles come with. Each stands
+/// beside what it writes into the row.
+///
+/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_WINDOW_OPTION_HPP
+#define MAMORI_KERNEL_WINDOW_OPTION_HPP
+
+#include <cstddef>
+
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/component/context_plan.hpp"
+#include "mamori/kernel/table/window_row.hpp"
+
+namespace mamori {
+
+/// Made by budget().
+struct Budget {
+    Duration limit;
+};
+/// Execution time that all components of a window may use together, counted from its opening.
+/// @param[in] limit > 0, at most the length of the window.
+constexpr Budget budget(Duration limit) noexcept {
+    return {limit};
+}
+
+/// Made by every().
+struct Every {
+    Duration period;
+};
+/// Opens the window again after each `period`; without it: once per frame.
+/// @param[in] period > 0; divides the frame without rest.
+constexpr Every every(Duration period) noexcept {
+    return {period};
+}
+
+/// Made by core().
+struct Core {
+    std::size_t index;
+};
+/// Processor core that runs the window; without it: core 0. Cores share the frame and its start.
+/// @param[in] index 0, 1, ...; in a system with modes or configuration sets below kModeCoreMax.
+constexpr Core core(std::size_t index) noexcept {
+    return {index};
+}
+
+/// Made by partition().
+struct Partition {
+    const char* name;
+};
+/// Memory partition that the components of the window live in; without it all share one. Values leave it
+/// only through a Crossing or a queue. @param[in] name static storage.
+constexpr Partition partition(const char* name) noexcept {
+    return {name};
+}
+
+/// Made by triggered_by().
+struct TriggeredBy {
+    ExternalTrigger& trigger;
+};
+/// The cycles of the window come with the ticks of `trigger`, one at most per opening (kind OTHER).
+/// @param[in] trigger must outlive the table; serves one window, which nothing checks.
+constexpr TriggeredBy triggered_by(ExternalTrigger& trigger) noexcept {
+    return {trigger};
+}
+
+/// Made by event_driven().
+struct EventDriven {
+    std::size_t events_per_cycle;
+};
+/// The window serves the events of its state machines (kind EVENT_DRIVEN).
+/// @param[in] events_per_cycle upper bound for each of them in one opening, >= 1.
+constexpr EventDriven event_driven(std::size_t events_per_cycle) noexcept {
+    return {events_per_cycle};
+}
+
+namespace detail {
+
+constexpr void apply(WindowRow& row, Budget option) noexcept {
+    row.budget = option.limit;
+}
+constexpr void apply(WindowRow& row, Every option) noexcept {
+    row.period = option.period;
+}
+constexpr void apply(WindowRow& row, Core option) noexcept {
+    row.core = option.index;
+}
+constexpr void apply(WindowRow& row, Partition option) noexcept {
+    row.partition = option.name;
+}
+constexpr void apply(WindowRow& row, TriggeredBy option) noexcept {
+    row.kind = ExecutionKind::kOther;
+    row.trigger = &option.trigger;
+}
+constexpr void apply(WindowRow& row, EventDriven option) noexcept {
+    row.kind = ExecutionKind::kEventDriven;
+    row.events_per_cycle = option.events_per_cycle;
+}
+
+}  // namespace detail
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_WINDOW_OPTION_HPP

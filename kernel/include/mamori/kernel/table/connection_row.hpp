@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Rows of a system table that say what flows where: ports and their connections.
+///
+/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_CONNECTION_ROW_HPP
+#define MAMORI_KERNEL_CONNECTION_ROW_HPP
+
+#include <cstddef>
+
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/dataflow/connection.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/table/mode_mask.hpp"
+#include "mamori/kernel/table/table_index.hpp"
+
+namespace mamori {
+
+/// One port of a component; either `input` or `output` is set. What it refers to outlives the table.
+struct PortRow {
+    Component* owner{nullptr};
+    InPortBase* input{nullptr};
+    OutPortBase* output{nullptr};
+    bool is_mandatory{false};         ///< of an input
+    std::size_t window{kNoIndex};     ///< that of its owner
+    std::size_t component{kNoIndex};  ///< its owner's place in the table
+    /// What an input that queues has counted.
+    QueueCounts (*count_queue)(const InPortBase&) noexcept {&count_no_queue};
+};
+
+/// One connection: from which output to which input. What it refers to outlives the table.
+struct ConnectionRow {
+    OutPortBase* source{nullptr};
+    InPortBase* sink{nullptr};
+    CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
+    ConnectionOperations operations{};
+    Duration age_max{kNoAgeLimit};  ///< of a value that is still fresh, > 0
+    Duration lead_max{};            ///< of a fresh value of an instant to come, >= 0
+    /// Places of the ends in the table; kNoIndex: the port belongs to no component of it.
+    std::size_t source_window{kNoIndex};
+    std::size_t sink_window{kNoIndex};
+    std::size_t source_component{kNoIndex};
+    std::size_t sink_component{kNoIndex};
+    /// Source and sink run in one window, the source first: the value is handed on within the window.
+    bool is_forward_in_window{false};
+    ModeMask modes{kEveryMode};  ///< in which it holds and both of its components run
+};
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_CONNECTION_ROW_HPP

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Rules of connections: both ends are in the table, a value can be fresh, and what leaves a core or a
+/// partition goes through storage that was made for it, in an order that holds. Not for users.
+///
+/// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_CONNECTION_CHECK_HPP
+#define MAMORI_KERNEL_CONNECTION_CHECK_HPP
+
+#include <cstddef>
+
+#include "mamori/kernel/base/text_cursor.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/table/detail/finding_list.hpp"
+#include "mamori/kernel/table/detail/opening_distance.hpp"
+#include "mamori/kernel/table/system_table.hpp"
+#include "mamori/kernel/table/table_index.hpp"
+
+namespace mamori::detail {
+
+constexpr void check_crossing(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
+    const ConnectionRow& row = view.connections[i];
+    const WindowRow& writer = view.windows[row.source_window];
+    const WindowRow& reader = view.windows[row.sink_window];
+    const bool leaves_core = writer.core != reader.core;
+    const bool leaves_partition = !(make_text(writer.partition) == make_text(reader.partition));
+    if ((leaves_core || leaves_partition) && !row.operations.may_leave_core) {
+        findings.add(Rule::kCrossingWithoutBuffer, i);
+    }
+    if (leaves_core && row.operations.is_latest && calc_distance(writer, reader) < writer.length) {
+        findings.add(Rule::kCrossingNotOrdered, i);
+    }
+    for (std::size_t j = 0U; j < i && row.crossing != nullptr; ++j) {
+        if (view.connections[j].crossing == row.crossing) {
+            findings.add(Rule::kCrossingUsedTwice, i, j);
+        }
+    }
+}
+
+constexpr void check_connections(const SystemView& view, FindingList& findings) noexcept {
+    for (std::size_t i = 0U; i < view.connections.size(); ++i) {
+        const ConnectionRow& row = view.connections[i];
+        if (row.source_window == kNoIndex || row.sink_window == kNoIndex) {
+            findings.add(Rule::kPortOfUnknownComponent, i);
+        } else {
+            if (row.age_max <= Duration{0} || row.lead_max < Duration{0}) {
+                findings.add(Rule::kAgeLimitNotPositive, i);
+            }
+            check_crossing(view, i, findings);
+        }
+    }
+}
+
+}  // namespace mamori::detail
+
+#endif  // MAMORI_KERNEL_CONNECTION_CHECK_HPP

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Where the rules of a system table put what they find. Not for users.
+///
+/// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_FINDING_LIST_HPP
+#define MAMORI_KERNEL_FINDING_LIST_HPP
+
+#include <cstddef>
+
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/table/system_finding.hpp"
+
+namespace mamori::detail {
+
+/// Keeps as many findings as it has room for and counts them all.
+class FindingList final {
+  public:
+    constexpr explicit FindingList(Span<Finding> storage) noexcept : storage_(storage) {}
+    constexpr void add(Rule rule, std::size_t element, std::size_t other = 0U) noexcept {
+        if (count_ < storage_.size()) {
+            storage_[count_] = {rule, element, other};
+        }
+        ++count_;
+    }
+    constexpr std::size_t get_count() const noexcept { return count_; }
+
+  private:
+    Span<Finding> storage_;
+    std::size_t count_{0U};
+};
+
+}  // namespace mamori::detail
+
+#endif  // MAMORI_KERNEL_FINDING_LIST_HPP

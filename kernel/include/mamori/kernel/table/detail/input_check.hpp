@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Rules of inputs: one writer each, and in each mode a source for a mandatory input of a running component.
+/// Not for users.
+///
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-MOD-003      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_INPUT_CHECK_HPP
+#define MAMORI_KERNEL_INPUT_CHECK_HPP
+
+#include <cstddef>
+
+#include "mamori/kernel/table/detail/finding_list.hpp"
+#include "mamori/kernel/table/mode_table.hpp"
+#include "mamori/kernel/table/system_table.hpp"
+
+namespace mamori::detail {
+
+constexpr bool is_connected(const SystemView& view, const PortRow& input) noexcept {
+    bool is_found = false;
+    for (const ConnectionRow& connection : view.connections) {
+        is_found = is_found || connection.sink == input.input;
+    }
+    return is_found;
+}
+
+/// Two connections may share an input when no mode has both; a queue has one writer for ever, since writers
+/// of two cores could meet in it.
+constexpr bool has_two_writers(const SystemView& view, const PortRow& input) noexcept {
+    for (std::size_t i = 0U; i < view.connections.size(); ++i) {
+        const ConnectionRow& later = view.connections[i];
+        for (std::size_t j = 0U; j < i && later.sink == input.input; ++j) {
+            const ConnectionRow& earlier = view.connections[j];
+            const bool may_alternate = (earlier.modes & later.modes) == 0U && later.operations.is_latest;
+            if (earlier.sink == input.input && !may_alternate) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Names the first mode in which a mandatory input that is connected gets nothing.
+constexpr void check_feeding(const SystemView& view, std::size_t port, FindingList& findings) noexcept {
+    const PortRow& row = view.ports[port];
+    ModeMask fed = 0U;
+    for (const ConnectionRow& connection : view.connections) {
+        fed |= connection.sink == row.input ? connection.modes : 0U;
+    }
+    for (std::size_t m = 0U; m < view.modes.modes.size(); ++m) {
+        if ((view.component_rows[row.component].modes & ~fed & to_mask(m)) != 0U) {
+            findings.add(Rule::kInputNotFedInMode, port, m);
+            return;
+        }
+    }
+}
+
+constexpr void check_inputs(const SystemView& view, FindingList& findings) noexcept {
+    for (std::size_t i = 0U; i < view.ports.size(); ++i) {
+        const PortRow& row = view.ports[i];
+        if (row.input == nullptr) {
+            continue;
+        }
+        if (has_two_writers(view, row)) {
+            findings.add(Rule::kInputHasTwoWriters, i);
+        }
+        if (row.is_mandatory && !is_connected(view, row)) {
+            findings.add(Rule::kInputNotConnected, i);
+        } else if (row.is_mandatory) {
+            check_feeding(view, i, findings);
+        }
+    }
+}
+
+}  // namespace mamori::detail
+
+#endif  // MAMORI_KERNEL_INPUT_CHECK_HPP

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Rules that a system table must keep. They are constant expressions: MAMORI_CHECK (system_rules.hpp) makes
+/// the compiler refuse a table that breaks one, and a tool gets all findings of a table made at run time.
+///
+/// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
+#ifndef MAMORI_KERNEL_SYSTEM_CHECK_HPP
+#define MAMORI_KERNEL_SYSTEM_CHECK_HPP
+
+#include <array>
+#include <cstddef>
+
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/kernel/parameter/configuration_check.hpp"
+#include "mamori/kernel/parameter/configuration_finding.hpp"
+#include "mamori/kernel/table/detail/connection_check.hpp"
+#include "mamori/kernel/table/detail/finding_list.hpp"
+#include "mamori/kernel/table/detail/input_check.hpp"
+#include "mamori/kernel/table/detail/mode_check.hpp"
+#include "mamori/kernel/table/detail/range_check.hpp"
+#include "mamori/kernel/table/detail/reaction_check.hpp"
+#include "mamori/kernel/table/detail/row_check.hpp"
+#include "mamori/kernel/table/detail/window_check.hpp"
+#include "mamori/kernel/table/system_finding.hpp"
+#include "mamori/kernel/table/system_table.hpp"
+
+namespace mamori {
+
+namespace detail {
+
+constexpr void check_components(const SystemView& view, FindingList& findings) noexcept {
+    for (std::size_t i = 0U; i < view.components.size(); ++i) {
+        for (std::size_t j = 0U; j < i; ++j) {
+            if (view.components[i] == view.components[j]) {
+                findings.add(Rule::kComponentInTwoPlaces, i, j);
+                break;
+            }
+        }
+    }
+}
+
+}  // namespace detail
+
+/// Finds every rule that a table breaks, in the order of `Rule` groups: windows, components, modes,
+/// inputs, connections, reactions, configuration. Rows that are invalid in themselves hide the rest, and so
+/// do rows that do not fit together: nothing else can be judged then. Whatever the rows hold, no pointer or
+/// index is followed before it was judged; that a span has the rows it counts, that a pointer which is not
+/// null leads to a living object and that a name ends is taken for granted. Constant expression for a
+/// constexpr table; O(rows squared).
+/// @param[out] storage the first findings; may be shorter than their number.
+/// @return number of findings; 0: the table keeps every rule.
+constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) noexcept {
+    detail::FindingList findings{storage};
+    detail::check_rows(view, findings);
+    if (findings.get_count() == 0U) {
+        detail::check_ranges(view, findings);
+    }
+    if (findings.get_count() != 0U) {
+        return findings.get_count();
+    }
+    for (std::size_t i = 0U; i < view.windows.size(); ++i) {
+        detail::check_window_name(view, i, findings);
+        detail::check_window_trigger(view, i, findings);
+        detail::check_window_times(view, i, findings);
+        detail::check_window_load(view, i, findings);
+    }
+    detail::check_components(view, findings);
+    detail::check_modes(view, findings);
+    detail::check_inputs(view, findings);
+    detail::check_connections(view, findings);
+    detail::check_reactions(view, findings);
+    const ConfigurationFinding configuration = check(view.configuration);
+    if (configuration.rule != ConfigurationRule::kNone) {
+        findings.add(Rule::kConfigurationRefused, configuration.set, configuration.assignment);
+    }
+    return findings.get_count();
+}
+
+/// First finding of the table, or one with Rule::kNone. As check_all(), at the same cost.
+constexpr Finding check(const SystemView& view) noexcept {
+    std::array<Finding, 1U> first{};
+    static_cast<void>(check_all(view, first));
+    return first[0];
+}
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_SYSTEM_CHECK_HPP

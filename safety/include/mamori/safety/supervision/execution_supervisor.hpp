@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Supervision of the components of one executive: reads what it records of its course, judges each component
+/// once per supervision cycle (alive, deadline, budget) and sums the judgements up to the status of the
+/// whole.
+///
+/// @satisfies SWR-SUP-007, SWR-SUP-008, SWR-SUP-009, SWR-SUP-010
+/// Design:   docs/design/supervision.md#local-and-global-status
+/// Source:   IEC 61508-2:2010 Table A.10 (monitoring of program sequence)
+#ifndef MAMORI_SAFETY_EXECUTION_SUPERVISOR_HPP
+#define MAMORI_SAFETY_EXECUTION_SUPERVISOR_HPP
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/run/execution_observer.hpp"
+#include "mamori/safety/supervision/alive_supervisor.hpp"
+#include "mamori/safety/supervision/deadline_supervisor.hpp"
+
+namespace mamori::safety {
+
+/// Health of one component; ordered, the worst is the largest.
+enum class LocalStatus : std::uint8_t {
+    kOk,
+    kFailed,   ///< late, may recover by itself
+    kExpired,  ///< latched until acknowledge()
+};
+
+/// Health of all components of global scope; ordered, the worst is the largest.
+enum class GlobalStatus : std::uint8_t { kOk, kFailed, kExpired };
+
+/// What the failure of a component means for the watchdog.
+enum class SupervisionScope : std::uint8_t {
+    kGlobal,  ///< takes part in the global status: the watchdog is not serviced without it
+    kLocal,   ///< has a local status only, for which the application declares a fault and its reaction
+};
+
+/// Why a component expired.
+enum class ExpiryCause : std::uint8_t { kNone, kBudgetOverrun, kDeadline, kSilent };
+
+/// Limits of one component.
+struct ComponentLimits {
+    AliveLimits alive{};
+    DeadlineLimits deadline{};
+    SupervisionScope scope{SupervisionScope::kGlobal};
+};
+
+/// Storage of one component. Written by ExecutionSupervisor only.
+struct ComponentSlot {
+    std::atomic<bool> is_overrun_pending{false};  ///< set from a guard's context
+    bool is_global{true};                         ///< scope
+    bool is_conspicuous{true};                    ///< to be weighed, even after runs within their limits
+    LocalStatus status{LocalStatus::kOk};
+    ExpiryCause cause{ExpiryCause::kNone};
+    Instant expired_at{};
+};
+
+/// Storage for the components 0 .. kComponentCount - 1 of the system table.
+template <std::size_t kComponentCount>
+struct ExecutionStorage {
+    std::array<ExecutionRecord, kComponentCount> records{};  ///< written by the executive as well
+    std::array<ComponentSlot, kComponentCount> components{};
+    std::array<AliveSlot, kComponentCount> alive{};
+};
+
+/// The first late release since the last acknowledgement, and how many there were.
+struct LateRelease {
+    std::uint32_t count{0U};
+    std::size_t window{0U};
+    Duration lateness{0};
+    Instant at{};
+};
+
+/// Supervises the components of one executive, named by their position in the system table.
+///
+/// Thread safety: on_budget_overrun may be called from another context; all other members from one and the
+///                same execution context.
+/// Time:          step() and get_first_expired() are O(components), the others are O(1). Nothing blocks.
+/// Memory:        no heap; all state is in the storage, which must outlive this object.
+class ExecutionSupervisor final : public ExecutionObserver {
+  public:
+    /// "No component", as get_first_expired() says it.
+    static constexpr std::size_t kNoComponent = static_cast<std::size_t>(-1);
+
+    /// @param[in] storage      one slot per component of the executive; fewer are an own bug.
+    /// @param[in] lateness_max latest release of a window that is tolerated, >= 0.
+    template <std::size_t kComponentCount>
+    constexpr ExecutionSupervisor(ExecutionStorage<kComponentCount>& storage, Duration lateness_max) noexcept
+        : ExecutionObserver(storage.records),
+          alive_(storage.alive),
+          components_(storage.components),
+          lateness_max_(lateness_max) {
+        MAMORI_REQUIRE(1, lateness_max >= Duration{0});
+    }
+
+    /// Starts supervising a component, active. A component that is not watched may be silent and slow, but
+    /// a budget overrun expires it all the same, with global scope.
+    /// @return kOk; kBadParameter (component or limits out of range); kPreconditionNotMet (already watched).
+    Status watch(std::size_t component, const ComponentLimits& limits) noexcept;
+
+    /// Tells that the component is meant to be silent, or to run again.
+    /// @return as AliveSupervisor::deactivate and AliveSupervisor::activate.
+    Status deactivate(std::size_t component) noexcept;
+    Status activate(std::size_t component) noexcept { return alive_.activate(component); }
+
+    /// Takes an expired component back to kOk. Only for a deliberate reset; an overrun or a run outside its
+    /// limits that no step() has judged yet is kept.
+    /// @return kOk; kBadParameter (component out of range); kPreconditionNotMet (not expired).
+    Status acknowledge(std::size_t component) noexcept;
+
+    /// Ends one supervision cycle and judges all components, worst condition first.
+    /// @param[in] now start of the cycle, as in ContextHandle::now.
+    /// @return kExpired: a component of global scope is expired. kFailed: one is late, a window was released
+    ///         too late in this cycle, or no component of global scope is active, so that nothing is proven.
+    [[nodiscard]] GlobalStatus step(Instant now) noexcept;
+
+    /// @return result of the last step(); kFailed before the first.
+    GlobalStatus get_global_status() const noexcept { return global_status_; }
+
+    /// @param[in] component 0 .. count - 1. @return its status at the last step().
+    LocalStatus get_local_status(std::size_t component) const noexcept {
+        return components_[component].status;
+    }
+
+    /// @param[in] component 0 .. count - 1. @return why it expired; kNone unless it did.
+    ExpiryCause get_cause(std::size_t component) const noexcept { return components_[component].cause; }
+
+    /// @return component that expired first of those still expired, the lowest index of one step;
+    ///         kNoComponent when none is.
+    std::size_t get_first_expired() const noexcept;
+
+    /// @return first late release and their count since the last acknowledgement; count 0 when there was
+    /// none.
+    const LateRelease& get_late_release() const noexcept { return late_release_; }
+    void acknowledge_late_release() noexcept { late_release_ = LateRelease{}; }
+
+    void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override;
+    void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override;
+
+  private:
+    /// What one component adds to the global status.
+    struct Share {
+        GlobalStatus status;
+        bool proves_something;  ///< it is active: its health is proven when nothing speaks against it
+    };
+    void collect_overruns() noexcept;
+    Share weigh(std::size_t component, Instant now) noexcept;
+    void judge(std::size_t component, Instant now) noexcept;
+
+    AliveSupervisor alive_;
+    Span<ComponentSlot> components_;
+    std::atomic<bool> is_overrun_pending_{false};  ///< of any component
+    Duration lateness_max_;
+    LateRelease late_release_{};
+    bool is_release_late_{false};
+    GlobalStatus global_status_{GlobalStatus::kFailed};
+};
+
+}  // namespace mamori::safety
+
+#endif  // MAMORI_SAFETY_EXECUTION_SUPERVISOR_HPP

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/safety/supervision/execution_supervisor.hpp"
+
+#include "mamori/safety/base/count_up.hpp"
+
+namespace mamori::safety {
+namespace {
+
+/// The status that a component adds to the whole; the two scales are the same by intention.
+constexpr GlobalStatus to_global(LocalStatus status) noexcept {
+    if (status == LocalStatus::kExpired) {
+        return GlobalStatus::kExpired;
+    }
+    return status == LocalStatus::kOk ? GlobalStatus::kOk : GlobalStatus::kFailed;
+}
+
+}  // namespace
+
+Status ExecutionSupervisor::watch(std::size_t component, const ComponentLimits& limits) noexcept {
+    if (!is_valid(limits.deadline)) {
+        return Status::kBadParameter;
+    }
+    const Status result = alive_.watch(component, limits.alive);
+    if (result != Status::kOk) {
+        return result;
+    }
+    // What was seen before was held against no limits.
+    get_records()[component].set_limits(limits.deadline.shortest, limits.deadline.longest);
+    static_cast<void>(get_records()[component].take_seen());
+    components_[component].is_global = limits.scope == SupervisionScope::kGlobal;
+    return Status::kOk;
+}
+
+Status ExecutionSupervisor::deactivate(std::size_t component) noexcept {
+    const Status result = alive_.deactivate(component);
+    if (result == Status::kOk) {
+        components_[component].is_conspicuous = true;
+    }
+    return result;
+}
+
+Status ExecutionSupervisor::acknowledge(std::size_t component) noexcept {
+    if (component >= components_.size()) {
+        return Status::kBadParameter;
+    }
+    ComponentSlot& slot = components_[component];
+    if (slot.status != LocalStatus::kExpired) {
+        return Status::kPreconditionNotMet;
+    }
+    // Refuses where it has nothing to clear: the cause was another one.
+    static_cast<void>(alive_.acknowledge(component));
+    slot.status = LocalStatus::kOk;
+    slot.cause = ExpiryCause::kNone;
+    return Status::kOk;
+}
+
+/// Finds whom an overrun came for since the last step. One that comes in the meantime waits for the next.
+void ExecutionSupervisor::collect_overruns() noexcept {
+    if (!is_overrun_pending_.load(std::memory_order_relaxed)) {
+        return;
+    }
+    static_cast<void>(is_overrun_pending_.exchange(false, std::memory_order_acquire));
+    for (ComponentSlot& slot : components_) {
+        if (slot.is_overrun_pending.load(std::memory_order_relaxed)) {
+            slot.is_conspicuous = true;
+        }
+    }
+}
+
+/// Weighs all that is known of a component.
+void ExecutionSupervisor::judge(std::size_t component, Instant now) noexcept {
+    ComponentSlot& slot = components_[component];
+    ExecutionRecord& record = get_records()[component];
+    const bool has_overrun = slot.is_overrun_pending.exchange(false, std::memory_order_relaxed);
+    const std::uint32_t seen = record.take_seen();
+    if (seen != 0U) {
+        // Refused for one that is not watched, whose runs nobody waits for.
+        static_cast<void>(alive_.report_alive(component));
+    }
+    alive_.end_cycle(component);
+    if (slot.status == LocalStatus::kExpired) {
+        return;
+    }
+    const AliveVerdict verdict = alive_.get_verdict(component);
+    // The worst condition first, so that it is the cause that is named.
+    ExpiryCause cause = ExpiryCause::kNone;
+    if (has_overrun) {
+        cause = ExpiryCause::kBudgetOverrun;
+    } else if ((seen & ExecutionRecord::kOutside) != 0U) {
+        cause = ExpiryCause::kDeadline;
+    } else if (verdict == AliveVerdict::kExpired) {
+        cause = ExpiryCause::kSilent;
+    }
+    if (cause != ExpiryCause::kNone) {
+        slot.status = LocalStatus::kExpired;
+        slot.cause = cause;
+        slot.expired_at = now;
+    } else {
+        slot.status = verdict == AliveVerdict::kHealthy ? LocalStatus::kOk : LocalStatus::kFailed;
+    }
+    slot.is_conspicuous = seen == 0U || slot.status != LocalStatus::kOk || !alive_.is_active(component);
+}
+
+/// What a component that was weighed adds to the whole.
+ExecutionSupervisor::Share ExecutionSupervisor::weigh(std::size_t component, Instant now) noexcept {
+    judge(component, now);
+    const ComponentSlot& slot = components_[component];
+    if (!slot.is_global) {
+        return {GlobalStatus::kOk, false};
+    }
+    return {to_global(slot.status), alive_.is_active(component)};
+}
+
+GlobalStatus ExecutionSupervisor::step(Instant now) noexcept {
+    bool is_anything_proven = false;
+    GlobalStatus worst = is_release_late_ ? GlobalStatus::kFailed : GlobalStatus::kOk;
+    is_release_late_ = false;
+    collect_overruns();
+    ExecutionRecord* record = get_records().data();
+    for (ComponentSlot& slot : components_) {
+        // The way of nearly every cycle: runs within their limits, and nothing else to be weighed.
+        if (record->get_seen() == ExecutionRecord::kWithin && !slot.is_conspicuous) {
+            static_cast<void>(record->take_seen());
+            is_anything_proven |= slot.is_global;
+        } else {
+            const auto component = static_cast<std::size_t>(&slot - components_.begin());
+            const Share share = weigh(component, now);
+            worst = share.status > worst ? share.status : worst;
+            is_anything_proven |= share.proves_something;
+        }
+        ++record;
+    }
+    if (worst == GlobalStatus::kOk && !is_anything_proven) {
+        worst = GlobalStatus::kFailed;
+    }
+    global_status_ = worst;
+    return worst;
+}
+
+std::size_t ExecutionSupervisor::get_first_expired() const noexcept {
+    std::size_t first = kNoComponent;
+    for (std::size_t i = 0U; i < components_.size(); ++i) {
+        const bool is_expired = components_[i].status == LocalStatus::kExpired;
+        if (is_expired &&
+            (first == kNoComponent || components_[i].expired_at < components_[first].expired_at)) {
+            first = i;
+        }
+    }
+    return first;
+}
+
+void ExecutionSupervisor::on_budget_overrun(std::size_t, std::size_t component, Instant) noexcept {
+    MAMORI_REQUIRE(3, component < components_.size());
+    components_[component].is_overrun_pending.store(true, std::memory_order_relaxed);
+    // An exchange, so that whoever clears it sees the components of all who set it since.
+    static_cast<void>(is_overrun_pending_.exchange(true, std::memory_order_acq_rel));
+}
+
+void ExecutionSupervisor::on_late_release(std::size_t window, Duration lateness, Instant now) noexcept {
+    // A negative lateness is a clock that ran backwards: no better than a late window.
+    if (lateness >= Duration{0} && lateness <= lateness_max_) {
+        return;
+    }
+    is_release_late_ = true;
+    if (late_release_.count == 0U) {
+        late_release_ = LateRelease{0U, window, lateness, now};
+    }
+    count_up(late_release_.count);
+}
+
+}  // namespace mamori::safety
