@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes into a pytest result which requirement the test verifies, and how (docs/design/evidence.md).
+"""Writes into a pytest result which requirement the test verifies, and how (docs/design/trace.md#evidence-files).
 
     @pytest.mark.verifies("SWR-TRC-001", technique="boundary_values", polarity="violation")
 
@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from mamori.trace.project_lock import LockedError, hold_lock
+from mamori_trace.base.errors import MissingError
+from mamori_trace.base.project_lock import hold_lock
 
 TECHNIQUES = ("requirements_based", "boundary_values", "equivalence_classes", "fault_injection", "state_transition",
               "error_guessing", "interface", "back_to_back")  # fmt: skip
@@ -28,7 +29,7 @@ def pytest_configure(config: pytest.Config) -> None:
     )
     # Tests write to their checkout: parallel workers inherit one lock. While another command runs, the tests run without the lock.
     stack = contextlib.ExitStack()
-    with contextlib.suppress(LockedError, OSError):
+    with contextlib.suppress(MissingError, OSError):
         stack.enter_context(hold_lock(Path(__file__).resolve().parent, "pytest"))
     config.add_cleanup(stack.close)
 

@@ -3,7 +3,7 @@
 /// Everything around the safety software in real time: the plant on a thread of its own, one frame behind the
 /// commands as in virtual time, so that its computing takes no time from a window.
 ///
-/// @satisfies SWR-TIM-004      Design: docs/design/timing_run.md#plant
+/// @satisfies SWR-TIM-004      Design: docs/design/timing.md#plant
 #ifndef EXAMPLES_SAFE_ARM_REAL_TIME_MACHINE_HPP
 #define EXAMPLES_SAFE_ARM_REAL_TIME_MACHINE_HPP
 

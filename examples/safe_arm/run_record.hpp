@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Record of one run: the facts of docs/design/evidence.md, gathered frame by frame and written when the run
-/// is over.
+/// Record of one run: the facts of docs/design/trace.md#evidence-files, gathered frame by frame and written
+/// when the run is over.
 ///
 /// @satisfies SWR-SAF-016      Design: docs/design/safe_arm.md#record
 #ifndef EXAMPLES_SAFE_ARM_RUN_RECORD_HPP

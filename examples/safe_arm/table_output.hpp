@@ -2,7 +2,7 @@
 /// @file
 /// The system table of the example for people: `safe_arm table --out FILE`, shown by `mamori table FILE`.
 ///
-/// Design: docs/design/table_dump.md#library
+/// Design: docs/design/cost.md#library
 #ifndef EXAMPLES_SAFE_ARM_TABLE_OUTPUT_HPP
 #define EXAMPLES_SAFE_ARM_TABLE_OUTPUT_HPP
 

@@ -2,7 +2,7 @@
 /// @file
 /// `safe_arm timing`: the system by the clock, measured.
 ///
-/// @satisfies SWR-TIM-004, SWR-TIM-005      Design: docs/design/timing_run.md#plant
+/// @satisfies SWR-TIM-004, SWR-TIM-005      Design: docs/design/timing.md#plant
 #ifndef EXAMPLES_SAFE_ARM_TIMING_COMMAND_HPP
 #define EXAMPLES_SAFE_ARM_TIMING_COMMAND_HPP
 

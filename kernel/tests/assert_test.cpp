@@ -14,7 +14,7 @@
 #include <cstring>
 #include <thread>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <vector>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "mamori/kernel/payload/cdr.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/cdr_checks.hpp"
 
 namespace mamori {

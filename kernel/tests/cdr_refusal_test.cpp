@@ -11,7 +11,7 @@
 #include "mamori/kernel/payload/cdr.hpp"
 #include "mamori/kernel/payload/extended_types_3d.hpp"
 #include "mamori/kernel/payload/timed_types.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/cdr_checks.hpp"
 
 namespace mamori {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "mamori/kernel/payload/timed_types.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/cdr_checks.hpp"
 
 namespace mamori {

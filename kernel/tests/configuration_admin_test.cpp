@@ -12,8 +12,8 @@
 
 #include "mamori/kernel/base/constant_init.hpp"
 #include "mamori/kernel/parameter/configuration_set.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/configured_components.hpp"
 
 namespace mamori {

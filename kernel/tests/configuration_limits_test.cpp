@@ -5,7 +5,7 @@
 
 #include "mamori/kernel/parameter/configuration_admin.hpp"
 #include "mamori/kernel/parameter/configuration_set.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/configured_components.hpp"
 
 namespace mamori {

@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/configured_components.hpp"
 
 namespace mamori {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "mamori/kernel/parameter/constraint_parser.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

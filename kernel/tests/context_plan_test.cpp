@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "mamori/kernel/component/external_trigger.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/context_fixture.hpp"
 
 namespace mamori {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "mamori/kernel/component/external_trigger.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/context_fixture.hpp"
 
 namespace mamori {

@@ -12,7 +12,7 @@
 #include "mamori/kernel/dataflow/fifo_buffer.hpp"
 #include "mamori/kernel/dataflow/snapshot_cell.hpp"
 #include "mamori/kernel/dataflow/triple_buffer.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "mamori/kernel/dataflow/connection.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::testing_support {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "mamori/kernel/parameter/scalar.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -14,7 +14,7 @@
 #include "mamori/kernel/run/introspection_rows.hpp"
 #include "mamori/kernel/table/system_finding.hpp"
 #include "mamori/kernel/table/system_table.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

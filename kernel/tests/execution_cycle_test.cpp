@@ -3,7 +3,7 @@
 // failed. Method: two spies in one context; each action that can fail, with each code that is not kOk.
 #include <algorithm>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/context_fixture.hpp"
 
 namespace mamori {

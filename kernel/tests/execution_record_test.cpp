@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

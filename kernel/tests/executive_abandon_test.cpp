@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "mamori/kernel/run/executive.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
 

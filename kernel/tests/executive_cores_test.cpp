@@ -5,8 +5,8 @@
 
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
 

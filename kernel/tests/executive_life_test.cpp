@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "mamori/kernel/run/executive.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
 #include "support/spy_component.hpp"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mamori/kernel/run/executive.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
 

@@ -6,7 +6,7 @@
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/run/frame_schedule.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_host.hpp"
 
 namespace mamori {

@@ -9,7 +9,7 @@
 #include "mamori/kernel/dataflow/queue_in_port.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
 #include "support/mode_system.hpp"

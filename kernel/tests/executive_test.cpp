@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
 

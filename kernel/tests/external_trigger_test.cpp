@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "mamori/kernel/component/execution_context.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/spy_component.hpp"
 
 namespace mamori {

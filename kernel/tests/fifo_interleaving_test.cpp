@@ -8,7 +8,7 @@
 #include <string>
 
 #include "mamori/kernel/dataflow/fifo_buffer.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/interleaving.hpp"
 
 namespace mamori {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "mamori/kernel/base/crc32.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::flight {
 namespace {

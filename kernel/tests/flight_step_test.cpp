@@ -13,7 +13,7 @@
 
 #include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/kernel/record/flight_recorder.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/kernel/component/fsm_check.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/spy_component.hpp"
 
 namespace mamori {

@@ -11,7 +11,7 @@
 
 #include "mamori/kernel/component/detail/fsm_event_queue.hpp"
 #include "mamori/kernel/parameter/parameter.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/page_steps.hpp"
 
 namespace mamori {

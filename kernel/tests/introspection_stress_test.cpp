@@ -11,7 +11,7 @@
 #include "mamori/kernel/dataflow/queue_in_port.hpp"
 #include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -11,8 +11,8 @@
 #include "mamori/kernel/base/constant_init.hpp"
 #include "mamori/kernel/dataflow/queue_in_port.hpp"
 #include "mamori/kernel/system/system.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/flow_components.hpp"
 

@@ -6,8 +6,8 @@
 
 #include <string>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -3,7 +3,7 @@
 // element. Method: support/compilation.hpp; one system, broken by one thing at a time.
 #include <gtest/gtest.h>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/compilation.hpp"
 
 namespace mamori {
@@ -15,7 +15,7 @@ using verification::Technique;
 using verification::verifies;
 
 void expect_broken(int number, const std::string& expected) {
-    expect_refused("system_modes", expected, "-DMAMORI_BREAK=" + std::to_string(number));
+    expect_refused("system_modes", "", expected, std::to_string(number));
 }
 
 TEST(ModeCompileFailTest, AConnectionThatHoldsInAnUnknownModeIsRefused) {
@@ -106,26 +106,25 @@ TEST(ModeCompileFailTest, AModeThatNoTransitionLeadsToIsRefused) {
 TEST(ModeCompileFailTest, AnExecutiveOfATableWithModesOrSetsNeedsTheirSwitch) {
     verifies("SWR-MOD-008", Technique::kInterface, Polarity::kViolation);
     const std::string needs = "a table with modes or configuration sets needs a SystemModes: write";
-    expect_refused("executive_without_modes", needs, "-DMAMORI_BREAK=1");
-    expect_refused("executive_without_modes", needs, "-DMAMORI_BREAK=2");
+    expect_refused("executive_without_modes", "", needs, "1");
+    expect_refused("executive_without_modes", "", needs, "2");
 }
 
 TEST(ModeCompileFailTest, AnEventOfMoreThan32BitsIsRefused) {
     verifies("SWR-MOD-003", Technique::kBoundaryValues, Polarity::kViolation);
-    expect_refused("table_enumerators", "events, faults and reactions have at most 32 bits",
-                   "-DMAMORI_BREAK=1");
+    expect_refused("table_enumerators", "", "events, faults and reactions have at most 32 bits", "1");
 }
 
 TEST(ModeCompileFailTest, AFaultOrReactionOfMoreThan32BitsIsRefused) {
     verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
-    for (const char* option : {"-DMAMORI_BREAK=2", "-DMAMORI_BREAK=3", "-DMAMORI_BREAK=4"}) {
-        expect_refused("table_enumerators", "events, faults and reactions have at most 32 bits", option);
+    for (const char* option : {"2", "3", "4"}) {
+        expect_refused("table_enumerators", "", "events, faults and reactions have at most 32 bits", option);
     }
 }
 
 TEST(ModeCompileFailTest, EventsOfTwoEnumerationsInOneTableAreRefused) {
     verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
-    expect_refused("table_enumerators", "are enumerators of one enumeration", "-DMAMORI_BREAK=5");
+    expect_refused("table_enumerators", "", "are enumerators of one enumeration", "5");
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 #include "mamori/kernel/dataflow/queue_in_port.hpp"
 #include "mamori/kernel/table/system_check.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/fake_host.hpp"
 #include "support/mode_system.hpp"
 

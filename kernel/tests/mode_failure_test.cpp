@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/mode_system.hpp"
 
 namespace mamori {

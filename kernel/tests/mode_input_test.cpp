@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mamori/kernel/table/system_check.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/mode_system.hpp"
 
 namespace mamori {

@@ -4,7 +4,7 @@
 // with a core that is away, thousands of frames where numbers wrap.
 #include <gtest/gtest.h>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/mode_system.hpp"
 
 namespace mamori {

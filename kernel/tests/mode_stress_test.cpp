@@ -9,7 +9,7 @@
 #include <atomic>
 #include <thread>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/mode_system.hpp"
 
 namespace mamori {

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "mamori/kernel/table/system_check.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/mode_system.hpp"
 
 namespace mamori {

@@ -3,7 +3,7 @@
 // where. Method: support/compilation.hpp.
 #include <gtest/gtest.h>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/compilation.hpp"
 
 namespace mamori {
@@ -17,12 +17,12 @@ using verification::verifies;
 
 TEST(ParameterCompileFailTest, AMalformedConstraintIsRefusedWithItsRule) {
     verifies("SWR-PAR-004", Technique::kInterface, Polarity::kViolation);
-    expect_refused("constraint_malformed", "kTextBeyondEnd");
+    expect_refused("parameters", "constraint_malformed", "kTextBeyondEnd");
 }
 
 TEST(ParameterCompileFailTest, AMalformedConstraintIsRefusedWithItsPlaceAndParameter) {
     verifies("SWR-PAR-004", Technique::kInterface, Polarity::kViolation);
-    const std::string output = compile("constraint_malformed", "-DMAMORI_BREAK").output;
+    const std::string output = compile("parameters", "-DMAMORI_BREAK_CONSTRAINT_MALFORMED").output;
 
     // g++ writes [with long unsigned int kCharacter = 11], clang refuse_at_character<11UL>.
     EXPECT_TRUE(output.find("kCharacter = 11]") != std::string::npos ||
@@ -34,52 +34,53 @@ TEST(ParameterCompileFailTest, AMalformedConstraintIsRefusedWithItsPlaceAndParam
 
 TEST(ParameterCompileFailTest, ALimitThatTheTypeDoesNotHaveIsRefused) {
     verifies("SWR-PAR-004", Technique::kInterface, Polarity::kViolation);
-    expect_refused("constraint_not_in_type", "kNotInType");
+    expect_refused("parameters", "constraint_not_in_type", "kNotInType");
 }
 
 TEST(ParameterCompileFailTest, AConstraintWithoutRoomIsRefused) {
     verifies("SWR-PAR-004", Technique::kInterface, Polarity::kViolation);
-    expect_refused("constraint_without_room", "kTooManyRanges");
+    expect_refused("parameters", "constraint_without_room", "kTooManyRanges");
 }
 
 TEST(ParameterCompileFailTest, ADefaultOutsideItsConstraintIsRefused) {
     verifies("SWR-PAR-004", Technique::kInterface, Polarity::kViolation);
-    expect_refused("default_outside_constraint", "require_default_within_constraint");
+    expect_refused("parameters", "default_outside_constraint", "require_default_within_constraint");
 }
 
 TEST(ParameterCompileFailTest, AParameterOfATypeThatHasNoConstraintIsRefused) {
     verifies("SWR-PAR-004", Technique::kInterface, Polarity::kViolation);
-    expect_refused("parameter_of_odd_type", "a parameter is a bool, integer, float, double, enum");
+    expect_refused("parameters", "parameter_of_odd_type",
+                   "a parameter is a bool, integer, float, double, enum");
 }
 
 TEST(ParameterCompileFailTest, AMemberThatIsNoParameterIsRefused) {
     verifies("SWR-PAR-006", Technique::kInterface, Polarity::kViolation);
-    expect_refused("parameter_is_no_parameter", "names members that are parameters");
+    expect_refused("parameters", "parameter_is_no_parameter", "names members that are parameters");
 }
 
 TEST(ParameterCompileFailTest, AValueOutsideItsConstraintIsRefusedWithItsSetAndPlace) {
     verifies("SWR-PAR-006", Technique::kInterface, Polarity::kViolation);
-    expect_refused("set_value_outside_constraint", "kValueOutsideConstraint, 1, 1>");
+    expect_refused("parameters", "set_value_outside_constraint", "kValueOutsideConstraint, 1, 1>");
 }
 
 TEST(ParameterCompileFailTest, AParameterThatIsAssignedTwiceIsRefused) {
     verifies("SWR-PAR-006", Technique::kInterface, Polarity::kViolation);
-    expect_refused("set_assigns_twice", "kParameterAssignedTwice, 0, 1>");
+    expect_refused("parameters", "set_assigns_twice", "kParameterAssignedTwice, 0, 1>");
 }
 
 TEST(ParameterCompileFailTest, AParameterOfAComponentThatIsNotListedIsRefused) {
     verifies("SWR-PAR-006", Technique::kInterface, Polarity::kViolation);
-    expect_refused("set_of_unknown_parameter", "kUnknownParameter, 0, 0>");
+    expect_refused("parameters", "set_of_unknown_parameter", "kUnknownParameter, 0, 0>");
 }
 
 TEST(ParameterCompileFailTest, TwoSetsOfOneNameAreRefused) {
     verifies("SWR-PAR-006", Technique::kInterface, Polarity::kViolation);
-    expect_refused("set_named_twice", "kSetNamedTwice, 1, 0>");
+    expect_refused("parameters", "set_named_twice", "kSetNamedTwice, 1, 0>");
 }
 
 TEST(ParameterCompileFailTest, ASetWithoutANameIsRefused) {
     verifies("SWR-PAR-006", Technique::kInterface, Polarity::kViolation);
-    expect_refused("set_without_name", "kSetRowInvalid, 0, 0>");
+    expect_refused("parameters", "set_without_name", "kSetRowInvalid, 0, 0>");
 }
 
 }  // namespace

@@ -16,8 +16,8 @@
 
 #include "mamori/kernel/base/constant_init.hpp"
 #include "mamori/kernel/component/component.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -8,8 +8,8 @@
 #include "mamori/kernel/component/external_trigger.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/context_fixture.hpp"
 #include "support/fake_host.hpp"
 

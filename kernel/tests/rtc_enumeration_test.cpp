@@ -11,7 +11,7 @@
 
 #include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/kernel/component/multi_mode.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/every_status.hpp"
 #include "support/spy_component.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/context_fixture.hpp"
 
 namespace mamori {

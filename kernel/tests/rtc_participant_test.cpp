@@ -10,7 +10,7 @@
 
 #include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/kernel/component/fsm_component.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/every_status.hpp"
 #include "support/spy_component.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "mamori/kernel/component/fsm_component.hpp"
 #include "mamori/kernel/component/multi_mode.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/context_fixture.hpp"
 
 namespace mamori {

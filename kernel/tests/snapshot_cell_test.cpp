@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/interleaving.hpp"
 
 namespace mamori {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

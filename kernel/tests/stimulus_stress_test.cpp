@@ -12,7 +12,7 @@
 #include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/kernel/component/fsm_check.hpp"
 #include "mamori/kernel/component/fsm_component.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

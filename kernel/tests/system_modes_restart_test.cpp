@@ -5,7 +5,7 @@
 // state.
 #include <gtest/gtest.h>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/mode_system.hpp"
 
 namespace mamori {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/mode_system.hpp"
 
 namespace mamori {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "mamori/kernel/table/system_check.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/mode_system.hpp"
 
 namespace mamori {

@@ -12,7 +12,7 @@
 #include "mamori/kernel/component/external_trigger.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/flow_components.hpp"
 
 namespace mamori {

@@ -8,7 +8,7 @@
 
 #include <limits>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/flow_components.hpp"
 
 namespace mamori {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "mamori/kernel/parameter/parameter.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -12,7 +12,7 @@
 #include "mamori/kernel/payload/detail/cdr_size.hpp"
 #include "mamori/kernel/payload/extended_types_2d.hpp"
 #include "mamori/kernel/payload/extended_types_3d.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::rtc {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori {
 namespace {

@@ -9,8 +9,8 @@
 #include <set>
 #include <string>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/interleaving.hpp"
 
 namespace mamori {

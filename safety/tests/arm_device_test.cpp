@@ -2,7 +2,7 @@
 // Goal: the process image is a payload whose every field travels, and its default commands the safe state.
 #include "mamori/safety/arm/arm_device.hpp"
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mamori/safety/reaction/brake_sequence.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

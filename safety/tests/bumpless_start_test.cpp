@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -2,7 +2,7 @@
 // Goal: a channel over its budget is refused by the compiler, which says why and how to mend it.
 // Method: the build's own compiler is run on one source, without and with a defect.
 #include "compile_fail/compiler.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

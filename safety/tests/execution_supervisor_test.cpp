@@ -8,8 +8,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -3,7 +3,7 @@
 // Method: both sides of each limit, breaks in between, a clock that runs backwards, refused rules.
 #include <limits>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fault_register_fixture.hpp"
 
 namespace mamori::safety {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/fault_register_fixture.hpp"
 
 namespace mamori::safety {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 // clang-format off
 #include <array>

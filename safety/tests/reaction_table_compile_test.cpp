@@ -2,7 +2,7 @@
 // Goal: an incomplete reaction table is refused by the compiler, which names the guilty fault.
 // Method: the build's own compiler is run on one source, without and with a defect.
 #include "compile_fail/compiler.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -11,8 +11,8 @@
 #include <type_traits>
 
 #include "mamori/safety/reaction/stop_outputs.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

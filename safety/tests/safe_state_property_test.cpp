@@ -9,7 +9,7 @@
 
 #include "mamori/safety/reaction/safe_state_machine.hpp"
 #include "mamori/safety/reaction/stop_outputs.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

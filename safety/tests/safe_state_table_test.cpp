@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "mamori/safety/reaction/safe_state.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

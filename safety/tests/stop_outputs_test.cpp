@@ -3,7 +3,7 @@
 // Method: every value that fits into the state's byte.
 #include "mamori/safety/reaction/stop_outputs.hpp"
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -3,8 +3,8 @@
 // Method: all combinations of health; both sides of both ends of the window; a device that refuses.
 #include "mamori/safety/supervision/watchdog_gate.hpp"
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

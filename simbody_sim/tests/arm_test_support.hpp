@@ -14,7 +14,7 @@
 
 #include "mamori/simbody_sim/arm_model.hpp"
 #include "mamori/simbody_sim/arm_plant.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::sim::test {
 

@@ -4,20 +4,16 @@
 from __future__ import annotations
 
 import contextlib
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))  # pytest's importlib mode does not add the folder of the tests
-
 import trace_sample
 from trace_sample import Outcome
 
-from mamori.trace.command import main
-from mamori.trace.readers.evidence_records import list_recorded
-from mamori.trace.readers.files import InputError
+from mamori_trace.base.errors import InputError
+from mamori_trace.command import main
+from mamori_trace.readers.evidence_records import list_recorded
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ import pytest
 from git_sample import start_history
 from trace_sample import Sample, make_sample
 
-from mamori.trace.command import main
+from mamori_trace.command import main
 
 needs_ssh = pytest.mark.skipif(shutil.which("ssh-keygen") is None, reason="the package openssh-client is not installed")
 
@@ -343,7 +343,7 @@ def test_a_folder_that_is_no_bundle_is_refused_without_reading_all_of_it(
     trace: Callable, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "large").write_bytes(b"")
-    monkeypatch.setattr("mamori.trace.readers.bundle._take_file", lambda *_: pytest.fail("a file was read"))
+    monkeypatch.setattr("mamori_trace.readers.bundle._take_file", lambda *_: pytest.fail("a file was read"))
 
     outcome = trace("verify", tmp_path)
 

@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 import trace_sample
 
-from mamori.trace.cache import outcome, state
-from mamori.trace.command import main
+from mamori_trace.cache import outcome, state
+from mamori_trace.command import main
 
 EVIDENCE = "build/host-release/evidence"
 

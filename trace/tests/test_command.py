@@ -14,7 +14,7 @@ import pytest
 from git_sample import start_history
 from trace_sample import Sample
 
-from mamori.trace.command import add_arguments, run
+from mamori_trace.command import add_arguments, run
 
 SYSTEM = "requirements/system/system.md"
 
@@ -136,6 +136,6 @@ def test_json_stands_alone_on_standard_output(sample: Sample) -> None:
     for words in JSON_ACTIONS:
         for _ in range(2):
             root = () if words[0] == "verify" else ("--root", ".")
-            command = [sys.executable, "-P", "-m", "mamori.trace", *words, *root, "--json"]
+            command = [sys.executable, "-P", "-m", "mamori_trace", *words, *root, "--json"]
             done = subprocess.run(command, cwd=sample.root, capture_output=True, text=True, check=False, timeout=120)
             assert json.loads(done.stdout), (words, done.stderr)

@@ -10,23 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sample_records import COST
 from trace_sample import COMMIT, ENVIRONMENT, Sample
-
-RECORD: dict[str, Any] = {
-    "schema": "mamori.cost/1", "system": "safe_arm", "exit_status": 0, "marks": [], "assumption": "no model of caches",
-    "margin_percent": 50.0, "growth_percent": 2.0, "build": {"compiler": "GNU 12.2.0", "flags": "-O2", "c_library": "glibc 2.36"},
-    "environment": ENVIRONMENT,
-    "classes": [{"name": "still", "cycles": 400, "first": 0, "every": 2, "step_count": 1200, "notes": ["the arm ended in state Operational"]}],
-    "pace": {"ns_per_instruction": 1.7204, "component": "channel", "least_ns": 0.22, "reference_ns": 0.257, "reference_instructions": 32_776},
-    "ratios": [{"component": "channel", "openings": 625, "median_ns": 1.7204, "p99_ns": 3.715}],
-    "steps": [
-        {"input_class": name, "component": component, "window": "protect", "pass_name": "execute",
-         "instructions": {"count": 200, "min": 539, "median": 545, "max": most, "cycle": 152}, "time_ns": 937.4}
-        for name, most in (("still", 551), ("motion", 552)) for component in ("arm_reader", "channel")],
-    "limits": [{"what": "window", "name": "protect", "limit_ns": 250_000, "input_class": "still", "cycle": 7, "instructions": 4961,
-                "heaviest": "safety_supervisor", "time_ns": 8534.9, "needed_ns": 12_802.4, "left_ns": 237_197.6, "is_kept": True}],
-    "findings": [],
-}  # fmt: skip
 
 
 @pytest.fixture
@@ -41,7 +26,7 @@ def folder(sample: Sample) -> Path:
 def report(sample: Sample, trace: Callable, folder: Path) -> Callable[..., tuple[str, Any]]:
     """Stores a record or a text, writes the report. Gives the section "Timing" and the outcome."""
 
-    def run(record: object = RECORD) -> tuple[str, Any]:
+    def run(record: object = COST) -> tuple[str, Any]:
         (folder / "cost.json").write_text(record if isinstance(record, str) else json.dumps(record), encoding="utf-8")
         outcome = trace("report", "--root", sample.root, "--output", "json")
         page = (sample.root / "report" / "index.html").read_text(encoding="utf-8")
@@ -77,7 +62,7 @@ def test_classes_of_one_component_stand_together(report: Callable) -> None:
 
 @pytest.mark.verifies("SWR-TIM-034", technique="fault_injection", polarity="violation")
 def test_findings_marks_and_other_commits_stand_at_the_top(report: Callable) -> None:
-    record = copy.deepcopy(RECORD)
+    record = copy.deepcopy(COST)
     record.update(exit_status=1, marks=["TIMES WITHOUT REAL-TIME RIGHTS"], findings=["window 'protect': budget <8 us", "another"])
     record["limits"][0].update(left_ns=-4800.0, is_kept=False)
     record["environment"] = ENVIRONMENT | {"commit": COMMIT[::-1]}
@@ -99,7 +84,7 @@ def test_findings_marks_and_other_commits_stand_at_the_top(report: Callable) -> 
 ])  # fmt: skip
 @pytest.mark.verifies("SWR-TIM-034", technique="equivalence_classes", polarity="violation")
 def test_record_that_is_not_in_order_is_one_problem_and_hides_nothing_else(report: Callable, change: Callable, complaint: str) -> None:
-    record = copy.deepcopy(RECORD)
+    record = copy.deepcopy(COST)
     change(record)
 
     section, outcome = report(record)
@@ -112,7 +97,7 @@ def test_record_that_is_not_in_order_is_one_problem_and_hides_nothing_else(repor
 
 @pytest.mark.verifies("SWR-TIM-034", technique="error_guessing", polarity="violation")
 def test_record_that_is_cut_off_is_a_problem(report: Callable) -> None:
-    _, outcome = report(json.dumps(RECORD)[:-20])
+    _, outcome = report(json.dumps(COST)[:-20])
 
     (finding,) = outcome.content["findings"]
     assert "is not whole JSON" in finding["message"]

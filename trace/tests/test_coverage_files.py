@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample, record
 
-from mamori.trace.checks import list_rule_ids
-from mamori.trace.model.project import Project
-from mamori.trace.readers.llvm_cov import calc_line_counts
-from mamori.trace.readers.project import read_project
+from mamori_trace.checks import list_rule_ids
+from mamori_trace.model.project import Project
+from mamori_trace.readers.llvm_cov import calc_line_counts
+from mamori_trace.readers.project import read_project
 
 SOURCE = """#include "alive.hpp"
 

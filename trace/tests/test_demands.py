@@ -8,9 +8,9 @@ from collections.abc import Callable
 import pytest
 from trace_sample import Sample, format_item, format_review
 
-from mamori.trace.checks import weak_word
-from mamori.trace.model.words import UNFINISHED_WORDS, WEAK_WORDS
-from mamori.trace.readers.project import read_requirements
+from mamori_trace.checks import weak_word
+from mamori_trace.model.words import UNFINISHED_WORDS, WEAK_WORDS
+from mamori_trace.readers.project import read_requirements
 
 SOFTWARE = "requirements/software/software.md"
 SYSTEM = "requirements/system/system.md"

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from trace_sample import Outcome, Sample
 
-from mamori.trace.checks import document_link
-from mamori.trace.readers.cpp_tests import read_cpp_tests
-from mamori.trace.readers.project import read_requirements
-from mamori.trace.readers.python_sources import read_python
-from mamori.trace.reports.query import format_markdown
+from mamori_trace.checks import document_link
+from mamori_trace.readers.cpp_tests import read_cpp_tests
+from mamori_trace.readers.project import read_requirements
+from mamori_trace.readers.python_sources import read_python
+from mamori_trace.reports.query import format_markdown
 
 ROOT = Path(__file__).parents[2]
 FOLDER = "docs/manual/safety"

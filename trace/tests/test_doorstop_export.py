@@ -13,10 +13,10 @@ import pytest
 import yaml
 from trace_sample import Outcome, Sample, format_item
 
-from mamori.trace.formats import doorstop
-from mamori.trace.formats.own import make_neutral
-from mamori.trace.formats.writers import FOLDER_WRITERS, WRITERS
-from mamori.trace.readers.project import read_requirements
+from mamori_trace.formats import doorstop
+from mamori_trace.formats.own import make_neutral
+from mamori_trace.formats.writers import FOLDER_WRITERS, WRITERS
+from mamori_trace.readers.project import read_requirements
 
 HEAD = "ID,Title,Statement,Rationale,Parents,level,Status\n"
 

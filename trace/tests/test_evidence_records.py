@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from trace_sample import COMMIT, ENVIRONMENT, Sample
 
-from mamori.trace.readers.evidence_records import hash_file, list_recorded
-from mamori.trace.readers.sources import calc_sources
+from mamori_trace.readers.evidence_records import hash_file, list_recorded
+from mamori_trace.readers.sources import calc_sources
 
 EVIDENCE = "build/host-release/evidence"
 HEADER = "safety/include/alive.hpp"

@@ -18,10 +18,10 @@ from reqif.commands.validate.validate import ValidateCommand
 from reqif.parser import ReqIFParser
 from trace_sample import Sample
 
-from mamori.trace.formats.csv_file import _read_rows, escape_cell, format_csv, unescape_cell
-from mamori.trace.formats.model import ForeignItem, ForeignProject
-from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.project import read_requirements
+from mamori_trace.base.finding import Place, Problem
+from mamori_trace.formats.csv_file import _read_rows, escape_cell, format_csv, unescape_cell
+from mamori_trace.formats.model import ForeignItem, ForeignProject
+from mamori_trace.readers.project import read_requirements
 
 _PAGE = '<?xml version="1.0"?>\n<REQ-IF xmlns="http://www.omg.org/spec/ReqIF/20110401/reqif.xsd">\n'
 

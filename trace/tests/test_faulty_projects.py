@@ -11,7 +11,7 @@ from faulty.faults import FAULTS, WITHOUT_FAULT
 from faulty.generate import generate
 from faulty.writers import WRITERS
 
-from mamori.trace.checks import list_rules
+from mamori_trace.checks import list_rules
 
 _CASES = [(name, fault) for name in WRITERS for fault in FAULTS if name not in FAULTS[fault].unstated]
 

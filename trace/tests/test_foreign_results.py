@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample, format_gtest_case
 
-from mamori.trace.model.evidence import TestResult
-from mamori.trace.model.finding import Problem
-from mamori.trace.readers.cpp_tests import parse_cpp_tests
-from mamori.trace.readers.junit import parse_junit, read_junit
-from mamori.trace.readers.python_sources import read_python
+from mamori_trace.base.finding import Problem
+from mamori_trace.model.evidence import TestResult
+from mamori_trace.readers.cpp_tests import parse_cpp_tests
+from mamori_trace.readers.junit import parse_junit, read_junit
+from mamori_trace.readers.python_sources import read_python
 
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'
 JUNIT = "build/host-release/evidence/junit"

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from faulty.generate import generate
 
-from mamori.trace.formats.registry import FORMATS, load_format
+from mamori_trace.formats.registry import FORMATS, load_format
 
 _SDOC = """[DOCUMENT]
 TITLE: Arm

@@ -13,9 +13,9 @@ import pytest
 from framework_samples import FRAMEWORKS, Framework
 from trace_sample import SCHEMA, Sample, format_item
 
-from mamori.trace.model.finding import Problem
-from mamori.trace.readers.cpp_plain import find_dead_lines
-from mamori.trace.readers.cpp_tests import parse_cpp_tests
+from mamori_trace.base.finding import Problem
+from mamori_trace.readers.cpp_plain import find_dead_lines
+from mamori_trace.readers.cpp_tests import parse_cpp_tests
 
 ITEMS = ("SWR-FW-001", "SWR-FW-002", "SWR-FW-003")
 TIMEOUT_S = 300

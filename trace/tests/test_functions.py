@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample
 
-from mamori.trace.model.code import CodeBase, Function
-from mamori.trace.readers.cpp_tags import read_cpp_tags
-from mamori.trace.readers.python_sources import read_python
+from mamori_trace.model.code import CodeBase, Function
+from mamori_trace.readers.cpp_tags import read_cpp_tags
+from mamori_trace.readers.python_sources import read_python
 
 HEADER = """/// @file
 /// Watching.

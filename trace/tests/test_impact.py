@@ -12,7 +12,7 @@ import pytest
 from git_sample import commit, git, start_history
 from trace_sample import Sample, format_item
 
-from mamori.trace.readers.changed_functions import find_touched, list_spans
+from mamori_trace.readers.changed_functions import find_touched, list_spans
 
 HEADER = "safety/include/alive.hpp"
 SOURCE = "safety/src/alive.cpp"

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from trace_sample import SCHEMA, format_item
 
-from mamori.trace.model.finding import Problem
-from mamori.trace.model.item import Item
-from mamori.trace.readers.headings import list_anchors
-from mamori.trace.readers.markdown_items import parse_items
-from mamori.trace.readers.schema import read_schema
+from mamori_trace.base.finding import Problem
+from mamori_trace.model.item import Item
+from mamori_trace.readers.headings import list_anchors
+from mamori_trace.readers.markdown_items import parse_items
+from mamori_trace.readers.schema import read_schema
 
 GOOD = format_item("SWR-ABC-001", "Title", "The tool shall work.", Parents="SYS-001, HAZ-002", Polarity="nominal, violation")
 

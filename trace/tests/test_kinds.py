@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample, format_item, format_technique
 
-from mamori.trace.checks import list_rule_ids
-from mamori.trace.readers.kinds import read_kinds
-from mamori.trace.readers.project import read_project, read_requirements
-from mamori.trace.readers.schema import read_schema
+from mamori_trace.checks import list_rule_ids
+from mamori_trace.readers.kinds import read_kinds
+from mamori_trace.readers.project import read_project, read_requirements
+from mamori_trace.readers.schema import read_schema
 
 ROOT = Path(__file__).parents[2]
 LINKS = "requirements/schema/links.toml"

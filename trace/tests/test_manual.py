@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from mamori.trace.command import add_arguments
-from mamori.trace.model.query_syntax import parse
+from mamori_trace.command import add_arguments
+from mamori_trace.model.query_syntax import parse
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "manual" / "trace.md").read_text(encoding="utf-8")
@@ -53,7 +53,7 @@ def test_each_action_has_an_example_a_row_and_a_line_of_help() -> None:
 
 @pytest.mark.verifies("SWR-TRC-079", technique="interface", polarity="nominal")
 def test_the_manual_names_each_field_of_a_query() -> None:
-    source = (ROOT / "trace" / "model" / "query.py").read_text(encoding="utf-8")
+    source = (ROOT / "trace" / "mamori_trace" / "model" / "query.py").read_text(encoding="utf-8")
     fields = set(re.findall(r'"(\w+)": lambda item', source))
 
     table = PAGE[PAGE.index("| field |") : PAGE.index("A word that no item")]

@@ -8,8 +8,9 @@ import pytest
 from git_sample import commit, git, start_history
 from trace_sample import Sample, format_item
 
-from mamori.trace.model.new_item import NewItemError, allocate
-from mamori.trace.readers.project import read_requirements
+from mamori_trace.base.errors import FormatError
+from mamori_trace.model.new_item import allocate
+from mamori_trace.readers.project import read_requirements
 
 SOFTWARE = "requirements/software/software.md"
 NEW = ("new", "SWR", "--area", "SUP", "--parents", "SYS-001")
@@ -105,7 +106,7 @@ def test_what_cannot_be_is_one_error_and_changes_nothing(
 @pytest.mark.verifies("SWR-TRC-078", technique="boundary_values", polarity="violation")
 def test_the_numbers_end_at_999() -> None:
     assert allocate("SYS-", ["SYS-998 SYS-1234"]) == "SYS-999"
-    with pytest.raises(NewItemError):
+    with pytest.raises(FormatError):
         allocate("SYS-", ["SYS-999"])
 
 

@@ -7,7 +7,8 @@ from collections.abc import Callable
 import pytest
 from trace_sample import Sample
 
-from mamori.trace.model.query_syntax import MAX_DEPTH, MAX_LENGTH, QueryError, parse
+from mamori_trace.base.errors import FormatError
+from mamori_trace.model.query_syntax import MAX_DEPTH, MAX_LENGTH, parse
 
 SYSTEM = "requirements/system/system.md"
 
@@ -116,7 +117,7 @@ def test_depth_and_length_have_limits() -> None:
     assert parse("(" * MAX_DEPTH + "sil=1" + ")" * MAX_DEPTH)
     assert parse(" and ".join(["sil=1"] * 900))
     for text in ("(" * (MAX_DEPTH + 1) + "sil=1" + ")" * (MAX_DEPTH + 1), "not " * (MAX_DEPTH + 1) + "sil=1", "x" * (MAX_LENGTH + 1)):
-        with pytest.raises(QueryError):
+        with pytest.raises(FormatError):
             parse(text)
 
 

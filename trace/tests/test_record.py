@@ -164,7 +164,7 @@ def test_wrong_words_are_one_line_and_record_nothing(words: list[str], status: i
     assert not list(bare.rglob("records.json")) and outcome.out == ""
 
 
-@pytest.mark.parametrize("front", [("mamori.trace",), ("mamori.verification.command", "trace")], ids=["module", "launcher"])
+@pytest.mark.parametrize("front", [("mamori_trace",), ("mamori_tools.command", "trace")], ids=["module", "launcher"])
 @pytest.mark.verifies("SWR-TRC-103", technique="interface", polarity="nominal")
 def test_the_command_keeps_its_own_words_and_streams(front: tuple[str, ...], bare: Path) -> None:
     out = bare / "out/a.xml"

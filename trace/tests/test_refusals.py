@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample
 
-from mamori.trace.command import main
-from mamori.trace.system_error import _REASONS, describe
-from mamori.trace.write import write_whole
+from mamori_trace.base.system_error import _REASONS, describe
+from mamori_trace.base.write import write_whole
+from mamori_trace.command import main
 
 LOCK = "requirements/trace.lock"
 NEW = ("new", "SWR", "--area", "SUP", "--parents", "SYS-001")

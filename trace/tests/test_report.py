@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample, write_large_campaign
 
-from mamori.trace.readers.campaign import make_case
-from mamori.trace.readers.series import Series, read_series
-from mamori.trace.reports.case_page import write_case_page
-from mamori.trace.reports.plots import POINTS_MAX, Marks, draw_case, list_bands, pick_samples
-from mamori.trace.reports.svg import make_inline
-from mamori.trace.reports.timing_view import ABSENT, Cell, Column, make_table
+from mamori_trace.readers.campaign import make_case
+from mamori_trace.readers.series import Series, read_series
+from mamori_trace.reports.case_page import write_case_page
+from mamori_trace.reports.plots import POINTS_MAX, Marks, draw_case, list_bands, pick_samples
+from mamori_trace.reports.svg import make_inline
+from mamori_trace.reports.timing_view import ABSENT, Cell, Column, make_table
 
 SIZE_BYTES_MAX = 5_000_000
 

@@ -15,18 +15,18 @@ import pytest
 from large_project import make_large_project
 from trace_sample import Sample, format_waiver
 
-from mamori.trace.checks import list_rule_ids
-from mamori.trace.model.code import Function
-from mamori.trace.model.coverage import Condition, CoverageRun, FileCoverage
-from mamori.trace.model.finding import Place
-from mamori.trace.model.technique import Technique
-from mamori.trace.model.verdict import calc_verdicts
-from mamori.trace.readers.item_history import CHANGES_MAX, find_changes, read_item_history
-from mamori.trace.readers.project import read_project
-from mamori.trace.reports import v_overview
-from mamori.trace.reports.chromium import BrowserError
-from mamori.trace.reports.html import write_report
-from mamori.trace.reports.inline_json import format_inline
+from mamori_trace.base.errors import WorkError
+from mamori_trace.base.finding import Place
+from mamori_trace.checks import list_rule_ids
+from mamori_trace.model.code import Function
+from mamori_trace.model.coverage import Condition, CoverageRun, FileCoverage
+from mamori_trace.model.technique import Technique
+from mamori_trace.model.verdict import calc_verdicts
+from mamori_trace.readers.item_history import CHANGES_MAX, find_changes, read_item_history
+from mamori_trace.readers.project import read_project
+from mamori_trace.reports import v_overview
+from mamori_trace.reports.html import write_report
+from mamori_trace.reports.inline_json import format_inline
 
 SIZE_BYTES_MAX = 30_000_000
 HOSTILE = ("</script><script>alert(1)</script>", "</noscript><img src=x onerror=alert(1)>", "<!--<script>", "]]>\u2028\u2029", '" onload="x', "&lt;b&gt;")
@@ -331,9 +331,9 @@ def test_a_browser_that_fails_leaves_the_old_report(sample: Sample, page: Callab
     sample.replace("requirements/system/system.md", "## SYS-003 Tool", "## SYS-003 Other")
 
     def fail(_: str) -> None:
-        raise BrowserError("chromium ended by itself")
+        raise WorkError("chromium ended by itself")
 
-    with pytest.raises(BrowserError):
+    with pytest.raises(WorkError):
         write_report(read_project(sample.root, None, list_rule_ids()), sample.root / "report" / "index.html", fail)
 
     assert (sample.root / "report" / "index.html").read_text() == before

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample, format_gtest_case
 
-from mamori.trace.model.evidence import TestResult
-from mamori.trace.model.finding import Problem
-from mamori.trace.readers.junit import parse_junit
+from mamori_trace.base.finding import Problem
+from mamori_trace.model.evidence import TestResult
+from mamori_trace.readers.junit import parse_junit
 
 
 def parse(text: str) -> tuple[list[TestResult], list[Problem]]:

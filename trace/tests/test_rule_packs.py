@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from trace_sample import Sample
 
-from mamori.trace.checks import list_rules
-from mamori.trace.model.finding import Place, Rule
-from mamori.trace.model.item import Item, Schema
-from mamori.trace.readers.rule_pack import SHIPPED, read_rule_pack, read_shipped_pack
-from mamori.trace.readers.schema import read_schema
+from mamori_trace.base.finding import Place, Rule
+from mamori_trace.checks import list_rules
+from mamori_trace.model.item import Item, Schema
+from mamori_trace.readers.rule_pack import SHIPPED, read_rule_pack, read_shipped_pack
+from mamori_trace.readers.schema import read_schema
 
 ROOT = Path(__file__).parents[2]
 SYSTEM = "requirements/system/system.md"

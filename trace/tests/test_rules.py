@@ -10,7 +10,7 @@ from seeds import links, records, results, texts
 from seeds.places import Seed
 from trace_sample import COMMIT, Sample
 
-from mamori.trace.checks import list_rules
+from mamori_trace.checks import list_rules
 
 SEEDS = (*links.SEEDS, *texts.SEEDS, *records.SEEDS, *results.SEEDS)
 HINTS = {"test-unlinked", "weak-word", "independence-missing"}  # warnings, at the SIL at which they are seeded
@@ -68,7 +68,7 @@ def test_each_rule_has_a_seeded_fault() -> None:
 
 @pytest.mark.verifies("SWR-TRC-010", technique="fault_injection", polarity="violation")
 def test_evidence_of_another_commit_is_told(sample: Sample, trace: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mamori.trace.readers.project.read_head", lambda root: "f" * 40)
+    monkeypatch.setattr("mamori_trace.readers.project.read_head", lambda root: "f" * 40)
 
     outcome = trace("check", "--root", sample.root, "--output", "json")
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from trace_sample import Sample, format_gtest_case, format_waiver
 
-from mamori.trace.checks import list_rules
+from mamori_trace.checks import list_rules
 
 SYSTEM = "requirements/system/system.md"
 SOFTWARE = "requirements/software/software.md"

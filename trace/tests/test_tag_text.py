@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from mamori.trace.model.finding import Place
-from mamori.trace.readers.cpp_tags import read_cpp_tags
-from mamori.trace.readers.tag_text import ANY_ID, IMPLEMENTS, NAMES, VERIFIES, find_words, make_tags
+from mamori_trace.base.finding import Place
+from mamori_trace.readers.cpp_tags import read_cpp_tags
+from mamori_trace.readers.tag_text import ANY_ID, IMPLEMENTS, NAMES, VERIFIES, find_words, make_tags
 
 OFT = r"[a-z]+~[\w.-]+~\d+"
 

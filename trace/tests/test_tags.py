@@ -8,12 +8,12 @@ import pytest
 import tree_sitter
 import tree_sitter_cpp
 
-from mamori.trace.model.evidence import CodeTag
-from mamori.trace.model.finding import Problem
-from mamori.trace.readers.cpp_tags import parse_cpp_tags
-from mamori.trace.readers.cpp_tests import parse_cpp_tests
-from mamori.trace.readers.python_sources import read_python
-from mamori.trace.readers.script_tags import read_script_tags
+from mamori_trace.base.finding import Problem
+from mamori_trace.model.evidence import CodeTag
+from mamori_trace.readers.cpp_tags import parse_cpp_tags
+from mamori_trace.readers.cpp_tests import parse_cpp_tests
+from mamori_trace.readers.python_sources import read_python
+from mamori_trace.readers.script_tags import read_script_tags
 
 CPP = """// SPDX-License-Identifier: Apache-2.0
 /// @file

@@ -11,44 +11,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sample_records import TIMING
 from trace_sample import COMMIT, ENVIRONMENT, Sample
 
-from mamori.trace.readers.timing import PICTURE_BYTES_MAX
-from mamori.trace.reports.timing_view import PICTURES_BYTES_MAX, format_us
+from mamori_trace.readers.timing import PICTURE_BYTES_MAX
+from mamori_trace.reports.timing_view import PICTURES_BYTES_MAX, format_us
 
-TIMES = {"count": 1987, "min": 400, "p50": 15_765, "p99": 31_135, "p999": 609_263, "max": 8_656_241}
-STATE = {"load_1_min": 0.84, "frequency_khz": None, "ticks": 1, "steal_ticks": 0}
-RECORD: dict[str, Any] = {
-    "schema": "mamori.timing/1", "system": "safe_arm", "exit_status": 0, "marks": [], "is_partial": False,
-    "cycles": {"asked": 2000, "run": 2000}, "frame_ns": 1_000_000, "reference_ns": 8513, "with_load": False,
-    "rights": {"priority": {"is_granted": True, "errno": 0}, "memory": {"is_granted": True, "errno": 0}},
-    "environment": ENVIRONMENT,
-    "host": {
-        "setting": {"kernel": "6.18", "kernel_version": "#1 SMP", "preemption": "PREEMPT_RT", "governor": "performance",
-                    "clock_source": "tsc", "virtual_machine": False, "isolated_cores": "1"},
-        "before": STATE, "after": STATE | {"frequency_khz": 2_400_000}, "steal_share": 0.0012,
-    },
-    "findings": [], "notes": ["the program: the arm ended in state Safe"],
-    "windows": [{
-        "window": "protect", "core": 0, "offset_ns": 0, "length_ns": 300_000, "period_ns": 1_000_000, "budget_ns": 250_000,
-        "outcomes": {"completed": 1987, "overrun": 2, "missed": 11}, "lateness": TIMES, "response": TIMES, "used_max_ns": 103_000,
-        "budget_margin_ns": 147_000, "length_margin_ns": -776_600,
-    }],
-    "components": [
-        {"component": "arm_reader", "window": "protect", "declared_ns": 5_000, "execution": TIMES, "margin_ns": 874, "unfinished": 0,
-         "extreme_values": {"refusal": "the openings are not independent", "quantiles": [], "tests": []}},
-        {"component": "drive_gate", "window": "act", "declared_ns": None, "execution": None, "margin_ns": None, "unfinished": 0,
-         "extreme_values": {"refusal": None, "quantiles": [{"exceeded_with": 1e-6, "value_ns": 4321.9}], "tests": []}},
-    ],
-    "ratios": [{"component": "arm_reader", "ratio": 0.015270762}],
-    "chains": [{"name": "arm_reader > drive_gate", "virtual": {"min_ns": 800_000, "max_ns": 900_000, "reaction_max_ns": 1_900_000},
-                "measured": None, "broken": 3, "violation_count": 0}],
-    "chain_note": "feedback is not followed: channel > joint_monitor", "miss_count": 13,
-    "misses": [{"cycle": 4000 + number, "window": "protect", "outcome": "missed", "component": None, "late_ns": 323_773,
-                "reason": "released after its planned close", "is_host": True} for number in range(12)]
-    + [{"cycle": 5000, "window": "protect", "outcome": "overrun", "component": "arm_reader", "late_ns": 1000, "reason": "came back late",
-        "is_host": False}],
-}  # fmt: skip
 PNG = b"\x89PNG\r\n\x1a\n" + bytes(range(200)) + b"\0\0\0\0IEND\xaeB`\x82"
 SVG = b'<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg"><script>alert("x")</script>' + b" " * 400 + b"</svg>\n"
 
@@ -65,7 +33,7 @@ def folder(sample: Sample) -> Path:
 def report(sample: Sample, trace: Callable, folder: Path) -> Callable[..., tuple[str, Any]]:
     """Stores a record or a text, writes the report. Gives the section "Timing" and the outcome."""
 
-    def run(record: object = RECORD) -> tuple[str, Any]:
+    def run(record: object = TIMING) -> tuple[str, Any]:
         (folder / "timing.json").write_text(record if isinstance(record, str) else json.dumps(record), encoding="utf-8")
         outcome = trace("report", "--root", sample.root, "--output", "json")
         page = (sample.root / "report" / "index.html").read_text(encoding="utf-8")
@@ -106,7 +74,7 @@ def test_the_section_is_in_the_navigation_and_tells_how_to_measure_where_nothing
 
 @pytest.mark.verifies("SWR-TRC-015", technique="fault_injection", polarity="violation")
 def test_partial_runs_refused_rights_findings_and_other_commits_are_marked(report: Callable) -> None:
-    record = copy.deepcopy(RECORD)
+    record = copy.deepcopy(TIMING)
     record.update(exit_status=1, is_partial=True, marks=["PARTIAL: stopped after 7 of 2000 cycles"], findings=["the load ended early"])
     record["cycles"]["run"] = 7
     record["rights"]["priority"] = {"is_granted": False, "errno": 1}
@@ -124,9 +92,9 @@ def test_partial_runs_refused_rights_findings_and_other_commits_are_marked(repor
 
 @pytest.mark.verifies("SWR-TRC-015", technique="boundary_values", polarity="nominal")
 def test_twenty_misses_are_shown_and_all_are_counted(report: Callable) -> None:
-    misses = [RECORD["misses"][0] | {"cycle": 7000 + number} for number in range(21)]
+    misses = [TIMING["misses"][0] | {"cycle": 7000 + number} for number in range(21)]
 
-    section, _ = report(RECORD | {"misses": misses, "miss_count": 12_345})
+    section, _ = report(TIMING | {"misses": misses, "miss_count": 12_345})
 
     assert ">7019<" in section
     assert ">7020<" not in section
@@ -136,7 +104,7 @@ def test_twenty_misses_are_shown_and_all_are_counted(report: Callable) -> None:
 @pytest.mark.verifies("SWR-TRC-015", technique="error_guessing", polarity="violation")
 def test_markup_in_names_is_shown_and_not_run(report: Callable) -> None:
     bad = '<img src=x onerror="alert(1)">'
-    text = json.dumps(RECORD)
+    text = json.dumps(TIMING)
     for name in ("safe_arm", "protect", "arm_reader", "priority", "6.18", "missed\"", "Safe", "not independent"):
         text = text.replace(name, json.dumps(bad)[1:-1] + (name if name.endswith('"') else ""))
 
@@ -178,8 +146,8 @@ def test_a_broken_record_is_one_problem_and_the_page_is_written(
 ) -> None:
     good = folder.parent / "good"
     good.mkdir()
-    (good / "timing.json").write_text(json.dumps(RECORD))
-    text = json.dumps(RECORD)
+    (good / "timing.json").write_text(json.dumps(TIMING))
+    text = json.dumps(TIMING)
     assert old in text
 
     section, outcome = report(text.replace(old, new, 1))
@@ -194,7 +162,7 @@ def test_a_broken_record_is_one_problem_and_the_page_is_written(
 
 @pytest.mark.verifies("SWR-TRC-016", technique="equivalence_classes", polarity="nominal")
 def test_a_record_with_more_in_it_than_the_page_shows_is_whole(report: Callable) -> None:
-    section, outcome = report(RECORD | {"later": {"added": [1]}})
+    section, outcome = report(TIMING | {"later": {"added": [1]}})
 
     assert outcome.status == 0
     assert section.count("<article") == 1
@@ -203,7 +171,7 @@ def test_a_record_with_more_in_it_than_the_page_shows_is_whole(report: Callable)
 @pytest.mark.parametrize("cut", [0, 1, 200, 2000])
 @pytest.mark.verifies("SWR-TRC-016", technique="fault_injection", polarity="violation")
 def test_a_record_that_is_cut_off_gives_nothing_and_one_problem(report: Callable, cut: int) -> None:
-    section, outcome = report(json.dumps(RECORD)[:cut])
+    section, outcome = report(json.dumps(TIMING)[:cut])
 
     assert [finding["rule"] for finding in outcome.content["findings"]] == ["unreadable-input"]
     assert "<article" not in section
@@ -273,7 +241,7 @@ def test_pictures_of_many_systems_are_left_out_before_the_page_grows_too_large(r
     for system in ("a", "b", "c"):
         other = folder.parent / system
         other.mkdir()
-        (other / "timing.json").write_text(json.dumps(RECORD))
+        (other / "timing.json").write_text(json.dumps(TIMING))
         (other / "chain_latency.png").write_bytes(large)
 
     section, outcome = report()

@@ -65,7 +65,7 @@ def test_the_day_is_that_of_the_commit_and_without_one_that_of_the_evidence(
 ) -> None:
     faulty.write(WAIVERS, format_waiver("shall-count", item="SYS-003", expires="2026-11-21"))
     by_evidence = trace("check", "--root", faulty.root)
-    monkeypatch.setattr("mamori.trace.readers.project.read_commit_date", lambda root: "2026-11-22")
+    monkeypatch.setattr("mamori_trace.readers.project.read_commit_date", lambda root: "2026-11-22")
     by_commit = trace("check", "--root", faulty.root)
 
     assert (by_evidence.status, by_commit.status) == (0, 1)

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mamori.profiles.input_error import InputError
-from mamori.profiles.text_file import read_text
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.text_file import read_text
 
 FILE = Path(__file__).with_name("bars.toml")
 KINDS = ("gate", "advisory")

@@ -11,11 +11,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.profiles.input_error import InputError
-from mamori.profiles.text_file import read_text, write_text
-from mamori.verification.bench.bars import CountBar
-from mamori.verification.bench.callgrind import REPETITIONS, Profile
-from mamori.verification.bench.judge import FAILED, PASSED
+from mamori_tools.host.callgrind import REPETITIONS, Profile
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.text_file import read_text, write_text
+from verification.bench.bars import CountBar
+from verification.bench.judge import FAILED, PASSED
 
 FILE = Path(__file__).with_name("baseline.toml")
 ACCEPT = "./mamori bench --accept"
@@ -70,7 +70,7 @@ def write_baseline(baseline: Baseline, path: Path = FILE) -> None:
 
 
 def calc_count(bar: CountBar, profiles: Mapping[str, Profile]) -> int:
-    """@raise StepError when the repetitions of an operation were not all alike, so that it has no exact count."""
+    """@raise WorkError when the repetitions of an operation were not all alike, so that it has no exact count."""
     counts = [profiles[name].calc_count(REPETITIONS) for name in bar.operations]
     return counts[0] - sum(counts[1:])
 

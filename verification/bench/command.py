@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
 import tempfile
@@ -14,24 +15,26 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TextIO
 
-from mamori.profiles.input_error import InputError, nearest_names
-from mamori.verification.bench import programs as tools
-from mamori.verification.bench.bars import Bars, load_bars
-from mamori.verification.bench.baseline import FILE, Baseline, CountResult, calc_count, judge_count, load_baseline, write_baseline
-from mamori.verification.bench.callgrind import ask_about, makes_system_calls, run_profiles
-from mamori.verification.bench.grid import METRIC as GRID
-from mamori.verification.bench.grid import add_grid, measure_grid
-from mamori.verification.bench.judge import judge
-from mamori.verification.bench.programs import NORMAL, QUICK, Effort, Programs
-from mamori.verification.bench.record import Run, collect_host, make_record, write_record
-from mamori.verification.bench.samples import Samples, read_samples
-from mamori.verification.bench.table import show_run
-from mamori.verification.command.console import Screen
-from mamori.verification.command.environment import collect_environment
-from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, StepError, UsageError
-from mamori.verification.command.process import Tick
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.command.steps import Context, Step, all_passed, run_steps
+from mamori_tools.host.arguments import Command, add_jobs
+from mamori_tools.host.callgrind import ask_about, makes_system_calls, run_profiles
+from mamori_tools.host.console import Screen
+from mamori_tools.host.environment import collect_environment
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK
+from mamori_tools.host.process import Tick
+from mamori_tools.host.project import ROOT, Project
+from mamori_tools.host.steps import Context, Step, all_passed, run_steps
+from mamori_trace.base.errors import InputError, WorkError
+from mamori_trace.base.nearest_names import nearest_names
+from verification.bench import programs as tools
+from verification.bench.bars import Bars, load_bars
+from verification.bench.baseline import FILE, Baseline, CountResult, calc_count, judge_count, load_baseline, write_baseline
+from verification.bench.grid import METRIC as GRID
+from verification.bench.grid import add_grid, measure_grid
+from verification.bench.judge import judge
+from verification.bench.programs import NORMAL, QUICK, Effort, Programs
+from verification.bench.record import Run, collect_host, make_record, write_record
+from verification.bench.samples import Samples, read_samples
+from verification.bench.table import show_run
 
 EXACT = "exact"
 BENCHES = {
@@ -48,7 +51,7 @@ SEALED = ("port_8", "port_64", "e2e_port_32", "cycle_20", "supervised_cycle_20")
 
 @dataclass(frozen=True)
 class Request:
-    """What the user asked for. @raise UsageError from check() for a name that is none, or a folder that takes no file."""
+    """What the user asked for. @raise InputError from check() for a name that is none, or a folder that takes no file."""
 
     only: tuple[str, ...] = ()
     is_quick: bool = False
@@ -60,16 +63,16 @@ class Request:
     def check(self) -> None:
         for name in self.only:
             if name not in BENCHES:
-                raise UsageError(f"bench has no benchmark '{name}'; {nearest_names(name, BENCHES)}")
+                raise InputError(f"bench has no benchmark '{name}'; {nearest_names(name, BENCHES)}")
         if self.accepts and self.only and EXACT not in self.only:
-            raise UsageError(f"bench --accept is about exact counts; leave --only out, or name '{EXACT}' with it")
+            raise InputError(f"bench --accept is about exact counts; leave --only out, or name '{EXACT}' with it")
         if self.out is not None:
             try:
                 self.out.mkdir(parents=True, exist_ok=True)
                 with tempfile.TemporaryFile(dir=self.out):
                     pass
             except OSError as error:
-                raise UsageError(f"{self.out}: results cannot be written there ({error.strerror}); name a folder that you "
+                raise InputError(f"{self.out}: results cannot be written there ({error.strerror}); name a folder that you "
                                  "may write to") from error  # fmt: skip
 
     @property
@@ -137,7 +140,7 @@ def _read(path: Path) -> Samples:
     try:
         return read_samples(path)
     except InputError as error:
-        raise StepError(str(error)) from error
+        raise WorkError(str(error)) from error
 
 
 def name_reason(samples: Samples, reason: str) -> Samples:
@@ -222,7 +225,7 @@ def show(work: Work, context: Context, folder: Path, before: dict[str, object]) 
         screen.say(f"accepted: {FILE.relative_to(ROOT)} holds these counts now; say in the commit why they changed")
     screen.say(f"record: {write_record(record, folder)}")
     if run.samples is not None:
-        from mamori.verification.bench.picture import draw_run
+        from verification.bench.picture import draw_run
 
         subtitle = (f"{environment['cpu']}, governor {before['governor']}, load {before['load_1_min']} .. {after['load_1_min']}; "
                     f"{run.samples.compiler} {run.samples.flags}; commit {str(environment['commit'])[:10]}; "
@@ -233,3 +236,22 @@ def show(work: Work, context: Context, folder: Path, before: dict[str, object]) 
     hint = "" if work.request.gates or not failed else "; status 0 all the same, --gate makes it 1"
     screen.say(f"gates: {len(failed)} of {run.gate_count} failed{hint}", style="bold red" if failed else "")
     return EXIT_FAILED if failed and work.request.gates else EXIT_OK
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_jobs(parser)
+    parser.add_argument("--only", nargs="+", default=[], metavar="NAME", action="extend")
+    parser.add_argument("--out", type=Path, metavar="DIR")
+    for option in ("--quick", "--gate", "--list", "--accept", "--json"):
+        parser.add_argument(option, action="store_true")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """@return exit status."""
+    if arguments.list:
+        return list_benches()
+    request = Request(tuple(arguments.only), arguments.quick, arguments.gate, arguments.accept, arguments.out, arguments.json)
+    return bench(request, arguments.jobs)
+
+
+COMMAND = Command(add_arguments, run)

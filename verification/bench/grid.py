@@ -15,10 +15,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TextIO
 
-from mamori.verification.bench.programs import Effort, Programs
-from mamori.verification.bench.samples import Case, Samples, Series
-from mamori.verification.command.errors import StepError
-from mamori.verification.command.process import Tick, read_last_line, run_logged
+from mamori_tools.host.process import Tick, read_last_line, run_logged
+from mamori_trace.base.errors import WorkError
+from verification.bench.programs import Effort, Programs
+from verification.bench.samples import Case, Samples, Series
 
 METRIC = "grid"
 OURS = "mamori grid"
@@ -30,8 +30,8 @@ LONGEST_NS = 1_000_000
 """Longer ones count as this long: a whole period."""
 
 
-class Refused(Exception):
-    """A program could not measure; the text says why."""
+class Refused(WorkError):
+    """A program could not measure, which ends its own rounds only; the text says why."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def add_grid(samples: Samples, turns: Mapping[str, Sequence[Turn]], absent: Mapp
 def measure_grid(programs: Programs, effort: Effort, folder: Path, tick: Tick, log: TextIO
                  ) -> tuple[dict[str, list[Turn]], dict[str, str]]:  # fmt: skip
     """Runs both in turns, each round beginning with the other one. @return the turns of each program that could be run in every
-    round, and why the others could not. @raise StepError when a program wrote something else than figures."""
+    round, and why the others could not. @raise WorkError when a program wrote something else than figures."""
     processor = max(os.sched_getaffinity(0))
     out = folder / "grid.json"
     cycles = str(effort.grid_cycles)
@@ -124,4 +124,4 @@ def _take_turn(programs: Programs, argv: Sequence[str], parse: Callable[[str], T
     try:
         return parse(out.read_text(encoding="utf-8"))
     except (OSError, KeyError, TypeError, ValueError) as error:
-        raise StepError(f"{Path(argv[0]).name} wrote no figures: {error}") from error
+        raise WorkError(f"{Path(argv[0]).name} wrote no figures: {error}") from error

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from mamori.verification.bench.bars import Bars, GrowthBar
-from mamori.verification.bench.samples import Samples, Series
+from verification.bench.bars import Bars, GrowthBar
+from verification.bench.samples import Samples, Series
 
 ROUNDS_MIN = 5
 """Fewer rounds give no median worth a verdict."""

@@ -16,11 +16,11 @@ matplotlib.use("Agg")
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullFormatter, NullLocator
 
-from mamori.trace.whole_file import whole_file
-from mamori.verification.bench.judge import PASSED, RatioResult
-from mamori.verification.bench.record import Run
-from mamori.verification.bench.samples import Samples
-from mamori.verification.bench.table import SIZE_UNITS, format_ratio, format_time
+from mamori_trace.base.whole_file import whole_file
+from verification.bench.judge import PASSED, RatioResult
+from verification.bench.record import Run
+from verification.bench.samples import Samples
+from verification.bench.table import SIZE_UNITS, format_ratio, format_time
 
 # Told apart by everybody, also in grey: verdicts differ in shape as well as in colour.
 GOOD, BAD, INK, FAINT = "#0072b2", "#d55e00", "#222222", "#bbbbbb"

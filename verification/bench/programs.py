@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
-from mamori.verification.command.errors import StepError
-from mamori.verification.command.process import Tick, run_logged
-from mamori.verification.command.project import Project
+from mamori_tools.host.process import Tick, run_logged
+from mamori_tools.host.project import Project
+from mamori_trace.base.errors import WorkError
 
 ICEORYX2 = "iceoryx2 local"
 CARGO_MIN = (1, 89)
@@ -93,7 +93,7 @@ def _check_cargo() -> str:
 
 
 def build_programs(programs: Programs, targets: Sequence[str], jobs: int, tick: Tick, log: TextIO) -> None:
-    """Configures and builds `targets`. @raise StepError when that fails."""
+    """Configures and builds `targets`. @raise WorkError when that fails."""
     project = programs.project
     log.flush()
     for argv in (
@@ -103,14 +103,14 @@ def build_programs(programs: Programs, targets: Sequence[str], jobs: int, tick: 
     ):  # fmt: skip
         status = run_logged(argv, Path(log.name), project.root, tick)
         if status != 0:
-            raise StepError(f"{argv[0]} ended with status {status}")
+            raise WorkError(f"{argv[0]} ended with status {status}")
 
 
 def run_bench(programs: Programs, metrics: Sequence[str], effort: Effort, out: Path, tick: Tick, log: TextIO) -> None:
-    """Measures `metrics` and writes the samples to `out`. @raise StepError when that fails."""
+    """Measures `metrics` and writes the samples to `out`. @raise WorkError when that fails."""
     log.flush()
     argv = [str(programs.bench), "--out", str(out), "--rounds", str(effort.rounds), "--batches", str(effort.batches),
             "--batch-ns", str(effort.batch_ns), "--only", *metrics]  # fmt: skip
     status = run_logged(argv, Path(log.name), programs.project.root, tick)
     if status != 0:
-        raise StepError(f"{programs.bench.name} ended with status {status}")
+        raise WorkError(f"{programs.bench.name} ended with status {status}")

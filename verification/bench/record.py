@@ -14,11 +14,11 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mamori.profiles.text_file import write_text
-from mamori.verification.bench.baseline import CountResult
-from mamori.verification.bench.judge import FAILED, PASSED, RatioResult, list_failed_gates
-from mamori.verification.bench.programs import Effort
-from mamori.verification.bench.samples import Samples
+from mamori_trace.base.text_file import write_text
+from verification.bench.baseline import CountResult
+from verification.bench.judge import FAILED, PASSED, RatioResult, list_failed_gates
+from verification.bench.programs import Effort
+from verification.bench.samples import Samples
 
 SCHEMA = "mamori.bench/1"
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from mamori.profiles.input_error import InputError
-from mamori.profiles.text_file import read_text
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.text_file import read_text
 
 SCHEMA = "mamori.bench.samples/1"
 

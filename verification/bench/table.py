@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mamori.verification.bench.baseline import CountResult
-from mamori.verification.bench.judge import ABSENT, RatioResult
-from mamori.verification.bench.record import Run
-from mamori.verification.bench.samples import Samples
-from mamori.verification.command.console import Screen
+from mamori_tools.host.console import Screen
+from verification.bench.baseline import CountResult
+from verification.bench.judge import ABSENT, RatioResult
+from verification.bench.record import Run
+from verification.bench.samples import Samples
 
 Row = tuple[str, ...]
 SIZE_UNITS = {"port": "B", "e2e": "B", "scheduler": "components", "wake-up": "B", "grid": "% of wake-ups"}

@@ -2,7 +2,7 @@
 """Measures line, branch and MC/DC coverage of kernel and safety by their own tests, and holds the gaps against the list of
 known ones.
 
-    python -P -m mamori.verification.coverage [--jobs N]
+    python -P -m verification.coverage [--jobs N]
 
 Prints a table, then each gap that gaps.toml does not list and each row of it that names no gap; writes
 build/host-release/evidence/coverage/coverage.json and .txt. Exit status 0 when there are neither, 1 otherwise, 2 for wrong arguments.
@@ -18,14 +18,15 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from mamori.verification.command.environment import collect_environment
-from mamori.verification.command.project import ROOT, SANITIZED, Project
-from mamori.verification.command.records import renew_records
-from mamori.verification.coverage.gaps import LIST, ListError, Verdict, find_gaps, judge, read_list
-from mamori.verification.coverage.measure import CoverageError, measure
-from mamori.verification.coverage.reached import Function, read_functions
-from mamori.verification.coverage.record import make_rows
-from mamori.verification.coverage.report import Figures, count, make_table, write_evidence
+from mamori_tools.host.environment import collect_environment
+from mamori_tools.host.project import ROOT, SANITIZED, Project
+from mamori_tools.host.records import renew_records
+from mamori_trace.base.errors import WorkError
+from verification.coverage.gaps import LIST, Verdict, find_gaps, judge, read_list
+from verification.coverage.measure import measure
+from verification.coverage.reached import Function, read_functions
+from verification.coverage.record import make_rows
+from verification.coverage.report import Figures, count, make_table, write_evidence
 
 
 def check_layers(project: Project, jobs: int) -> tuple[Verdict, str]:
@@ -58,7 +59,7 @@ def describe(verdict: Verdict) -> list[str]:
 
 def main(argv: list[str] | None = None) -> int:
     """@return the exit status."""
-    parser = argparse.ArgumentParser(prog="mamori.verification.coverage", allow_abbrev=False,
+    parser = argparse.ArgumentParser(prog="verification.coverage", allow_abbrev=False,
                                      description="Line, branch and MC/DC coverage of kernel and safety by their own tests.")  # fmt: skip
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="parallel compilations")
     jobs = parser.parse_args(argv).jobs
@@ -66,7 +67,7 @@ def main(argv: list[str] | None = None) -> int:
         parser.error(f"--jobs {jobs}: give a number from 1 on")
     try:
         verdict, table = check_layers(Project(Path(ROOT)), jobs)
-    except (CoverageError, ListError) as error:
+    except WorkError as error:
         print(error, file=sys.stderr)
         return 1
     print(table)

@@ -11,14 +11,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.verification.coverage.reached import Function
+from mamori_trace.base.errors import WorkError
+from verification.coverage.reached import Function
 
 LIST = Path(__file__).resolve().with_name("gaps.toml")
 NEVER_CALLED = "never called"
-
-
-class ListError(Exception):
-    """The list cannot be read: which row, and why."""
 
 
 @dataclass(frozen=True, order=True)
@@ -80,21 +77,21 @@ def find_gaps(functions: Iterable[Function]) -> list[Gap]:
 
 
 def read_list(path: Path = LIST) -> list[Row]:
-    """@raise ListError for a row that is not whole, gives no reason, or stands there twice."""
+    """@raise WorkError for a row that is not whole, gives no reason, or stands there twice."""
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8")).get("gap", [])
     except tomllib.TOMLDecodeError as error:
-        raise ListError(f"{path}: {error}") from error
+        raise WorkError(f"{path}: {error}") from error
     rows: list[Row] = []
     for number, table in enumerate(tables, start=1):
         if set(table) - {"condition", "by_chance"} != {"file", "function", "reason"}:
-            raise ListError(f"{path}: row {number} needs file, function and reason, and may have condition and by_chance;"
+            raise WorkError(f"{path}: row {number} needs file, function and reason, and may have condition and by_chance;"
                             f" it has {sorted(table)}")
         row = Row(table["file"], table["function"], table.get("condition", ""), table["reason"].strip(), table.get("by_chance", False))
         if not row.reason:
-            raise ListError(f"{path}: row {number} ({row}) gives no reason")
+            raise WorkError(f"{path}: row {number} ({row}) gives no reason")
         if any(str(row) == str(other) for other in rows):
-            raise ListError(f"{path}: row {number} ({row}) is there twice")
+            raise WorkError(f"{path}: row {number} ({row}) is there twice")
         rows.append(row)
     return rows
 

@@ -14,20 +14,17 @@ from collections.abc import Container, Sequence
 from pathlib import Path
 from typing import Any
 
-from mamori.verification.command.project import SANITIZED, Project
+from mamori_tools.host.project import SANITIZED, Project
+from mamori_trace.base.errors import WorkError
 
 LAYERS = ("kernel", "safety")  # each is to be shown by its own tests
 TEST_TIMEOUT_S = 600
 BUILD_TIMEOUT_S = 3600
 
 
-class CoverageError(Exception):
-    """The measurement could not be made: what failed, and its last words."""
-
-
 def measure(root: Path, jobs: int) -> list[dict[str, Any]]:
     """Builds all test programs of LAYERS, and runs those without counters of their own. @return the export of llvm-cov, one of each
-    layer. @raise CoverageError."""
+    layer. @raise WorkError."""
     build = Project(root, SANITIZED).build
     run(("cmake", "-S", str(root), "--preset", SANITIZED))
     run(("cmake", "--build", str(build), "--target", *(f"{layer}/all" for layer in LAYERS), "--parallel", str(jobs)), BUILD_TIMEOUT_S)
@@ -36,12 +33,12 @@ def measure(root: Path, jobs: int) -> list[dict[str, Any]]:
 
 def measure_layer(folder: Path, build: Path, jobs: int) -> dict[str, Any]:
     """Runs the test programs of the layer in `folder`, but for those whose counters are newer than they are: `./mamori test` has
-    run them already. @return what they reached of its sources. @raise CoverageError."""
+    run them already. @return what they reached of its sources. @raise WorkError."""
     tests = build / folder.name
     listing = json.loads(run(("ctest", "--test-dir", str(tests), "--show-only=json-v1")))
     programs = {test["name"]: Path(test["command"][0]) for test in listing["tests"]}
     if not programs:
-        raise CoverageError(f"{tests} has no test program; nothing was measured")
+        raise WorkError(f"{tests} has no test program; nothing was measured")
     profiles = build / "evidence" / "profiles" / folder.name
     missing = [name for name, program in programs.items() if not has_counters(profiles, name, program)]
     discard_counters(profiles, set(programs) - set(missing))
@@ -82,15 +79,15 @@ def export_objects(programs: Sequence[Path], profile: Path, sources: Sequence[Pa
 
 
 def run(argv: Sequence[str], timeout_s: int = TEST_TIMEOUT_S, **settings: str) -> str:
-    """@return standard output. @raise CoverageError when the program is missing, fails, or does not end."""
+    """@return standard output. @raise WorkError when the program is missing, fails, or does not end."""
     try:
         done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
                               timeout=timeout_s, env={**os.environ, **settings})  # fmt: skip
     except FileNotFoundError as error:
-        raise CoverageError(f"'{argv[0]}' is not installed; ./mamori test installs it") from error
+        raise WorkError(f"'{argv[0]}' is not installed; ./mamori test installs it") from error
     except subprocess.TimeoutExpired as error:
-        raise CoverageError(f"'{' '.join(argv)}' did not end in {timeout_s} s") from error
+        raise WorkError(f"'{' '.join(argv)}' did not end in {timeout_s} s") from error
     if done.returncode != 0:
         tail = "\n".join((done.stdout + done.stderr).splitlines()[-30:])
-        raise CoverageError(f"'{' '.join(argv)}' ended with status {done.returncode}:\n{tail}")
+        raise WorkError(f"'{' '.join(argv)}' ended with status {done.returncode}:\n{tail}")
     return done.stdout

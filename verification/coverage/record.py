@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the evidence says about each function: the trace tool joins it with the requirements that own the function.
 
-@satisfies SWR-VER-001, SWR-TRC-032      Design: docs/design/trace_cover.md#coverage
+@satisfies SWR-VER-001, SWR-TRC-032      Design: docs/design/trace.md#coverage
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from mamori.trace.readers.llvm_cov import calc_line_counts
-from mamori.verification.coverage.reached import Function
+from mamori_trace.readers.llvm_cov import calc_line_counts
+from verification.coverage.reached import Function
 
 
 def make_rows(exported: dict[str, Any], functions: Sequence[Function], root: Path) -> list[dict[str, Any]]:

@@ -12,9 +12,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from mamori.profiles.text_file import write_text
-from mamori.verification.coverage.gaps import Gap, Verdict
-from mamori.verification.coverage.reached import Function
+from mamori_trace.base.text_file import write_text
+from verification.coverage.gaps import Gap, Verdict
+from verification.coverage.reached import Function
 
 SCHEMA = "mamori.coverage/1"
 

@@ -14,12 +14,13 @@ from typing import Any
 
 import pytest
 
-from mamori.verification.command.project import ROOT, SANITIZED, Project
-from mamori.verification.coverage.__main__ import check_layers, describe
-from mamori.verification.coverage.gaps import Gap, ListError, Row, Verdict, find_gaps, judge, read_list
-from mamori.verification.coverage.measure import LAYERS, CoverageError, export, has_counters, measure_layer, run
-from mamori.verification.coverage.reached import read_functions
-from mamori.verification.coverage.report import count, make_table
+from mamori_tools.host.project import ROOT, SANITIZED, Project
+from mamori_trace.base.errors import WorkError
+from verification.coverage.__main__ import check_layers, describe
+from verification.coverage.gaps import Gap, Row, Verdict, find_gaps, judge, read_list
+from verification.coverage.measure import LAYERS, export, has_counters, measure_layer, run
+from verification.coverage.reached import read_functions
+from verification.coverage.report import count, make_table
 
 PROGRAM = """\
 #include <sys/wait.h>
@@ -138,7 +139,7 @@ def test_failing_test_program_is_no_measurement(tmp_path: Path) -> None:
     (tmp_path / "kernel").mkdir()
     (tmp_path / "kernel" / "CTestTestfile.cmake").write_text(f"add_test(failing {program})\n", encoding="utf-8")
 
-    with pytest.raises(CoverageError, match=r"(?s)ended with status 8:.*1 test failed"):
+    with pytest.raises(WorkError, match=r"(?s)ended with status 8:.*1 test failed"):
         measure_layer(ROOT / "kernel", tmp_path, 1)
 
 
@@ -205,7 +206,7 @@ def test_list_that_is_not_whole_is_refused(tmp_path: Path, text: str, message: s
     path = tmp_path / "gaps.toml"
     path.write_text(text, encoding="utf-8")
 
-    with pytest.raises(ListError, match=message):
+    with pytest.raises(WorkError, match=message):
         read_list(path)
 
 

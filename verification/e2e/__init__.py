@@ -1,5 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""End-to-end protection beside an implementation by others, all its undetected errors, and how likely one passes.
-
-Design: docs/design/e2e.md#comparison
-"""
+"""End-to-end protection compared with an independent implementation."""

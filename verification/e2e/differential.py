@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compares end-to-end protection with the package `autosar-e2e`, an implementation by others, on random frames.
 
-    python -P -m mamori.verification.e2e.differential PROGRAM [--frames N] [--seed N]
+    python -P -m verification.e2e.differential PROGRAM [--frames N] [--seed N]
 
 PROGRAM is the built `mamori_e2e_pipe`. Each frame is protected by both, then read by both, half of the frames damaged in
 between. Prints the number of frames per profile and the first differences; exit status 1 with differences, 2 for wrong
@@ -170,7 +170,7 @@ def run(program: Path, frames: int, seed: int) -> tuple[Counter[int], list[str]]
 
 def main(argv: list[str] | None = None) -> int:
     """@return the exit status."""
-    parser = argparse.ArgumentParser(prog="mamori.verification.e2e.differential", allow_abbrev=False,
+    parser = argparse.ArgumentParser(prog="verification.e2e.differential", allow_abbrev=False,
                                      description="End-to-end protection beside the package autosar-e2e.")  # fmt: skip
     parser.add_argument("program", type=Path, help="the built mamori_e2e_pipe")
     parser.add_argument("--frames", type=int, default=10_000_000, metavar="N", help="frames over all profiles (default: %(default)s)")

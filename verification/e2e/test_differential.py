@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.e2e import differential
+from mamori_tools.host.project import ROOT, Project
+from verification.e2e import differential
 
 FRAMES = 20_000
 

@@ -2,7 +2,7 @@
 /// @file
 /// Fuzz target for the CDR decoder. The first byte chooses type and byte order, the rest is the encoding.
 /// A refusal must leave the object as it was; what is taken must come back from an encoding of its own, byte
-/// for byte but for padding. Seeds: corpus/cdr_decode. Design: docs/design/payloads.md#fuzzing
+/// for byte but for padding. Seeds: corpus/cdr_decode.txt. Design: docs/design/data_flow.md#fuzzing
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

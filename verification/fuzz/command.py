@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import re
 import shlex
@@ -15,11 +16,13 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.profiles.input_error import nearest_names
-from mamori.profiles.text_file import write_text
-from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.fuzz.harness import FuzzError, Harness, Run, build_harnesses, find_harnesses, keep_inputs, run_harness
+from mamori_tools.host.arguments import Command, add_jobs, at_least_one
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK
+from mamori_tools.host.project import ROOT, Project
+from mamori_trace.base.errors import InputError, WorkError
+from mamori_trace.base.nearest_names import nearest_names
+from mamori_trace.base.text_file import write_text
+from verification.fuzz.harness import Harness, Run, build_harnesses, find_harnesses, keep_inputs, run_harness
 
 FOLDER = Path(__file__).resolve().parent
 SCHEMA = "mamori.fuzz/1"
@@ -39,7 +42,7 @@ class Request:
 
 def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
     """Runs the harnesses of `folder` against kernel and safety layer below `root`. @return exit status; 1 when one found
-    something, did nothing, or when there is none at all. @raise UsageError for a harness that does not exist."""
+    something, did nothing, or when there is none at all. @raise InputError for a harness that does not exist."""
     project = Project(root)
     try:
         harnesses = choose(find_harnesses(folder, root / "build" / "fuzz"), request.names, folder)
@@ -49,7 +52,7 @@ def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
         with ThreadPoolExecutor(request.jobs) as pool:
             runs = list(pool.map(lambda one: run_harness(one, request.seconds, _say), harnesses))
         kept = {run.harness.name: keep_inputs(run.harness) for run in runs if run.passed} if request.keep else {}
-    except FuzzError as error:
+    except WorkError as error:
         print(error, file=sys.stderr)
         return EXIT_FAILED
     write_json(project.evidence / "fuzz" / "fuzz.json", runs, request.seconds)
@@ -59,13 +62,13 @@ def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
 
 
 def choose(harnesses: Sequence[Harness], names: Sequence[str], folder: Path) -> list[Harness]:
-    """@raise FuzzError when there is nothing to run. @raise UsageError for an unknown name."""
+    """@raise WorkError when there is nothing to run. @raise InputError for an unknown name."""
     if not harnesses:
-        raise FuzzError(f"{folder} holds no <name>_fuzz.cpp; nothing was fuzzed")
+        raise WorkError(f"{folder} holds no <name>_fuzz.cpp; nothing was fuzzed")
     known = {harness.name: harness for harness in harnesses}
     for name in names:
         if name not in known:
-            raise UsageError(f"fuzz: there is no harness '{name}'; {nearest_names(name, known)}")
+            raise InputError(f"fuzz: there is no harness '{name}'; {nearest_names(name, known)}")
     return [known[name] for name in dict.fromkeys(names)] or list(harnesses)
 
 
@@ -118,3 +121,18 @@ def write_json(path: Path, runs: Sequence[Run], seconds: int) -> None:
 
 def _say(text: str) -> None:
     print(text, flush=True)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_jobs(parser)
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    parser.add_argument("--seconds", type=at_least_one, default=30, metavar="N")
+    parser.add_argument("--keep", action="store_true")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """@return exit status."""
+    return fuzz(Request(tuple(arguments.names), arguments.seconds, arguments.jobs, arguments.keep))
+
+
+COMMAND = Command(add_arguments, run)

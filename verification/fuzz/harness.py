@@ -6,6 +6,8 @@
 
 from __future__ import annotations
 
+import base64
+import binascii
 import re
 import shutil
 import subprocess
@@ -14,6 +16,9 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+
+from mamori_trace.base.errors import InputError, WorkError
+from mamori_trace.base.text_file import write_text
 
 COMPILER = "clang++-19"
 SUFFIX = "_fuzz.cpp"
@@ -30,13 +35,11 @@ STATUS = re.compile(r"^#(?P<executions>\d+)\s.*\bcov: (?P<coverage>\d+)", re.MUL
 FINAL = re.compile(r"^stat::number_of_executed_units:\s*(?P<executions>\d+)", re.MULTILINE)
 
 
-class FuzzError(Exception):
-    """Nothing could be fuzzed: what failed, and its words."""
-
-
 @dataclass(frozen=True)
 class Harness:
-    """One file with LLVMFuzzerTestOneInput, its stored corpus, and the folder of its run."""
+    """One file with LLVMFuzzerTestOneInput, its stored corpus, and the folder of its run.
+
+    A corpus is one text file: a line for each input, with its name and its bytes in base64."""
 
     source: Path
     build: Path
@@ -47,7 +50,12 @@ class Harness:
 
     @property
     def corpus(self) -> Path:
-        return self.source.parent / "corpus" / self.name
+        return self.source.parent / "corpus" / f"{self.name}.txt"
+
+    @property
+    def inputs(self) -> Path:
+        """The files of the corpus, for the program."""
+        return self.build / self.name / "corpus"
 
     @property
     def program(self) -> Path:
@@ -89,7 +97,7 @@ def find_harnesses(folder: Path, build: Path) -> list[Harness]:
 
 
 def build_harnesses(harnesses: Sequence[Harness], sources: Sequence[Path], includes: Sequence[Path], jobs: int) -> None:
-    """Compiles `sources` once, and each harness with them. @raise FuzzError with the compiler's words."""
+    """Compiles `sources` once, and each harness with them. @raise WorkError with the compiler's words."""
     objects = harnesses[0].build / "objects"
     shutil.rmtree(objects, ignore_errors=True)
     objects.mkdir(parents=True)
@@ -114,9 +122,9 @@ def _compile(argv: Sequence[str]) -> None:
     try:
         done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     except FileNotFoundError as error:
-        raise FuzzError(f"'{argv[0]}' is not installed; ./mamori fuzz installs it") from error
+        raise WorkError(f"'{argv[0]}' is not installed; ./mamori fuzz installs it") from error
     if done.returncode != 0:
-        raise FuzzError(f"'{' '.join(argv)}' ended with status {done.returncode}:\n{done.stderr.strip()}")
+        raise WorkError(f"'{' '.join(argv)}' ended with status {done.returncode}:\n{done.stderr.strip()}")
 
 
 def run_harness(harness: Harness, seconds: int, say: Callable[[str], None]) -> Run:
@@ -125,7 +133,8 @@ def run_harness(harness: Harness, seconds: int, say: Callable[[str], None]) -> R
     harness.new_inputs.mkdir(parents=True)
     harness.findings.mkdir(exist_ok=True)
     before = set(harness.findings.iterdir())
-    folders = [harness.new_inputs, *([harness.corpus] if harness.corpus.is_dir() else [])]
+    unpack_corpus(harness)
+    folders = [harness.new_inputs, harness.inputs]
     argv = (str(harness.program), *map(str, folders), f"-max_total_time={seconds}", "-print_final_stats=1",
             f"-timeout={INPUT_TIMEOUT_S}", f"-rss_limit_mb={MEMORY_MIB}", f"-artifact_prefix={harness.findings}/")  # fmt: skip
     start = time.monotonic()
@@ -164,9 +173,40 @@ def _watch(harness: Harness, argv: Sequence[str], seconds: int, say: Callable[[s
                 child.wait()
 
 
+def read_corpus(file: Path) -> dict[str, bytes]:
+    """Inputs by name; none without the file. @raise InputError with file and line of a row that is no input."""
+    rows = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
+    inputs: dict[str, bytes] = {}
+    for number, row in enumerate(rows, 1):
+        name, _, data = row.partition(" ")
+        try:
+            inputs[_check_name(name)] = base64.b64decode(data, validate=True)
+        except (ValueError, binascii.Error) as error:
+            raise InputError(f"is not an input ({error}); write a name, a blank and the bytes in base64", file, number) from error
+        if len(inputs) != number:
+            raise InputError(f"input {name} is there twice; remove one of them", file, number)
+    return inputs
+
+
+def _check_name(name: str) -> str:
+    if not re.fullmatch(r"\w+", name, re.ASCII):
+        raise ValueError(f"'{name}' is no name")
+    return name
+
+
+def unpack_corpus(harness: Harness) -> None:
+    """Writes each input of the corpus to a file of its own. @raise InputError as read_corpus()."""
+    shutil.rmtree(harness.inputs, ignore_errors=True)
+    harness.inputs.mkdir(parents=True)
+    for name, data in read_corpus(harness.corpus).items():
+        (harness.inputs / name).write_bytes(data)
+
+
 def keep_inputs(harness: Harness) -> int:
-    """Adds to the stored corpus those new inputs that reach something it does not. @return how many. @raise FuzzError."""
-    harness.corpus.mkdir(parents=True, exist_ok=True)
-    before = len(list(harness.corpus.iterdir()))
-    _compile((str(harness.program), "-merge=1", str(harness.corpus), str(harness.new_inputs)))
-    return len(list(harness.corpus.iterdir())) - before
+    """Adds to the stored corpus those new inputs that reach something it does not. @return how many. @raise WorkError."""
+    before = len(list(harness.inputs.iterdir()))
+    _compile((str(harness.program), "-merge=1", str(harness.inputs), str(harness.new_inputs)))
+    files = sorted(harness.inputs.iterdir())
+    harness.corpus.parent.mkdir(parents=True, exist_ok=True)
+    write_text(harness.corpus, "".join(f"{file.name} {base64.b64encode(file.read_bytes()).decode('ascii')}\n" for file in files))
+    return len(files) - before

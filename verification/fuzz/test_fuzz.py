@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.errors import UsageError
-from mamori.verification.command.project import ROOT
-from mamori.verification.fuzz.command import FOLDER, Request, fuzz
-from mamori.verification.fuzz.harness import find_harnesses
+from mamori_tools.host.project import ROOT
+from mamori_trace.base.errors import InputError
+from verification.fuzz.command import FOLDER, Request, fuzz
+from verification.fuzz.harness import find_harnesses, read_corpus
 
 KERNEL = """\
 int calc_sum(const unsigned char* data, int size) {{
@@ -86,7 +86,11 @@ def test_new_inputs_are_kept_when_asked_only(root: Path) -> None:
     assert not (root / "fuzz" / "corpus").exists()
 
     assert run(root, keep=True) == 0
-    assert len(list((root / "fuzz" / "corpus" / "sum").iterdir())) > 0
+    kept = read_corpus(root / "fuzz" / "corpus" / "sum.txt")
+    assert len(kept) > 0
+
+    assert run(root, keep=True) == 0
+    assert kept.items() <= read_corpus(root / "fuzz" / "corpus" / "sum.txt").items()
 
 
 @pytest.mark.verifies("SWR-VER-011")
@@ -94,7 +98,7 @@ def test_every_shipped_harness_is_found_and_has_a_corpus(tmp_path: Path) -> None
     harnesses = find_harnesses(FOLDER, tmp_path)
 
     assert {harness.name for harness in harnesses} >= {"event_log"}
-    assert [harness.name for harness in harnesses if not any(harness.corpus.glob("*"))] == []
+    assert [harness.name for harness in harnesses if not read_corpus(harness.corpus)] == []
     assert FOLDER.is_relative_to(ROOT)
 
 
@@ -108,5 +112,20 @@ def test_no_harness_at_all_is_a_failure(root: Path, capsys: pytest.CaptureFixtur
 
 @pytest.mark.verifies("SWR-VER-011", technique="equivalence_classes", polarity="violation")
 def test_unknown_harness_is_refused_with_the_nearest(root: Path) -> None:
-    with pytest.raises(UsageError, match=r"there is no harness 'summ'.*sum"):
+    with pytest.raises(InputError, match=r"there is no harness 'summ'.*sum"):
         run(root, "summ")
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "reason"),
+    [("a QUI=\nb Q?I=\n", 2, "is not an input"), ("a QUI=\n../b QUI=\n", 2, "'../b' is no name"), ("QUI=\n", 1, "'QUI=' is no name"),
+     ("a QUI=\na QQ==\n", 2, "input a is there twice")],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-VER-011", technique="equivalence_classes", polarity="violation")
+def test_a_corpus_that_is_damaged_is_refused_with_its_line(root: Path, text: str, line: int, reason: str) -> None:
+    file = root / "fuzz" / "corpus" / "sum.txt"
+    file.parent.mkdir()
+    file.write_text(text, encoding="utf-8")
+
+    with pytest.raises(InputError, match=f"sum.txt:{line}: .*{reason}"):
+        run(root)

@@ -12,10 +12,11 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from mamori.profiles.text_file import write_text
-from mamori.verification.mutation.operators import iterate_words
-from mamori.verification.mutation.score import Counts, add_up_layers
-from mamori.verification.mutation.sources import LAYERS, Layer, MutationError, get_layer
+from mamori_trace.base.errors import WorkError
+from mamori_trace.base.text_file import write_text
+from verification.mutation.operators import iterate_words
+from verification.mutation.score import Counts, add_up_layers
+from verification.mutation.sources import LAYERS, Layer, get_layer
 
 STORE = Path(__file__).resolve().with_name("baseline.toml")
 HEAD = """\
@@ -96,7 +97,7 @@ def fingerprint(source: bytes) -> str:
 
 
 def read_store(path: Path = STORE) -> dict[str, Entry]:
-    """@raise MutationError when the file is no such store."""
+    """@raise WorkError when the file is no such store."""
     try:
         rows = tomllib.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
         return {
@@ -104,7 +105,7 @@ def read_store(path: Path = STORE) -> dict[str, Entry]:
             for file, row in rows.items()
         }
     except (tomllib.TOMLDecodeError, AttributeError, KeyError, TypeError) as error:
-        raise MutationError(f"{path} is no stored result ({error}); write it anew: ./mamori mutate --store") from error
+        raise WorkError(f"{path} is no stored result ({error}); write it anew: ./mamori mutate --store") from error
 
 
 def write_store(entries: Mapping[str, Entry], path: Path = STORE) -> None:

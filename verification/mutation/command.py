@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import argparse
 import datetime
 import subprocess
 import sys
@@ -16,16 +17,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.profiles.input_error import nearest_names
-from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, UsageError
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.mutation import baseline
-from mamori.verification.mutation.equivalent import read_list
-from mamori.verification.mutation.operators import make_mutants
-from mamori.verification.mutation.run import Plan, Report, Selection, Tally, make_plan, make_table, try_mutants, write_json
-from mamori.verification.mutation.score import Counts, calc_interval, count
-from mamori.verification.mutation.sources import LAYERS, Layer, MutationError, get_layer, list_files, read_sources
-from mamori.verification.mutation.trial import SURVIVED, Result
+from mamori_tools.host.arguments import Command, add_jobs, at_least_one
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK
+from mamori_tools.host.project import ROOT, Project
+from mamori_trace.base.errors import InputError, WorkError
+from mamori_trace.base.nearest_names import nearest_names
+from verification.mutation import baseline
+from verification.mutation.equivalent import read_list
+from verification.mutation.operators import make_mutants
+from verification.mutation.run import Plan, Report, Selection, Tally, make_plan, make_table, try_mutants, write_json
+from verification.mutation.score import Counts, calc_interval, count
+from verification.mutation.sources import LAYERS, Layer, get_layer, list_files, read_sources
+from verification.mutation.trial import SURVIVED, Result
 
 PROGRESS_S = 10.0
 
@@ -44,15 +47,16 @@ class Request:
 
 
 def mutate(request: Request) -> int:
-    """@return exit status. @raise UsageError for files that are of none of the layers."""
+    """@return exit status. @raise InputError for files that are of none of the layers."""
     project = Project(ROOT)
     if request.store and request.sample is not None:
-        raise UsageError("mutate: --store keeps the result of all mutants; leave --sample out")
+        raise InputError("mutate: --store keeps the result of all mutants; leave --sample out")
     known = list_files(project.root)
     files = choose_files(request.files, known)
     try:
         if request.missing:
-            files = tuple(file for file in files if file in read_standing(project.root).open_mutants)
+            missing = read_standing(project.root).open_mutants
+            files = tuple(file for file in files if file in missing)
         selection = Selection(files, request.sample, request.seed)
         plan = make_plan(project.root, selection, read_list())
         if request.only_list:
@@ -60,7 +64,7 @@ def mutate(request: Request) -> int:
         tell = Progress(plan)
         report = run_layers(project.root, plan, request.jobs, Keeper(project.root, plan, tell) if request.store else tell)
         standing = read_standing(project.root)
-    except MutationError as error:
+    except WorkError as error:
         print(error, file=sys.stderr)
         return EXIT_FAILED
     write_json(project.evidence / "mutation" / "mutation.json", report, selection, standing)
@@ -74,7 +78,7 @@ def mutate(request: Request) -> int:
 
 
 def run_layers(root: Path, plan: Plan, jobs: int, progress: Callable[[Result, int, int], None]) -> Report:
-    """Tries `plan` layer by layer, in a folder of its own, so that two runs do not meet. @raise MutationError."""
+    """Tries `plan` layer by layer, in a folder of its own, so that two runs do not meet. @raise WorkError."""
     folder = root / "build" / "mutation"
     tally = Tally(plan, progress)
     for layer in LAYERS:
@@ -87,11 +91,11 @@ def run_layers(root: Path, plan: Plan, jobs: int, progress: Callable[[Result, in
 
 
 def choose_files(wanted: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
-    """@return the files of the layers that were named, or all. @raise UsageError for one that is none."""
+    """@return the files of the layers that were named, or all. @raise InputError for one that is none."""
     for name in wanted:
         if _normalise(name) not in known:
             nearest = nearest_names(name, known, "./mamori mutate --list shows them with their mutants")
-            raise UsageError(f"mutate: '{name}' is no source or header of {' or '.join(layer.name for layer in LAYERS)}; {nearest}")
+            raise InputError(f"mutate: '{name}' is no source or header of {' or '.join(layer.name for layer in LAYERS)}; {nearest}")
     return tuple(_normalise(name) for name in wanted) or tuple(known)
 
 
@@ -179,7 +183,7 @@ def store(root: Path, file: str, source: bytes, counts: Counts) -> None:
 
 
 def read_standing(root: Path) -> baseline.Standing:
-    """What the stored result is worth for the layers as they are. @raise MutationError when there is no such file of results."""
+    """What the stored result is worth for the layers as they are. @raise WorkError when there is no such file of results."""
     sources = {file: (root / file).read_bytes() for file in list_files(root)}
     mutated = {
         file: baseline.Mutated(baseline.fingerprint(source), len(mutants))
@@ -187,3 +191,20 @@ def read_standing(root: Path) -> baseline.Standing:
         if (mutants := make_mutants(file, source))
     }
     return baseline.judge_store(baseline.read_store(), mutated)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_jobs(parser)
+    parser.add_argument("files", nargs="*", metavar="FILE")
+    parser.add_argument("--sample", type=at_least_one, metavar="N")
+    parser.add_argument("--seed", type=int, default=1, metavar="S")
+    for option in ("--list", "--store", "--missing"):
+        parser.add_argument(option, action="store_true")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """@return exit status."""
+    return mutate(Request(tuple(arguments.files), arguments.sample, arguments.seed, arguments.jobs, arguments.list, arguments.store, arguments.missing))
+
+
+COMMAND = Command(add_arguments, run)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.mutation.run import Report
-from mamori.verification.mutation.sources import Sources
-from mamori.verification.tests.support.weak_layer import make_sources, run_all
+from verification.mutation.run import Report
+from verification.mutation.sources import Sources
+from verification.tests.support.weak_layer import make_sources, run_all
 
 
 @pytest.fixture

@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.verification.mutation.operators import Mutant
-from mamori.verification.mutation.sources import MutationError
+from mamori_trace.base.errors import WorkError
+from verification.mutation.operators import Mutant
 
 LIST = Path(__file__).resolve().with_name("equivalent.toml")
 KEYS = {"file", "before", "after", "reason"}
@@ -34,20 +34,20 @@ class Row:
 
 
 def read_list(path: Path = LIST) -> list[Row]:
-    """@raise MutationError for a row that is not whole, gives no reason, or stands there twice."""
+    """@raise WorkError for a row that is not whole, gives no reason, or stands there twice."""
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8")).get("mutant", [])
     except tomllib.TOMLDecodeError as error:
-        raise MutationError(f"{path}: {error}") from error
+        raise WorkError(f"{path}: {error}") from error
     rows: list[Row] = []
     for number, table in enumerate(tables, start=1):
         if set(table) != KEYS:
-            raise MutationError(f"{path}: row {number} needs {', '.join(sorted(KEYS))}; it has {', '.join(sorted(table))}")
+            raise WorkError(f"{path}: row {number} needs {', '.join(sorted(KEYS))}; it has {', '.join(sorted(table))}")
         row = Row(table["file"], table["before"].strip(), table["after"].strip(), table["reason"].strip())
         if not row.reason:
-            raise MutationError(f"{path}: row {number} ({row}) gives no reason")
+            raise WorkError(f"{path}: row {number} ({row}) gives no reason")
         if any(str(row) == str(other) for other in rows):
-            raise MutationError(f"{path}: row {number} ({row}) is there twice")
+            raise WorkError(f"{path}: row {number} ({row}) is there twice")
         rows.append(row)
     return rows
 

@@ -15,14 +15,14 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from mamori.profiles.text_file import write_text
-from mamori.verification.mutation.baseline import Standing
-from mamori.verification.mutation.equivalent import Row, match
-from mamori.verification.mutation.operators import Mutant, make_mutants
-from mamori.verification.mutation.score import LISTED, Counts, add_up, add_up_layers, calc_interval, count, is_met
-from mamori.verification.mutation.sources import Layer, Sources
-from mamori.verification.mutation.trial import KILLED, SURVIVED, Result, Suspect, judge_together, make_companies, screen
-from mamori.verification.mutation.workbench import TEST_TIMEOUT_S, Baseline, Bench
+from mamori_trace.base.text_file import write_text
+from verification.mutation.baseline import Standing
+from verification.mutation.equivalent import Row, match
+from verification.mutation.operators import Mutant, make_mutants
+from verification.mutation.score import LISTED, Counts, add_up, add_up_layers, calc_interval, count, is_met
+from verification.mutation.sources import Layer, Sources
+from verification.mutation.trial import KILLED, SURVIVED, Result, Suspect, judge_together, make_companies, screen
+from verification.mutation.workbench import TEST_TIMEOUT_S, Baseline, Bench
 
 SCHEMA = "mamori.mutation/3"
 SWEEP = 400  # mutants between two times that those are judged which are left
@@ -99,7 +99,7 @@ def try_mutants(
     sources: Sources, mutants: Sequence[Mutant], texts: Mapping[str, bytes], folder: Path, jobs: int,
     note: Callable[[Result], None], test_timeout_s: float = TEST_TIMEOUT_S,
 ) -> None:  # fmt: skip
-    """Tries `mutants` of one layer and tells `note` of each. @param texts of the files as they are. @raise MutationError when
+    """Tries `mutants` of one layer and tells `note` of each. @param texts of the files as they are. @raise WorkError when
     the tests do not pass as they are."""
     baseline = Baseline(sources, folder, jobs, test_timeout_s)
     benches: queue.SimpleQueue[Bench] = queue.SimpleQueue()

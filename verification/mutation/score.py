@@ -10,8 +10,8 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from mamori.verification.mutation.sources import LAYERS, Layer, get_layer
-from mamori.verification.mutation.trial import EQUIVALENT, INVALID, KILLED, SURVIVED, Result
+from verification.mutation.sources import LAYERS, Layer, get_layer
+from verification.mutation.trial import EQUIVALENT, INVALID, KILLED, SURVIVED, Result
 
 DOUBT = 0.05  # a sample is believed to contradict the bar when so good a layer would give it this rarely
 NORMAL_975 = 1.959964  # two-sided 95 % of the normal distribution

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the layers and their tests consist of, and how each file is compiled; CMake is asked, so nothing is said twice.
 
-@satisfies SWR-VER-005      Design: docs/design/test_strength.md#mutants-that-count
+@satisfies SWR-VER-005      Design: docs/design/test_strength.md#counted-mutants
 """
 
 from __future__ import annotations
@@ -13,11 +13,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from mamori_trace.base.errors import WorkError
+
 COMPILER = "clang++-19"
-
-
-class MutationError(Exception):
-    """The run cannot be made: what is wrong, where, and how to mend it."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +67,7 @@ class Sources:
     units: tuple[Unit, ...]
     layer: str = LAYERS[0].name
     below: tuple[Unit, ...] = ()
-    prefix_header: str = "mamori/verification/verifies.hpp"
+    prefix_header: str = "mamori/trace/verifies.hpp"
 
     @property
     def folder(self) -> Path:
@@ -77,17 +75,17 @@ class Sources:
 
 
 def read_sources(root: Path, build: Path, layer: Layer) -> Sources:
-    """Configures the project in `build`, which compiles nothing. @raise MutationError."""
+    """Configures the project in `build`, which compiles nothing. @raise WorkError."""
     argv = ("cmake", "-S", str(root), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
             f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", "-DMAMORI_WITH_SIMBODY_SIM=OFF",
             "-DMAMORI_BUILD_EXAMPLES=OFF")  # fmt: skip
     done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     if done.returncode != 0:
-        raise MutationError(f"cmake could not configure {root}:\n{done.stderr.strip()}")
+        raise WorkError(f"cmake could not configure {root}:\n{done.stderr.strip()}")
     entries = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     units = _select_units(entries, root / layer.name, root / layer.name)
     if not any(unit.is_test for unit in units):
-        raise MutationError(f"{root / layer.name} has no test that CMake knows; nothing could be killed")
+        raise WorkError(f"{root / layer.name} has no test that CMake knows; nothing could be killed")
     below = [unit for name in layer.below for unit in _select_units(entries, root / name / "src", root)]
     return Sources(root, tuple(units), layer.name, tuple(below))
 

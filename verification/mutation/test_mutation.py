@@ -9,16 +9,16 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.errors import UsageError
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.mutation import baseline
-from mamori.verification.mutation.command import Keeper, choose_files, describe, read_standing, run_layers
-from mamori.verification.mutation.equivalent import Row, read_list
-from mamori.verification.mutation.run import Plan, Report, Selection, make_plan, make_table, write_json
-from mamori.verification.mutation.score import LISTED, Counts, calc_interval, is_met
-from mamori.verification.mutation.sources import LAYERS, Layer, MutationError, Sources, list_files
-from mamori.verification.mutation.trial import KILLED, SURVIVED, Result
-from mamori.verification.tests.support.weak_layer import FILES, HEADER, LIMIT_LINE, SOURCE, find, run_all
+from mamori_tools.host.project import ROOT, Project
+from mamori_trace.base.errors import InputError, WorkError
+from verification.mutation import baseline
+from verification.mutation.command import Keeper, choose_files, describe, read_standing, run_layers
+from verification.mutation.equivalent import Row, read_list
+from verification.mutation.run import Plan, Report, Selection, make_plan, make_table, write_json
+from verification.mutation.score import LISTED, Counts, calc_interval, is_met
+from verification.mutation.sources import LAYERS, Layer, Sources, list_files
+from verification.mutation.trial import KILLED, SURVIVED, Result
+from verification.tests.support.weak_layer import FILES, HEADER, LIMIT_LINE, SOURCE, find, run_all
 
 SAMPLES = {"kernel": 60, "safety": 40}
 SEED = 1
@@ -48,13 +48,13 @@ def test_one_seed_gives_one_sample_and_another_seed_another(sources: Sources) ->
 
 @pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")
 def test_file_that_is_none_of_the_kernels_is_refused_with_the_nearest() -> None:
-    with pytest.raises(UsageError, match=r"'kernel/src/event_lock.cpp' is no source or header of kernel or safety.*kernel/src/record/event_log.cpp"):
+    with pytest.raises(InputError, match=r"'kernel/src/event_lock.cpp' is no source or header of kernel or safety.*kernel/src/record/event_log.cpp"):
         choose_files(("kernel/src/event_lock.cpp",), ("kernel/src/record/event_log.cpp", "kernel/src/base/assert.cpp"))
 
 
 @pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")
 def test_file_that_is_like_none_of_the_kernels_is_refused_in_one_short_line() -> None:
-    with pytest.raises(UsageError) as refusal:
+    with pytest.raises(InputError) as refusal:
         choose_files(("nothing.cpp",), tuple(f"kernel/include/mamori/kernel/unit_{i}.hpp" for i in range(200)))
     assert str(refusal.value) == ("mutate: 'nothing.cpp' is no source or header of kernel or safety; "
                                   "./mamori mutate --list shows them with their mutants")  # fmt: skip
@@ -209,7 +209,7 @@ def test_stored_result_that_is_none_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "baseline.toml"
     path.write_text('["a.cpp"]\ncounts = {killed = 1}\n', encoding="utf-8")
 
-    with pytest.raises(MutationError, match="is no stored result"):
+    with pytest.raises(WorkError, match="is no stored result"):
         baseline.read_store(path)
 
 
@@ -273,5 +273,5 @@ def test_list_that_is_not_whole_is_refused(tmp_path: Path, text: str, message: s
     path = tmp_path / "equivalent.toml"
     path.write_text(text, encoding="utf-8")
 
-    with pytest.raises(MutationError, match=message):
+    with pytest.raises(WorkError, match=message):
         read_list(path)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from mamori.verification.mutation.operators import make_mutants
+from verification.mutation.operators import make_mutants
 
 CHANGES = {
     "bool f(int a) { return a < b; }": ["a <= b", "a >= b"],

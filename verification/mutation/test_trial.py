@@ -9,12 +9,13 @@ from typing import Any
 
 import pytest
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.mutation import workbench
-from mamori.verification.mutation.operators import Mutant, make_mutants
-from mamori.verification.mutation.run import Report, Selection, make_plan, try_mutants
-from mamori.verification.mutation.sources import MutationError, Sources, Unit, get_layer, keep_flags, list_files
-from mamori.verification.mutation.trial import (
+from mamori_tools.host.project import ROOT
+from mamori_trace.base.errors import WorkError
+from verification.mutation import workbench
+from verification.mutation.operators import Mutant, make_mutants
+from verification.mutation.run import Report, Selection, make_plan, try_mutants
+from verification.mutation.sources import Sources, Unit, get_layer, keep_flags, list_files
+from verification.mutation.trial import (
     COMPANY,
     EQUIVALENT,
     INVALID,
@@ -27,8 +28,8 @@ from mamori.verification.mutation.trial import (
     make_companies,
     screen,
 )
-from mamori.verification.mutation.workbench import TIMED_OUT, Baseline, Bench
-from mamori.verification.tests.support.weak_layer import FILES, FLAGS, HEADER, LIMIT_LINE, SOURCE, TIMEOUT_S, find, run_all, try_alone
+from verification.mutation.workbench import TIMED_OUT, Baseline, Bench
+from verification.tests.support.weak_layer import FILES, FLAGS, HEADER, LIMIT_LINE, SOURCE, TIMEOUT_S, find, run_all, try_alone
 
 
 def make_suspect(start: int, end: int, file: str = SOURCE) -> Suspect:
@@ -82,7 +83,7 @@ def test_tests_that_fail_by_themselves_kill_nothing(sources: Sources) -> None:
     test = sources.folder / "tests" / "limit_test.cpp"
     test.write_text(FILES["kernel/tests/limit_test.cpp"].replace("keep(5), 5", "keep(5), 6"), encoding="utf-8")
 
-    with pytest.raises(MutationError, match=r"must pass its tests before it is mutated:\n.*limit_test"):
+    with pytest.raises(WorkError, match=r"must pass its tests before it is mutated:\n.*limit_test"):
         run_all(sources)
 
 

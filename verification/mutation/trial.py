@@ -6,7 +6,7 @@ file, most of them for nothing; so they go into one copy, which is tried once fo
 a test that fail for all are run for each of them alone, and only that counts as found. So a mutant that survives has passed every
 case of every test, alone or in company.
 
-@satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#mutants-that-count
+@satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#counted-mutants
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.verification.mutation.operators import Mutant
-from mamori.verification.mutation.sources import Unit
-from mamori.verification.mutation.workbench import TIMED_OUT, Bench
+from verification.mutation.operators import Mutant
+from verification.mutation.sources import Unit
+from verification.mutation.workbench import TIMED_OUT, Bench
 
 KILLED = "killed"
 SURVIVED = "survived"

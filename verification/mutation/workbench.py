@@ -4,7 +4,7 @@
 Each test file is a program of its own, so that the one that most likely finds the fault is compiled and run first and the
 others need not be built once it has.
 
-@satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#mutants-that-count
+@satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#counted-mutants
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from mamori.verification.mutation.sources import COMPILER, MutationError, Sources, Unit
+from mamori_trace.base.errors import WorkError
+from verification.mutation.sources import COMPILER, Sources, Unit
 
 COMPILE_TIMEOUT_S = 120.0
 TEST_TIMEOUT_S = 10.0  # added to what a test may need
@@ -40,7 +41,7 @@ class Baseline:
     of the tests. Shared by all benches."""
 
     def __init__(self, sources: Sources, folder: Path, jobs: int, test_timeout_s: float = TEST_TIMEOUT_S) -> None:
-        """Compiles every unit and runs every test. @param folder empty or new. @raise MutationError when a test does not
+        """Compiles every unit and runs every test. @param folder empty or new. @raise WorkError when a test does not
         pass as it is."""
         self.sources = sources
         self.folder = folder
@@ -65,7 +66,7 @@ class Baseline:
                 self._make_archives()
                 problems = [words for words in pool.map(lambda test: self._measure(test, bench), self.tests) if words]
         if problems:
-            raise MutationError(f"{sources.layer} must pass its tests before it is mutated:\n" + "\n".join(problems))
+            raise WorkError(f"{sources.layer} must pass its tests before it is mutated:\n" + "\n".join(problems))
         self._bench = bench
 
     @property
@@ -129,7 +130,7 @@ class Baseline:
         argv = (COMPILER, *self.tests[0].flags, *flags, "-x", "c++-header", str(header), "-o", str(prefix))
         _, words = _run(argv, COMPILE_TIMEOUT_S)
         if not prefix.exists():
-            raise MutationError(f"{self.sources.prefix_header} does not compile:\n{words}")
+            raise WorkError(f"{self.sources.prefix_header} does not compile:\n{words}")
         return prefix
 
     def _compile(self, unit: Unit, bench: Bench) -> str:
@@ -159,7 +160,7 @@ class Baseline:
     def _make_archive(self, archive: Path, objects: Sequence[Path]) -> None:
         status, words = _run(("ar", "rcs", str(archive), *map(str, objects)), COMPILE_TIMEOUT_S)
         if status != 0:
-            raise MutationError(f"the objects of {self.sources.layer} do not go into {archive.name}:\n{words}")
+            raise WorkError(f"the objects of {self.sources.layer} do not go into {archive.name}:\n{words}")
 
     def _measure(self, test: Unit, bench: Bench) -> str:
         """Notes what a test links and how long it runs. @return what is wrong with it, or nothing."""
@@ -251,7 +252,7 @@ class Bench:
 
     def _run(self, argv: Iterable[str], timeout_s: float, cwd: Path | None = None) -> tuple[int, str]:
         if self.baseline.is_stopped:
-            raise MutationError("stopped")
+            raise WorkError("stopped")
         return _run(argv, timeout_s, cwd)
 
 

@@ -14,8 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mamori.verification.proofs.object_code import UnitFacts, VirtualCall
-from mamori.verification.proofs.toolchain import Toolchain, run_tool
+from verification.proofs.object_code import UnitFacts, VirtualCall
+from verification.proofs.toolchain import Toolchain, run_tool
 
 RULES = Path(__file__).with_name("stack.toml")
 PURE = "__cxa_pure_virtual"  # never called: the call of a pure function is an own bug, and the image traps

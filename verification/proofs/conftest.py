@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT, Project
+from mamori_tools.host.project import ROOT, Project
 
 SUBSET_FLAGS = ("-std=c++17", "-O2", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics")
 

@@ -13,12 +13,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from mamori_trace.base.errors import WorkError
+
 HASH = re.compile(r"[0-9a-f]{16}")
 RUN_TIMEOUT_S = 120
-
-
-class ProofError(Exception):
-    """A build or run did not give a hash. The message names it."""
 
 
 @dataclass(frozen=True)
@@ -61,27 +59,27 @@ def build_variant(
     for argv in (configure, ["cmake", "--build", str(build), "--parallel", str(jobs), "--target", target]):
         done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
         if done.returncode != 0:
-            raise ProofError(f"{variant.name}: {' '.join(argv)} failed:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+            raise WorkError(f"{variant.name}: {' '.join(argv)} failed:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
 
 
 def get_trace_hash(binary: Path, inputs: Inputs, out: Path) -> str:
     """One run. @return the hash of its run.json, which must be new, whole, and of as many frames as asked."""
     if not binary.is_file():
-        raise ProofError(f"{binary} is missing; run ./mamori build")
+        raise WorkError(f"{binary} is missing; run ./mamori build")
     argv = [str(binary), "run", *inputs.arguments(), "--out", str(out)]
     done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
                           timeout=RUN_TIMEOUT_S)  # fmt: skip
     if done.returncode != 0:
-        raise ProofError(f"{' '.join(argv)} ended with status {done.returncode}: {done.stderr.strip()}")
+        raise WorkError(f"{' '.join(argv)} ended with status {done.returncode}: {done.stderr.strip()}")
     try:
         record = json.loads((out / "run.json").read_text(encoding="utf-8"))
         trace_hash, frames = record["trace_hash"], record["frames"]
     except (OSError, ValueError, KeyError) as error:
-        raise ProofError(f"{out / 'run.json'}: no whole record: {error!r}") from error
+        raise WorkError(f"{out / 'run.json'}: no whole record: {error!r}") from error
     if not HASH.fullmatch(str(trace_hash)):
-        raise ProofError(f"{out / 'run.json'}: '{trace_hash}' is no trace hash of 16 hexadecimal digits")
+        raise WorkError(f"{out / 'run.json'}: '{trace_hash}' is no trace hash of 16 hexadecimal digits")
     if frames != inputs.frames:
-        raise ProofError(f"{out / 'run.json'}: {frames} frames were run, {inputs.frames} were asked for")
+        raise WorkError(f"{out / 'run.json'}: {frames} frames were run, {inputs.frames} were asked for")
     return str(trace_hash)
 
 

@@ -13,8 +13,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.verification.proofs.target_layers import find_target_layers
-from mamori.verification.proofs.toolchain import CORTEX_M4, ProofError, Toolchain, Unit, run_tool
+from mamori_trace.base.errors import WorkError
+from verification.proofs.target_layers import find_target_layers
+from verification.proofs.toolchain import CORTEX_M4, Toolchain, Unit, run_tool
 
 TARGET = Path("verification/proofs/target")
 PORT = Path("ports/virtual_time")
@@ -59,7 +60,7 @@ def find_includes(root: Path) -> list[str]:
 
 
 def link_image(root: Path, units: Sequence[Unit], result: Path, toolchain: Toolchain = CORTEX_M4) -> Path:
-    """@return `result`, the image. @raise ProofError"""
+    """@return `result`, the image. @raise WorkError"""
     bare = ("-nostdlib", "-nostartfiles", "-T", str(root / LINKER_SCRIPT), "-Wl,--gc-sections", "-lc", "-lgcc")
     machine = bare if toolchain is CORTEX_M4 else ("-no-pie",)
     run_tool([toolchain.compiler, *toolchain.flags, *(str(unit.object) for unit in units), *machine, "-o", str(result)])
@@ -85,12 +86,12 @@ def check_watermark(bound: int | None, used: int) -> str:
 
 
 def run_in_qemu(image: Path) -> Run:
-    """@raise ProofError when it did not end by itself with a whole record."""
+    """@raise WorkError when it did not end by itself with a whole record."""
     return _run([*QEMU, str(image)])
 
 
 def run_on_host(image: Path) -> Run:
-    """@raise ProofError when it did not end by itself with a whole record."""
+    """@raise WorkError when it did not end by itself with a whole record."""
     return _run([str(image)])
 
 
@@ -99,13 +100,13 @@ def _run(argv: Sequence[str]) -> Run:
         done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
                               timeout=RUN_TIMEOUT_S)  # fmt: skip
     except FileNotFoundError as error:
-        raise ProofError(f"{argv[0]} is missing; ./mamori test installs it") from error
+        raise WorkError(f"{argv[0]} is missing; ./mamori test installs it") from error
     except subprocess.TimeoutExpired as error:
-        raise ProofError(f"{argv[-1]} did not end within {RUN_TIMEOUT_S} s") from error
+        raise WorkError(f"{argv[-1]} did not end within {RUN_TIMEOUT_S} s") from error
     # The exit status alone proves nothing: a machine that resets or is powered off ends with 0 as well.
     if done.returncode != 0:
-        raise ProofError(f"{argv[-1]} ended with status {done.returncode}: {done.stderr.strip()}")
+        raise WorkError(f"{argv[-1]} ended with status {done.returncode}: {done.stderr.strip()}")
     try:
         return Run(**json.loads(done.stderr))
     except (ValueError, TypeError) as error:
-        raise ProofError(f"{argv[-1]} told no whole record: '{done.stderr.strip()}'") from error
+        raise WorkError(f"{argv[-1]} told no whole record: '{done.stderr.strip()}'") from error

@@ -12,8 +12,9 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mamori.verification.proofs.depth import find_groups
-from mamori.verification.proofs.toolchain import CORTEX_M4, ProofError, run_tool
+from mamori_trace.base.errors import WorkError
+from verification.proofs.depth import find_groups
+from verification.proofs.toolchain import CORTEX_M4, run_tool
 
 HEADER = re.compile(r"^(?P<address>[0-9a-f]+) <(?P<name>[^>]+)>:$")
 INSTRUCTION = re.compile(r"^\s*[0-9a-f]+:\s+(?P<name>[a-z][\w.]*)\s*(?P<operands>[^;@]*)")
@@ -36,7 +37,7 @@ class Region:
 
 
 def calc_library_bounds(image: Path, functions: list[str]) -> dict[str, int]:
-    """Upper bound of each function [bytes]. @raise ProofError when one is not in the image or takes an unknown amount."""
+    """Upper bound of each function [bytes]. @raise WorkError when one is not in the image or takes an unknown amount."""
     prefix = CORTEX_M4.prefix
     addresses: dict[str, int] = {}
     for line in run_tool([f"{prefix}nm", "--format=posix", str(image)]).splitlines():
@@ -46,7 +47,7 @@ def calc_library_bounds(image: Path, functions: list[str]) -> dict[str, int]:
     bounds = _calc_bounds(regions)
     missing = [name for name in functions if addresses.get(name, -1) not in places]
     if missing:
-        raise ProofError(f"{image} has no code of: {', '.join(missing)}")
+        raise WorkError(f"{image} has no code of: {', '.join(missing)}")
     return {name: bounds[places[addresses[name]]] for name in functions}
 
 
@@ -77,7 +78,7 @@ def _read_instruction(region: Region, symbol: str, name: str, operands: str) -> 
     elif (stem in ("sub", "subw") and (match := SUBTRACT.match(operands))) or (match := STORE.search(operands)):
         region.bytes += int(match["bytes"])
     elif operands.startswith("sp,") and not stem.startswith(("st", "ld", "add", "cmp")):
-        raise ProofError(f"{symbol}: '{name} {operands}' changes the stack pointer by an amount that is not in the code")
+        raise WorkError(f"{symbol}: '{name} {operands}' changes the stack pointer by an amount that is not in the code")
     if (match := BRANCH.search(operands)) and match["name"] != symbol:
         region.targets.add(match["name"])
 

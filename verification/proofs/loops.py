@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every loop of the target layers ends: its form shows the bound, or `loops.toml` gives it with a reason. No goto.
 
-    python -P -m mamori.verification.proofs.loops [--root FOLDER]
+    python -P -m verification.proofs.loops [--root FOLDER]
 
 prints one line per finding, `file:line: rule: message`; exit status 1 with findings.
 
@@ -20,9 +20,9 @@ from pathlib import Path
 
 from tree_sitter import Node, Parser
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.proofs.target_layers import find_target_layers
-from mamori.verification.tools.target_limits import COMMENT_OR_TEXT, LANGUAGE
+from mamori_tools.host.project import ROOT
+from verification.checks.target_limits import COMMENT_OR_TEXT, LANGUAGE
+from verification.proofs.target_layers import find_target_layers
 
 RULES = Path(__file__).with_name("loops.toml")
 KEYWORD = re.compile(r"\b(?:for|while|do|goto)\b")

@@ -14,7 +14,7 @@ from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mamori.verification.proofs.toolchain import Toolchain, Unit, run_tool
+from verification.proofs.toolchain import Toolchain, Unit, run_tool
 
 INDIRECT = "__indirect_call"
 NODE = re.compile(r'node: \{ title: "(?P<title>[^"]+)" label: "(?P<label>[^"]*)"')

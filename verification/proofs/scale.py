@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the system of 100 components in virtual time, as several compilers made it and under load, and records what it did.
 
-@satisfies SWR-INS-006, SWR-INS-007      Design: docs/design/introspection.md#scale
+@satisfies SWR-INS-006, SWR-INS-007      Design: docs/design/kernel.md#scale
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from mamori.profiles.text_file import write_text
-from mamori.verification.proofs.determinism import HASH, ProofError, Variant
+from mamori_trace.base.errors import WorkError
+from mamori_trace.base.text_file import write_text
+from verification.proofs.determinism import HASH, Variant
 
 PROGRAM = Path("verification") / "integration" / "scale_run"
 TARGET = PROGRAM.name
@@ -59,20 +60,20 @@ class Run:
 def run_scale(program: Path, cycles: int, *options: str) -> Run:
     """One run, which must be of as many cycles as asked for, without an overrun."""
     if not program.is_file():
-        raise ProofError(f"{program} is missing; run ./mamori build")
+        raise WorkError(f"{program} is missing; run ./mamori build")
     argv = [str(program), "--cycles", str(cycles), *options]
     done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
                           timeout=RUN_TIMEOUT_S)  # fmt: skip
     if done.returncode != 0:
-        raise ProofError(f"{' '.join(argv)} ended with status {done.returncode}: {(done.stderr or done.stdout).strip()}")
+        raise WorkError(f"{' '.join(argv)} ended with status {done.returncode}: {(done.stderr or done.stdout).strip()}")
     try:
         run = Run(**json.loads(done.stdout))
     except (ValueError, TypeError) as error:
-        raise ProofError(f"{' '.join(argv)}: no whole record: {error}") from error
+        raise WorkError(f"{' '.join(argv)}: no whole record: {error}") from error
     if not HASH.fullmatch(run.trace_hash):
-        raise ProofError(f"{' '.join(argv)}: '{run.trace_hash}' is no trace hash of 16 hexadecimal digits")
+        raise WorkError(f"{' '.join(argv)}: '{run.trace_hash}' is no trace hash of 16 hexadecimal digits")
     if run.cycles != cycles:
-        raise ProofError(f"{' '.join(argv)}: {run.cycles} cycles were run, {cycles} were asked for")
+        raise WorkError(f"{' '.join(argv)}: {run.cycles} cycles were run, {cycles} were asked for")
     return run
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Worst-case stack of each entry point: the deepest path through the resolved call graph.
 
-    python -P -m mamori.verification.proofs.stack [--out FOLDER]
+    python -P -m verification.proofs.stack [--out FOLDER]
 
 prints the table of all entry points and, with --out, writes stack.json and stack.txt there. Exit status 1 with findings.
 
@@ -19,13 +19,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.profiles.text_file import write_text
-from mamori.verification.command.project import ROOT
-from mamori.verification.proofs.call_graph import CallGraph, Finding, Rules, make_call_graph, read_rules, split_signature
-from mamori.verification.proofs.depth import calc_deepest_paths, find_groups, is_recursive
-from mamori.verification.proofs.image import find_includes, find_sources
-from mamori.verification.proofs.object_code import read_unit
-from mamori.verification.proofs.toolchain import CORTEX_M4, HOST, ProofError, Toolchain, Unit, compile_units
+from mamori_tools.host.project import ROOT
+from mamori_trace.base.errors import WorkError
+from mamori_trace.base.text_file import write_text
+from verification.proofs.call_graph import CallGraph, Finding, Rules, make_call_graph, read_rules, split_signature
+from verification.proofs.depth import calc_deepest_paths, find_groups, is_recursive
+from verification.proofs.image import find_includes, find_sources
+from verification.proofs.object_code import read_unit
+from verification.proofs.toolchain import CORTEX_M4, HOST, Toolchain, Unit, compile_units
 
 EXECUTIVE = "mamori::Executive::"
 COMPONENT = "Component"
@@ -159,7 +160,7 @@ def main(argv: list[str] | None = None) -> int:
     try:
         with tempfile.TemporaryDirectory() as folder:
             analyses = [analyse_image(toolchain, ROOT, Path(folder) / toolchain.name)[0] for toolchain in (CORTEX_M4, HOST)]
-    except ProofError as error:
+    except WorkError as error:
         print(f"stack proof: {error}", file=sys.stderr)
         return 1
     print(make_table(analyses), end="")

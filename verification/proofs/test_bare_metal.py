@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.proofs.bare_metal import TOOL_PREFIX, compile_for_controller
-from mamori.verification.proofs.symbols import scan_sections, scan_symbols
-from mamori.verification.proofs.target_layers import find_target_layers
+from mamori_tools.host.project import ROOT
+from verification.proofs.bare_metal import TOOL_PREFIX, compile_for_controller
+from verification.proofs.symbols import scan_sections, scan_symbols
+from verification.proofs.target_layers import find_target_layers
 
 LAYERS = [layer for layer in find_target_layers(ROOT) if layer.name in ("kernel", "safety")]
 INCLUDES = [layer.include for layer in LAYERS]

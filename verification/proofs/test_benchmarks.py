@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.bench.bars import load_bars
-from mamori.verification.bench.grid import METRIC as GRID
-from mamori.verification.bench.judge import judge
-from mamori.verification.bench.programs import Programs
-from mamori.verification.bench.samples import Samples, read_samples
-from mamori.verification.command.project import Project
+from mamori_tools.host.project import Project
+from verification.bench.bars import load_bars
+from verification.bench.grid import METRIC as GRID
+from verification.bench.judge import judge
+from verification.bench.programs import Programs
+from verification.bench.samples import Samples, read_samples
 
 PEERS = ("Boost SPSC", "LCM memq", "CycloneDDS", "iceoryx2 local", "ETL message_bus", "F Prime synchronous port",
          "reactor-cpp with deadline", "vsomeip profile 4")  # fmt: skip

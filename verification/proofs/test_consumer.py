@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import Project
+from mamori_tools.host.project import Project
 
 BUILD_TIMEOUT_S = 300
 
@@ -128,7 +128,7 @@ def test_first_system_hangs_and_is_told_as_the_manual_says(project: Project, pre
 
     hanging = run("env", "-C", tmp_path, program, "hang")
     assert (-hanging.returncode, hanging.stderr) == (signal.SIGABRT, "outputs closed\n")
-    shown = run(sys.executable, "-P", "-m", "mamori.verification.command", "log", tmp_path / "run.rec")
+    shown = run(sys.executable, "-P", "-m", "mamori_tools.command", "log", tmp_path / "run.rec")
     assert re.search(r"crash in session 2 at \d\.\d{9} s: SIGABRT, sent by a program; thread of the watchdog", shown.stdout)
     assert shown.returncode == 0, shown.stderr
 
@@ -164,7 +164,7 @@ def test_system_of_two_processes_runs_as_the_manual_says(project: Project, prefi
 def test_first_system_is_measured_as_the_manual_says(project: Project, prefix: Path, tmp_path: Path) -> None:
     folder = build_page(project, prefix, tmp_path / "minimal", "timing.md", "mamori::timing")
     out = tmp_path / "times"
-    shown = run(sys.executable, "-P", "-m", "mamori.verification.command", "timing", folder / "build" / "minimal",
+    shown = run(sys.executable, "-P", "-m", "mamori_tools.command", "timing", folder / "build" / "minimal",
                 "--cycles", "50", "--out", out)  # fmt: skip
     # A busy machine may cost a window its time (1), and not every machine grants the rights (4).
     assert shown.returncode in (0, 1, 4), shown.stderr
@@ -178,7 +178,7 @@ def test_folders_of_a_users_project_are_built_and_measured_by_their_names(projec
     robot = tmp_path / "robot"
     build_page(project, prefix, robot, "timing.md", "mamori::timing")
     shutil.rmtree(robot / "build")
-    shutil.copy(project.root / "verification/timing/tests/cost_subject.cpp", robot / "counted.cpp")
+    shutil.copy(project.root / "tools/probe/timing/tests/cost_subject.cpp", robot / "counted.cpp")
     with (robot / "CMakeLists.txt").open("a", encoding="utf-8") as lists:
         lists.write("add_executable(counted counted.cpp)\ntarget_link_libraries(counted PRIVATE mamori::timing)\n")
     for name, text in (("timed", 'program = "minimal"\ntarget = "minimal"\n'),
@@ -188,7 +188,7 @@ def test_folders_of_a_users_project_are_built_and_measured_by_their_names(projec
         (robot / name / "timing.toml").write_text(text, encoding="utf-8")
 
     for command, name, words in (("timing", "timed", ("--cycles", "50")), ("cost", "counted", ())):
-        shown = run(sys.executable, "-P", "-m", "mamori.verification.command", command, robot / name, "--json", *words)
+        shown = run(sys.executable, "-P", "-m", "mamori_tools.command", command, robot / name, "--json", *words)
         # A busy machine may cost a window its time (1), and not every machine grants the rights (4).
         assert shown.returncode in (0, 1, 4), shown.stderr
         record = json.loads(shown.stdout)
@@ -214,7 +214,7 @@ def test_program_of_a_user_writes_its_table_and_the_command_shows_it(project: Pr
     assert built.returncode == 0, built.stdout
     ran = run("env", "-C", tmp_path, folder / "build" / "minimal")
     assert ran.returncode == 0
-    shown = run(sys.executable, "-P", "-m", "mamori.verification.command", "table", tmp_path / "table.json")
+    shown = run(sys.executable, "-P", "-m", "mamori_tools.command", "table", tmp_path / "table.json")
     assert shown.returncode == 0, shown.stderr
     assert "wheel.speed    monitor.speed  later window" in shown.stdout
     assert "monitor.brake  wheel.brake    next frame" in shown.stdout

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Goal: counts of single steps are exact, and times belong to them. Method: callgrind over a program whose work is known to the
-# instruction (verification/timing/tests/cost_subject.cpp); one that does something else by the clock must be found.
+# instruction (tools/probe/timing/tests/cost_subject.cpp); one that does something else by the clock must be found.
 from __future__ import annotations
 
 from pathlib import Path
@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mamori.verification.command.errors import StepError
-from mamori.verification.command.project import Project
-from mamori.verification.cost.analysis import find_pace, list_ratios, list_steps
-from mamori.verification.cost.classes import InputClass
-from mamori.verification.cost.run import ClassRun, run_class
-from mamori.verification.timing.system import System
+from mamori_tools.cost.analysis import find_pace, list_ratios, list_steps
+from mamori_tools.cost.classes import InputClass
+from mamori_tools.cost.run import ClassRun, run_class
+from mamori_tools.host.project import Project
+from mamori_tools.timing.system import System
+from mamori_trace.base.errors import WorkError
 
 CYCLES = 40
 LINEAR, CONSTANT, HEAVY = range(3)
@@ -25,7 +25,7 @@ LEAST_ROUND_NS = 0.1
 
 @pytest.fixture(scope="module")
 def system(project: Project) -> System:
-    program = project.build / "verification" / "timing" / "mamori_cost_subject"
+    program = project.build / "tools" / "probe" / "timing" / "mamori_cost_subject"
     assert program.exists(), f"{program} is missing; run ./mamori build"
     return System("cost_subject", program)
 
@@ -96,5 +96,5 @@ def test_each_time_belongs_to_its_count(whole: ClassRun) -> None:
 
 @pytest.mark.verifies("SWR-TIM-033", technique="fault_injection", polarity="violation")
 def test_program_that_does_something_else_by_the_clock_is_found(system: System, tmp_path: Path) -> None:
-    with pytest.raises(StepError, match="under callgrind"):
+    with pytest.raises(WorkError, match="under callgrind"):
         count(system, tmp_path, words=("unsteady",))

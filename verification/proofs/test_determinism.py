@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from mamori.profiles.motion import load_limits, read_motion, write_canonical
-from mamori.verification.command.project import SANITIZED, Project
-from mamori.verification.proofs.determinism import VARIANTS, Inputs, Variant, build_variant, find_differences, get_trace_hash
+from mamori_tools.host.project import SANITIZED, Project
+from mamori_tools.motion import load_limits, read_motion, write_canonical
+from verification.proofs.determinism import VARIANTS, Inputs, Variant, build_variant, find_differences, get_trace_hash
 
 RUNS = 20
 FRAMES = 2500

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.bench.bars import CountBar, load_bars
-from mamori.verification.bench.baseline import calc_count, judge_count, load_baseline
-from mamori.verification.bench.callgrind import ask_about, makes_system_calls, run_callgrind
-from mamori.verification.bench.command import SEALED
-from mamori.verification.bench.judge import PASSED
-from mamori.verification.bench.programs import Programs
-from mamori.verification.command.project import Project
+from mamori_tools.host.callgrind import ask_about, makes_system_calls, run_callgrind
+from mamori_tools.host.project import Project
+from verification.bench.bars import CountBar, load_bars
+from verification.bench.baseline import calc_count, judge_count, load_baseline
+from verification.bench.command import SEALED
+from verification.bench.judge import PASSED
+from verification.bench.programs import Programs
 
 COUNTS = load_bars().counts
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.proofs.loops import Loop, LoopFinding, LoopRow, check_loops, find_files, find_loops, main, make_record, read_rows
+from mamori_tools.host.project import ROOT, Project
+from verification.proofs.loops import Loop, LoopFinding, LoopRow, check_loops, find_files, find_loops, main, make_record, read_rows
 
 ROW = LoopRow("seeded.cpp", "f", "n > 1", "64 rounds", "n loses a bit in each")
 UNBOUNDED = {

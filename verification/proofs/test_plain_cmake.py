@@ -14,8 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.new_project import new
-from mamori.verification.command.project import Project
+from mamori_tools.command.new_project import new
+from mamori_tools.host.project import Project
 
 BUILD_TIMEOUT_S = 600
 HEAD = "cmake_minimum_required(VERSION 3.25)\nproject(my_robot LANGUAGES CXX)\n"
@@ -227,7 +227,7 @@ def test_new_project_builds_by_plain_cmake_and_its_tests_find_a_brake_that_is_la
     assert run(build / "robot").stdout.startswith("after  40 ms: 4 rad/s, brake off")
     tested = run(*test)
     assert tested.returncode == 0, tested.stdout
-    checked = run(sys.executable, "-P", "-m", "mamori.verification.command", "trace", "check", "--root", folder,
+    checked = run(sys.executable, "-P", "-m", "mamori_tools.command", "trace", "check", "--root", folder,
                   "--evidence", tmp_path / "evidence", "--allow-missing")  # fmt: skip
     assert checked.returncode == 0, checked.stdout
     assert "3 test results" in checked.stdout

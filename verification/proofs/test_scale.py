@@ -12,9 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import Project
-from mamori.verification.proofs.determinism import ProofError, Variant, build_variant, find_differences
-from mamori.verification.proofs.scale import OPTIONS, PROGRAM, TARGET, VARIANTS, Run, busy_machine, run_scale, write_record
+from mamori_tools.host.project import Project
+from mamori_trace.base.errors import WorkError
+from verification.proofs.determinism import Variant, build_variant, find_differences
+from verification.proofs.scale import OPTIONS, PROGRAM, TARGET, VARIANTS, Run, busy_machine, run_scale, write_record
 
 LONG_CYCLES = 1_000_000
 LONG_HASH = "3bebefdc2d11f998"
@@ -111,12 +112,12 @@ def test_bad_words_are_refused(program: Path, words: list[str], message: str) ->
 @pytest.mark.verifies("SWR-INS-006", technique="fault_injection", polarity="violation")
 def test_a_run_without_a_result_is_no_hash(tmp_path: Path, script: str, message: str) -> None:
     program = tmp_path / "scale_run"
-    with pytest.raises(ProofError, match="is missing"):
+    with pytest.raises(WorkError, match="is missing"):
         run_scale(program, CYCLES)
     program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
     program.chmod(0o755)
 
-    with pytest.raises(ProofError, match=message):
+    with pytest.raises(WorkError, match=message):
         run_scale(program, CYCLES)
 
 

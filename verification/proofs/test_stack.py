@@ -11,14 +11,15 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.proofs.call_graph import OutsideRow, PointerRow, Rules, read_rules, split_signature
-from mamori.verification.proofs.depth import calc_deepest_paths, find_groups
-from mamori.verification.proofs.image import Run, check_watermark, get_stack_size, link_image, run_in_qemu, run_on_host
-from mamori.verification.proofs.library_code import calc_library_bounds
-from mamori.verification.proofs.stack import Analysis, analyse, analyse_image, main, make_table, write_evidence
-from mamori.verification.proofs.symbols import count_symbols, scan_sections, scan_symbols
-from mamori.verification.proofs.toolchain import CORTEX_M4, HOST, HOST_AS_WRITTEN, ProofError, Toolchain, Unit, compile_units
+from mamori_tools.host.project import ROOT, Project
+from mamori_trace.base.errors import WorkError
+from verification.proofs.call_graph import OutsideRow, PointerRow, Rules, read_rules, split_signature
+from verification.proofs.depth import calc_deepest_paths, find_groups
+from verification.proofs.image import Run, check_watermark, get_stack_size, link_image, run_in_qemu, run_on_host
+from verification.proofs.library_code import calc_library_bounds
+from verification.proofs.stack import Analysis, analyse, analyse_image, main, make_table, write_evidence
+from verification.proofs.symbols import count_symbols, scan_sections, scan_symbols
+from verification.proofs.toolchain import CORTEX_M4, HOST, HOST_AS_WRITTEN, Toolchain, Unit, compile_units
 
 EXCEPTION_FRAME_BYTES = 8 * 4 + 4  # eight registers and the alignment, without floating-point unit
 EVERY_TOOLCHAIN = pytest.mark.parametrize("toolchain", [CORTEX_M4, HOST], ids=lambda toolchain: toolchain.name)
@@ -137,7 +138,7 @@ def test_evidence_tells_bounds_and_paths(built: Built, run: Run) -> None:
 
 @pytest.mark.verifies("SWR-PRF-020", technique="error_guessing", polarity="violation")
 def test_source_that_does_not_compile_proves_nothing(judge: Judge) -> None:
-    with pytest.raises(ProofError, match=r"seeded.cpp"):
+    with pytest.raises(WorkError, match=r"seeded.cpp"):
         judge("int f( {\n")
 
 
@@ -304,7 +305,7 @@ def test_function_that_takes_more_than_the_list_says_is_found(built: Built, tmp_
 def test_stack_of_unknown_size_in_listed_code_is_refused(built: Built, tmp_path: Path) -> None:
     image = link_hungry(built, tmp_path, "sub sp, sp, r2")
 
-    with pytest.raises(ProofError, match=r"memset: 'sub.w sp, sp, r2' changes the stack pointer"):
+    with pytest.raises(WorkError, match=r"memset: 'sub.w sp, sp, r2' changes the stack pointer"):
         calc_library_bounds(image, ["memset"])
 
 
@@ -408,7 +409,7 @@ def test_run_without_a_whole_record_is_refused(tmp_path: Path) -> None:
     silent.write_text("#!/bin/sh\nexit 0\n", encoding="utf-8")
     silent.chmod(0o755)
 
-    with pytest.raises(ProofError, match="told no whole record"):
+    with pytest.raises(WorkError, match="told no whole record"):
         run_on_host(silent)
 
 
@@ -434,7 +435,7 @@ def test_image_with_a_seeded_violation_does_not_link(built: Built, tmp_path: Pat
     (tmp_path / "seeded.cpp").write_text(text, encoding="utf-8")
     (unit,) = compile_units(CORTEX_M4, tmp_path, ["seeded.cpp"], [], tmp_path)
 
-    with pytest.raises(ProofError, match=message):
+    with pytest.raises(WorkError, match=message):
         link_image(ROOT, [*built.units[CORTEX_M4.name], unit], tmp_path / "image.elf")
 
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.proofs.symbols import count_symbols, scan_sections, scan_symbols
-from mamori.verification.proofs.target_layers import TargetLayer, find_target_layers
+from mamori_tools.host.project import ROOT, Project
+from verification.proofs.symbols import count_symbols, scan_sections, scan_symbols
+from verification.proofs.target_layers import TargetLayer, find_target_layers
 
 LAYERS = find_target_layers(ROOT)
 EVERY_LAYER = pytest.mark.parametrize("layer", LAYERS, ids=lambda layer: layer.name)

@@ -13,13 +13,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mamori_trace.base.errors import WorkError
+
 # The language subset of the target layers. One section per function: then every call to another one is a relocation.
 SUBSET = ("-std=c++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-ffp-contract=off", "-UNDEBUG",
           "-ffunction-sections", "-fdata-sections")  # fmt: skip
-
-
-class ProofError(Exception):
-    """A tool did not do its work, so nothing is proven. The message names it and gives its words."""
 
 
 @dataclass(frozen=True)
@@ -74,20 +72,20 @@ class Unit:
 def compile_units(
     toolchain: Toolchain, root: Path, sources: Sequence[str], includes: Sequence[str], folder: Path
 ) -> list[Unit]:
-    """Compiles `sources`, relative to `root` so that places read the same everywhere. @raise ProofError"""
+    """Compiles `sources`, relative to `root` so that places read the same everywhere. @raise WorkError"""
     folder.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         return list(pool.map(lambda source: _compile(toolchain, root, source, includes, folder), sources))
 
 
 def run_tool(argv: Sequence[str], cwd: Path | None = None) -> str:
-    """@return what the program wrote. @raise ProofError when it failed."""
+    """@return what the program wrote. @raise WorkError when it failed."""
     try:
         done = subprocess.run(argv, cwd=cwd, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     except FileNotFoundError as error:
-        raise ProofError(f"{argv[0]} is missing; ./mamori test installs it") from error
+        raise WorkError(f"{argv[0]} is missing; ./mamori test installs it") from error
     if done.returncode != 0:
-        raise ProofError(f"{' '.join(argv)} ended with status {done.returncode}:\n{done.stderr[-4000:]}")
+        raise WorkError(f"{' '.join(argv)} ended with status {done.returncode}:\n{done.stderr[-4000:]}")
     return done.stdout
 
 

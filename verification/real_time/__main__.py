@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures how often the real-time part passes, fails or is inconclusive on this host:
-`python -P -m mamori.verification.real_time [--runs N] [--load] [--defect NAME ...] [--build DIR]`.
+`python -P -m verification.real_time [--runs N] [--load] [--defect NAME ...] [--build DIR]`.
 
 One run executes every campaign program once; an inconclusive program is repeated at most twice. The worst verdict of its programs is
 that of the run. Ends by itself: each program is bounded, and so is the load.
@@ -22,9 +22,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, EXIT_USAGE
-from mamori.verification.command.project import RELEASE, ROOT, Project
-from mamori.verification.real_time.repeat import REPEATS_MAX
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK, EXIT_USAGE
+from mamori_tools.host.project import RELEASE, ROOT, Project
+from verification.real_time.repeat import REPEATS_MAX
 
 DEFECTS = ("late_release", "overrun", "wrong_name")
 VERDICTS = {0: "passed", 1: "failed", 4: "inconclusive"}
@@ -38,19 +38,20 @@ class Program:
     """A campaign program with the size of its short run."""
 
     name: str
+    place: str  # its folder, below that of `verification` in the build tree
     before_seed: tuple[str, ...]
     after_seed: tuple[str, ...] = ()
     defects: tuple[str, ...] = DEFECTS
 
     def make_command(self, folder: Path, seed: int, defect: str) -> list[str]:
         chosen = ("--defect", defect) if defect else ()
-        return [str(folder / self.name / self.name), *self.before_seed, str(seed), *self.after_seed, *chosen]
+        return [str(folder / self.place / self.name), *self.before_seed, str(seed), *self.after_seed, *chosen]
 
 
 PROGRAMS = (
-    Program("time_faults", ("4000", "50"), ("storm",)),
-    Program("lost_service", ("70",), defects=("late_release", "overrun")),
-    Program("partition_faults", ("8",)),
+    Program("time_faults", "faults/time", ("4000", "50"), ("storm",)),
+    Program("lost_service", "faults/service", ("70",), defects=("late_release", "overrun")),
+    Program("partition_faults", "faults/partition", ("8",)),
 )
 
 
@@ -146,7 +147,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--build", type=Path, default=Project(ROOT, RELEASE).build, metavar="DIR")
     given = parser.parse_args(arguments)
     folder = given.build / "verification"
-    missing = [p.name for p in PROGRAMS if not os.access(folder / p.name / p.name, os.X_OK)]
+    missing = [p.name for p in PROGRAMS if not os.access(folder / p.place / p.name, os.X_OK)]
     if given.runs < 1 or missing:
         what = f"{folder}: {', '.join(missing)} missing; build the targets" if missing else f"--runs {given.runs}: at least 1"
         print(f"real_time: {what}", file=sys.stderr)

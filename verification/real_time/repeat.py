@@ -12,7 +12,7 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from mamori.verification.command.project import ROOT, Project
+from mamori_tools.host.project import ROOT, Project
 
 REPEATS_MAX = 2
 

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """`./mamori prove safe-state`: builds the programs that print the relations, proves, shows, keeps models and result.
 
-@satisfies SWR-FSM-025      Design: docs/design/safe_state.md#the-command-prove
+@satisfies SWR-FSM-025      Design: docs/design/safe_state.md#command-prove
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import shutil
 import sys
@@ -15,24 +16,26 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mamori.profiles.input_error import InputError, nearest_names
-from mamori.profiles.text_file import write_text
-from mamori.verification.command.console import Screen
-from mamori.verification.command.errors import EXIT_FAILED, EXIT_OK, StepError, UsageError
-from mamori.verification.command.process import run_logged
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.safe_state.brakes import promela as brake_promela
-from mamori.verification.safe_state.brakes import smt as brake_smt
-from mamori.verification.safe_state.brakes.coupling import Pair
-from mamori.verification.safe_state.brakes.defects import BRAKE_DEFECTS, BrakeDefect
-from mamori.verification.safe_state.brakes.prove import prove_brakes
-from mamori.verification.safe_state.brakes.relation import read_brakes
-from mamori.verification.safe_state.brakes.sequence import make_cycles
-from mamori.verification.safe_state.defects import DEFECTS, Defect
-from mamori.verification.safe_state.machine import Machine, merge
-from mamori.verification.safe_state.prove import Result, make_record, prove
-from mamori.verification.safe_state.relation import read_relation, run_program
-from mamori.verification.timing.command import check_folder
+from mamori_tools.host.arguments import Command, add_jobs
+from mamori_tools.host.console import Screen
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK
+from mamori_tools.host.process import run_logged
+from mamori_tools.host.project import ROOT, Project
+from mamori_tools.timing.command import check_folder
+from mamori_trace.base.errors import InputError, WorkError
+from mamori_trace.base.nearest_names import nearest_names
+from mamori_trace.base.text_file import write_text
+from verification.safe_state.brakes import promela as brake_promela
+from verification.safe_state.brakes import smt as brake_smt
+from verification.safe_state.brakes.coupling import Pair
+from verification.safe_state.brakes.defects import BRAKE_DEFECTS, BrakeDefect
+from verification.safe_state.brakes.prove import prove_brakes
+from verification.safe_state.brakes.relation import read_brakes
+from verification.safe_state.brakes.sequence import make_cycles
+from verification.safe_state.defects import DEFECTS, Defect
+from verification.safe_state.machine import Machine, merge
+from verification.safe_state.prove import Result, make_record, prove
+from verification.safe_state.relation import read_relation, run_program
 
 TARGET = "mamori_safe_state_relation"
 BRAKE_TARGET = "mamori_brake_sequence_relation"
@@ -63,7 +66,7 @@ class Proof:
 
 def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
     """@return exit status; 1 when a property is not proved, or when nothing could be proved, which is said on standard error.
-    @raise UsageError for an unknown defect, or a folder that cannot be written to."""
+    @raise InputError for an unknown defect, or a folder that cannot be written to."""
     defect = choose_defect(request.defect)
     try:
         check_tools()
@@ -71,9 +74,12 @@ def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
             check_folder(request.out, "prove")
         _build(project, request.jobs)
         programs = project.build / "verification" / "safe_state"
-        proofs = _prove(run_program(programs / TARGET), run_program(programs / BRAKE_TARGET), defect)
+        try:
+            proofs = _prove(run_program(programs / TARGET), run_program(programs / BRAKE_TARGET), defect)
+        except InputError as error:  # the programs are ours: no input of the user is wrong
+            raise WorkError(str(error)) from error
         record = _keep(proofs, defect, request.out or _get_folder(project, defect))
-    except (StepError, InputError) as error:
+    except WorkError as error:
         print(f"mamori: prove: {error}", file=sys.stderr)
         return EXIT_FAILED
     results = [result for proof in proofs for result in proof.results]
@@ -85,26 +91,26 @@ def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
 
 
 def choose_defect(name: str | None) -> Defect | BrakeDefect | None:
-    """@raise UsageError when there is no property of that name."""
+    """@raise InputError when there is no property of that name."""
     if name is None:
         return None
     defects: tuple[Defect | BrakeDefect, ...] = (*DEFECTS, *BRAKE_DEFECTS)
     known = {defect.breaks: defect for defect in defects}
     if name not in known:
-        raise UsageError(f"prove: there is no defect '{name}'; {nearest_names(name, known)}")
+        raise InputError(f"prove: there is no defect '{name}'; {nearest_names(name, known)}")
     return known[name]
 
 
 def check_tools() -> None:
-    """@raise StepError naming what is missing, before anything is built."""
+    """@raise WorkError naming what is missing, before anything is built."""
     missing = [name for name in TOOLS if shutil.which(name) is None]
     if missing:
         packages = " ".join(TOOLS[name] for name in missing)
-        raise StepError(f"{', '.join(missing)} not found in PATH; install the package(s) {packages} (as root: apt-get install {packages})")
+        raise WorkError(f"{', '.join(missing)} not found in PATH; install the package(s) {packages} (as root: apt-get install {packages})")
 
 
 def _build(project: Project, jobs: int) -> None:
-    """@raise StepError when a program cannot be built."""
+    """@raise WorkError when a program cannot be built."""
     log = project.logs / "build-prove.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     log.write_text("", encoding="utf-8")
@@ -112,7 +118,7 @@ def _build(project: Project, jobs: int) -> None:
                 ("cmake", "--build", str(project.build), "--target", TARGET, BRAKE_TARGET, "--parallel", str(jobs)))  # fmt: skip
     for command in commands:
         if run_logged(command, log, project.root, lambda _: None) != 0:
-            raise StepError(f"{TARGET} and {BRAKE_TARGET} could not be built; the compiler's words are in {log}")
+            raise WorkError(f"{TARGET} and {BRAKE_TARGET} could not be built; the compiler's words are in {log}")
 
 
 def _get_folder(project: Project, defect: Defect | BrakeDefect | None) -> Path:
@@ -181,3 +187,19 @@ def show(results: Sequence[Result], defect: Defect | BrakeDefect | None, screen:
                 screen.say(f"  {number:2} {line}")
     proved = sum(result.is_proved for result in results)
     screen.say(f"{len(results)} properties: {proved} proved, {len(results) - proved} refuted")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_jobs(parser)
+    parser.add_argument("machine", choices=("safe-state",), metavar="MACHINE")
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--out", type=Path, metavar="DIR")
+    parser.add_argument("--defect", metavar="NAME")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """@return exit status."""
+    return prove_safe_state(Request(arguments.json, arguments.out, arguments.defect, arguments.jobs))
+
+
+COMMAND = Command(add_arguments, run)

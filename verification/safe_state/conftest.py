@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.safe_state.brakes.coupling import Pair
-from mamori.verification.safe_state.brakes.relation import BrakeRelation, read_brakes
-from mamori.verification.safe_state.brakes.sequence import Brakes, make_cycles
-from mamori.verification.safe_state.command import BRAKE_TARGET, TARGET
-from mamori.verification.safe_state.machine import Machine, merge
-from mamori.verification.safe_state.relation import Relation, read_relation, run_program
+from mamori_tools.host.project import ROOT, Project
+from verification.safe_state.brakes.coupling import Pair
+from verification.safe_state.brakes.relation import BrakeRelation, read_brakes
+from verification.safe_state.brakes.sequence import Brakes, make_cycles
+from verification.safe_state.command import BRAKE_TARGET, TARGET
+from verification.safe_state.machine import Machine, merge
+from verification.safe_state.relation import Relation, read_relation, run_program
 
 
 def run_built(target: str) -> str:

@@ -12,8 +12,8 @@ from itertools import product
 
 import numpy as np
 
-from mamori.verification.safe_state.machine import Machine, Past
-from mamori.verification.safe_state.relation import INPUTS, OUTPUTS, VALUES
+from verification.safe_state.machine import Machine, Past
+from verification.safe_state.relation import INPUTS, OUTPUTS, VALUES
 
 Cell = tuple[str, str]
 

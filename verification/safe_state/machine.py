@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mamori.verification.safe_state.relation import INPUTS, SHAPE, VALUES, Array, Label, Relation
+from verification.safe_state.relation import INPUTS, SHAPE, VALUES, Array, Label, Relation
 
 RUNNING = VALUES["self_test"].index("Running")
 

@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from mamori.verification.command.errors import StepError
-from mamori.verification.safe_state.machine import Machine
-from mamori.verification.safe_state.properties import Property
-from mamori.verification.safe_state.relation import VALUES
+from mamori_trace.base.errors import WorkError
+from verification.safe_state.machine import Machine
+from verification.safe_state.properties import Property
+from verification.safe_state.relation import VALUES
 
 BOUNDS = {"ss2_within": 2, "ss1_within": 3}
 """In cycles. Short ones, since nothing but the bound itself counts; z3 proves the same for all."""
@@ -198,7 +198,7 @@ def list_formulas(properties: Sequence[Property]) -> list[tuple[str, str]]:
 
 
 def check(machine: Machine, properties: Sequence[Property], folder: Path) -> dict[str, Run]:
-    """Lets spin judge each formula. @return by name what it found. @raise StepError when spin or gcc is missing or fails."""
+    """Lets spin judge each formula. @return by name what it found. @raise WorkError when spin or gcc is missing or fails."""
     return judge_all(write_model(machine, properties), properties, folder, "machine.pml")
 
 
@@ -231,7 +231,7 @@ def _is_broken(name: str, depth: int, folder: Path) -> bool:
     words = _call(("./pan", "-a", "-w16", f"-m{depth}", "-N", name), folder)
     found = re.search(r"errors: (\d+)", words)
     if found is None or (depth == DEPTH_MAX and "max search depth too small" in words):
-        raise StepError(f"spin did not search everything for {name}: {words.strip()[-200:]}")
+        raise WorkError(f"spin did not search everything for {name}: {words.strip()[-200:]}")
     return found[1] != "0"
 
 
@@ -239,9 +239,9 @@ def _call(argv: tuple[str, ...], folder: Path) -> str:
     try:
         done = subprocess.run(argv, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
     except OSError as error:
-        raise StepError(f"{argv[0]} is missing; install the packages spin and gcc (./mamori prove does)") from error
+        raise WorkError(f"{argv[0]} is missing; install the packages spin and gcc (./mamori prove does)") from error
     except subprocess.TimeoutExpired as error:
-        raise StepError(f"{argv[0]} did not end in {TIMEOUT_S:.0f} s; its files are in {folder}") from error
+        raise WorkError(f"{argv[0]} did not end in {TIMEOUT_S:.0f} s; its files are in {folder}") from error
     if done.returncode != 0 and argv[0] != "./pan":
-        raise StepError(f"{' '.join(argv)} ended with status {done.returncode}: {(done.stdout + done.stderr).strip()[:200]}")
+        raise WorkError(f"{' '.join(argv)} ended with status {done.returncode}: {(done.stdout + done.stderr).strip()[:200]}")
     return done.stdout

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mamori.verification.command.errors import StepError
-from mamori.verification.safe_state import promela, smt
-from mamori.verification.safe_state.machine import Machine, Past, describe_letter
-from mamori.verification.safe_state.properties import PROPERTIES, Property
+from mamori_trace.base.errors import WorkError
+from verification.safe_state import promela, smt
+from verification.safe_state.machine import Machine, Past, describe_letter
+from verification.safe_state.properties import PROPERTIES, Property
 
 SCHEMA = "mamori.safe_state_proof/1"
 PROVED, REFUTED = "proved", "refuted"
@@ -35,7 +35,7 @@ class Result:
 
 
 def prove(machine: Machine, folder: Path, properties: Sequence[Property] = PROPERTIES) -> list[Result]:
-    """Runs both provers; their models and working files stay in `folder`. @raise StepError when a prover is missing or fails."""
+    """Runs both provers; their models and working files stay in `folder`. @raise WorkError when a prover is missing or fails."""
     steps: dict[str, dict[str, list[str]]] = {one.name: {} for one in properties}
     _run_z3(machine, properties, folder, steps)
     _run_spin(machine, properties, folder, steps)
@@ -57,7 +57,7 @@ def _run_z3(machine: Machine, properties: Sequence[Property], folder: Path, step
         if refutation is None:
             continue
         if not query.owner:
-            raise StepError("z3 does not find the past of the machine closed under its steps; the model is not that of the machine")
+            raise WorkError("z3 does not find the past of the machine closed under its steps; the model is not that of the machine")
         steps[query.owner].setdefault("z3", describe_refutation(machine, refutation))
 
 
@@ -99,7 +99,7 @@ def describe_refutation(machine: Machine, found: smt.Refutation) -> list[str]:
 
 
 def describe_run(machine: Machine, run: promela.Run) -> list[str]:
-    """The run in words. @raise StepError when the machine does not step as the run says: the model would not be its model."""
+    """The run in words. @raise WorkError when the machine does not step as the run says: the model would not be its model."""
     lines = []
     moves = promela.list_moves(machine)
     here, past = machine.first, Past()
@@ -107,7 +107,7 @@ def describe_run(machine: Machine, run: promela.Run) -> list[str]:
         move = moves[number]
         target = int(machine.next[(here, *move.letter)]) if move.letter else machine.corrupted
         if (move.source, move.target) != (here, target):
-            raise StepError(f"spin steps from {move.source} to {move.target}, the machine from {here} to {target}")
+            raise WorkError(f"spin steps from {move.source} to {move.target}, the machine from {here} to {target}")
         if place == run.loop:
             lines.append("from here on again and again:")
         lines.append(describe_step(machine, here, past, move.letter, target))

@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from mamori.profiles.input_error import InputError
-from mamori.verification.table_dump.json_node import JsonNode
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.json_node import JsonNode
 
 SCHEMA = "mamori.safe_state/1"
 INPUTS = ("demand", "self_test", "lock_out", "standstill", "faults_cleared", "start_permitted", "start_button", "reset_button", "time")

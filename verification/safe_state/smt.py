@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from mamori.verification.command.errors import StepError
-from mamori.verification.safe_state.machine import Machine, Past
-from mamori.verification.safe_state.properties import RANKS, Induction, Property
-from mamori.verification.safe_state.relation import INPUTS, LEVELS, VALUES, Array, Label
+from mamori_trace.base.errors import WorkError
+from verification.safe_state.machine import Machine, Past
+from verification.safe_state.properties import RANKS, Induction, Property
+from verification.safe_state.relation import INPUTS, LEVELS, VALUES, Array, Label
 
 SORTS = {name: "Bool" if VALUES[name] == LEVELS else "Int" for name in INPUTS}
 PREFIXES = {"demand": "Demand_", "self_test": "Test_", "time": "Time_"}
@@ -214,7 +214,7 @@ def _write_induction(machine: Machine, induction: Induction) -> list[str]:
 
 
 def check(machine: Machine, queries: Sequence[Query], folder: Path) -> list[Refutation | None]:
-    """Asks z3. @return for each query nothing, when it is impossible, or how it is possible. @raise StepError when z3 is missing or
+    """Asks z3. @return for each query nothing, when it is impossible, or how it is possible. @raise WorkError when z3 is missing or
     does not answer."""
     model = write_model(machine)
     answers = ask_all(model, queries, folder / "machine.smt2")
@@ -231,17 +231,17 @@ def _find(model: str, query: Query, folder: Path) -> Refutation:
 
 def ask_all(model: str, queries: Sequence[Query], path: Path) -> list[bool]:
     """Writes a file for z3 alone: it answers "unsat" to each query of a machine that has the properties. @return for each query
-    whether it is impossible. @raise StepError when z3 is missing or does not answer."""
+    whether it is impossible. @raise WorkError when z3 is missing or does not answer."""
     asked = "".join(f"(push)\n{query.text}\n(check-sat)\n(pop)\n" for query in queries)
     path.write_text(model + asked, encoding="utf-8")
     answers = _ask(path).split()
     if len(answers) != len(queries) or not set(answers) <= {"sat", "unsat"}:
-        raise StepError(f"z3 gave no answer to a query: {' '.join(answers)[:200]}; the queries are in {path}")
+        raise WorkError(f"z3 gave no answer to a query: {' '.join(answers)[:200]}; the queries are in {path}")
     return [answer == "unsat" for answer in answers]
 
 
 def ask_values(model: str, query: Query, names: Sequence[str], path: Path) -> dict[str, int]:
-    """What the constants are when the query, which is possible, comes true; 0 and 1 for levels. @raise StepError like ask_all."""
+    """What the constants are when the query, which is possible, comes true; 0 and 1 for levels. @raise WorkError like ask_all."""
     path.write_text(model + f"{query.text}\n(check-sat)\n(get-value ({' '.join(names)}))\n", encoding="utf-8")
     values = dict(re.findall(r"\((\w+) (true|false|\d+)\)", _ask(path)))
     return {name: int(text) if text.isdecimal() else int(text == "true") for name, text in values.items()}
@@ -251,9 +251,9 @@ def _ask(path: Path) -> str:
     try:
         done = subprocess.run(("z3", str(path)), capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
     except OSError as error:
-        raise StepError("z3 is missing; install the package z3 (./mamori prove does)") from error
+        raise WorkError("z3 is missing; install the package z3 (./mamori prove does)") from error
     except subprocess.TimeoutExpired as error:
-        raise StepError(f"z3 gave no answer in {TIMEOUT_S:.0f} s to {path}") from error
+        raise WorkError(f"z3 gave no answer in {TIMEOUT_S:.0f} s to {path}") from error
     if done.returncode != 0 or "(error" in done.stdout:
-        raise StepError(f"z3 refuses {path}: {(done.stdout + done.stderr).strip()[:200]}")
+        raise WorkError(f"z3 refuses {path}: {(done.stdout + done.stderr).strip()[:200]}")
     return done.stdout

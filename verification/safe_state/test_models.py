@@ -13,13 +13,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mamori.profiles.input_error import InputError
-from mamori.verification.command.errors import StepError
-from mamori.verification.safe_state import promela, smt
-from mamori.verification.safe_state.machine import Machine
-from mamori.verification.safe_state.properties import PROPERTIES
-from mamori.verification.safe_state.prove import describe_run
-from mamori.verification.safe_state.relation import INPUTS, SHAPE, VALUES, Relation, read_relation, run_program
+from mamori_trace.base.errors import InputError, WorkError
+from verification.safe_state import promela, smt
+from verification.safe_state.machine import Machine
+from verification.safe_state.properties import PROPERTIES
+from verification.safe_state.prove import describe_run
+from verification.safe_state.relation import INPUTS, SHAPE, VALUES, Relation, read_relation, run_program
 
 LETTERS = 500
 
@@ -90,7 +89,7 @@ def test_random_runs_of_spin_are_runs_of_the_machine(machine: Machine, tmp_path:
 
 @pytest.mark.verifies("SWR-FSM-022", technique="fault_injection", polarity="violation")
 def test_run_that_the_machine_does_not_take_is_refused(machine: Machine) -> None:
-    with pytest.raises(StepError, match="spin steps from"):
+    with pytest.raises(WorkError, match="spin steps from"):
         describe_run(machine, promela.Run("wrong", (len(promela.list_moves(machine)) - 1,)))
 
 
@@ -165,5 +164,5 @@ def test_prover_that_answers_nonsense_proves_nothing(machine: Machine, tmp_path:
         else:
             promela.check(machine, PROPERTIES, tmp_path)
 
-    with pytest.raises(StepError, match=complaint):
+    with pytest.raises(WorkError, match=complaint):
         check()

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.safe_state.defects import DEFECTS, Defect
-from mamori.verification.safe_state.machine import Machine
-from mamori.verification.safe_state.properties import PROPERTIES, RANKS
-from mamori.verification.safe_state.prove import REFUTED, Result, prove
-from mamori.verification.safe_state.relation import Relation
+from mamori_tools.host.project import ROOT
+from verification.safe_state.defects import DEFECTS, Defect
+from verification.safe_state.machine import Machine
+from verification.safe_state.properties import PROPERTIES, RANKS
+from verification.safe_state.prove import REFUTED, Result, prove
+from verification.safe_state.relation import Relation
 
 
 @pytest.fixture(scope="module")

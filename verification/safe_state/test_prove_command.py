@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.errors import UsageError
-from mamori.verification.command.main import main
-from mamori.verification.command.project import Project
-from mamori.verification.safe_state.brakes.properties import BRAKE_PROPERTIES
-from mamori.verification.safe_state.command import Request, prove_safe_state
-from mamori.verification.safe_state.properties import PROPERTIES
+from mamori_tools.command.main import main
+from mamori_tools.host.project import Project
+from mamori_trace.base.errors import InputError
+from verification.safe_state.brakes.properties import BRAKE_PROPERTIES
+from verification.safe_state.command import Request, prove_safe_state
+from verification.safe_state.properties import PROPERTIES
 
 BRAKE_FILES = ["brakes.json", "brakes.pml", "brakes.smt2"]
 MACHINE_FILES = ["machine.pml", "machine.smt2"]
@@ -77,7 +77,7 @@ def test_folder_that_cannot_be_made_and_project_that_cannot_be_built_are_told_in
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "file").write_text("x", encoding="utf-8")
-    with pytest.raises(UsageError, match=r"nothing can be written there .*; name a folder that you may write to"):
+    with pytest.raises(InputError, match=r"nothing can be written there .*; name a folder that you may write to"):
         prove_safe_state(Request(out=tmp_path / "file" / "out"))
 
     assert prove_safe_state(Request(), Project(tmp_path)) == 1
@@ -88,5 +88,5 @@ def test_folder_that_cannot_be_made_and_project_that_cannot_be_built_are_told_in
 
 @pytest.mark.verifies("SWR-FSM-025", technique="error_guessing", polarity="violation")
 def test_unknown_defect_is_refused_before_anything_is_built(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="there is no defect 'start-is-bump'; nearest: start-is-bumpless"):
+    with pytest.raises(InputError, match="there is no defect 'start-is-bump'; nearest: start-is-bumpless"):
         prove_safe_state(Request(defect="start-is-bump"), Project(tmp_path))

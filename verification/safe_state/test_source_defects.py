@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.safe_state.machine import merge
-from mamori.verification.safe_state.prove import prove
-from mamori.verification.safe_state.relation import read_relation, run_program
-from mamori.verification.safe_state.source_slip import Slip
+from mamori_tools.host.project import ROOT
+from verification.safe_state.machine import merge
+from verification.safe_state.prove import prove
+from verification.safe_state.relation import read_relation, run_program
+from verification.safe_state.source_slip import Slip
 
 TABLE = "safety/include/mamori/safety/reaction/safe_state.hpp"
 EDGE = "safety/include/mamori/safety/base/rising_edge.hpp"
@@ -52,7 +52,7 @@ def build_with(slip: Slip, folder: Path) -> Path:
         shutil.copytree(ROOT / "safety" / name, folder / "safety" / name)
     slip.put_into(folder)
     program = folder / "relation"
-    sources = [ROOT / "verification/safe_state/src/main.cpp", ROOT / "kernel/src/base/assert.cpp", *(folder / "safety/src").glob("safe_state*.cpp")]
+    sources = [ROOT / "verification/safe_state/src/main.cpp", ROOT / "kernel/src/base/assert.cpp", *(folder / "safety/src/reaction").glob("safe_state*.cpp")]
     subprocess.run(("g++", "-std=c++17", "-O1", f"-I{folder / 'safety/include'}", f"-I{ROOT / 'kernel/include'}",
                     *map(str, sources), "-o", str(program)), check=True)  # fmt: skip
     return program

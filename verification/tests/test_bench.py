@@ -11,20 +11,19 @@ from typing import Any
 
 import pytest
 
-from mamori.profiles.input_error import InputError
-from mamori.verification.bench import grid
-from mamori.verification.bench.bars import Bars, GrowthBar, RatioBar, load_bars
-from mamori.verification.bench.command import BENCHES, list_benches, name_reason
-from mamori.verification.bench.judge import ABSENT, FAILED, PASSED, RatioResult, judge
-from mamori.verification.bench.picture import draw_run
-from mamori.verification.bench.programs import NORMAL, QUICK, Programs
-from mamori.verification.bench.record import Run, collect_host, make_record, write_record
-from mamori.verification.bench.samples import parse_samples, read_samples
-from mamori.verification.bench.table import format_ratio, format_time, show_run
-from mamori.verification.command.console import Screen
-from mamori.verification.command.errors import StepError
-from mamori.verification.command.main import main
-from mamori.verification.command.project import Project
+from mamori_tools.command.main import main
+from mamori_tools.host.console import Screen
+from mamori_tools.host.project import Project
+from mamori_trace.base.errors import InputError, WorkError
+from verification.bench import grid
+from verification.bench.bars import Bars, GrowthBar, RatioBar, load_bars
+from verification.bench.command import BENCHES, list_benches, name_reason
+from verification.bench.judge import ABSENT, FAILED, PASSED, RatioResult, judge
+from verification.bench.picture import draw_run
+from verification.bench.programs import NORMAL, QUICK, Programs
+from verification.bench.record import Run, collect_host, make_record, write_record
+from verification.bench.samples import parse_samples, read_samples
+from verification.bench.table import format_ratio, format_time, show_run
 
 
 def make_case(size: int, subjects: dict[str, list[float]], metric: str = "port") -> dict[str, Any]:
@@ -364,5 +363,5 @@ def test_words_of_cyclictest_that_are_no_figures_end_the_step(tmp_path: Path, mo
                                                               ) -> None:  # fmt: skip
     box = GridBox(tmp_path, monkeypatch, {"mamori_bench": [ours_says(10)] * 5, "cyclictest": [answer]})
 
-    with pytest.raises(StepError, match="cyclictest wrote no figures"):
+    with pytest.raises(WorkError, match="cyclictest wrote no figures"):
         box.measure(5)

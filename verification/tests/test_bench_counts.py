@@ -6,18 +6,17 @@ from pathlib import Path
 
 import pytest
 
-from mamori.profiles.input_error import InputError
-from mamori.verification.bench import command
-from mamori.verification.bench.bars import CountBar, load_bars
-from mamori.verification.bench.baseline import Baseline, CountResult, calc_count, judge_count, load_baseline, write_baseline
-from mamori.verification.bench.callgrind import Profile, parse_profile
-from mamori.verification.bench.command import SEALED, Request, Work, describe_calls
-from mamori.verification.bench.judge import FAILED, PASSED
-from mamori.verification.bench.programs import Programs
-from mamori.verification.bench.record import Run, collect_host
-from mamori.verification.command.errors import StepError
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.command.steps import Context
+from mamori_tools.host.callgrind import Profile, parse_profile
+from mamori_tools.host.project import ROOT, Project
+from mamori_tools.host.steps import Context
+from mamori_trace.base.errors import InputError, WorkError
+from verification.bench import command
+from verification.bench.bars import CountBar, load_bars
+from verification.bench.baseline import Baseline, CountResult, calc_count, judge_count, load_baseline, write_baseline
+from verification.bench.command import SEALED, Request, Work, describe_calls
+from verification.bench.judge import FAILED, PASSED
+from verification.bench.programs import Programs
+from verification.bench.record import Run, collect_host
 
 RECORDED = """# callgrind format
 version: 1
@@ -64,13 +63,13 @@ def test_count_is_the_summary_over_the_repetitions() -> None:
 
 @pytest.mark.verifies("SWR-BEN-006", technique="fault_injection", polarity="violation")
 def test_repetitions_that_differ_have_no_exact_count() -> None:
-    with pytest.raises(StepError, match="27001 instructions are not 1000 times the same number"):
+    with pytest.raises(WorkError, match="27001 instructions are not 1000 times the same number"):
         Profile(27001, frozenset()).calc_count(1000)
 
 
 @pytest.mark.verifies("SWR-BEN-006", technique="fault_injection", polarity="violation")
 def test_output_without_summary_is_refused() -> None:
-    with pytest.raises(StepError, match="no summary"):
+    with pytest.raises(WorkError, match="no summary"):
         parse_profile("events: Ir\n")
 
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.tools.check_layers import check_tree, main
-from mamori.verification.tools.component_folders import UMBRELLA_HEADERS
-from mamori.verification.tools.layer_table import LISTED_STD
-from mamori.verification.tools.target_limits import MEASURED_HEADERS
+from mamori_tools.host.project import ROOT
+from verification.checks.check_layers import check_tree, main
+from verification.checks.component_folders import UMBRELLA_HEADERS
+from verification.checks.layer_table import LISTED_STD
+from verification.checks.target_limits import MEASURED_HEADERS
 
 
 def seed(root: Path, name: str, text: str) -> list[str]:
@@ -54,7 +54,7 @@ def test_listed_headers_are_those_of_the_written_table() -> None:
 
 ALLOWED = {
     "kernel/include/mamori/kernel/run/a.hpp": "#include <array>\n#include <cstdint>\n#include \"mamori/kernel/base/span.hpp\"\n",
-    "kernel/tests/a_test.cpp": "#include <string>\n#include <gtest/gtest.h>\n#include \"mamori/verification/verifies.hpp\"\n",
+    "kernel/tests/a_test.cpp": "#include <string>\n#include <gtest/gtest.h>\n#include \"mamori/trace/verifies.hpp\"\n",
     "kernel/tests/support/a.hpp": "#include <sys/wait.h>\n#include \"support/a.hpp\"\n",
     "safety/src/arm/a.cpp": "#include <Eigen/Core>\n#include \"mamori/kernel/base/span.hpp\"\n",
     "safety/src/reaction/a.cpp": "#include \"inner.hpp\"\n",
@@ -64,9 +64,16 @@ ALLOWED = {
     "ports/virtual_time/CMakeLists.txt": "mamori_library(virtual_time DEPENDS mamori::kernel)\nmamori_test(t DEPENDS mamori::conformance)\n",
     "simbody_sim/src/a.cpp": "#include <Simbody.h>\n#include <kdl/chain.hpp>\n#include \"mamori/virtual_time/clock.hpp\"\n",
     "examples/a/main.cpp": "#include <iostream>\n#include \"mamori/simbody_sim/arm.hpp\"\n",
-    "trace/a.py": "import mamori.trace.model\nfrom pathlib import Path\n",
-    "trace/checks/a.py": "import mamori.trace.readers.files\n",
-    "verification/a.py": "from mamori.profiles.motion import read_motion\n",
+    "trace/mamori_trace/a.py": "import mamori_trace.model\nfrom pathlib import Path\n",
+    "trace/mamori_trace/checks/a.py": "import mamori_trace.readers.headings\n",
+    "trace/mamori_trace/command.py": "from mamori_trace.actions import check\n",
+    "tools/mamori_tools/timing/a.py": "import mamori_tools.host.steps\nfrom mamori_trace.actions import review\n",
+    "tools/tests/a.py": "import verification.plan.gate\n",
+    "verification/proofs/a.py": "from verification.checks import layer_table\n",
+    "verification/proofs/test_a.py": "from verification.mutation import run\n",
+    "kernel/tests/memory_model/a.hpp": "#include <relacy/relacy.hpp>\n",
+    "tools/probe/timing/src/a.cpp": "#include <vector>\n#include \"mamori/table_dump/describe.hpp\"\n",
+    "verification/a.py": "from mamori_tools.motion import read_motion\n",
     "safety/CMakeLists.txt": "mamori_library(safety DEPENDS mamori::kernel)\nmamori_test(t DEPENDS mamori::virtual_time)\n",
 }  # fmt: skip
 
@@ -83,7 +90,7 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
         ("kernel/src/run/a.cpp", "#include <vector>", "include: kernel may not include 'vector'"),
         ("kernel/src/run/a.cpp", "#  include <stdint.h>", "include: kernel may not include 'stdint.h'"),
         ("kernel/src/run/a.cpp", '#include "mamori/safety/arm.hpp"', "include: kernel may not include 'mamori/safety/arm.hpp'"),
-        ("kernel/src/run/a.cpp", '#include "mamori/verification/verifies.hpp"', "include: kernel may not include"),
+        ("kernel/src/run/a.cpp", '#include "mamori/trace/verifies.hpp"', "include: kernel may not include"),
         ("kernel/tests/a.cpp", '#include "mamori/safety/arm.hpp"', "include: kernel may not include"),
         ("kernel/tests/a.cpp", "#include <Eigen/Core>", "include: kernel may not include 'Eigen/Core'"),
         ("kernel/src/run/a.cpp", "#include <unistd.h>", "include: kernel may not include 'unistd.h'"),
@@ -99,15 +106,23 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
         ("simbody_sim/src/a.cpp", "#include <boost/any.hpp>", "include: simbody_sim may not include 'boost/any.hpp'"),
         ("examples/a/main.cpp", '#include "../../safety/src/reaction/inner.hpp"', "include: '../../safety/src/reaction/inner.hpp' reaches into"),
         ("examples/a/main.cpp", '#include "safety/src/reaction/inner.hpp"', "include: 'safety/src/reaction/inner.hpp' reaches into"),
-        ("trace/a.cpp", "", "include: this layer has no C++"),
+        ("trace/a.cpp", "", "include: this folder has no C++"),
         ("kernel/CMakeLists.txt", "mamori_library(kernel DEPENDS mamori::safety)", "link: kernel may not link mamori::safety"),
         ("ports/posix_rt/CMakeLists.txt", "mamori_library(posix_rt DEPENDS mamori::virtual_time)", "link: ports/posix_rt may"),
         ("ports/posix_rt/CMakeLists.txt", "mamori_library(posix_rt DEPENDS mamori::conformance)", "link: ports/posix_rt may"),
-        ("trace/a.py", "import mamori.verification.command", "import: trace may not import mamori.verification.command"),
-        ("trace/a.py", "from mamori import profiles", "import: trace may not import mamori.profiles"),
-        ("trace/readers/a.py", "from mamori.trace import checks", "import: trace/readers may not import mamori.trace.checks"),
-        ("trace/model/a.py", "import mamori.trace.readers.files", "import: trace/model may not import mamori.trace.readers.files"),
-        ("profiles/a.py", "from mamori.trace.model import item", "import: profiles may not import mamori.trace.model.item"),
+        ("trace/mamori_trace/a.py", "import mamori_tools.command", "import: mamori_trace (level 6) may not import mamori_tools.command (level 11)"),
+        ("trace/mamori_trace/a.py", "from verification import plan", "import: mamori_trace (level 6) may not import verification.plan"),
+        ("trace/tests/a.py", "from mamori_tools.host import steps", "import: mamori_trace (level 6) may not import mamori_tools.host.steps"),
+        ("trace/mamori_trace/readers/a.py", "from mamori_trace import checks", "import: mamori_trace.readers (level 2) may not import"),
+        ("trace/mamori_trace/model/a.py", "import mamori_trace.cache.state", "import: mamori_trace.model (level 1) may not import"),
+        ("trace/mamori_trace/actions/a.py", "import mamori_trace.command", "import: mamori_trace.actions (level 5) may not import"),
+        ("tools/mamori_tools/host/a.py", "import mamori_tools.timing.run", "import: mamori_tools.host (level 7) may not import"),
+        ("tools/mamori_tools/table/a.py", "from mamori_tools.command import demo", "import: mamori_tools.table (level 8) may not import"),
+        ("tools/mamori_tools/command/a.py", "import verification.plan.gate", "import: mamori_tools.command (level 11) may not import"),
+        ("verification/bench/a.py", "from verification.mutation import run", "import: verification.bench (level 13) may not import"),
+        ("verification/checks/a.py", "import verification.proofs.depth", "import: verification.checks (level 12) may not import"),
+        ("tools/probe/timing/src/a.cpp", '#include "mamori/simbody_sim/arm.hpp"', "include: tools/probe may not include"),
+        ("trace/include/mamori/trace/a.hpp", '#include "mamori/kernel/base/span.hpp"', "include: trace may not include"),
     ],
 )
 @pytest.mark.verifies("SWR-PRF-006", technique="fault_injection", polarity="violation")
@@ -162,6 +177,13 @@ def test_users_of_the_kernel_see_at_most_25_headers() -> None:
 
     assert 0 < len(included) <= 25
     assert len(included) == umbrella.count("#include")
+
+
+@pytest.mark.verifies("SWR-PRF-006", technique="fault_injection", polarity="violation")
+def test_a_package_of_the_tools_without_a_level_is_found(tmp_path: Path) -> None:
+    [finding] = seed(tmp_path, "tools/mamori_tools/other/a.py", "")
+
+    assert finding.startswith("tools/mamori_tools/other/a.py:1: import: package mamori_tools.other has no level; add it")
 
 
 def make_function(lines: int) -> str:

@@ -10,51 +10,49 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command import plans
-from mamori.verification.command.project import ROOT, Project
-from mamori.verification.command.steps import Context, Tier, run_steps
-from mamori.verification.tools import check_python
+from mamori_tools.host.project import ROOT, Project
+from mamori_tools.host.steps import Context, Tier, run_steps
+from verification.checks import check_python
+from verification.plan import gate
 
 CLEAN = "from __future__ import annotations\n\n\ndef double(value: int) -> int:\n    return 2 * value\n"
-USE = "from mamori.trace.numbers import double\n\nFOUR = double(2)\n"
+USE = "from mamori_trace.numbers import double\n\nFOUR = double(2)\n"
 
 
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
-    for name in ("trace", "profiles", "verification", "examples"):
-        (tmp_path / name).mkdir()
-    for name in ("trace", "profiles", "verification"):
+    for name in ("trace/mamori_trace", "tools/mamori_tools", "verification", "examples"):
+        (tmp_path / name).mkdir(parents=True)
+    for name in ("trace/mamori_trace", "tools/mamori_tools", "verification"):
         (tmp_path / name / "__init__.py").touch()
+    (tmp_path / "examples" / "a.py").touch()
     (tmp_path / "conftest.py").touch()
-    (tmp_path / "trace" / "numbers.py").write_text(CLEAN)
+    (tmp_path / "trace" / "mamori_trace" / "numbers.py").write_text(CLEAN)
     (tmp_path / "verification" / "use.py").write_text(USE)
     return tmp_path
 
 
 @pytest.mark.verifies("SWR-CLI-006", technique="interface")
 def test_a_clean_tree_passes_again_and_again(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (root / check_python.PACKAGE).mkdir(parents=True)
-    (root / check_python.PACKAGE / "trace").symlink_to("nowhere")  # as after a change of the layout
-
     assert [check_python.check(root), check_python.check(root)] == [0, 0]
-    assert "no issues found in 8 source files" in capsys.readouterr().out
+    assert "no issues found in 7 source files" in capsys.readouterr().out
 
 
 @pytest.mark.verifies("SWR-CLI-006", technique="fault_injection", polarity="violation")
 @pytest.mark.parametrize(
     ("file", "old", "new", "finding"),
     [
-        ("trace/numbers.py", "annotations\n\n", "annotations\n\nimport os\n", "trace/numbers.py:3:8"),
+        ("trace/mamori_trace/numbers.py", "annotations\n\n", "annotations\n\nimport os\n", "trace/mamori_trace/numbers.py:3:8"),
         ("verification/use.py", "double(2)", 'double("2")', 'verification/use.py:3: error: Argument 1 to "double" has incompatible type'),
-        ("trace/numbers.py", "value: int", "value", "trace/numbers.py:4: error: Function is missing a type annotation"),
+        ("trace/mamori_trace/numbers.py", "value: int", "value", "trace/mamori_trace/numbers.py:4: error: Function is missing a type annotation"),
     ],
     ids=["unused import", "wrong type", "no type"],
 )
 def test_a_finding_fails_the_step_and_is_in_its_log(root: Path, file: str, old: str, new: str, finding: str) -> None:
     (root / file).write_text((root / file).read_text().replace(old, new))
 
-    [outcome] = run_steps([plans.PYTHON_CHECKS], Context(Project(root), 1))
+    [outcome] = run_steps([gate.PYTHON_CHECKS], Context(Project(root), 1))
 
     assert outcome.verdict == "failed"
     assert finding in outcome.log.read_text()
@@ -77,4 +75,4 @@ def test_a_missing_tool_is_one_line(root: Path, monkeypatch: pytest.MonkeyPatch,
 @pytest.mark.verifies("SWR-CLI-006", technique="interface")
 @pytest.mark.parametrize("tier", Tier)
 def test_the_step_is_in_the_plan_of_every_test_run(tier: Tier) -> None:
-    assert plans.PYTHON_CHECKS in plans.test_plan(Project(ROOT), lambda *_: None, tier)
+    assert gate.PYTHON_CHECKS in gate.list_test_steps(Project(ROOT), lambda *_: None, tier)

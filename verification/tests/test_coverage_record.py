@@ -6,16 +6,16 @@ from pathlib import Path
 
 import pytest
 
-from mamori.trace.model.code import Function as TracedFunction
-from mamori.trace.model.coverage import Coverage, Gap
-from mamori.trace.model.evidence import Evidence
-from mamori.trace.model.finding import Place, Problem
-from mamori.trace.readers.coverage import read_coverage
-from mamori.trace.readers.source_names import SourceNames
-from mamori.verification.coverage.gaps import Row, find_gaps, judge
-from mamori.verification.coverage.reached import Condition, Function
-from mamori.verification.coverage.record import make_rows
-from mamori.verification.coverage.report import Figures, write_evidence
+from mamori_trace.base.finding import Place, Problem
+from mamori_trace.model.code import Function as TracedFunction
+from mamori_trace.model.coverage import Coverage, Gap
+from mamori_trace.model.evidence import Evidence
+from mamori_trace.readers.coverage import read_coverage
+from mamori_trace.readers.source_names import SourceNames
+from verification.coverage.gaps import Row, find_gaps, judge
+from verification.coverage.reached import Condition, Function
+from verification.coverage.record import make_rows
+from verification.coverage.report import Figures, write_evidence
 
 FILE = "safety/src/alive.cpp"
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.tools.check_layers import check_tree
-from mamori.verification.tools.death_tests import check_death_tests
+from mamori_tools.host.project import ROOT
+from verification.checks.check_layers import check_tree
+from verification.checks.death_tests import check_death_tests
 
 
 @pytest.mark.verifies("SWR-VER-024")

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.proofs.determinism import Inputs, ProofError, find_differences, get_trace_hash
+from mamori_trace.base.errors import WorkError
+from verification.proofs.determinism import Inputs, find_differences, get_trace_hash
 
 HASH = "0123456789abcdef"
 
@@ -43,7 +44,7 @@ def test_hash_is_taken_from_the_record(tmp_path: Path) -> None:
 )
 @pytest.mark.verifies("SWR-PRF-005", technique="fault_injection", polarity="violation")
 def test_run_without_a_whole_record_is_no_evidence(tmp_path: Path, body: str, reason: str) -> None:
-    with pytest.raises(ProofError, match=reason):
+    with pytest.raises(WorkError, match=reason):
         run(tmp_path, body)
 
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.tools.check_layers import check_tree
-from mamori.verification.tools.deviations import FILE, check_deviations
+from mamori_tools.host.project import ROOT
+from verification.checks.check_layers import check_tree
+from verification.checks.deviations import FILE, check_deviations
 
 CODE = "safety/src/a.cpp"
 GOOD_CODE = 'void keep(int a) {\n    asm volatile("" : "+m"(a));  // DEV-007\n}\n'

@@ -7,7 +7,7 @@ import textwrap
 
 import pytest
 
-from mamori.verification.command.project import ROOT
+from mamori_tools.host.project import ROOT
 
 PAGE = ROOT / "docs" / "manual" / "porting.md"
 SOURCE = ROOT / "ports" / "conformance" / "tests" / "porting_page_test.cpp"

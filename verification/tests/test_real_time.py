@@ -8,23 +8,23 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.real_time.__main__ import DEFECTS, PROGRAMS, Ended, get_worst, is_accepted, main, make_rows, run_program
+from verification.real_time.__main__ import DEFECTS, PROGRAMS, Ended, Program, get_worst, is_accepted, main, make_rows, run_program
 
 STATUS = {"passed": 0, "failed": 1, "inconclusive": 4}
 
 
-def write_program(folder: Path, name: str, *verdicts: str) -> None:
+def write_program(folder: Path, program: Program, *verdicts: str) -> None:
     """A program that ends with the next verdict at each run, with the last one again and again."""
-    place = folder / "verification" / name
+    place = folder / "verification" / program.place
     place.mkdir(parents=True, exist_ok=True)
     statuses = " ".join(str(STATUS.get(verdict, 77)) for verdict in verdicts)
-    program = place / name
-    program.write_text(
+    file = place / program.name
+    file.write_text(
         f"#!/bin/sh\nset -- {statuses}\nn=$(cat {place}/count 2>/dev/null || echo 0)\nn=$((n + 1))\necho $n > {place}/count\n"
         f'[ $n -gt $# ] && n=$#\nshift $((n - 1))\necho \'{json.dumps({"reason": "figures"})}\'\nexit $1\n',
         encoding="utf-8",
     )
-    program.chmod(0o755)
+    file.chmod(0o755)
 
 
 def make_results(*verdicts: str) -> list[list[Ended]]:
@@ -44,7 +44,7 @@ def make_results(*verdicts: str) -> list[list[Ended]]:
     ],
 )
 def test_a_campaign_program_runs_again_only_while_inconclusive(tmp_path: Path, verdicts: tuple[str, ...], expected: str, repeats: int) -> None:
-    write_program(tmp_path, "lost_service", *verdicts)
+    write_program(tmp_path, PROGRAMS[1], *verdicts)
 
     ended = run_program(PROGRAMS[1], tmp_path / "verification", 1, "")
 
@@ -71,7 +71,7 @@ def test_the_worst_verdict_of_its_programs_is_that_of_a_run() -> None:
 @pytest.mark.verifies("SWR-VER-022", technique="fault_injection", polarity="violation")
 def test_the_table_has_a_row_for_each_program_and_the_status_tells_the_limits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for program in PROGRAMS:
-        write_program(tmp_path, program.name, "passed")
+        write_program(tmp_path, program, "passed")
     assert main(["--runs", "2", "--build", str(tmp_path)]) == 0
     out = capsys.readouterr().out
     assert "| no load | time_faults | 2 | 0 | 0 | 0 |" in out and out.endswith("within the limits\n")
@@ -85,6 +85,6 @@ def test_programs_that_are_not_built_and_no_runs_are_one_line(tmp_path: Path, ca
     assert main(["--build", str(tmp_path)]) == 2
     assert "time_faults, lost_service, partition_faults missing" in capsys.readouterr().err
     for program in PROGRAMS:
-        write_program(tmp_path, program.name, "passed")
+        write_program(tmp_path, program, "passed")
     assert main(["--runs", "0", "--build", str(tmp_path)]) == 2
     assert capsys.readouterr().err.count("\n") == 1

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.junit import count_results
-from mamori.verification.real_time.repeat import list_figures, read_verdict, repeat_inconclusive
+from mamori_tools.host.junit import count_results
+from verification.real_time.repeat import list_figures, read_verdict, repeat_inconclusive
 
 FAILED = '<testcase name="b" classname="T"><failure message="no"/></testcase>'
 PASSED = '<testcase name="c" classname="T"/>'

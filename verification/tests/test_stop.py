@@ -14,9 +14,9 @@ import pytest
 RUNNER = """
 import sys
 from pathlib import Path
-from mamori.verification.command import main as command
-from mamori.verification.command.project import Project
-from mamori.verification.command.steps import Context, Step, run_steps
+from mamori_tools.command import main as command
+from mamori_tools.host.project import Project
+from mamori_tools.host.steps import Context, Step, run_steps
 
 folder, text = Path(sys.argv[1]), sys.argv[2]
 command.run = lambda argv: run_steps([Step("work", (("sh", "-c", text),))], Context(Project(folder), 1)) and 0

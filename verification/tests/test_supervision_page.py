@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from mamori.verification.command.project import ROOT
+from mamori_tools.host.project import ROOT
 
 PAGE = ROOT / "docs" / "manual" / "supervision.md"
 TESTS = ROOT / "safety" / "tests" / "supervision"

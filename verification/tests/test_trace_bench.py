@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from mamori.trace.command import main as trace
-from mamori.verification.trace_bench import command, peers
-from mamori.verification.trace_bench.large_project import LEAST, Plan, write_native
-from mamori.verification.trace_bench.peer_projects import write_openfasttrace, write_strictdoc
-from mamori.verification.trace_bench.usage import Usage, run_measured, take_median
+from mamori_trace.command import main as trace
+from verification.trace_bench import command, peers
+from verification.trace_bench.large_project import LEAST, Plan, write_native
+from verification.trace_bench.peer_projects import write_openfasttrace, write_strictdoc
+from verification.trace_bench.usage import Usage, run_measured, take_median
 
 MEGA = 1_000_000
 

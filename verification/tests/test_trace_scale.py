@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from mamori.trace.cache import inputs, outcome, state
-from mamori.trace.command import main
-from mamori.verification.trace_bench.large_project import Plan, write_native
+from mamori_trace.cache import inputs, outcome, state
+from mamori_trace.command import main
+from verification.trace_bench.large_project import Plan, write_native
 
 SMALL, TWICE = 400, 800
 MEASURED = 2_000
@@ -107,7 +107,7 @@ def test_unchanged_project_is_not_read(
     finally:
         inputs.stop()
     assert capsys.readouterr().out == first
-    assert len(runs) == 1, "a reader spoils the cache: see docs/design/trace_scale.md#unchanged-projects"
+    assert len(runs) == 1, "a reader spoils the cache: see docs/design/trace.md#cache"
     assert {Path(name).parent.name for name in watch.files} == {state.FOLDER_NAME}
 
 

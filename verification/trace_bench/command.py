@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What judging a large project costs: cold, unchanged, with the report, and beside OpenFastTrace and StrictDoc, in one run.
 
-    python -P -m mamori.verification.trace_bench [--requirements N] [--repeats N] [--peers] [--limit S] [--out DIR]
+    python -P -m verification.trace_bench [--requirements N] [--repeats N] [--peers] [--limit S] [--out DIR]
 
 Exit status: 0 all of ours ran clean, 1 one did not, 2 wrong arguments. Times are no gate: machines differ, counts are tested instead.
 
-@satisfies SWR-TRC-090      Design: docs/design/trace_scale.md#measurement
+@satisfies SWR-TRC-090      Design: docs/design/trace.md#cache
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.verification.trace_bench.large_project import LEAST, Plan, get_folder, write_native
-from mamori.verification.trace_bench.peer_projects import write_openfasttrace, write_strictdoc
-from mamori.verification.trace_bench.peers import Peer, get_openfasttrace, get_strictdoc
-from mamori.verification.trace_bench.usage import Usage, run_measured, take_median
+from verification.trace_bench.large_project import LEAST, Plan, get_folder, write_native
+from verification.trace_bench.peer_projects import write_openfasttrace, write_strictdoc
+from verification.trace_bench.peers import Peer, get_openfasttrace, get_strictdoc
+from verification.trace_bench.usage import Usage, run_measured, take_median
 
 ROOT = Path(__file__).resolve().parents[2]
 _SETTLE_S = 2.2
-"""A file that was written this shortly before a run is never trusted to be unchanged (docs/design/trace_scale.md)."""
+"""A file that was written this shortly before a run is never trusted to be unchanged (docs/design/trace.md#cache)."""
 _MEGA = 1e6
 
 
@@ -55,7 +55,7 @@ def measure_own(plan: Plan, base: Path, repeats: int, limit_s: float) -> list[Ro
     root = get_folder(plan, "native", base)
     write_native(plan, root, with_git=True)
     time.sleep(_SETTLE_S)
-    tool = [sys.executable, "-P", "-m", "mamori.trace"]
+    tool = [sys.executable, "-P", "-m", "mamori_trace"]
     check, report = [*tool, "check", "--root", str(root)], [*tool, "report", "--root", str(root)]
     cache, log = root / "build" / "trace_cache", base / "log"
     cold, unchanged, with_report = [], [], []

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from mamori.trace.actions.review import review_links
-from mamori.trace.readers.evidence_records import list_recorded
-from mamori.trace.readers.lock import write_lock
-from mamori.trace.readers.project import read_requirements
-from mamori.trace.records import make_rows, write_rows
+from mamori_trace.actions.records import make_rows, write_rows
+from mamori_trace.actions.review import review_links
+from mamori_trace.readers.evidence_records import list_recorded
+from mamori_trace.readers.lock import write_lock
+from mamori_trace.readers.project import read_requirements
 
 SCHEMA = Path(__file__).resolve().parents[2] / "requirements" / "schema" / "items.toml"
 COMMIT_WITHOUT_GIT = "0123456789abcdef0123456789abcdef01234567"

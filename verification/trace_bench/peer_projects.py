@@ -11,7 +11,7 @@ import shutil
 from collections.abc import Iterable
 from pathlib import Path
 
-from mamori.verification.trace_bench.large_project import Plan, Requirement, Source, format_source, format_tests, get_test
+from verification.trace_bench.large_project import Plan, Requirement, Source, format_source, format_tests, get_test
 
 _KINDS = {"STK": "feat", "SYS": "req", "SWR": "dsn"}
 _NEEDS = {"STK": "req", "SYS": "dsn", "SWR": "impl, utest"}

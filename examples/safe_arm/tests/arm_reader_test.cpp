@@ -3,7 +3,7 @@
 #include "arm_reader.hpp"
 
 #include "feed.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
 namespace {

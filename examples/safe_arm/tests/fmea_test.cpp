@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "arm_faults.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
 namespace {

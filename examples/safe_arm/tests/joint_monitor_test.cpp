@@ -7,7 +7,7 @@
 
 #include "arm_limits.hpp"
 #include "feed.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
 namespace {

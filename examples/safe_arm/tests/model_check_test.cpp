@@ -4,7 +4,7 @@
 #include "model_check.hpp"
 
 #include "arm_limits.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
 namespace {

@@ -9,7 +9,7 @@
 #include "arm_limits.hpp"
 #include "feed.hpp"
 #include "mamori/simbody_sim/computed_torque_controller.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
 namespace {

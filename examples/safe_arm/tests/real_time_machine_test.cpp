@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "mamori/simbody_sim/arm_model.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "safe_arm_system.hpp"
 
 namespace safe_arm {

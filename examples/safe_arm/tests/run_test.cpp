@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "mamori/kernel/record/flight_reader.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "run_recorder.hpp"
 #include "safety_supervisor.hpp"
 #include "timing_command.hpp"

@@ -2,7 +2,7 @@
 // Goal: the tables of the example say what its design says. Method: the compiled tables are read row by row.
 #include "safe_arm_system.hpp"
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "safety_supervisor_fixture.hpp"
 
 namespace safe_arm {

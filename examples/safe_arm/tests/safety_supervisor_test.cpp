@@ -4,7 +4,7 @@
 // made here.
 #include "safety_supervisor.hpp"
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "safety_supervisor_fixture.hpp"
 
 namespace safe_arm {

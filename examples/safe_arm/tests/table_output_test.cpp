@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "arm_faults.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "safe_arm_system.hpp"
 
 namespace safe_arm {

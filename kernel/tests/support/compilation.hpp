@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Compiles the cases of tests/compile_fail with the compiler of this build: as they are, which must succeed
-/// (so a case breaks nothing else), and with MAMORI_BREAK, which must fail with the expected words.
+/// Compiles the sources of tests/compile_fail with the compiler of this build: as they are, which must
+/// succeed (so a case breaks nothing else), and with one case broken, which must fail with the expected
+/// words.
 #ifndef MAMORI_KERNEL_TESTS_COMPILATION_HPP
 #define MAMORI_KERNEL_TESTS_COMPILATION_HPP
 
@@ -9,7 +10,9 @@
 #include <sys/wait.h>
 
 #include <array>
+#include <cctype>
 #include <cstdio>
+#include <map>
 #include <string>
 
 namespace mamori::testing_support {
@@ -43,11 +46,28 @@ inline Compilation compile(const std::string& name, const std::string& option) {
     return result;
 }
 
-/// The case compiles as it is, and its broken form is refused with `expected` in the message.
-inline void expect_refused(const std::string& name, const std::string& expected,
-                           const std::string& option = "-DMAMORI_BREAK") {
-    const Compilation control = compile(name, "");
-    const Compilation broken = compile(name, option);
+/// The macro that breaks one case of a source.
+inline std::string name_macro(const std::string& defect) {
+    std::string name = "-DMAMORI_BREAK";
+    if (!defect.empty()) {
+        name += '_';
+    }
+    for (const char letter : defect) {
+        name += static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    }
+    return name;
+}
+
+/// The source compiles as it is, and is refused with `expected` in the message when one case is broken.
+/// @param defect the case; empty for a source of one case. @param value of the macro, where it has one.
+inline void expect_refused(const std::string& source, const std::string& defect, const std::string& expected,
+                           const std::string& value = "") {
+    static std::map<std::string, Compilation> controls;
+    if (controls.count(source) == 0U) {
+        controls[source] = compile(source, "");
+    }
+    const Compilation& control = controls[source];
+    const Compilation broken = compile(source, name_macro(defect) + (value.empty() ? "" : "=" + value));
 
     ASSERT_TRUE(control.has_succeeded) << control.output;
     EXPECT_FALSE(broken.has_succeeded);

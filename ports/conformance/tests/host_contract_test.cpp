@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "mamori/ports/conformance/rule_runner.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/exact_host.hpp"
 #include "support/thread_host.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/my_clock.hpp"
 
 #include "mamori/ports/conformance/clock_contract.hpp"

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "mamori/ports/conformance/rule_trial.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::ports::conformance {
 namespace {

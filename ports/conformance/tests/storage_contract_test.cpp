@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mamori/ports/conformance/rule_runner.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::conformance {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "mamori/kernel/run/frame_schedule.hpp"
 #include "mamori/ports/conformance/rule_runner.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::ports::conformance {
 namespace {

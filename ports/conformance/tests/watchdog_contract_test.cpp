@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "mamori/ports/conformance/rule_runner.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::conformance {
 namespace {

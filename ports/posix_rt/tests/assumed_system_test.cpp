@@ -19,7 +19,7 @@
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/provisions.hpp"
 #include "mamori/safety/assumptions/assumption_monitor.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

@@ -9,7 +9,7 @@
 #include <csignal>
 #include <limits>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_clock.hpp"
 
 namespace mamori::ports::posix_rt {

@@ -17,7 +17,7 @@
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_clock.hpp"
 
 namespace mamori::ports::posix_rt {

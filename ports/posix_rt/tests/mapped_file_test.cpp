@@ -11,7 +11,7 @@
 #include <fstream>
 #include <string>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace partition_link_test {
 

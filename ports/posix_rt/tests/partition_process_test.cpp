@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

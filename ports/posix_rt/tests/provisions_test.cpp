@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_driver.hpp"
 
 #if defined(__SSE2__)

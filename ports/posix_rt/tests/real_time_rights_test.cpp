@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

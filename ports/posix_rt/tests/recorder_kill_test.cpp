@@ -17,7 +17,7 @@
 #include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/ports/posix_rt/mapped_file.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

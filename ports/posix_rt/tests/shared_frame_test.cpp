@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

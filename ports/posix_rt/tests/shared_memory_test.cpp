@@ -15,7 +15,7 @@
 #include <csignal>
 #include <string>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

@@ -11,7 +11,7 @@
 #include <cstddef>
 
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {

@@ -11,8 +11,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/fake_driver.hpp"
 
 namespace mamori::ports::posix_rt {

@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "mamori/ports/posix_rt/frame_clock.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_clock.hpp"
 
 namespace mamori::ports::posix_rt {

@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_driver.hpp"
 
 namespace mamori::ports::posix_rt {

@@ -15,7 +15,7 @@
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::virtual_time {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mamori/ports/virtual_time/virtual_host.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::virtual_time {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::ports::virtual_time {
 namespace {

@@ -3,7 +3,7 @@
 // instants.
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::ports::virtual_time {
 namespace {

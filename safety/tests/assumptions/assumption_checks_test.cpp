@@ -7,7 +7,7 @@
 #include <cfenv>
 
 #include "mamori/safety/self_test/cpu_check.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "support/fake_clock.hpp"
 
 namespace mamori::safety {

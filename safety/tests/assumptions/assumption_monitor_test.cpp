@@ -14,8 +14,8 @@
 #include "mamori/safety/self_test/ram_area.hpp"
 #include "mamori/safety/self_test/region_crc.hpp"
 #include "mamori/safety/self_test/schedule.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

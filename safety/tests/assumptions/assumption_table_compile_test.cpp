@@ -7,7 +7,7 @@
 
 #include "compile_fail/compiler.hpp"
 #include "mamori/safety/assumptions/assumption_table.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mamori/safety/e2e/crc_catalogue.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

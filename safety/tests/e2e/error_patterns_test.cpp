@@ -6,7 +6,7 @@
 #include "error_patterns.hpp"
 
 #include "error_model.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

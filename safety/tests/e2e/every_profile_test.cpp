@@ -10,7 +10,7 @@
 #include <string>
 
 #include "mamori/safety/e2e/e2e.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "rig.hpp"
 
 namespace mamori::safety {

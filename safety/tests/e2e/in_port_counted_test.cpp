@@ -3,7 +3,7 @@
 // Method: ports that call a frame new twice, queues that hold several, lose one or cannot give it.
 #include <array>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "port_rig.hpp"
 
 namespace e2e_port_test {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "port_rig.hpp"
 
 namespace e2e_port_test {

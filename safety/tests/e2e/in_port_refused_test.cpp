@@ -4,7 +4,7 @@
 // both orders; both sides of each limit; every profile; both kinds of input.
 #include <string>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "port_rig.hpp"
 
 namespace e2e_port_test {

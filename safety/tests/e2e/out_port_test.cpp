@@ -4,7 +4,7 @@
 // writes, and with a window that overran.
 #include <vector>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "port_rig.hpp"
 
 namespace e2e_port_test {

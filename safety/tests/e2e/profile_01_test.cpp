@@ -5,7 +5,7 @@
 #include "mamori/safety/e2e/profile_01.hpp"
 
 #include "mamori/safety/e2e/checker.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "rig.hpp"
 
 namespace mamori::safety {

@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "rig.hpp"
 
 namespace mamori::safety {

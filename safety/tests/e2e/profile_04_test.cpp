@@ -6,7 +6,7 @@
 
 #include "mamori/kernel/base/constant_init.hpp"
 #include "mamori/safety/e2e/checker.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "rig.hpp"
 
 namespace mamori::safety {

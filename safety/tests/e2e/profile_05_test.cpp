@@ -4,7 +4,7 @@
 // line fits.
 #include "mamori/safety/e2e/profile_05.hpp"
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "rig.hpp"
 
 namespace mamori::safety {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "error_patterns.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -9,7 +9,7 @@
 #include "mamori/safety/e2e/checker.hpp"
 #include "mamori/safety/e2e/hardened_sequence.hpp"
 #include "mamori/safety/e2e/sequence.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "rig.hpp"
 
 namespace mamori::safety {

@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "compile_fail/compiler.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety::cross_comparison_test {
 

@@ -6,8 +6,8 @@
 
 #include "mamori/safety/redundancy/clock_ratio.hpp"
 #include "mamori/safety/redundancy/time_base_check.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -3,8 +3,8 @@
 // Method: two scripted clocks, both sides of the bound.
 #include "mamori/safety/self_test/clock_check.hpp"
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 #include "support/fake_clock.hpp"
 
 namespace mamori::safety {

@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

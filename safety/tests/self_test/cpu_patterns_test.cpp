@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "faulty_sram.hpp"
 #include "mamori/safety/self_test/ram_area.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

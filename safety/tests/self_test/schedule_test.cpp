@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "mamori/safety/reaction/safe_state_machine.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

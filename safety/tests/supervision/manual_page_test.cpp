@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "mamori/kernel/base/constant_init.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 // clang-format off
 #include "mamori/safety/supervision/challenge_gate.hpp"

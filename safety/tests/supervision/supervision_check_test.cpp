@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "broken_tables.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

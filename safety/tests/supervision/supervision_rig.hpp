@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "mamori/safety/supervision/checkpoint_supervisor.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 

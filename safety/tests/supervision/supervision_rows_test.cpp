@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mamori/safety/supervision/supervision_check.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
 namespace {

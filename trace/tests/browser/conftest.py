@@ -10,14 +10,13 @@ from typing import Any
 
 import pytest
 from large_project import make_large_project
-from test_cost import RECORD as COST
-from test_timing import RECORD as TIMING
+from sample_records import COST, TIMING
 from trace_sample import make_sample
 
-from mamori.trace.checks import list_rule_ids
-from mamori.trace.readers.project import read_project
-from mamori.trace.reports.chromium import Chromium
-from mamori.trace.reports.html import write_report
+from mamori_trace.checks import list_rule_ids
+from mamori_trace.readers.project import read_project
+from mamori_trace.reports.chromium import Chromium
+from mamori_trace.reports.html import write_report
 
 _COMPLAINTS = ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entryAdded")
 

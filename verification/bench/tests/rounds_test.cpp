@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::verification::bench {
 namespace {

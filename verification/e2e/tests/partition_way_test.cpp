@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mamori/ports/posix_rt/partition_link.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "protected_speed.hpp"
 
 namespace mamori::protected_speed {

@@ -11,7 +11,7 @@
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::protected_speed {
 namespace {

@@ -8,7 +8,7 @@
 ///     --watched    read the whole introspection 1000 times per second of virtual time
 ///     --hash       print the trace hash only
 ///
-/// @satisfies SWR-INS-006      Design: docs/design/introspection.md#scale
+/// @satisfies SWR-INS-006      Design: docs/design/kernel.md#scale
 #include <cerrno>
 #include <chrono>
 #include <cinttypes>

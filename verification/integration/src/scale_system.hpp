@@ -3,7 +3,7 @@
 /// A system of the size that a robot has: 100 components on 2 cores at 1000, 500, 200 and 100 Hz, with values
 /// that cross between the cores, queues, and readers that are too slow for theirs. Run in virtual time.
 ///
-/// @satisfies SWR-INS-006      Design: docs/design/introspection.md#scale
+/// @satisfies SWR-INS-006      Design: docs/design/kernel.md#scale
 #ifndef MAMORI_VERIFICATION_INTEGRATION_SCALE_SYSTEM_HPP
 #define MAMORI_VERIFICATION_INTEGRATION_SCALE_SYSTEM_HPP
 

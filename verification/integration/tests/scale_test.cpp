@@ -4,7 +4,7 @@
 // the slow readers must have lost something, or the run would not show what it claims to.
 #include <gtest/gtest.h>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "scale_system.hpp"
 
 namespace mamori::verification::integration {

@@ -15,9 +15,9 @@ from itertools import product
 
 import numpy as np
 
-from mamori.verification.safe_state.brakes.sequence import Answer, Brakes, Call, Memory, advance
-from mamori.verification.safe_state.machine import Machine
-from mamori.verification.safe_state.relation import INPUTS
+from verification.safe_state.brakes.sequence import Answer, Brakes, Call, Memory, advance
+from verification.safe_state.machine import Machine
+from verification.safe_state.relation import INPUTS
 
 STANDSTILL = INPUTS.index("standstill")
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mamori.verification.safe_state.brakes.relation import AT_BOUND, BEYOND, WITHIN
-from mamori.verification.safe_state.brakes.sequence import HOLD, LOCKED_OUT, SS1, Brakes
+from verification.safe_state.brakes.relation import AT_BOUND, BEYOND, WITHIN
+from verification.safe_state.brakes.sequence import HOLD, LOCKED_OUT, SS1, Brakes
 
 
 @dataclass(frozen=True)

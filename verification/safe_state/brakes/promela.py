@@ -15,12 +15,12 @@ from pathlib import Path
 
 import numpy as np
 
-from mamori.verification.safe_state import promela
-from mamori.verification.safe_state.brakes.coupling import Letter, Node, Pair
-from mamori.verification.safe_state.brakes.sequence import SS1, Call, Memory
-from mamori.verification.safe_state.promela import BOUNDS, WITHIN, Run
-from mamori.verification.safe_state.properties import Property
-from mamori.verification.safe_state.relation import VALUES
+from verification.safe_state import promela
+from verification.safe_state.brakes.coupling import Letter, Node, Pair
+from verification.safe_state.brakes.sequence import SS1, Call, Memory
+from verification.safe_state.promela import BOUNDS, WITHIN, Run
+from verification.safe_state.properties import Property
+from verification.safe_state.relation import VALUES
 
 MODEL = "brakes.pml"
 CLOSES_WITHIN = 2
@@ -210,7 +210,7 @@ def look_at(node: Node) -> View:
 
 
 def check(pair: Pair, properties: Sequence[Property], folder: Path) -> tuple[Model, dict[str, Run]]:
-    """Lets spin judge each formula. @return the model, and by name what spin found. @raise StepError when spin or gcc is missing or
+    """Lets spin judge each formula. @return the model, and by name what spin found. @raise WorkError when spin or gcc is missing or
     fails."""
     model = Model(pair)
     return model, promela.judge_all(model.write(properties), properties, folder, MODEL)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mamori.verification.safe_state.properties import NOTHING_WRONG, Induction, Property
+from verification.safe_state.properties import NOTHING_WRONG, Induction, Property
 
 
 @dataclass(frozen=True)

@@ -11,22 +11,22 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TypeVar
 
-from mamori.verification.command.errors import StepError
-from mamori.verification.safe_state.brakes import promela, smt
-from mamori.verification.safe_state.brakes.coupling import Letter, Node, Pair
-from mamori.verification.safe_state.brakes.properties import BRAKE_PROPERTIES, BrakeProperty
-from mamori.verification.safe_state.brakes.relation import TIMES
-from mamori.verification.safe_state.brakes.sequence import Answer, Call
-from mamori.verification.safe_state.machine import Past, describe_letter
-from mamori.verification.safe_state.promela import Run
-from mamori.verification.safe_state.prove import PROVED, REFUTED, Result
+from mamori_trace.base.errors import WorkError
+from verification.safe_state.brakes import promela, smt
+from verification.safe_state.brakes.coupling import Letter, Node, Pair
+from verification.safe_state.brakes.properties import BRAKE_PROPERTIES, BrakeProperty
+from verification.safe_state.brakes.relation import TIMES
+from verification.safe_state.brakes.sequence import Answer, Call
+from verification.safe_state.machine import Past, describe_letter
+from verification.safe_state.promela import Run
+from verification.safe_state.prove import PROVED, REFUTED, Result
 
 Place = TypeVar("Place")
 Link = TypeVar("Link")
 
 
 def prove_brakes(pair: Pair, folder: Path, properties: Sequence[BrakeProperty] = BRAKE_PROPERTIES) -> list[Result]:
-    """Runs both provers; their models and working files stay in `folder`. @raise StepError when a prover is missing or fails."""
+    """Runs both provers; their models and working files stay in `folder`. @raise WorkError when a prover is missing or fails."""
     told: dict[str, dict[str, list[str]]] = {one.name: {} for one in properties}
     _run_z3(pair, properties, folder, told)
     _run_spin(pair, properties, folder, told)
@@ -47,7 +47,7 @@ def _run_z3(pair: Pair, properties: Sequence[BrakeProperty], folder: Path, told:
         if found is None:
             continue
         if not query.owner:
-            raise StepError("z3 does not find the past of the brakes closed under their cycles; the model is not that of the brakes")
+            raise WorkError("z3 does not find the past of the brakes closed under their cycles; the model is not that of the brakes")
         describe = describe_coupled if is_coupled[query.owner] else describe_alone
         told[query.owner].setdefault("z3", describe(pair, found))
 
@@ -87,11 +87,11 @@ def describe_coupled(pair: Pair, found: smt.BrakeRefutation) -> list[str]:
 
 
 def describe_run(model: promela.Model, run: Run) -> list[str]:
-    """The run of spin in words. @raise StepError when machine and brakes do not step as the run says."""
+    """The run of spin in words. @raise WorkError when machine and brakes do not step as the run says."""
     moves = [model.moves[number] for number in run.moves or ()]
     for move, following in pairwise(moves):
         if following.source != move.target:
-            raise StepError(f"spin steps from {move.target} to {following.source} without a cycle in between")
+            raise WorkError(f"spin steps from {move.target} to {following.source} without a cycle in between")
     lines = _describe_cycles(model.pair, [(model.views[move.source], move.letter, move.call) for move in moves])
     if run.loop is not None:
         lines.insert(run.loop, "from here on again and again:")
@@ -108,7 +108,7 @@ def _list_road(roads: Mapping[Place, tuple[Place, Link] | None], place: Place) -
 
 
 def _describe_cycles(pair: Pair, cycles: Sequence[tuple[Node, Letter, Call | None]]) -> list[str]:
-    """@raise StepError when a cycle does not lead where it says."""
+    """@raise WorkError when a cycle does not lead where it says."""
     machine = pair.machine
     past = Past()
     lines = []
@@ -121,7 +121,7 @@ def _describe_cycles(pair: Pair, cycles: Sequence[tuple[Node, Letter, Call | Non
             continue
         there, made, answer = pair.step(node, letter, call.standing, call.contacts, call.time)
         if made != call:
-            raise StepError(f"spin and z3 step from {call.before} to {call.after}, the machine from {made.before} to {made.after}")
+            raise WorkError(f"spin and z3 step from {call.before} to {call.after}, the machine from {made.before} to {made.after}")
         past = machine.advance(past, node.machine, there.machine, letter)
         lines.append(f"{name} -> {made.after}: {words}; {describe_answer(call, answer, pair.brakes.fitted[node.brakes])}")
     return lines

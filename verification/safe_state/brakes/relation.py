@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mamori.profiles.input_error import InputError
-from mamori.verification.safe_state.relation import OUTPUTS, Array
-from mamori.verification.table_dump.json_node import JsonNode
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.json_node import JsonNode
+from verification.safe_state.relation import OUTPUTS, Array
 
 SCHEMA = "mamori.brake_sequence/1"
 TIMES = ("BeforeCommand", "Within", "AtBound", "Beyond")

@@ -15,8 +15,8 @@ from itertools import product
 
 import numpy as np
 
-from mamori.verification.safe_state.brakes.relation import WITHIN, BrakeRelation
-from mamori.verification.safe_state.relation import Array
+from verification.safe_state.brakes.relation import WITHIN, BrakeRelation
+from verification.safe_state.relation import Array
 
 SS1 = "ProtectiveStopSs1"
 HOLD = "StandstillHold"

@@ -11,13 +11,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mamori.verification.safe_state import smt
-from mamori.verification.safe_state.brakes.coupling import Letter, Node, Pair
-from mamori.verification.safe_state.brakes.properties import BrakeProperty
-from mamori.verification.safe_state.brakes.relation import TIMES
-from mamori.verification.safe_state.brakes.sequence import Call, Memory
-from mamori.verification.safe_state.relation import INPUTS
-from mamori.verification.safe_state.smt import Query
+from verification.safe_state import smt
+from verification.safe_state.brakes.coupling import Letter, Node, Pair
+from verification.safe_state.brakes.properties import BrakeProperty
+from verification.safe_state.brakes.relation import TIMES
+from verification.safe_state.brakes.sequence import Call, Memory
+from verification.safe_state.relation import INPUTS
+from verification.safe_state.smt import Query
 
 MODEL = "brakes.smt2"
 MEMORY = ("was_torque", "was_closed", "stood")
@@ -134,7 +134,7 @@ def _write_induction(invariant: str, claim: str, situation: str) -> list[str]:
 
 
 def check(pair: Pair, queries: Sequence[Query], folder: Path) -> list[BrakeRefutation | None]:
-    """Asks z3. @return for each query nothing, when it is impossible, or how it is possible. @raise StepError when z3 is missing or
+    """Asks z3. @return for each query nothing, when it is impossible, or how it is possible. @raise WorkError when z3 is missing or
     does not answer."""
     model = write_model(pair)
     answers = smt.ask_all(model, queries, folder / MODEL)

@@ -13,15 +13,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mamori.profiles.input_error import InputError
-from mamori.verification.command.errors import StepError
-from mamori.verification.safe_state import smt as machine_smt
-from mamori.verification.safe_state.brakes import promela, smt
-from mamori.verification.safe_state.brakes.coupling import Pair
-from mamori.verification.safe_state.brakes.prove import describe_run
-from mamori.verification.safe_state.brakes.relation import TIMES, WITHIN, BrakeRelation, read_brakes
-from mamori.verification.safe_state.brakes.sequence import Brakes, Call
-from mamori.verification.safe_state.promela import Run
+from mamori_trace.base.errors import InputError, WorkError
+from verification.safe_state import smt as machine_smt
+from verification.safe_state.brakes import promela, smt
+from verification.safe_state.brakes.coupling import Pair
+from verification.safe_state.brakes.prove import describe_run
+from verification.safe_state.brakes.relation import TIMES, WITHIN, BrakeRelation, read_brakes
+from verification.safe_state.brakes.sequence import Brakes, Call
+from verification.safe_state.promela import Run
 
 QUERIES = 300
 
@@ -100,7 +99,7 @@ def test_run_that_nobody_takes_is_refused(pair: Pair) -> None:
     last = len(model.moves) - 1
     broken = next(number for number, move in enumerate(model.moves) if move.source != model.moves[last].target)
 
-    with pytest.raises(StepError, match="without a cycle in between"):
+    with pytest.raises(WorkError, match="without a cycle in between"):
         describe_run(model, Run("wrong", (last, broken)))
 
 

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.safe_state.brakes.coupling import Pair
-from mamori.verification.safe_state.brakes.defects import BRAKE_DEFECTS, BrakeDefect
-from mamori.verification.safe_state.brakes.properties import BRAKE_PROPERTIES
-from mamori.verification.safe_state.brakes.prove import prove_brakes
-from mamori.verification.safe_state.properties import PROPERTIES
-from mamori.verification.safe_state.prove import REFUTED, Result
+from mamori_tools.host.project import ROOT
+from verification.safe_state.brakes.coupling import Pair
+from verification.safe_state.brakes.defects import BRAKE_DEFECTS, BrakeDefect
+from verification.safe_state.brakes.properties import BRAKE_PROPERTIES
+from verification.safe_state.brakes.prove import prove_brakes
+from verification.safe_state.properties import PROPERTIES
+from verification.safe_state.prove import REFUTED, Result
 
 
 @pytest.fixture(scope="module")

@@ -9,17 +9,17 @@ from pathlib import Path
 
 import pytest
 
-from mamori.verification.command.project import ROOT
-from mamori.verification.safe_state.brakes.coupling import Pair
-from mamori.verification.safe_state.brakes.prove import prove_brakes
-from mamori.verification.safe_state.brakes.relation import read_brakes
-from mamori.verification.safe_state.brakes.sequence import make_cycles
-from mamori.verification.safe_state.machine import Machine
-from mamori.verification.safe_state.relation import run_program
-from mamori.verification.safe_state.source_slip import Slip
+from mamori_tools.host.project import ROOT
+from verification.safe_state.brakes.coupling import Pair
+from verification.safe_state.brakes.prove import prove_brakes
+from verification.safe_state.brakes.relation import read_brakes
+from verification.safe_state.brakes.sequence import make_cycles
+from verification.safe_state.machine import Machine
+from verification.safe_state.relation import run_program
+from verification.safe_state.source_slip import Slip
 
 HEADER = "include/mamori/safety/reaction/brake_sequence.hpp"
-SOURCE = "src/brake_sequence.cpp"
+SOURCE = "src/reaction/brake_sequence.cpp"
 INCLUDES = tuple(f"-I{ROOT / layer / 'include'}" for layer in ("safety", "kernel"))
 
 
@@ -52,7 +52,7 @@ def build_with(slip: Slip, folder: Path) -> Path:
         shutil.copy(ROOT / "safety" / name, folder / name)
     slip.put_into(folder)
     sources = [ROOT / "verification/safe_state/src/brake_main.cpp", ROOT / "kernel/src/base/assert.cpp", folder / SOURCE,
-               *(ROOT / "safety/src").glob("safe_state*.cpp")]  # fmt: skip
+               *(ROOT / "safety/src/reaction").glob("safe_state*.cpp")]  # fmt: skip
     program = folder / "relation"
     subprocess.run(("g++", "-std=c++17", "-O1", f"-I{folder / 'include'}", *INCLUDES, *map(str, sources), "-o", str(program)), check=True)
     return program

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "mamori/safety/reaction/safe_state_machine.hpp"
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::verification {
 namespace {

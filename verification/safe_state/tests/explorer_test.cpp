@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::verification {
 namespace {

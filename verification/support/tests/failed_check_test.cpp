@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::verification {
 namespace {

@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/real_time_result.hpp"
 #include "mamori/verification/run_delay.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::verification {
 namespace {

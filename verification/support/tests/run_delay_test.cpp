@@ -9,8 +9,8 @@
 
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
+#include "mamori/trace/verifies.hpp"
 #include "mamori/verification/stall_watch.hpp"
-#include "mamori/verification/verifies.hpp"
 
 namespace mamori::verification {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mamori/verification/verifies.hpp"
+#include "mamori/trace/verifies.hpp"
 
 namespace mamori::verification {
 namespace {

@@ -7,12 +7,12 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
-from mamori.verification.mutation.equivalent import Row
-from mamori.verification.mutation.operators import Mutant
-from mamori.verification.mutation.run import Report, Selection, Tally, make_plan, try_mutants
-from mamori.verification.mutation.sources import Sources, Unit
-from mamori.verification.mutation.trial import Result, judge_together, screen
-from mamori.verification.mutation.workbench import Bench
+from verification.mutation.equivalent import Row
+from verification.mutation.operators import Mutant
+from verification.mutation.run import Report, Selection, Tally, make_plan, try_mutants
+from verification.mutation.sources import Sources, Unit
+from verification.mutation.trial import Result, judge_together, screen
+from verification.mutation.workbench import Bench
 
 # Of a test that needs a few milliseconds. The loop that a mutant lets run the wrong way counts in 64 bits, so it never ends in time.
 TIMEOUT_S = 2.0

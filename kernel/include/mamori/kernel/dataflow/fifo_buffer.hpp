@@ -4,7 +4,7 @@
 /// policies that OpenRTM's data ports have. It counts what it refused, replaced and could not give.
 ///
 /// @satisfies SWR-BUF-003, SWR-BUF-004, SWR-BUF-005, SWR-BUF-006, SWR-BUF-008
-/// Design:   docs/design/buffers.md#fifo
+/// Design:   docs/design/data_flow.md#fifo
 /// Source:   OpenRTM-aist, buffer.write.full_policy and buffer.read.empty_policy of a data port
 #ifndef MAMORI_KERNEL_FIFO_BUFFER_HPP
 #define MAMORI_KERNEL_FIFO_BUFFER_HPP

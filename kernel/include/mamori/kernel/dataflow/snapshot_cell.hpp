@@ -3,7 +3,7 @@
 /// A value that one writer keeps up to date and that anybody may look at. The writer takes no notice of the
 /// readers, so looking cannot disturb it; a reader that was overtaken by the writer is told so.
 ///
-/// @satisfies SWR-BUF-007, SWR-BUF-008      Design: docs/design/buffers.md#snapshots
+/// @satisfies SWR-BUF-007, SWR-BUF-008      Design: docs/design/data_flow.md#snapshots
 /// Source:   H.-J. Boehm, "Can seqlocks get along with programming language memory models?", MSPC 2012
 #ifndef MAMORI_KERNEL_SNAPSHOT_CELL_HPP
 #define MAMORI_KERNEL_SNAPSHOT_CELL_HPP

@@ -5,7 +5,7 @@
 /// so no slot ever has two owners and neither side ever waits.
 ///
 /// @satisfies SWR-BUF-001, SWR-BUF-002, SWR-BUF-008, SWR-KRN-039      Design:
-/// docs/design/buffers.md#triple-buffer
+/// docs/design/data_flow.md#triple-buffer
 #ifndef MAMORI_KERNEL_TRIPLE_BUFFER_HPP
 #define MAMORI_KERNEL_TRIPLE_BUFFER_HPP
 

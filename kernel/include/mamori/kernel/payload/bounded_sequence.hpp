@@ -2,7 +2,7 @@
 /// @file
 /// A sequence of up to N elements that lives inside its owner: the bounded form of an IDL `sequence<T>`.
 ///
-/// @satisfies SWR-CDR-002      Design: docs/design/payloads.md#bounded-types
+/// @satisfies SWR-CDR-002      Design: docs/design/data_flow.md#bounded-types
 #ifndef MAMORI_KERNEL_BOUNDED_SEQUENCE_HPP
 #define MAMORI_KERNEL_BOUNDED_SEQUENCE_HPP
 

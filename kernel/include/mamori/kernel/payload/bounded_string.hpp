@@ -2,7 +2,7 @@
 /// @file
 /// A text of up to N characters that lives inside its owner: the bounded form of an IDL `string`.
 ///
-/// @satisfies SWR-CDR-003      Design: docs/design/payloads.md#bounded-types
+/// @satisfies SWR-CDR-003      Design: docs/design/data_flow.md#bounded-types
 #ifndef MAMORI_KERNEL_BOUNDED_STRING_HPP
 #define MAMORI_KERNEL_BOUNDED_STRING_HPP
 

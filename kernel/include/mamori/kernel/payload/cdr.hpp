@@ -3,7 +3,7 @@
 /// Common Data Representation of payloads: the bare CDR body that data ports of OpenRTM exchange, without
 /// encapsulation octet, byte-order flag or type id. Alignment counts from the first byte of the payload.
 ///
-/// @satisfies SWR-CDR-010, SWR-CDR-011, SWR-CDR-012, SWR-CDR-013      Design: docs/design/payloads.md#cdr
+/// @satisfies SWR-CDR-010, SWR-CDR-011, SWR-CDR-012, SWR-CDR-013      Design: docs/design/data_flow.md#cdr
 /// Source:   OMG CORBA 3.0, 15.3 (CDR transfer syntax)
 #ifndef MAMORI_KERNEL_CDR_HPP
 #define MAMORI_KERNEL_CDR_HPP

@@ -3,7 +3,7 @@
 /// How a number, bool or enumeration lies in CDR: its size, which is its alignment too, its bits, and which
 /// of them are a value.
 ///
-/// @satisfies SWR-CDR-010, SWR-CDR-013      Design: docs/design/payloads.md#cdr
+/// @satisfies SWR-CDR-010, SWR-CDR-013      Design: docs/design/data_flow.md#cdr
 /// Source:   OMG CORBA 3.0, 15.3 (CDR transfer syntax): alignments of primitive types
 #ifndef MAMORI_KERNEL_CDR_SCALAR_HPP
 #define MAMORI_KERNEL_CDR_SCALAR_HPP

@@ -3,7 +3,7 @@
 /// The extended robot types of the plane, and colour: names, field order and wire form are those of OpenRTM.
 /// Units: metres, seconds, radians. TimedX is X with a time stamp. No decoder enforces a range.
 ///
-/// @satisfies SWR-CDR-005      Design: docs/design/payloads.md#timed-types
+/// @satisfies SWR-CDR-005      Design: docs/design/data_flow.md#timed-types
 /// Source:   OpenRTM-aist, ExtendedDataTypes.idl (module RTC)
 #ifndef MAMORI_KERNEL_EXTENDED_TYPES_2D_HPP
 #define MAMORI_KERNEL_EXTENDED_TYPES_2D_HPP

@@ -3,7 +3,7 @@
 /// One field list per payload type. Everything that must look inside a payload (trace hash, encodings) walks
 /// this list, so padding bytes never take part and each type is described once.
 ///
-/// @satisfies SWR-KRN-005, SWR-CDR-001, SWR-CDR-004      Design: docs/design/payloads.md#field-lists
+/// @satisfies SWR-KRN-005, SWR-CDR-001, SWR-CDR-004      Design: docs/design/data_flow.md#field-lists
 #ifndef MAMORI_KERNEL_FIELDS_HPP
 #define MAMORI_KERNEL_FIELDS_HPP
 

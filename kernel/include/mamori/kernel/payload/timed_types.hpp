@@ -3,7 +3,7 @@
 /// The time-stamped basic types of the RT-middleware world, with bounds: names, field order and wire form are
 /// those of OpenRTM, so a port of such a type talks to the components and tools that people have.
 ///
-/// @satisfies SWR-CDR-005, SWR-CDR-006      Design: docs/design/payloads.md#timed-types
+/// @satisfies SWR-CDR-005, SWR-CDR-006      Design: docs/design/data_flow.md#timed-types
 /// Source:   OpenRTM-aist, BasicDataType.idl (module RTC); wide characters are left out on purpose
 #ifndef MAMORI_KERNEL_TIMED_TYPES_HPP
 #define MAMORI_KERNEL_TIMED_TYPES_HPP

@@ -9,7 +9,7 @@
 ///     shown.for_each_window([](std::size_t, const mamori::WindowSnapshot& window) noexcept { ... });
 ///
 /// @satisfies SWR-INS-001, SWR-INS-002, SWR-INS-003, SWR-INS-004, SWR-INS-005, SWR-PRT-036
-/// Design:   docs/design/introspection.md
+/// Design:   docs/design/kernel.md#introspection
 #ifndef MAMORI_KERNEL_INTROSPECTION_HPP
 #define MAMORI_KERNEL_INTROSPECTION_HPP
 

@@ -3,7 +3,7 @@
 /// What a tool outside can see of a running system, row by row: cores, windows, components, ports. Plain
 /// copies with names in them, so that whoever holds one needs nothing else of the kernel.
 ///
-/// @satisfies SWR-INS-001      Design: docs/design/introspection.md#rows
+/// @satisfies SWR-INS-001      Design: docs/design/kernel.md#introspection
 #ifndef MAMORI_KERNEL_INTROSPECTION_ROWS_HPP
 #define MAMORI_KERNEL_INTROSPECTION_ROWS_HPP
 

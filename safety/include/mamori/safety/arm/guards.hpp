@@ -4,7 +4,7 @@
 /// limit in this cycle; debouncing and latching are the fault register's work.
 ///
 /// @satisfies SWR-ARM-002, SWR-ARM-003, SWR-ARM-004, SWR-ARM-005, SWR-ARM-006, SWR-ARM-007, SWR-ARM-008
-/// Design:   docs/design/faults.md#guards
+/// Design:   docs/design/supervision.md#guards
 #ifndef MAMORI_SAFETY_ARM_GUARDS_HPP
 #define MAMORI_SAFETY_ARM_GUARDS_HPP
 

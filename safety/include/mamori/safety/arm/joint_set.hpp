@@ -2,7 +2,7 @@
 /// @file
 /// A set of joints, for example those that broke a limit. Small enough to travel in an event.
 ///
-/// @satisfies SWR-ARM-002      Design: docs/design/faults.md#guards
+/// @satisfies SWR-ARM-002      Design: docs/design/supervision.md#guards
 #ifndef MAMORI_SAFETY_ARM_JOINT_SET_HPP
 #define MAMORI_SAFETY_ARM_JOINT_SET_HPP
 

@@ -3,7 +3,7 @@
 /// What an optimiser may not look through. A check of memory or of the processor compares what must be equal
 /// in a sound machine, which a compiler, whose machine is always sound, would otherwise leave out.
 ///
-/// @satisfies SWR-RED-001, SWR-SLF-008      Design: docs/design/redundancy.md#what-the-compiler-must-not-know
+/// @satisfies SWR-RED-001, SWR-SLF-008      Design: docs/design/redundancy.md#optimisation-barriers
 #ifndef MAMORI_SAFETY_OPAQUE_HPP
 #define MAMORI_SAFETY_OPAQUE_HPP
 

@@ -3,7 +3,7 @@
 /// What is common to the channels of every profile: why a channel is refused, and the proof that one is
 /// sound.
 ///
-/// @satisfies SWR-E2E-009      Design: docs/design/e2e.md#channels-that-are-refused
+/// @satisfies SWR-E2E-009      Design: docs/design/e2e.md#rejected-channels
 #ifndef MAMORI_SAFETY_E2E_CHANNEL_HPP
 #define MAMORI_SAFETY_E2E_CHANNEL_HPP
 

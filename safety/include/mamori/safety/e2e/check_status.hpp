@@ -2,7 +2,7 @@
 /// @file
 /// Status of one check, as AUTOSAR names it, and the status that its state machine understands.
 ///
-/// @satisfies SWR-E2E-006, SWR-E2E-010      Design: docs/design/e2e.md#order-of-frames
+/// @satisfies SWR-E2E-006, SWR-E2E-010      Design: docs/design/e2e.md#order-of-messages
 /// Source:   AUTOSAR SWS E2E Library (names and numbers of the profiles' status types)
 #ifndef MAMORI_SAFETY_E2E_CHECK_STATUS_HPP
 #define MAMORI_SAFETY_E2E_CHECK_STATUS_HPP

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the compiler is told of the residual errors of frames with 16- and 32-bit checksums. Written by
-/// verification/e2e/facts.py; a test makes it again and compares.
+/// tools/mamori_tools/e2e/facts.py; a test makes it again and compares.
 ///
 /// @satisfies SWR-E2E-023      Design: docs/design/e2e.md#residual-error
 #ifndef MAMORI_SAFETY_E2E_RESIDUAL_FACTS_HPP

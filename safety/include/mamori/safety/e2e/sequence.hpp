@@ -3,7 +3,7 @@
 /// The order of frames, judged as AUTOSAR does (CONFORMANT): profiles 1 and 2 have rules of their own, all
 /// others share one. Both move their baseline on frames that they refuse; hardened_sequence.hpp does not.
 ///
-/// @satisfies SWR-E2E-006      Design: docs/design/e2e.md#order-of-frames
+/// @satisfies SWR-E2E-006      Design: docs/design/e2e.md#order-of-messages
 /// Source:   AUTOSAR PRS E2E Protocol, check functions of the profiles
 #ifndef MAMORI_SAFETY_E2E_SEQUENCE_HPP
 #define MAMORI_SAFETY_E2E_SEQUENCE_HPP

@@ -4,7 +4,7 @@
 /// acknowledgement once it has been gone for long enough, never by healing.
 ///
 /// @satisfies SWR-FLT-001, SWR-FLT-002, SWR-FLT-003, SWR-FLT-007, SWR-FLT-008, SWR-FLT-009
-/// Design:   docs/design/faults.md#register
+/// Design:   docs/design/supervision.md#fault-register
 #ifndef MAMORI_SAFETY_FAULT_REGISTER_HPP
 #define MAMORI_SAFETY_FAULT_REGISTER_HPP
 

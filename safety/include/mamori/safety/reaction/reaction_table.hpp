@@ -4,7 +4,7 @@
 /// not compile, and the worst of all latched faults decides.
 ///
 /// @satisfies SWR-FLT-004, SWR-FLT-005, SWR-FLT-006, SWR-FLT-010, SWR-FLT-011
-/// Design: docs/design/faults.md#reactions
+/// Design: docs/design/supervision.md#reactions
 #ifndef MAMORI_SAFETY_REACTION_TABLE_HPP
 #define MAMORI_SAFETY_REACTION_TABLE_HPP
 

@@ -3,7 +3,7 @@
 /// Proves the graphs of checkpoints: each one has a begin, each checkpoint can be reached and left, and no
 /// legal sequence breaks a deadline. Not for users.
 ///
-/// @satisfies SWR-SUP-035      Design: docs/design/supervision.md#tables-that-are-refused
+/// @satisfies SWR-SUP-035      Design: docs/design/supervision.md#checkpoint-table
 #ifndef MAMORI_SAFETY_SUPERVISION_GRAPH_CHECK_HPP
 #define MAMORI_SAFETY_SUPERVISION_GRAPH_CHECK_HPP
 

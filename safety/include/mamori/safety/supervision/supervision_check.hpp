@@ -3,7 +3,7 @@
 /// Proves a table of checkpoints while it is compiled: static_assert(is_sound<kTable>()). A table that has no
 /// meaning, that no correct run can satisfy, or that leaves an entity unsupervised does not compile.
 ///
-/// @satisfies SWR-SUP-033, SWR-SUP-034      Design: docs/design/supervision.md#tables-that-are-refused
+/// @satisfies SWR-SUP-033, SWR-SUP-034      Design: docs/design/supervision.md#checkpoint-table
 #ifndef MAMORI_SAFETY_SUPERVISION_SUPERVISION_CHECK_HPP
 #define MAMORI_SAFETY_SUPERVISION_SUPERVISION_CHECK_HPP
 

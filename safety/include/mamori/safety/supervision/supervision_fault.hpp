@@ -3,7 +3,7 @@
 /// Why a table of checkpoints is refused, and what the compiler says then.
 ///
 /// @satisfies SWR-SUP-033, SWR-SUP-034, SWR-SUP-035
-/// Design:   docs/design/supervision.md#tables-that-are-refused
+/// Design:   docs/design/supervision.md#checkpoint-table
 #ifndef MAMORI_SAFETY_SUPERVISION_SUPERVISION_FAULT_HPP
 #define MAMORI_SAFETY_SUPERVISION_SUPERVISION_FAULT_HPP
 

@@ -3,7 +3,7 @@
 /// The exchange under FifoBuffer: a ring of shared words, in which writer and reader swap slot numbers, as a
 /// TripleBuffer does in its one word. It holds no payload.
 ///
-/// @satisfies SWR-BUF-002, SWR-BUF-003, SWR-BUF-004, SWR-BUF-008      Design: docs/design/buffers.md#fifo
+/// @satisfies SWR-BUF-002, SWR-BUF-003, SWR-BUF-004, SWR-BUF-008      Design: docs/design/data_flow.md#fifo
 #ifndef MAMORI_KERNEL_SLOT_RING_HPP
 #define MAMORI_KERNEL_SLOT_RING_HPP
 

@@ -2,7 +2,7 @@
 /// @file
 /// The visitor behind decoding, which trusts no byte that it reads. Not for users.
 ///
-/// @satisfies SWR-CDR-010, SWR-CDR-013      Design: docs/design/payloads.md#cdr
+/// @satisfies SWR-CDR-010, SWR-CDR-013      Design: docs/design/data_flow.md#cdr
 #ifndef MAMORI_KERNEL_CDR_READER_HPP
 #define MAMORI_KERNEL_CDR_READER_HPP
 

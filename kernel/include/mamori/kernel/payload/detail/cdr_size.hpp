@@ -2,7 +2,7 @@
 /// @file
 /// The size of the longest encoding of a payload, computed from its type alone.
 ///
-/// @satisfies SWR-CDR-014, SWR-CDR-015      Design: docs/design/payloads.md#largest-size
+/// @satisfies SWR-CDR-014, SWR-CDR-015      Design: docs/design/data_flow.md#largest-size
 /// Source:   OMG CORBA 3.0, 15.3 (CDR transfer syntax): alignments of primitive types
 #ifndef MAMORI_KERNEL_CDR_SIZE_HPP
 #define MAMORI_KERNEL_CDR_SIZE_HPP

@@ -2,7 +2,7 @@
 /// @file
 /// The visitors behind encoding: one measures a payload, the other writes it. Not for users.
 ///
-/// @satisfies SWR-CDR-010, SWR-CDR-013      Design: docs/design/payloads.md#cdr
+/// @satisfies SWR-CDR-010, SWR-CDR-013      Design: docs/design/data_flow.md#cdr
 #ifndef MAMORI_KERNEL_CDR_WRITER_HPP
 #define MAMORI_KERNEL_CDR_WRITER_HPP
 

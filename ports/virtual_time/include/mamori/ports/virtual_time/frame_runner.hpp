@@ -3,7 +3,7 @@
 /// Runs whole frames of a system in virtual time, with as many cores as it has, in lockstep with simulated
 /// devices: devices are sampled before the first window and advanced by one frame after the last.
 ///
-/// @satisfies SWR-VTM-003      Design: docs/design/virtual_time.md#lockstep
+/// @satisfies SWR-VTM-003      Design: docs/design/conformance.md#lockstep
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_FRAME_RUNNER_HPP
 #define MAMORI_PORTS_VIRTUAL_TIME_FRAME_RUNNER_HPP
 

@@ -3,7 +3,7 @@
 /// A transport between two partitions, as a component of the system table: it passes messages on and can be
 /// told to lose or delay them. It is a grey channel: the receiver must judge age and content by itself.
 ///
-/// @satisfies SWR-VTM-004      Design: docs/design/virtual_time.md#channel
+/// @satisfies SWR-VTM-004      Design: docs/design/conformance.md#channel
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_SIMULATED_CHANNEL_HPP
 #define MAMORI_PORTS_VIRTUAL_TIME_SIMULATED_CHANNEL_HPP
 

@@ -4,7 +4,7 @@
 /// A component can be made slow or made to hang at a chosen instant, and the same run gives the same bytes
 /// again.
 ///
-/// @satisfies SWR-VTM-001, SWR-VTM-002      Design: docs/design/virtual_time.md#execution-times
+/// @satisfies SWR-VTM-001, SWR-VTM-002      Design: docs/design/conformance.md#execution-times
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_VIRTUAL_HOST_HPP
 #define MAMORI_PORTS_VIRTUAL_TIME_VIRTUAL_HOST_HPP
 

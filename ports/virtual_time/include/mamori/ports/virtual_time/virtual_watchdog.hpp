@@ -3,7 +3,7 @@
 /// A hardware watchdog in virtual time: once serviced for the first time it wants to be serviced again before
 /// its time is over, and opens its relay for good when it is not.
 ///
-/// @satisfies SWR-VTM-005      Design: docs/design/virtual_time.md#watchdog
+/// @satisfies SWR-VTM-005      Design: docs/design/conformance.md#virtual-watchdog
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_VIRTUAL_WATCHDOG_HPP
 #define MAMORI_PORTS_VIRTUAL_TIME_VIRTUAL_WATCHDOG_HPP
 

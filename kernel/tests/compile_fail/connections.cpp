@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the compiler rejects: connections of ports.
+// Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
+#include "parts.hpp"
+
+// A connection joins ports of two payload types.
+namespace payload_mismatch {
+#ifdef MAMORI_BREAK_PAYLOAD_MISMATCH
+[[maybe_unused]] constexpr auto kConnection = mamori::connect(g_producer.whole, g_consumer.in);
+#else
+[[maybe_unused]] constexpr auto kConnection = mamori::connect(g_producer.real, g_consumer.in);
+#endif
+}  // namespace payload_mismatch
+
+// A mandatory input has no source.
+namespace input_not_connected {
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("w", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer, g_consumer))
+#ifndef MAMORI_BREAK_INPUT_NOT_CONNECTED
+        ,
+    mamori::connect(g_producer.real, g_consumer.in)
+#endif
+);
+MAMORI_CHECK(kSystem);
+}  // namespace input_not_connected
+
+// An input has two sources.
+namespace two_writers {
+constexpr auto kSystem =
+    mamori::system(mamori::frame(1_ms),
+                   mamori::window("w", 0_us, 100_us, mamori::budget(50_us),
+                                  mamori::run(g_producer, g_second_producer, g_consumer)),
+                   mamori::connect(g_producer.real, g_consumer.in)
+#ifdef MAMORI_BREAK_TWO_WRITERS
+                       ,
+                   mamori::connect(g_second_producer.real, g_consumer.in)
+#endif
+    );
+MAMORI_CHECK(kSystem);
+}  // namespace two_writers
+
+// A connection feeds a component that no window runs.
+namespace unknown_component {
+constexpr auto kSystem =
+    mamori::system(mamori::frame(1_ms),
+#ifdef MAMORI_BREAK_UNKNOWN_COMPONENT
+                   mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+#else
+                   mamori::window("a", 0_us, 100_us, mamori::budget(50_us),
+                                  mamori::run(g_producer, g_consumer)),
+#endif
+                   mamori::connect(g_producer.real, g_consumer.in));
+MAMORI_CHECK(kSystem);
+}  // namespace unknown_component
+
+// A connection leaves its core with nothing in between.
+namespace crossing_without_buffer {
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("sense", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::window("plan", 100_us, 100_us, mamori::core(1), mamori::budget(50_us), mamori::run(g_consumer)),
+#ifdef MAMORI_BREAK_CROSSING_WITHOUT_BUFFER
+    mamori::connect(g_producer.real, g_consumer.in));
+#else
+    mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing)));
+#endif
+MAMORI_CHECK(kSystem);
+}  // namespace crossing_without_buffer
+
+// A connection leaves its partition with nothing in between.
+namespace partition_without_buffer {
+#ifdef MAMORI_BREAK_PARTITION_WITHOUT_BUFFER
+constexpr const char* kPartition = "other";
+#else
+constexpr const char* kPartition = "safety";
+#endif
+constexpr auto kSystem = mamori::system(mamori::frame(1_ms),
+                                        mamori::window("sense", 0_us, 100_us, mamori::partition("safety"),
+                                                       mamori::budget(50_us), mamori::run(g_producer)),
+                                        mamori::window("plan", 100_us, 100_us, mamori::partition(kPartition),
+                                                       mamori::budget(50_us), mamori::run(g_consumer)),
+                                        mamori::connect(g_producer.real, g_consumer.in));
+MAMORI_CHECK(kSystem);
+}  // namespace partition_without_buffer
+
+// Two connections go through one Crossing.
+namespace crossing_used_twice {
+inline Consumer g_second_consumer;
+inline mamori::Crossing<double> g_second_crossing;
+#ifdef MAMORI_BREAK_CROSSING_USED_TWICE
+constexpr mamori::Crossing<double>& kSecondCrossing = g_crossing;
+#else
+constexpr mamori::Crossing<double>& kSecondCrossing = g_second_crossing;
+#endif
+constexpr auto kSystem =
+    mamori::system(mamori::frame(1_ms),
+                   mamori::window("sense", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+                   mamori::window("plan", 100_us, 100_us, mamori::core(1), mamori::budget(50_us),
+                                  mamori::run(g_consumer, g_second_consumer)),
+                   mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing)),
+                   mamori::connect(g_producer.real, g_second_consumer.in, mamori::through(kSecondCrossing)));
+MAMORI_CHECK(kSystem);
+}  // namespace crossing_used_twice
+
+// The reader opens 1 ns before its writer on the other core closes.
+namespace crossing_not_ordered {
+#ifdef MAMORI_BREAK_CROSSING_NOT_ORDERED
+constexpr mamori::Duration kOffset = 100_us - 1_ns;
+#else
+constexpr mamori::Duration kOffset = 100_us;
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("sense", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::window("plan", kOffset, 100_us, mamori::core(1), mamori::budget(50_us), mamori::run(g_consumer)),
+    mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing)));
+MAMORI_CHECK(kSystem);
+}  // namespace crossing_not_ordered
+
+// No value is younger than zero.
+namespace age_limit_not_positive {
+#ifdef MAMORI_BREAK_AGE_LIMIT_NOT_POSITIVE
+constexpr mamori::Duration kAgeMax{0};
+#else
+constexpr mamori::Duration kAgeMax{1};
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer, g_consumer)),
+    mamori::connect(g_producer.real, g_consumer.in, mamori::fresh_within(kAgeMax)));
+MAMORI_CHECK(kSystem);
+}  // namespace age_limit_not_positive
+
+// The second age limit would silently replace the first.
+namespace connection_option_twice {
+#ifdef MAMORI_BREAK_CONNECTION_OPTION_TWICE
+constexpr auto kConnection =
+    mamori::connect(g_producer.real, g_consumer.in, mamori::fresh_within(1_ms), mamori::fresh_within(2_ms));
+#else
+constexpr auto kConnection = mamori::connect(g_producer.real, g_consumer.in, mamori::fresh_within(1_ms));
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer, g_consumer)),
+    kConnection);
+MAMORI_CHECK(kSystem);
+}  // namespace connection_option_twice
+
+// A component lists a member that is no port.
+namespace port_is_no_port {
+class Odd final : public mamori::Component {
+  public:
+    constexpr Odd() noexcept : Component("odd") {}
+    mamori::OutPort<double> out{"out"};
+    double number{0.0};
+#ifdef MAMORI_BREAK_PORT_IS_NO_PORT
+    using Ports = mamori::Ports<&Odd::out, &Odd::number>;
+#else
+    using Ports = mamori::Ports<&Odd::out>;
+#endif
+};
+Odd g_odd;
+[[maybe_unused]] constexpr auto kRunList = mamori::run(g_odd);
+}  // namespace port_is_no_port

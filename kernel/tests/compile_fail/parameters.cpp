@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the compiler rejects: parameters, constraints and configuration sets.
+// Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
+#include "parameter_parts.hpp"
+
+// The upper limit of a constraint has a letter too many, at character 11.
+namespace constraint_malformed {
+class Monitor final : public mamori::Component {
+  public:
+    constexpr Monitor() noexcept : Component("monitor") {}
+#ifdef MAMORI_BREAK_CONSTRAINT_MALFORMED
+    mamori::Parameter<double> limit{"limit", 1.0, "0.1<=x<=3.0a"};
+#else
+    mamori::Parameter<double> limit{"limit", 1.0, "0.1<=x<=3.0"};
+#endif
+};
+MAMORI_CONSTINIT Monitor g_monitor;
+}  // namespace constraint_malformed
+
+// A limit is one more than the type of the parameter can hold.
+namespace constraint_not_in_type {
+#ifdef MAMORI_BREAK_CONSTRAINT_NOT_IN_TYPE
+MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{"retries", 3U, "x<=256"};
+#else
+MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{"retries", 3U, "x<=255"};
+#endif
+}  // namespace constraint_not_in_type
+
+// A constraint has one choice more than the parameter has room for.
+namespace constraint_without_room {
+#ifdef MAMORI_BREAK_CONSTRAINT_WITHOUT_ROOM
+MAMORI_CONSTINIT mamori::Parameter<int> g_baud{"baud", 9600, "(2400,4800,9600,19200,38400)"};
+#else
+MAMORI_CONSTINIT mamori::Parameter<int, 5U> g_baud{"baud", 9600, "(2400,4800,9600,19200,38400)"};
+#endif
+}  // namespace constraint_without_room
+
+// A default lies below the lower limit.
+namespace default_outside_constraint {
+#ifdef MAMORI_BREAK_DEFAULT_OUTSIDE_CONSTRAINT
+constexpr double kDefault = 0.09;
+#else
+constexpr double kDefault = 0.1;
+#endif
+MAMORI_CONSTINIT mamori::Parameter<double> g_limit{"limit", kDefault, "0.1<=x<=3.0"};
+}  // namespace default_outside_constraint
+
+// A parameter is a pointer.
+namespace parameter_of_odd_type {
+#ifdef MAMORI_BREAK_PARAMETER_OF_ODD_TYPE
+mamori::Parameter<const char*> g_name{"name", "value"};
+#else
+mamori::Parameter<int> g_name{"name", 1};
+#endif
+}  // namespace parameter_of_odd_type
+
+// A component lists a member that is no parameter.
+namespace parameter_is_no_parameter {
+class Odd final : public mamori::Component {
+  public:
+    constexpr Odd() noexcept : Component("odd") {}
+    mamori::Parameter<double> real{"real", 0.0};
+    double number{0.0};
+#ifdef MAMORI_BREAK_PARAMETER_IS_NO_PARAMETER
+    using Parameters = mamori::Parameters<&Odd::real, &Odd::number>;
+#else
+    using Parameters = mamori::Parameters<&Odd::real>;
+#endif
+};
+Odd g_odd;
+[[maybe_unused]] constexpr auto kList = mamori::parameters_of(g_odd);
+}  // namespace parameter_is_no_parameter
+
+// The second value of the second set is beyond its limit.
+namespace set_value_outside_constraint {
+#ifdef MAMORI_BREAK_SET_VALUE_OUTSIDE_CONSTRAINT
+constexpr double kSpeed = 3.1;
+#else
+constexpr double kSpeed = 3.0;
+#endif
+constexpr auto kConfiguration = mamori::configuration(
+    mamori::parameters_of(g_axis), mamori::configuration_set("normal"),
+    mamori::configuration_set("fast", mamori::assign(g_axis.gain, 1), mamori::assign(g_axis.speed, kSpeed)));
+MAMORI_CHECK_CONFIGURATION(kConfiguration);
+}  // namespace set_value_outside_constraint
+
+// A set gives one parameter two values.
+namespace set_assigns_twice {
+constexpr auto kConfiguration = mamori::configuration(
+    mamori::parameters_of(g_axis), mamori::configuration_set("fast", mamori::assign(g_axis.speed, 1.0)
+#ifdef MAMORI_BREAK_SET_ASSIGNS_TWICE
+                                                                         ,
+                                                             mamori::assign(g_axis.speed, 2.0)
+#endif
+                                                                 ));
+MAMORI_CHECK_CONFIGURATION(kConfiguration);
+}  // namespace set_assigns_twice
+
+// A set assigns a parameter of a component that the configuration does not list.
+namespace set_of_unknown_parameter {
+constexpr auto kConfiguration = mamori::configuration(
+#ifdef MAMORI_BREAK_SET_OF_UNKNOWN_PARAMETER
+    mamori::parameters_of(g_axis),
+#else
+    mamori::parameters_of(g_axis, g_second_axis),
+#endif
+    mamori::configuration_set("fast", mamori::assign(g_second_axis.speed, 1.0)));
+MAMORI_CHECK_CONFIGURATION(kConfiguration);
+}  // namespace set_of_unknown_parameter
+
+// Two sets have one name.
+namespace set_named_twice {
+#ifdef MAMORI_BREAK_SET_NAMED_TWICE
+constexpr const char* kName = "slow";
+#else
+constexpr const char* kName = "fast";
+#endif
+constexpr auto kConfiguration = mamori::configuration(
+    mamori::parameters_of(g_axis), mamori::configuration_set("slow"), mamori::configuration_set(kName));
+MAMORI_CHECK_CONFIGURATION(kConfiguration);
+}  // namespace set_named_twice
+
+// A configuration set that nobody can ask for.
+namespace set_without_name {
+#ifdef MAMORI_BREAK_SET_WITHOUT_NAME
+constexpr const char* kName = nullptr;
+#else
+constexpr const char* kName = "slow";
+#endif
+constexpr auto kConfiguration =
+    mamori::configuration(mamori::parameters_of(g_axis), mamori::configuration_set(kName));
+MAMORI_CHECK_CONFIGURATION(kConfiguration);
+}  // namespace set_without_name

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The campaign as a step, and the checks of its input that come before any long work.
+
+Campaign and motion reader are imported where they are used: they pull in large libraries, and `build` needs neither.
+
+@satisfies SWR-CLI-005      Design: docs/design/launcher.md#launcher
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from mamori_tools.host.process import Tick
+from mamori_tools.host.project import Project
+from mamori_tools.host.steps import Context
+from mamori_trace.base.errors import WorkError
+
+if TYPE_CHECKING:
+    from mamori_tools.campaign import Selection
+    from mamori_tools.motion import Motion
+
+
+@dataclass(frozen=True)
+class CampaignRequest:
+    """What the user asked of a campaign. Nothing given: all that the plan says."""
+
+    motion: Path
+    scenarios: tuple[str, ...] = ()
+    instants: int | None = None
+
+    def check(self, project: Project) -> tuple[str, ...]:
+        """@return what the motion has that is not used, in words. @raise InputError for a motion that cannot be followed, or scenarios
+        and instants that it or the plan lacks."""
+        from mamori_tools.campaign import resolve
+        from mamori_trace.base.errors import InputError
+
+        try:
+            motion = self._read_motion(project)
+            resolve(self._select(project), motion)
+            return motion.notes
+        except InputError as error:
+            raise InputError(str(error)) from error
+
+    def run(self, context: Context, tick: Tick, log: TextIO) -> None:
+        """Runs the campaign as a step, with a line per case in `log`. @raise WorkError when a case failed."""
+        from mamori_tools.campaign import CaseResult, run_campaign
+        from mamori_trace.base.errors import InputError
+
+        def show(result: CaseResult, done: int, count: int) -> None:
+            line = f"{result.case.id}: {'pass' if result.passed else f'FAIL: {result.failure}; {result.reproduction}'}"
+            print(f"[{done}/{count}] {line}", file=log, flush=True)
+            tick(f"{done} of {count} cases")
+
+        project = context.project
+        try:
+            result = run_campaign(self._select(project), program=project.safe_arm, model=project.model,
+                                  motion=self._read_motion(project), evidence=project.evidence, jobs=context.jobs,
+                                  progress=show)  # fmt: skip
+        except InputError as error:
+            raise WorkError(str(error)) from error
+        if not result.passed:
+            names = ", ".join(each.case.id for each in result.failed_cases)
+            raise WorkError(f"{len(result.failed_cases)} of {len(result.cases)} cases failed: {names}")
+
+    def _select(self, project: Project) -> Selection:
+        from mamori_tools.campaign import load_plan, select
+
+        return select(load_plan(project.campaign_plan), self.scenarios, self.instants)
+
+    def _read_motion(self, project: Project) -> Motion:
+        from mamori_tools.motion import load_limits, read_motion
+
+        return read_motion(self.motion, load_limits(project.model))

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verdict on one run. Pure: record and expectation in, checks out. What is missing fails; nothing is skipped."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mamori_tools.campaign.run_record import RunRecord, read_record
+from mamori_tools.campaign.selection import Case
+from mamori_tools.campaign.vocabulary import NOTHING
+from mamori_trace.base.errors import WorkError
+
+ROUNDING_S = 1e-9
+"""Excess over a bound in time that is rounding: times are frames of 1 ms written as decimals [s]."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One line of a verdict, in words for a person."""
+
+    name: str
+    wanted: str
+    measured: str
+    passed: bool
+
+
+def judge(case: Case, run: Mapping[str, Any] | None, problem: str = "") -> list[Check]:
+    """All checks of a case. `problem` says why there is no run, or why it cannot count; the case fails then."""
+    if problem or run is None:
+        return [Check("run", "a whole run", problem or "no run", False)]
+    try:
+        record = read_record(run)
+    except WorkError as error:
+        return [Check("run", "a whole run.json", str(error), False)]
+    checks = [Check("run", "a whole run", "whole", True), *_judge_setting(case, record), _judge_false_trip(case, record),
+              *_judge_outcome(case, record), _judge_speed(record), _judge_position(record)]  # fmt: skip
+    if case.expected.wants_stop:
+        checks += _judge_stop(case, record)
+    if not case.expected.wants_reaction:
+        checks.append(_judge_tracking(case, record))
+    return checks
+
+
+def is_passed(checks: Sequence[Check]) -> bool:
+    """True where there is a check and none failed."""
+    return bool(checks) and all(check.passed for check in checks)
+
+
+def _judge_setting(case: Case, record: RunRecord) -> list[Check]:
+    """The run is the one that was asked for: the right fault, at work when it came, watched long enough."""
+    if case.fault is None:
+        wanted = "no fault"
+        difference = "" if record.fault is None else f"{record.fault.get('kind')}"
+    else:
+        wanted = case.fault.to_text()
+        difference = case.fault.find_difference(record.fault)
+    start = record.operational_at_s
+    begin = record.injected_at_s
+    end = (begin or 0.0) + case.watch_s
+    in_time = start is not None and (begin is None or start < begin)
+    return [
+        Check("fault injected", wanted, difference or "as wanted", not difference),
+        Check("seed", str(case.seed), str(record.seed), record.seed == case.seed),
+        Check("operational first", "operational" if begin is None else f"operational before {begin:.3f} s",
+              _show(start, "s", "never operational"), in_time),
+        Check("time watched", f">= {end:.3f} s", f"{record.simulated_s:.3f} s", record.simulated_s >= end - ROUNDING_S),
+    ]  # fmt: skip
+
+
+def _judge_false_trip(case: Case, record: RunRecord) -> Check:
+    """Nothing is detected and nothing reacts before there is something to react to."""
+    happened = [("detected", record.detected_fault, record.detected_at_s), ("reacted", record.reaction, record.reacted_at_s)]
+    events = [(verb, name, at_s) for verb, name, at_s in happened if name not in (None, NOTHING)]
+    begin = record.injected_at_s
+    if begin is None or not case.expected.wants_reaction:
+        wrong, wanted = events, "no trip"
+    else:
+        wrong = [event for event in events if event[2] is None or event[2] < begin - ROUNDING_S]
+        wanted = f"no trip before {begin:.3f} s"
+    measured = ", ".join(f"{verb} {name} at {_show(at_s, 's', 'an unknown time')}" for verb, name, at_s in wrong)
+    return Check("no false trip", wanted, measured or "none", not wrong)
+
+
+def _judge_outcome(case: Case, record: RunRecord) -> list[Check]:
+    expected = case.expected
+    detected = record.detected_fault or NOTHING
+    reaction = record.reaction or NOTHING
+    checks = [
+        Check("final state", expected.state, record.final_state, record.final_state == expected.state),
+        Check("detected fault", " or ".join(expected.detected_faults), detected, detected in expected.detected_faults),
+        Check("reaction", " or ".join(expected.reactions), reaction, reaction in expected.reactions),
+    ]
+    if expected.within_s is not None:
+        delay_s = _subtract(record.reacted_at_s, record.injected_at_s)
+        in_time = delay_s is not None and -ROUNDING_S <= delay_s <= expected.within_s + ROUNDING_S
+        checks.append(Check("reaction time", f"<= {expected.within_s:.3f} s", _show(delay_s, "s", "unknown"), in_time))
+    if expected.watchdog_bitten is not None:
+        words = {True: "bitten", False: "not bitten"}
+        checks.append(Check("watchdog", words[expected.watchdog_bitten], words[record.watchdog_bitten],
+                            record.watchdog_bitten == expected.watchdog_bitten))  # fmt: skip
+    return checks
+
+
+def _judge_speed(record: RunRecord) -> Check:
+    """Each joint against its mechanical limit; the one that is nearest to it, or farthest over it, is shown."""
+    pairs = list(zip(record.max_speed_rad_s, record.speed_limit_rad_s, strict=True))
+    worst = max(range(len(pairs)), key=lambda joint: pairs[joint][0] - pairs[joint][1])
+    over = [joint for joint, (speed, limit) in enumerate(pairs) if speed > limit]
+    speed, limit = pairs[worst]
+    return Check("speed limit", "each joint within its limit", f"joint {worst + 1}: {speed:.3f} of {limit:.3f} rad/s", not over)
+
+
+def _judge_position(record: RunRecord) -> Check:
+    margin = record.min_position_margin_rad
+    return Check("position range", "margin >= 0 rad", f"{margin:.4f} rad", margin >= 0.0)
+
+
+def _judge_stop(case: Case, record: RunRecord) -> list[Check]:
+    bounds = case.bounds
+    still = record.standstill_at_s
+    begin = record.injected_at_s or 0.0
+    reached = still is not None and still >= begin - ROUNDING_S
+    held_s = _subtract(record.simulated_s, still)
+    watched = held_s is not None and held_s >= bounds.hold_observed_s - ROUNDING_S
+    drift = record.hold_drift_rad
+    return [
+        Check("standstill", f"reached after {begin:.3f} s", _show(still, "s", "never"), reached),
+        Check("standstill watched", f">= {bounds.hold_observed_s:.3f} s", _show(held_s, "s", "never"), watched),
+        Check("hold drift", f"<= {bounds.hold_drift_rad:g} rad", "unknown" if drift is None else f"{drift:.6f} rad",
+              drift is not None and 0.0 <= drift <= bounds.hold_drift_rad),
+    ]  # fmt: skip
+
+
+def _judge_tracking(case: Case, record: RunRecord) -> Check:
+    error = record.max_tracking_error_rad
+    bound = case.bounds.tracking_error_rad
+    return Check("tracking error", f"< {bound:g} rad", "unknown" if error is None else f"{error:.6f} rad",
+                 error is not None and 0.0 <= error < bound)  # fmt: skip
+
+
+def _subtract(late_s: float | None, early_s: float | None) -> float | None:
+    return None if late_s is None or early_s is None else late_s - early_s
+
+
+def _show(value: float | None, unit: str, otherwise: str) -> str:
+    return otherwise if value is None else f"{value:.3f} {unit}"

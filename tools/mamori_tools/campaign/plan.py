@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The plan of a campaign: which faults, when, and what must come of them. Data in a YAML file, checked as a whole."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mamori_tools.campaign.fault import FaultSpec, read_fault, read_positive
+from mamori_tools.campaign.vocabulary import DETECTED_FAULTS, NOTHING, REACTIONS, STATES, STOPS
+from mamori_trace.base.marked_yaml import Node, load
+from mamori_trace.base.nearest_names import nearest_names
+
+SCHEMA = "mamori.fault_plan/1"
+POLARITIES = ("nominal", "violation")
+
+_TOP_KEYS = frozenset({"schema", "seed", "instants", "motion_begins_at_s", "observe_s", "bounds", "scenarios"})
+_BOUND_KEYS = frozenset({"hold_drift_rad", "hold_observed_s", "tracking_error_rad"})
+_SCENARIO_KEYS = frozenset({"name", "title", "fault", "at", "at_s", "expected", "requirements"})
+_EXPECTED_KEYS = frozenset({"state", "reaction", "detected_fault", "within_s", "watchdog_bitten"})
+_NAME = re.compile(r"[a-z][a-z0-9_]*")
+_REQUIREMENT = re.compile(r"(SYS|SWR-[A-Z]+)-\d{3}")
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """Physical bounds that hold for every case.
+
+    `hold_drift_rad`: largest movement after standstill [rad]; `hold_observed_s`: how long standstill must have been watched
+    for that to mean anything [s]; `tracking_error_rad`: the tracking error of an undisturbed motion stays below it [rad].
+    """
+
+    hold_drift_rad: float
+    hold_observed_s: float
+    tracking_error_rad: float
+
+
+@dataclass(frozen=True)
+class Expected:
+    """What must come of a case. `within_s` is None exactly when no reaction is wanted."""
+
+    state: str
+    reactions: tuple[str, ...]
+    detected_faults: tuple[str, ...]
+    within_s: float | None
+    watchdog_bitten: bool | None = None
+
+    @property
+    def wants_reaction(self) -> bool:
+        return self.reactions != (NOTHING,)
+
+    @property
+    def wants_stop(self) -> bool:
+        return STOPS.issuperset(self.reactions)
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """One row of the plan. `instants` are fractions of the motion, or seconds of it where `in_seconds`."""
+
+    name: str
+    title: str
+    fault: FaultSpec
+    instants: tuple[float, ...]
+    in_seconds: bool
+    expected: Expected
+    requirements: Mapping[str, str]
+    node: Node = field(repr=False, compare=False)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A whole plan. Times in seconds: `motion_begins_at_s` since the start of a run, `observe_s` since the injection."""
+
+    path: Path
+    seed: int
+    motion_begins_at_s: float
+    observe_s: float
+    bounds: Bounds
+    scenarios: tuple[Scenario, ...]
+
+
+def load_plan(path: Path | str) -> Plan:
+    """Reads a plan. Raises InputError, one line with file and line, for the first fault found."""
+    root = load(path, "fault plan")
+    root.as_mapping(_TOP_KEYS)
+    schema = root.get("schema")
+    if schema.as_text() != SCHEMA:
+        raise schema.error(f"'{schema.as_text()}', this tool reads {SCHEMA}")
+    bounds = root.get("bounds")
+    bounds.as_mapping(_BOUND_KEYS)
+    instants = _read_fractions(root.get("instants"))
+    nodes = root.get("scenarios").as_list()
+    if not nodes:
+        raise root.get("scenarios").error("lists no scenario; add one")
+    scenarios: dict[str, Scenario] = {}
+    for node in nodes:
+        scenario = _read_scenario(node, instants)
+        if scenario.name in scenarios:
+            raise node.get("name").error(f"'{scenario.name}' stands twice; rename one")
+        scenarios[scenario.name] = scenario
+    return Plan(
+        Path(path),
+        _read_seed(root.get("seed")),
+        _read_not_negative(root.get("motion_begins_at_s")),
+        read_positive(root.get("observe_s")),
+        Bounds(*(read_positive(bounds.get(key)) for key in ("hold_drift_rad", "hold_observed_s", "tracking_error_rad"))),
+        tuple(scenarios.values()),
+    )
+
+
+def _read_scenario(node: Node, usual_instants: tuple[float, ...]) -> Scenario:
+    entries = node.as_mapping(_SCENARIO_KEYS)
+    name = node.get("name").as_text()
+    if not _NAME.fullmatch(name):
+        raise node.get("name").error(f"'{name}'; use small letters, digits and _, it becomes a folder name")
+    fault = read_fault(node.get("fault"))
+    times = [key for key in ("at", "at_s") if key in entries]
+    if len(times) > 1 or (times and fault.kind == "none"):
+        raise entries[times[-1]].error("a scenario has 'at' or 'at_s', and none where nothing is injected")
+    if fault.kind == "none":
+        instants: tuple[float, ...] = ()
+    elif "at_s" in entries:
+        instants = _read_instants(entries["at_s"], None)
+    else:
+        instants = _read_fractions(entries["at"]) if "at" in entries else usual_instants
+    expected = _read_expected(node.get("expected"))
+    if fault.kind == "none" and expected.wants_reaction:
+        raise node.get("expected").error(f"a reaction without a fault is a false trip; write reaction: [{NOTHING}]")
+    return Scenario(
+        name, node.get("title").as_text(), fault, instants, "at_s" in entries, expected,
+        _read_requirements(node.get("requirements")), node,
+    )  # fmt: skip
+
+
+def _read_expected(node: Node) -> Expected:
+    entries = node.as_mapping(_EXPECTED_KEYS)
+    state = _read_name(node.get("state"), STATES)
+    reactions = _read_names(node.get("reaction"), REACTIONS)
+    faults = _read_names(node.get("detected_fault"), DETECTED_FAULTS)
+    bitten = entries["watchdog_bitten"].as_bool() if "watchdog_bitten" in entries else None
+    if (reactions == (NOTHING,)) == ("within_s" in entries):
+        raise node.error("'within_s' belongs to a case with a reaction, and only there")
+    within_s = read_positive(entries["within_s"]) if "within_s" in entries else None
+    return Expected(state, reactions, faults, within_s, bitten)
+
+
+def _read_name(node: Node, known: Sequence[str]) -> str:
+    name = node.as_text()
+    if name not in known:
+        raise node.error(f"unknown '{name}'; {nearest_names(name, known)}")
+    return name
+
+
+def _read_names(node: Node, known: Sequence[str]) -> tuple[str, ...]:
+    names = tuple(_read_name(item, known) for item in node.as_list())
+    if not names:
+        raise node.error(f"is empty; name at least one, or [{NOTHING}]")
+    if NOTHING in names and len(names) > 1:
+        raise node.error(f"'{NOTHING}' stands alone; a verdict that allows both says nothing")
+    return names
+
+
+def _read_requirements(node: Node) -> dict[str, str]:
+    """Requirement -> polarity of this scenario as its evidence."""
+    found: dict[str, str] = {}
+    for requirement, polarity in node.as_mapping().items():
+        if not _REQUIREMENT.fullmatch(requirement):
+            raise polarity.error(f"'{requirement}' is no requirement id; write SYS-nnn or SWR-<AREA>-nnn")
+        found[requirement] = _read_name(polarity, POLARITIES)
+    if not found:
+        raise node.error("names none; name what the scenario verifies")
+    return found
+
+
+def _read_fractions(node: Node) -> tuple[float, ...]:
+    return _read_instants(node, 1.0)
+
+
+def _read_instants(node: Node, end: float | None) -> tuple[float, ...]:
+    """Rising numbers from 0, below `end` where there is one."""
+    instants: list[float] = []
+    for item in node.as_list():
+        instant = _read_not_negative(item)
+        if end is not None and instant >= end:
+            raise item.error(f"{instant:g}; a fraction of the motion is below {end:g} (seconds: use 'at_s')")
+        if instants and instant <= instants[-1]:
+            raise item.error(f"{instant:g} after {instants[-1]:g}; write instants that rise")
+        instants.append(instant)
+    if not instants:
+        raise node.error("is empty; write at least one instant")
+    return tuple(instants)
+
+
+def _read_not_negative(node: Node) -> float:
+    number = node.as_float()
+    if number < 0.0:
+        raise node.error(f"{number:g}; write 0 or more")
+    return number
+
+
+def _read_seed(node: Node) -> int:
+    seed = node.as_int()
+    if not 0 <= seed < 2**64:
+        raise node.error(f"{seed}; write a whole number from 0 to 2^64 - 1")
+    return seed

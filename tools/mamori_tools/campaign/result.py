@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Verdicts as evidence: campaign.json and JUnit (docs/design/trace.md#evidence-files), each written whole."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from mamori_tools.campaign.judge import Check, is_passed
+from mamori_tools.campaign.selection import Case
+from mamori_trace.base.text_file import write_text
+
+SCHEMA = "mamori.campaign/1"
+TECHNIQUE = "fault_injection"
+
+
+@dataclass(frozen=True)
+class CaseResult:
+    """A judged case. `run` is run.json as written, empty where there is none; `command` made it; `wall_s` [s]."""
+
+    case: Case
+    run: Mapping[str, Any]
+    checks: tuple[Check, ...]
+    command: tuple[str, ...]
+    wall_s: float
+
+    @property
+    def passed(self) -> bool:
+        return is_passed(self.checks)
+
+    @property
+    def reproduction(self) -> str:
+        """The commit that was run, and the one command that runs the case again: program, configuration, fault plan, seed."""
+        commit = self.run.get("commit")
+        return f"at commit {commit if isinstance(commit, str) else 'unknown'}: {shlex.join(self.command)}"
+
+    @property
+    def failure(self) -> str:
+        """The failed checks in words; empty where the case passed."""
+        return "; ".join(f"{check.name}: wanted {check.wanted}, was {check.measured}"
+                         for check in self.checks if not check.passed)  # fmt: skip
+
+    def to_json(self) -> dict[str, Any]:
+        case = self.case
+        expected = case.expected
+        return {
+            "id": case.id,
+            "scenario": case.scenario,
+            "title": case.title,
+            "requirements": list(case.requirements),
+            "polarity": "nominal" if case.fault is None else "violation",
+            "requirement_polarity": dict(case.requirements),
+            "expected": {"state": expected.state, "reaction": list(expected.reactions),
+                         "detected_fault": list(expected.detected_faults), "within_s": expected.within_s},
+            "run": dict(self.run),
+            "folder": case.id,
+            "command": shlex.join(self.command),
+            "checks": [asdict(check) for check in self.checks],
+            "verdict": "pass" if self.passed else "fail",
+        }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class CampaignResult:
+    """All judged cases, in the order of the plan."""
+
+    cases: tuple[CaseResult, ...]
+    environment: Mapping[str, Any]
+
+    @property
+    def failed_cases(self) -> tuple[CaseResult, ...]:
+        return tuple(each for each in self.cases if not each.passed)
+
+    @property
+    def passed(self) -> bool:
+        """True where there is a case and none failed."""
+        return bool(self.cases) and not self.failed_cases
+
+    def write(self, evidence: Path) -> None:
+        """Writes `campaign/campaign.json` and `junit/campaign.xml` below `evidence`. Raises InputError."""
+        content = {"schema": SCHEMA, "environment": dict(self.environment), "cases": [each.to_json() for each in self.cases]}
+        write_text(evidence / "campaign" / "campaign.json", json.dumps(content, indent=1, allow_nan=False) + "\n")
+        write_text(evidence / "junit" / "campaign.xml", self.to_junit())
+
+    def to_junit(self) -> str:
+        """Each case once per requirement that it verifies."""
+        suite = ElementTree.Element("testsuite", name="campaign")
+        for each in self.cases:
+            for requirement, polarity in each.case.requirements.items():
+                suite.append(_make_testcase(each, requirement, polarity))
+        suite.set("tests", str(len(suite)))
+        suite.set("failures", str(len(suite.findall("testcase/failure"))))
+        suite.set("errors", "0")
+        suite.set("skipped", "0")
+        suite.set("time", f"{sum(each.wall_s for each in self.cases):.3f}")
+        suites = ElementTree.Element("testsuites")
+        suites.append(suite)
+        ElementTree.indent(suites)
+        return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(suites, encoding="unicode") + "\n"
+
+
+def _make_testcase(result: CaseResult, requirement: str, polarity: str) -> ElementTree.Element:
+    case = result.case
+    element = ElementTree.Element("testcase", classname=case.scenario, name=f"{case.id}[{requirement}]",
+                                  time=f"{result.wall_s:.3f}")  # fmt: skip
+    properties = ElementTree.SubElement(element, "properties")
+    for name, value in (("requirement", requirement), ("technique", TECHNIQUE), ("polarity", polarity)):
+        ElementTree.SubElement(properties, "property", name=name, value=value)
+    if not result.passed:
+        failure = ElementTree.SubElement(element, "failure", message=_clean(result.failure))
+        failure.text = _clean(f"{result.failure}; {result.reproduction}")
+    return element
+
+
+def _clean(text: str) -> str:
+    """XML knows no control characters; a program's last words may have some."""
+    return "".join(letter if letter.isprintable() else " " for letter in text)

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From a plan to the cases of one campaign: which scenarios, how many instants, and what they mean for one motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mamori_tools.campaign.fault import FASTEST, Fault
+from mamori_tools.campaign.plan import Bounds, Expected, Plan, Scenario
+from mamori_tools.motion import Motion
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.nearest_names import nearest_names
+
+FRAME_S = 0.001
+"""Major frame of the program under test [s]."""
+
+SPEED_WINDOW_S = 0.1
+"""The speed of a joint at an instant is its mean over this time from the instant on [s]."""
+
+SEARCH_STEP_S = 0.01
+"""Step of the search for an instant at which a joint moves [s]; also the least distance of two instants."""
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Scenarios of a plan, in its order, each with the number of instants that are taken from its first on."""
+
+    plan: Plan
+    scenarios: tuple[Scenario, ...]
+    instants: int | None
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run: everything that decides it, and everything that it is judged by.
+
+    `fault` is None for a fault-free run. `frames` is None where the program itself ends with the motion.
+    `watch_s` is how long the run must go on after the injection; where there is none, how long it must be [s].
+    """
+
+    id: str
+    scenario: str
+    title: str
+    fault: Fault | None
+    seed: int
+    frames: int | None
+    watch_s: float
+    expected: Expected
+    bounds: Bounds
+    requirements: Mapping[str, str]
+
+
+def select(plan: Plan, names: Sequence[str] = (), instants: int | None = None) -> Selection:
+    """Scenarios by name, all where no name is given; the first `instants` of each, all where None.
+
+    Raises InputError for an unknown name (with the nearest ones), and for less than one instant or more than the plan has.
+    """
+    known = [scenario.name for scenario in plan.scenarios]
+    for name in names:
+        if name not in known:
+            raise InputError(f"unknown scenario '{name}'; {nearest_names(name, known)}; valid: {', '.join(known)}")
+    if instants is not None and instants < 1:
+        raise InputError(f"{instants} instants per scenario; write 1 or more")
+    chosen = tuple(each for each in plan.scenarios if not names or each.name in names)
+    most = max(len(each.instants) for each in chosen)
+    if instants is not None and instants > most:
+        raise InputError(f"{instants} instants per scenario; the plan has {most}: write 1 to {most}, or add instants to {plan.path}")
+    return Selection(plan, chosen, instants)
+
+
+def resolve(selection: Selection, motion: Motion) -> tuple[Case, ...]:
+    """The cases for one motion. Raises InputError where an instant or a joint of the plan does not exist in it."""
+    cases: list[Case] = []
+    for scenario in selection.scenarios:
+        if scenario.fault.kind == "none":
+            cases.append(_make_case(selection.plan, scenario, 1, None, motion))
+            continue
+        earliest_s = 0.0
+        for number, instant in enumerate(scenario.instants[:selection.instants], start=1):
+            asked_s = instant if scenario.in_seconds else instant * motion.duration_s
+            fault = _place_fault(scenario, motion, max(asked_s, earliest_s))
+            cases.append(_make_case(selection.plan, scenario, number, fault, motion))
+            earliest_s = fault.at_s + SEARCH_STEP_S
+    return tuple(cases)
+
+
+def _make_case(plan: Plan, scenario: Scenario, number: int, fault: Fault | None, motion: Motion) -> Case:
+    end_s = plan.motion_begins_at_s + (0.0 if fault is None else fault.at_s) + plan.observe_s
+    joint = "" if fault is None or fault.joint is None else str(fault.joint)
+    return Case(
+        id=f"{scenario.name}-{number}",
+        scenario=scenario.name,
+        title=scenario.title.replace("{joint}", joint),
+        fault=fault,
+        seed=plan.seed,
+        frames=None if fault is None else math.ceil(round(end_s / FRAME_S, 6)),
+        watch_s=plan.motion_begins_at_s + motion.duration_s if fault is None else plan.observe_s,
+        expected=scenario.expected,
+        bounds=plan.bounds,
+        requirements=scenario.requirements,
+    )
+
+
+def _place_fault(scenario: Scenario, motion: Motion, asked_s: float) -> Fault:
+    """Fixes time and joint of a fault; the time falls on a frame."""
+    spec = scenario.fault
+    place_s, joint = asked_s, None
+    if asked_s >= motion.duration_s:
+        raise scenario.node.error(f"{scenario.name} begins at {asked_s:.3f} s, the motion lasts {motion.duration_s:.3f} s; "
+                                  "choose an earlier instant")
+    if spec.joint is not None:
+        if isinstance(spec.joint, int) and spec.joint > len(motion.joint_names):
+            raise scenario.node.error(f"{scenario.name} names joint {spec.joint}, the arm has {len(motion.joint_names)}")
+        place_s, joint = _find_moving_joint(scenario, motion, asked_s)
+    at_s = round(round(place_s / FRAME_S) * FRAME_S, 6)
+    return Fault(spec.kind, at_s, joint, spec.channel, spec.magnitude, spec.duration_s)
+
+
+def _find_moving_joint(scenario: Scenario, motion: Motion, asked_s: float) -> tuple[float, int]:
+    """The first instant from `asked_s` on at which the joint moves fast enough, and the joint's number from 1."""
+    spec = scenario.fault
+    least = spec.min_speed_rad_s or 0.0
+    steps = max(1, math.ceil((motion.duration_s - asked_s) / SEARCH_STEP_S))
+    for step in range(steps):
+        place_s = asked_s + step * SEARCH_STEP_S
+        speeds = motion.calc_mean_speed(place_s, place_s + SPEED_WINDOW_S)
+        joint = int(np.argmax(speeds)) + 1 if spec.joint == FASTEST else int(spec.joint or 0)
+        if speeds[joint - 1] >= least:
+            return place_s, joint
+    who = "no joint" if spec.joint == FASTEST else f"joint {spec.joint} never"
+    raise scenario.node.error(f"{scenario.name}: {who} moves at {least:g} rad/s from {asked_s:.3f} s of "
+                              f"{motion.source_name} on; choose an earlier instant or another motion")

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`./mamori demo`: the main job.
+
+@satisfies SWR-CLI-011      Design: docs/design/launcher.md#steps
+"""
+
+from __future__ import annotations
+
+import argparse
+import textwrap
+from collections.abc import Sequence
+from pathlib import Path
+
+from mamori_tools.campaign.campaign_step import CampaignRequest
+from mamori_tools.campaign.campaign_table import show_campaign
+from mamori_tools.command.own_plans import load_own_plans
+from mamori_tools.host import plans
+from mamori_tools.host.arguments import Command, add_jobs, at_least_one
+from mamori_tools.host.project import RELEASE, ROOT, Project
+from mamori_tools.host.session import begin, finish
+from mamori_tools.host.steps import Context, Tier, run_steps
+
+SHOWN_WIDTH = 110  # characters of a line of names
+
+
+def demo(jobs: int, motion: Path | None, scenarios: tuple[str, ...], instants: int | None) -> int:
+    """The main job. @return exit status."""
+    project = Project(ROOT)
+    request = CampaignRequest(motion or project.motion, scenarios, instants)
+    notes = request.check(project)
+    context = begin(project, jobs, (RELEASE,))
+    for note in notes:
+        context.screen.say(f"note: {request.motion.name}: {note}")
+    plan = plans.demo_plan(request.run)
+    outcomes = run_steps(plan, context)
+    show_campaign(context)
+    show_not_run(plans.find_not_run(plan, load_own_plans().list_test_steps(project, request.run, Tier.GATE)), context)
+    return finish(outcomes, context)
+
+
+def show_not_run(names: Sequence[str], context: Context) -> None:
+    """What `./mamori test` does more than this run."""
+    context.screen.say()
+    context.screen.say("not run (./mamori test runs these as well):")
+    for line in textwrap.wrap(", ".join(names), width=SHOWN_WIDTH, break_long_words=False, break_on_hyphens=False):
+        context.screen.say(f"  {line}")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_jobs(parser)
+    parser.add_argument("--motion", type=Path, metavar="FILE")
+    parser.add_argument("--scenario", nargs="+", default=[], metavar="NAME", action="extend")
+    parser.add_argument("--instants", type=at_least_one, metavar="N")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """@return exit status."""
+    return demo(arguments.jobs, arguments.motion, tuple(arguments.scenario), arguments.instants)
+
+
+COMMAND = Command(add_arguments, run)

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`mamori new NAME`: a project of the user's, made from the first example, so that an API change is made at one place.
+
+The sources of examples/minimal are cut at their landmarks and put together anew; only what the example does not have (requirements,
+tests, CMake of a project of its own) is kept as text, in start/. The folder appears complete or not at all.
+
+@satisfies SWR-CLI-024, SWR-CLI-025      Design: docs/design/launcher.md#new-projects
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import re
+import shutil
+import signal
+import tempfile
+from pathlib import Path
+
+from mamori_tools.host.arguments import Command
+from mamori_tools.host.exit_status import EXIT_OK
+from mamori_tools.host.project import ROOT
+from mamori_trace.actions import review
+from mamori_trace.base.errors import InputError
+
+START = Path(__file__).parent / "start"
+EXAMPLE = ROOT / "examples" / "minimal"
+NAME_LENGTH_MAX = 64
+# Targets that CMake or this project makes itself.
+RESERVED = frozenset("all clean help install list_install_components package package_source edit_cache rebuild_cache test mamori".split())
+LANDMARKS = ("using mamori::Status;", "static Wheel wheel;", "/// What surrounds the components", "int main() {\n")
+
+
+def new(path: Path) -> int:
+    """Creates the project. @return the exit status. @raise InputError: nothing is written then."""
+    target = check_target(path)
+    files = make_files(target.name)
+    try:
+        write_project(target, files)
+    except OSError as error:
+        raise InputError(f"'{path}' cannot be created: {error.strerror}; name a place where you may write") from None
+    except InputError as error:
+        raise InputError(f"'{path}' cannot be created: {error}") from None
+    print(f"created: {target}")
+    print(f"next:    {ROOT / 'mamori'} verify {path}")
+    return EXIT_OK
+
+
+def check_target(path: Path) -> Path:
+    """@return the absolute path of the new folder. @raise InputError when it cannot become a project."""
+    name = path.name
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > NAME_LENGTH_MAX:
+        raise InputError(f"'{path}' ends in no valid name of a project; use a lower-case letter, then lower-case letters, digits "
+                         f"and _ (at most {NAME_LENGTH_MAX})")  # fmt: skip
+    if name in RESERVED:
+        raise InputError(f"'{name}' is a name that CMake or Mamori uses itself; choose another one")
+    if not path.parent.is_dir():
+        raise InputError(f"'{path.parent}' is no folder; create it first, or name another place")
+    target = path.parent.resolve() / name
+    if target.is_relative_to(ROOT):
+        raise InputError(f"'{path}' is inside Mamori's own source tree; name a place outside {ROOT}")
+    if os.path.lexists(target):
+        raise InputError(f"'{path}' exists already; choose another name, or remove it")
+    return target
+
+
+def make_files(name: str) -> dict[str, str]:
+    """@return the content of each file by its place in the project, but for requirements/trace.lock."""
+    head, components, table, printer, main = cut(EXAMPLE / "main.cpp")
+    includes = "".join(line for line in head.splitlines(keepends=True) if line.startswith("#include"))
+    used = re.search(r"target_link_libraries\(\S+ PRIVATE ([^)]+)\)", (EXAMPLE / "CMakeLists.txt").read_text(encoding="utf-8"))
+    version = re.search(r"^project\(mamori VERSION (\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
+    if used is None or version is None:
+        raise RuntimeError("examples/minimal/CMakeLists.txt or CMakeLists.txt has changed its form")
+    words = {"name": name, "version": version[1], "libraries": used[1], "components": used[1].replace("mamori::", ""),
+             "recorder": make_recorder(printer)}  # fmt: skip
+    standard, own = (re.findall(rf"#include {opening}.*\n", includes) for opening in "<\"")
+    return {
+        "CMakeLists.txt": fill("CMakeLists.txt.in", words),
+        "README.md": fill("README.md.in", words),
+        ".gitignore": "build/\nreport/\n",
+        "src/components.hpp": make_header("The two components.", name, "COMPONENTS", "".join(own), tag_monitor(components)),
+        "src/system.hpp": make_header("The system table, and its run in virtual time.", name, "SYSTEM",
+                                      "".join(line for line in standard if "cstdio" not in line) + '\n#include "components.hpp"\n',
+                                      table + make_run(main)),
+        "src/main.cpp": f'// SPDX-License-Identifier: Apache-2.0\n#include <cstdio>\n\n#include "system.hpp"\n\n{printer}'
+                        "int main() {\n    Printer printer;\n    return run_system(20, printer);\n}\n",
+        "tests/system_test.cpp": fill("system_test.cpp.in", words),
+        "requirements/system.md": (START / "system.md").read_text(encoding="utf-8"),
+        "requirements/software.md": (START / "software.md").read_text(encoding="utf-8"),
+        "requirements/schema/items.toml": (ROOT / "trace" / "mamori_trace" / "start" / "items.toml").read_text(encoding="utf-8"),
+    }  # fmt: skip
+
+
+def cut(source: Path) -> tuple[str, str, str, str, str]:
+    """@return head, components, table, devices and main function of the example."""
+    text = source.read_text(encoding="utf-8")
+    places = [0]
+    for landmark in LANDMARKS:
+        if text.count(landmark) != 1:
+            raise RuntimeError(f"{source}: '{landmark.strip()}' must be there once")
+        places.append(text.index(landmark))
+    head, components, table, devices, main = (text[a:b] for a, b in zip(places, [*places[1:], len(text)], strict=True))
+    return head, components, table, devices, main
+
+
+def replace_once(text: str, old: str, new_text: str) -> str:
+    if text.count(old) != 1:
+        raise RuntimeError(f"examples/minimal/main.cpp: '{old.strip()}' must be there once")
+    return text.replace(old, new_text)
+
+
+def make_run(main: str) -> str:
+    """The main function of the example as a function with any devices."""
+    text = replace_once(main, "int main() {\n", "/// Runs the system for `frame_count` major frames. @return 0 when each action succeeded.\n"
+                        "inline int run_system(int frame_count, mamori::ports::virtual_time::FrameDevices& devices) {\n")  # fmt: skip
+    text = replace_once(text, "    Printer printer;\n", "")
+    text = replace_once(text, ", printer}", ", devices}")
+    return re.sub(r"frame < \d+;", "frame < frame_count;", text)
+
+
+def make_recorder(printer: str) -> str:
+    """The devices of the example, with a body that records."""
+    start = replace_once(printer[printer.index("class Printer"):], "class Printer ", "class Recorder ")
+    head = re.match(r".*?end_frame\([^)]*\)[^{]*\{\n", start, re.DOTALL)
+    if head is None:
+        raise RuntimeError("examples/minimal/main.cpp: Printer has no end_frame")
+    body = "        samples.push_back({wheel.speed.get_published(), monitor.brake.get_published()});\n    }\n};\n"
+    return "/// Records instead of printing.\n" + re.sub(r"std::uint64_t frame\b", "std::uint64_t", head[0]) + body
+
+
+def tag_monitor(components: str) -> str:
+    """Names the requirement at the component that satisfies it."""
+    return replace_once(components, "class Monitor ", "/// @satisfies SWR-APP-001, SYS-001\nclass Monitor ")
+
+
+def make_header(about: str, name: str, part: str, includes: str, body: str) -> str:
+    guard = f"{name.upper()}_{part}_HPP"
+    return (f"// SPDX-License-Identifier: Apache-2.0\n/// @file\n/// {about}\n#ifndef {guard}\n#define {guard}\n\n{includes}\n"
+            f"{body.rstrip()}\n\n#endif  // {guard}\n")  # fmt: skip
+
+
+def fill(template: str, words: dict[str, str]) -> str:
+    return (START / template).read_text(encoding="utf-8").format(**words)
+
+
+def write_project(target: Path, files: dict[str, str]) -> None:
+    """Writes `files` and the record of their links to a folder beside `target` and renames it. @raise OSError"""
+    part = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
+    try:
+        for name, text in files.items():
+            (part / name).parent.mkdir(parents=True, exist_ok=True)
+            (part / name).write_text(text, encoding="utf-8")
+        with contextlib.redirect_stdout(io.StringIO()):
+            review.run(argparse.Namespace(root=part, items=[], all=True, format=None, schema=None, by="mamori new"))
+        mask = os.umask(0)
+        os.umask(mask)
+        part.chmod(0o777 & ~mask)
+        if os.path.lexists(target):
+            raise FileExistsError(0, "it exists already")
+        part.rename(target)
+    finally:
+        handlers = [(number, signal.signal(number, signal.SIG_IGN)) for number in (signal.SIGINT, signal.SIGTERM)]
+        shutil.rmtree(part, ignore_errors=True)
+        for number, handler in handlers:
+            signal.signal(number, handler)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("path", type=Path, metavar="NAME")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """@return exit status."""
+    return new(arguments.path)
+
+
+COMMAND = Command(add_arguments, run)

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The steps of Mamori's own tests. `verification` registers them, so that the tools import nothing above them."""
+
+from __future__ import annotations
+
+from importlib.metadata import entry_points
+from typing import Protocol
+
+from mamori_tools.host.project import Project
+from mamori_tools.host.steps import Action, Step, Tier
+
+
+class OwnPlans(Protocol):
+    """What the entry point `own` of the group `mamori.plans` names."""
+
+    def list_test_steps(self, project: Project, campaign: Action, tier: Tier) -> tuple[Step, ...]:
+        """`./mamori test`."""
+
+    def list_verify_steps(self, campaign: Action) -> tuple[Step, ...]:
+        """`./mamori verify` without a project."""
+
+
+def load_own_plans() -> OwnPlans:
+    [point] = entry_points(group="mamori.plans", name="own")
+    own: OwnPlans = point.load()
+    return own

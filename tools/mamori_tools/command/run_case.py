@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`mamori run`: one case of the example arm with its plots, beside the end state that the fault plan expects.
+
+What the user leaves out of a fault comes from the scenario of the plan that is most like it; that scenario also states what is
+expected. Campaign, motion reader and report are imported where they are used: they pull in large libraries.
+
+@satisfies SWR-CLI-013      Design: docs/design/launcher.md#one-case
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import shutil
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mamori_tools.host import plans
+from mamori_tools.host.arguments import Command, add_jobs
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK
+from mamori_tools.host.project import ROOT, Project
+from mamori_tools.host.steps import Context, all_passed, run_steps
+from mamori_trace.base.errors import InputError
+
+if TYPE_CHECKING:
+    from mamori_tools.campaign import CaseResult, Plan, Scenario, Selection
+    from mamori_tools.motion import Motion
+
+KEYS = ("joint", "channel", "magnitude", "at", "duration")
+REJECTED_INPUT = 2
+"""Exit status of the program for input that it rejects."""
+
+
+def run_case(jobs: int, motion_file: Path | None, fault: str | None) -> int:
+    """Builds the program, runs one case, shows it and writes its page. @return exit status. @raise InputError."""
+    from mamori_tools.campaign import load_plan, resolve, run_campaign
+    from mamori_tools.motion import load_limits, read_motion
+
+    project = Project(ROOT)
+    motion = read_motion(motion_file or project.motion, load_limits(project.model))
+    selection = select_case(load_plan(project.campaign_plan), motion, fault)
+    case = resolve(selection, motion)[0]
+    context = Context(project, jobs)
+    if not all_passed(run_steps((plans.build_step(project.preset, targets=(plans.EXAMPLE_TARGET,)),), context)):
+        return EXIT_FAILED
+    folder = project.root / "build" / "run" / case.scenario
+    _make_empty(folder)
+    result = run_campaign(selection, program=project.safe_arm, model=project.model, motion=motion, evidence=folder, jobs=1).cases[0]
+    log = folder / "campaign" / case.id / "program.log"
+    if not result.run and f"exit status {REJECTED_INPUT}" in result.failure:
+        raise InputError("run: " + log.read_text(encoding="utf-8").strip().splitlines()[-1].removeprefix("safe_arm: "))
+    for note in motion.notes:
+        context.screen.say(f"note: {motion.source_name}: {note}")
+    for line in summarise(result):
+        context.screen.say(line)
+    for line in _write_page(result, folder):
+        context.screen.say(line)
+    reached = result.run.get("final_state") == case.expected.state
+    context.screen.say(f"end state {'as expected' if reached else 'NOT as expected'}", style="" if reached else "bold red")
+    return EXIT_OK if reached else EXIT_FAILED
+
+
+def _make_empty(folder: Path) -> None:
+    try:
+        if folder.exists():
+            shutil.rmtree(folder)
+        folder.mkdir(parents=True)
+    except OSError as error:
+        raise InputError(f"run: {folder}: nothing can be written there ({error.strerror}); make it a folder that you may write to") from error
+
+
+def select_case(plan: Plan, motion: Motion, fault: str | None) -> Selection:
+    """The one case that `fault` (KIND[,key=value...]) asks for; None: no fault. @raise InputError with the valid words."""
+    from mamori_tools.campaign import Selection
+
+    kind, *pairs = ("none" if fault is None else fault).removeprefix("kind=").split(",")
+    scenarios = [each for each in plan.scenarios if each.fault.kind == kind]
+    if not scenarios:
+        raise InputError(f"run: --fault: unknown kind '{kind}'; known: {_join(each.fault.kind for each in plan.scenarios)}")
+    given = _read_pairs(pairs, scenarios[0], motion)
+    # Scenarios in the order of the plan; a scenario with each part that was given comes first.
+    scenario = max(scenarios, key=lambda each: sum(getattr(each.fault, _FIELDS[key]) == value
+                                                   for key, value in given.items() if key in _FIELDS))  # fmt: skip
+    spec = replace(scenario.fault, **{_FIELDS[key]: value for key, value in given.items() if key in _FIELDS})
+    if given:
+        scenario = replace(scenario, title=f"{kind} as given on the command line")
+    if "at" in given:
+        scenario = replace(scenario, instants=(given["at"],), in_seconds=True)
+        spec = replace(spec, min_speed_rad_s=None)
+    return Selection(plan, (replace(scenario, fault=spec),), 1 if scenario.instants else None)
+
+
+_FIELDS = {"joint": "joint", "channel": "channel", "magnitude": "magnitude", "duration": "duration_s"}
+"""Part of a fault on the command line -> field of the plan."""
+
+
+def _read_pairs(pairs: Iterable[str], scenario: Scenario, motion: Motion) -> dict[str, Any]:
+    from mamori_tools.campaign.fault import KINDS
+
+    kind = scenario.fault.kind
+    uses = KINDS[kind]
+    timed = kind != "none"
+    valid = [key for key, used in zip(KEYS, (uses.joint, uses.channel, uses.magnitude, timed, timed), strict=True) if used]
+    given: dict[str, Any] = {}
+    for pair in pairs:
+        key, equal, text = pair.partition("=")
+        if not equal or key not in valid:
+            known = f"{kind} takes {_join(valid)}" if valid else f"{kind} takes no key"
+            raise InputError(f"run: --fault: '{pair}' is not key=value with a known key; {known}")
+        if key in given:
+            raise InputError(f"run: --fault: {key} is given twice; {kind} takes {_join(valid)}")
+        given[key] = _read_value(key, text, motion)
+    return given
+
+
+def _read_value(key: str, text: str, motion: Motion) -> int | float | str:
+    from mamori_tools.campaign.fault import CHANNELS, FASTEST
+
+    joints = len(motion.joint_names)
+    if key == "channel":
+        return _demand(text in CHANNELS, text, key, text, _join(CHANNELS))
+    if key == "joint" and text == FASTEST:
+        return FASTEST
+    if key == "joint":
+        number = int(text) if text.isdecimal() and len(text) < 4 else 0
+        return _demand(1 <= number <= joints, number, key, text, f"1 to {joints} or {FASTEST}")
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if key == "at":
+        return _demand(0.0 <= value < motion.duration_s, value, key, text, f"seconds of the motion, from 0 to below its end at {motion.duration_s:.3f}")
+    if key == "duration":
+        return _demand(0.0 < value < math.inf, value, key, text, "seconds above 0")
+    return _demand(math.isfinite(value), value, key, text, "a finite number; ./mamori run --help lists the ranges")
+
+
+def _demand(met: bool, value: Any, key: str, text: str, valid: str) -> Any:
+    if not met:
+        raise InputError(f"run: --fault: {key} is '{text}'; valid: {valid}")
+    return value
+
+
+def _join(words: Iterable[str]) -> str:
+    return ", ".join(dict.fromkeys(words))
+
+
+def summarise(result: CaseResult) -> list[str]:
+    """One screen: fault, reaction, stopping figures, expected and real end state."""
+    case, run = result.case, result.run
+    physics = run.get("physics", {})
+    begin = (run.get("fault") or {}).get("at_s")
+    travel = max(physics.get("stop_travel_rad", []), default=None)
+    rows = [
+        ("case", case.title),
+        ("fault", "none" if case.fault is None else case.fault.to_text()),
+        ("detected", _show_event(run.get("detected_fault"), run.get("detected_at_s"), begin)),
+        ("reaction", _show_event(run.get("reaction"), run.get("reacted_at_s"), begin)),
+        ("allowed", "no reaction" if case.expected.within_s is None
+         else f"{' or '.join(case.expected.reactions)} within {1e3 * case.expected.within_s:.0f} ms"),
+        ("standstill", _show_event("reached", run.get("standstill_at_s"), begin) if run.get("standstill_at_s") is not None else "not reached"),
+    ]  # fmt: skip
+    if run.get("standstill_at_s") is not None:
+        rows += [("stop travel", _show(travel, "rad")), ("hold drift", _show(physics.get("hold_drift_rad"), "rad"))]
+    rows += [("tracking error", _show(physics.get("max_tracking_error_rad"), "rad")), ("end state", run.get("final_state", "none")),
+             ("expected", f"{case.expected.state} (scenario {case.scenario} of the fault plan)")]  # fmt: skip
+    failed = [check for check in result.checks if not check.passed]
+    lines = ["", *(f"  {name:<16}{value}" for name, value in rows),
+             f"  {'checks':<16}{len(result.checks) - len(failed)} passed, {len(failed)} failed"]  # fmt: skip
+    return [*lines, *(f"    {check.name}: expected {check.wanted}, measured {check.measured}" for check in failed)]
+
+
+def _show_event(name: str | None, at_s: float | None, begin_s: float | None) -> str:
+    if name is None or at_s is None:
+        return "none"
+    after = "" if begin_s is None else f", {1e3 * (at_s - begin_s):.1f} ms after the fault"
+    return f"{name} at {at_s:.3f} s{after}"
+
+
+def _show(value: float | None, unit: str) -> str:
+    return "unknown" if value is None else f"{value:.4f} {unit}"
+
+
+def _write_page(result: CaseResult, folder: Path) -> list[str]:
+    """Writes the page with the plots. @return the states of the run and the path of the page."""
+    if not result.run:
+        return [f"log: {folder / 'campaign' / result.case.id / 'program.log'}"]
+    from mamori_trace.readers.campaign import make_case
+    from mamori_trace.readers.series import read_series
+    from mamori_trace.reports.case_page import write_case_page
+    from mamori_trace.reports.plots import list_bands
+
+    page = folder / "case.html"
+    try:
+        view = write_case_page(make_case(result.to_json()), folder / "campaign", page)
+    except OSError as error:
+        raise InputError(f"run: {page}: the page cannot be written ({error.strerror}); make room or remove it") from error
+    if view.plot_problem:
+        return [f"  no plots: {view.plot_problem}"]
+    bands = list_bands(read_series(folder / "campaign" / result.case.id / "series.csv"))
+    return [f"  {'states':<16}{', '.join(f'{state} from {begin_s:.3f} s' for state, begin_s, _ in bands)}", f"  {'plots':<16}{page}"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_jobs(parser)
+    parser.add_argument("--motion", type=Path, metavar="FILE")
+    parser.add_argument("--fault", metavar="FAULT")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """@return exit status."""
+    return run_case(arguments.jobs, arguments.motion, arguments.fault)
+
+
+COMMAND = Command(add_arguments, run)

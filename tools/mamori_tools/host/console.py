@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the user sees: one line per step, a spinner on a terminal, a sign of life every half minute elsewhere.
+
+rich keeps to NO_COLOR and leaves colours and cursor moves out where the output is no terminal.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+from rich.text import Text
+
+from mamori_tools.host.process import Tick
+
+SIGN_OF_LIFE_S = 30.0
+NEWS_LENGTH = 70
+STYLES = {"passed": "green", "failed": "bold red", "skipped": "yellow"}
+
+
+class _Output(Console):
+    """rich ends the process with status 1 where nobody reads any more; the command has a status for that."""
+
+    def on_broken_pipe(self) -> None:
+        raise  # rich calls this while it handles the BrokenPipeError
+
+
+class Screen:
+    """Writes to standard output, or to standard error where standard output takes a result only. Thread safety: none."""
+
+    def __init__(self, to_stderr: bool = False) -> None:
+        is_terminal = os.isatty(2 if to_stderr else 1)
+        self._console = _Output(highlight=False, width=None if is_terminal else 110, soft_wrap=not is_terminal, stderr=to_stderr)
+
+    def say(self, text: str = "", style: str = "") -> None:
+        """One line of plain text."""
+        self._console.print(escape(text), style=style or None)
+
+    def say_verdict(self, verdict: str, text: str) -> None:
+        """One line that begins with a coloured verdict."""
+        self._console.print(f"  [{STYLES[verdict]}]{verdict:<8}[/] {escape(text)}")
+
+    def print_table(self, columns: tuple[str, ...], rows: list[tuple[str, ...]]) -> None:
+        """A table; cells that hold a verdict are coloured."""
+        table = Table(box=None, pad_edge=False, header_style="bold")
+        for index, column in enumerate(columns):
+            table.add_column(column, no_wrap=index == 0)
+        for row in rows:
+            table.add_row(*(f"[{STYLES[cell]}]{cell}[/]" if cell in STYLES else escape(cell) for cell in row))
+        self._console.print(table, soft_wrap=False)
+
+    @contextmanager
+    def show_work(self, title: str) -> Iterator[Tick]:
+        """Shows that `title` goes on; the yielded function takes the newest piece of news."""
+        start = last = time.monotonic()
+        if self._console.is_terminal:
+            with self._console.status(escape(title)) as status:
+
+                def spin(news: str) -> None:
+                    line = f"{title}, {time.monotonic() - start:.0f} s  {news}"
+                    status.update(Text(line, no_wrap=True, overflow="ellipsis"))
+
+                yield spin
+            return
+
+        def write(news: str) -> None:
+            nonlocal last
+            now = time.monotonic()
+            if now - last >= SIGN_OF_LIFE_S:
+                last = now
+                self.say(f"  ...      {title}, {now - start:.0f} s  {news[:NEWS_LENGTH]}")
+
+        yield write

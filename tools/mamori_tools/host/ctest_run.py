@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads what CTest knows of the tests of a project, and runs them so that each test process has a result folder of its own.
+
+CTest runs a second test folder. It includes the tests of the project with all their properties and adds one environment
+variable to each. GoogleTest selects a file name when a program starts: two processes that share a folder lose results.
+
+@satisfies SWR-CLI-032      Design: docs/design/launcher.md#tests-of-a-project
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import xml.etree.ElementTree as ElementTree
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mamori_tools.host.process import Tick, run_logged
+from mamori_trace.base.errors import WorkError
+
+_GTEST = "GTEST_"
+_SETTINGS = ("DartConfiguration.tcl", "CTestCustom.cmake", "CTestCustom.ctest")
+"""Files of a build folder that change how CTest runs its tests, such as the default time limit."""
+
+
+@dataclass(frozen=True)
+class ProjectTest:
+    """One test of `ctest -N`. `number` counts from 1, as CTest does."""
+
+    number: int
+    name: str
+    command: tuple[str, ...]
+    properties: dict[str, object] = field(default_factory=dict)
+
+    @property
+    def folder(self) -> Path:
+        return Path(str(self.properties.get("WORKING_DIRECTORY", ".")))
+
+    def get_words(self, name: str) -> tuple[str, ...]:
+        """A property that is a list."""
+        value = self.properties.get(name, ())
+        return (value,) if isinstance(value, str) else tuple(value)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class Record:
+    """What CTest says of one test: `passed`, `failed` or `skipped`, and why."""
+
+    verdict: str
+    seconds: str
+    message: str = ""
+
+
+def list_tests(build: Path) -> list[ProjectTest]:
+    """The tests of `ctest -N`. @raise WorkError when CTest cannot list them."""
+    try:
+        done = subprocess.run(["ctest", "--test-dir", str(build), "--show-only=json-v1"], env=make_environment(),
+                              capture_output=True, check=False, stdin=subprocess.DEVNULL)  # fmt: skip
+        tests = json.loads(done.stdout)["tests"] if done.returncode == 0 else None
+    except (OSError, ValueError, KeyError) as error:
+        raise WorkError(f"{build}: ctest cannot list the tests ({error}); run ctest -N there") from error
+    if tests is None:
+        said = " ".join(done.stderr.decode(errors="replace").split())
+        raise WorkError(f"{build}: ctest cannot list the tests (status {done.returncode}: {said[:200]}); run ctest -N there")
+    listed = []
+    for number, test in enumerate(tests, start=1):
+        properties = {row["name"]: row["value"] for row in test.get("properties", ())}
+        listed.append(ProjectTest(number, test["name"], tuple(test.get("command", ())), properties))
+    return listed
+
+
+def make_environment() -> dict[str, str]:
+    """The environment of all tests: a filter or a repetition that the caller's shell sets for GoogleTest does not apply."""
+    return {name: value for name, value in os.environ.items() if not name.startswith(_GTEST)}
+
+
+def prepare(tests: list[ProjectTest], build: Path, folder: Path) -> None:
+    """Makes the second test folder, empty of earlier results. @raise OSError."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for name in _SETTINGS:
+        if (build / name).is_file():
+            shutil.copy(build / name, folder)
+    lines = [f"subdirs({_quote(str(build))})"]
+    count = Counter(test.name for test in tests)
+    for test in tests:
+        variable = _quote(f"{_GTEST}OUTPUT=set:xml:{get_result_folder(folder, test)}/")
+        lock = f" RESOURCE_LOCK {_quote(f'mamori same name {test.name}')}" if count[test.name] > 1 else ""
+        lines.append(f"set_tests_properties({_quote(test.name)} PROPERTIES ENVIRONMENT_MODIFICATION {variable}{lock})")
+    (folder / "CTestTestfile.cmake").write_text("\n".join(lines) + "\n", encoding="utf-8", errors="surrogateescape")
+
+
+def get_result_folder(folder: Path, test: ProjectTest) -> Path:
+    """Where the process of `test` writes. The name is a number: a test name can hold what no file name can.
+
+    Tests that share a name share the folder of the last one. CTest sets a property by name, so they run one after another.
+    """
+    return folder / "results" / f"{test.number:04}"
+
+
+def run_tests(folder: Path, jobs: int, log: Path, root: Path, tick: Tick) -> int:
+    """@return the exit status of CTest."""
+    argv = ["ctest", "--test-dir", str(folder), "--output-on-failure", "--parallel", str(jobs), "--no-tests=error",
+            "--output-junit", str(folder / "ctest.xml")]  # fmt: skip
+    return run_logged(argv, log, root, tick, make_environment())
+
+
+def read_records(folder: Path) -> dict[str, list[Record]]:
+    """CTest's own record of the run, by test name. @raise WorkError when CTest has not written it."""
+    path = folder / "ctest.xml"
+    try:
+        cases = list(ElementTree.parse(path).iter("testcase"))
+    except (OSError, ElementTree.ParseError) as error:
+        raise WorkError(f"{path}: no record of the run by ctest ({error}); see the log") from error
+    records: dict[str, list[Record]] = {}
+    for case in cases:
+        records.setdefault(case.get("name", ""), []).append(_read_record(case))
+    return records
+
+
+def _read_record(case: ElementTree.Element) -> Record:
+    """CTest calls a test skipped when it could not start it, too: a missing program, file or fixture. That is a failure."""
+    status, seconds = case.get("status", ""), case.get("time", "0")
+    output = " ".join((case.findtext("system-out") or "").split())
+    if status == "run":
+        return Record("passed", seconds)
+    if status == "disabled":
+        return Record("skipped", seconds, "disabled")
+    skipped = case.find("skipped")
+    reason = skipped.get("message", "") if skipped is not None else ""
+    if status == "notrun" and reason.startswith("SKIP_"):
+        return Record("skipped", seconds, reason)
+    failure = case.find("failure")
+    reason = reason or (failure.get("message", "") if failure is not None else "")
+    return Record("failed", seconds, f"ctest: {reason or 'crash, time limit or wrong exit status'}; {output[-400:]}".rstrip("; "))
+
+
+def _quote(text: str) -> str:
+    """A bracket argument of CMake: no character in it has a meaning."""
+    level = 0
+    while f"]{'=' * level}]" in text or text.endswith("]" + "=" * level):
+        level += 1
+    return f"[{'=' * level}[{text}]{'=' * level}]"

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where things are: one place for every path that the command reads or writes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+
+RELEASE = "host-release"
+SANITIZED = "host-asan"
+CPP_SUFFIXES = (".hpp", ".cpp")
+CPP_LAYERS = ("kernel", "safety", "ports", "simbody_sim", "examples", "tools", "trace", "verification")
+CHECKED_LAYERS = ("kernel", "safety", "ports")
+
+
+@dataclass(frozen=True)
+class Project:
+    """A source tree and the folders that its runs write to. `preset` names the build whose evidence counts."""
+
+    root: Path
+    preset: str = RELEASE
+
+    @property
+    def build(self) -> Path:
+        return self.root / "build" / self.preset
+
+    @property
+    def evidence(self) -> Path:
+        return self.build / "evidence"
+
+    @property
+    def junit(self) -> Path:
+        return self.evidence / "junit"
+
+    @property
+    def logs(self) -> Path:
+        return self.root / "build" / "log"
+
+    @property
+    def report(self) -> Path:
+        return self.root / "report" / "index.html"
+
+    @property
+    def safe_arm(self) -> Path:
+        """The example's program."""
+        return self.build / "examples" / "safe_arm" / "safe_arm"
+
+    @property
+    def model(self) -> Path:
+        """The arm of the example."""
+        return self.root / "simbody_sim" / "models" / "pa10_like.yaml"
+
+    @property
+    def motion(self) -> Path:
+        """The motion that is shipped."""
+        return self.root / "examples" / "safe_arm" / "motions" / "pick_and_place.yaml"
+
+    @property
+    def campaign_plan(self) -> Path:
+        """Which faults are injected, and what is expected of them."""
+        return self.root / "examples" / "safe_arm" / "faults.yaml"
+
+    def cpp_sources(self, layers: tuple[str, ...] = CPP_LAYERS) -> list[str]:
+        """C++ files of `layers`, relative to the root, sorted."""
+        return sorted(
+            str(path.relative_to(self.root))
+            for layer in layers
+            for path in (self.root / layer).rglob("*")
+            if path.suffix in CPP_SUFFIXES
+        )

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`mamori log FILE`: prints the file of a flight recorder and exports it.
+
+Exit status: 0 each record could be read, 1 printed but something is damaged or missing, 2 nothing to print or wrong usage.
+
+@satisfies SWR-REC-011, SWR-REC-012, SWR-REC-013      Design: docs/design/recorder.md#the-command-log
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from mamori_tools.host.arguments import Command
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK
+from mamori_tools.log.names import Names, default_names_path, read_names
+from mamori_tools.log.region import Recording, read_recording
+from mamori_trace.base.errors import InputError
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", type=Path, metavar="FILE")
+    parser.add_argument("--mcap", type=Path, metavar="OUT")
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--csv", type=Path, metavar="OUT")
+    form.add_argument("--json", action="store_true")
+    parser.add_argument("--names", type=Path, metavar="NAMES")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Raises InputError and InputError, each with one line, where there is nothing to print. @return the exit status."""
+    _refuse_input_as_output(arguments)
+    names, complaint = _choose_names(arguments)
+    recording = read_recording(arguments.file)
+    try:
+        _print(arguments, recording, names)
+    except BrokenPipeError:
+        # Whoever read the lines has seen enough; Python must not complain at its end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    _export(arguments, recording, names)
+    for line in filter(None, (complaint, _make_complaint(recording))):
+        print(f"mamori: {line}", file=sys.stderr)
+    return EXIT_FAILED if recording.findings or complaint else EXIT_OK
+
+
+def _refuse_input_as_output(arguments: argparse.Namespace) -> None:
+    for option, out in (("--mcap", arguments.mcap), ("--csv", arguments.csv)):
+        if out is not None and (out.absolute() == arguments.file.absolute() or (out.exists() and arguments.file.exists()
+                                                                               and out.samefile(arguments.file))):
+            raise InputError(f"log: {option} would replace the recorder file '{out}'; name another file")
+
+
+def _choose_names(arguments: argparse.Namespace) -> tuple[Names, str]:
+    """The names to use, and one line where a table that was only found, not asked for, is broken."""
+    if arguments.names is not None:
+        return read_names(arguments.names), ""
+    found = default_names_path(arguments.file)
+    if not found.is_file():
+        return Names(), ""
+    try:
+        return read_names(found), ""
+    except InputError as error:
+        return Names(), f"{error}; printed without names"
+
+
+def _print(arguments: argparse.Namespace, recording: Recording, names: Names) -> None:
+    if arguments.json:
+        from mamori_tools.log.export import make_json
+
+        print(make_json(recording, names))
+    else:
+        from mamori_tools.log.show import print_recording
+
+        print_recording(recording, names)
+    sys.stdout.flush()
+
+
+def _export(arguments: argparse.Namespace, recording: Recording, names: Names) -> None:
+    if arguments.mcap is None and arguments.csv is None:
+        return
+    from mamori_tools.log.export import write_csv, write_mcap
+
+    if arguments.mcap is not None:
+        write_mcap(arguments.mcap, recording, names)
+    if arguments.csv is not None:
+        write_csv(arguments.csv, recording, names)
+
+
+def _make_complaint(recording: Recording) -> str:
+    if not recording.findings:
+        return ""
+    from mamori_tools.log.show import format_damage
+
+    first = min(recording.findings, key=lambda finding: finding.offset)
+    return str(InputError(f"{format_damage(recording)}, first at offset {first.offset} ({first.text}); what could be read was "
+                          "printed; keep a copy of the file before a program goes on over it", recording.path))
+
+
+COMMAND = Command(add_arguments, run)

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`mamori table FILE`: shows the JSON of a system table as text and as pictures.
+
+Exit status: 0 shown, 1 shown, but the table breaks a rule, 2 nothing to show or wrong usage.
+
+@satisfies SWR-TAB-004, SWR-TAB-007, SWR-TAB-008, SWR-CLI-047      Design: docs/design/cost.md#the-command-table
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from mamori_tools.host.arguments import Command
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK
+from mamori_tools.table.document import Table, read_table
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.text_file import read_text, write_text
+
+FILES = {"text": "table.txt", "time_line": "time_line.svg", "graph": "graph.svg", "modes": "modes.svg"}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", type=Path, metavar="FILE")
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--text", action="store_true")
+    form.add_argument("--json", action="store_true")
+    parser.add_argument("--svg-time-line", type=Path, metavar="OUT")
+    parser.add_argument("--svg-graph", type=Path, metavar="OUT")
+    parser.add_argument("--svg-modes", type=Path, metavar="OUT")
+    parser.add_argument("--out", type=Path, metavar="DIR")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Raises InputError and InputError, each with one line; nothing is written then. @return the exit status."""
+    outputs = _choose_outputs(arguments)
+    table = read_table(arguments.file)
+    # Everything is made before the first file is written.
+    texts = [(path, make(table)) for path, make in outputs]
+    if arguments.out is not None:
+        _make_folder(arguments.out)
+    for path, text in texts:
+        write_text(path, text)
+        print(f"mamori: wrote {path}", file=sys.stderr)
+    if arguments.json:
+        print(json.dumps(json.loads(read_text(arguments.file, "table").text), indent=1))
+    elif arguments.text or not outputs:
+        _print(table)
+    elif table.findings:
+        print(f"mamori: {arguments.file}: the table breaks {len(table.findings)} rule(s), first: {table.findings[0]}; --text shows all",
+              file=sys.stderr)  # fmt: skip
+    return EXIT_FAILED if table.findings else EXIT_OK
+
+
+def _choose_outputs(arguments: argparse.Namespace) -> list[tuple[Path, Callable[[Table], str]]]:
+    makers = {"text": _make_text, "time_line": _make_time_line, "graph": _make_graph, "modes": _make_modes}
+    pictures = {"time_line": arguments.svg_time_line, "graph": arguments.svg_graph, "modes": arguments.svg_modes}
+    outputs: list[tuple[Path, Callable[[Table], str]]] = [(path, makers[kind]) for kind, path in pictures.items() if path is not None]
+    if arguments.out is not None:
+        outputs += [(arguments.out / name, makers[kind]) for kind, name in FILES.items()]
+    seen = [arguments.file.absolute()]
+    for path, _ in outputs:
+        if path.absolute() in seen:
+            raise InputError(f"table: '{path}' is named twice; give each file a name of its own")
+        seen.append(path.absolute())
+    return outputs
+
+
+# Each picture brings a library or a program of its own, which the others do without.
+
+
+def _make_text(table: Table) -> str:
+    from mamori_tools.table.text import make_text
+
+    return make_text(table)
+
+
+def _make_time_line(table: Table) -> str:
+    from mamori_tools.table.time_line import make_time_line
+
+    return make_time_line(table)
+
+
+def _make_graph(table: Table) -> str:
+    from mamori_tools.table.graph import make_graph
+
+    return make_graph(table)
+
+
+def _make_modes(table: Table) -> str:
+    from mamori_tools.table.mode_graph import make_mode_graph
+
+    return make_mode_graph(table)
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"cannot be made: {error.strerror}; name a folder that can be written", folder) from error
+
+
+def _print(table: Table) -> None:
+    from mamori_tools.table.show import print_table
+
+    try:
+        print_table(table)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Whoever read the lines has seen enough; Python must not complain at its end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+COMMAND = Command(add_arguments, run)

@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a measurement says about windows and components: pure functions from arrays to figures.
+
+@satisfies SWR-TIM-012, SWR-TIM-013, SWR-TIM-014      Design: docs/design/timing.md#figures
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mamori_tools.timing.reader import COMPLETED, MISSED, NOT_BACK, OUTCOMES, OVERRUN, Array, Measurement
+
+OPENED = (COMPLETED, OVERRUN, MISSED)
+"""Outcomes that tell how late a window was; the others had nothing to be late for."""
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """Order statistics of times [ns]: each quantile is a value that was measured (nearest rank)."""
+
+    count: int
+    min: int
+    p50: int
+    p99: int
+    p999: int
+    max: int
+
+
+@dataclass(frozen=True)
+class Series:
+    """Values in order of time [ns], and the release [ns] of the opening that each belongs to."""
+
+    releases: Array
+    values: Array
+
+
+@dataclass(frozen=True)
+class Miss:
+    """An opening that overran or was missed. `component`: the one that was not back, or had not begun; nobody, where nothing ran.
+    `is_host`: the window was released too late to have its whole budget, or did not get the processor in it."""
+
+    cycle: int
+    release_ns: int
+    window: str
+    outcome: str
+    component: str | None
+    late_ns: int
+    reason: str
+    is_host: bool
+
+
+@dataclass(frozen=True)
+class WindowRow:
+    """One window: plan and measurement. `response` is closed - release, `used` is closed - woke; the margins are what is left
+    of length and of budget at the worst; None where nothing was measured."""
+
+    window: str
+    core: int
+    offset_ns: int
+    length_ns: int
+    period_ns: int
+    budget_ns: int
+    outcomes: dict[str, int]
+    lateness: Distribution | None
+    response: Distribution | None
+    used_max_ns: int | None
+    budget_margin_ns: int | None
+    length_margin_ns: int | None
+
+
+@dataclass(frozen=True)
+class ComponentRow:
+    """One component: execution time per opening against the declared worst case. `unfinished` openings had not come back."""
+
+    component: str
+    window: str
+    declared_ns: int | None
+    execution: Distribution | None
+    margin_ns: int | None
+    unfinished: int
+
+
+def describe(values: Array) -> Distribution | None:
+    """@param values [ns], any order. @return None where there is no value."""
+    if not len(values):
+        return None
+    ordered = np.sort(values)
+    return Distribution(len(ordered), int(ordered[0]), _pick(ordered, 500), _pick(ordered, 990), _pick(ordered, 999), int(ordered[-1]))
+
+
+def _pick(ordered: Array, permille: int) -> int:
+    """The smallest value that at least `permille` thousandths of all do not exceed; in whole numbers, since 0.999 is none."""
+    return int(ordered[-(-permille * len(ordered) // 1000) - 1])
+
+
+def calc_lateness(run: Measurement, window: int) -> Series:
+    """woke - release of each opening that was released."""
+    rows = run.openings[run.rows_of(window)]
+    rows = rows[np.isin(rows["outcome"], OPENED)]
+    return Series(rows["release_ns"], rows["woke_ns"] - rows["release_ns"])
+
+
+def calc_execution(run: Measurement, component: int) -> tuple[Series, int]:
+    """Sum of the steps of one component in each opening, where all of them came back. @return it, and the number of openings
+    where one did not."""
+    of_it = run.steps["component"] == component
+    steps, rows = run.steps[of_it], run.opening_of_step[of_it]
+    if not len(steps):
+        return Series(np.zeros(0, np.int64), np.zeros(0, np.int64)), 0
+    first = int(rows.min())
+    length = int(rows.max()) - first + 1
+    is_open = np.bincount(rows - first, weights=steps["end_ns"] == NOT_BACK, minlength=length) > 0
+    # Sums of a float are exact here: instants are below 2**53 ns.
+    sums = np.bincount(rows - first, weights=steps["end_ns"] - steps["start_ns"], minlength=length).astype(np.int64)
+    ran = np.bincount(rows - first, minlength=length) > 0
+    whole = ran & ~is_open
+    return Series(run.openings["release_ns"][first : first + length][whole], sums[whole]), int(is_open.sum())
+
+
+def count_cut(run: Measurement, component: int) -> int:
+    """Openings of the component's window that overran: what they took in all is not known."""
+    window = run.table.components[component].window
+    return 0 if window is None else int((run.openings[run.rows_of(window)]["outcome"] == OVERRUN).sum())
+
+
+def list_windows(run: Measurement) -> list[WindowRow]:
+    """The schedulability table, window by window."""
+    return [_make_window(run, index) for index in range(len(run.table.windows))]
+
+
+def _make_window(run: Measurement, index: int) -> WindowRow:
+    window = run.table.windows[index]
+    rows = run.openings[run.rows_of(index)]
+    counts = np.bincount(rows["outcome"], minlength=len(OUTCOMES))
+    ran = rows[np.isin(rows["outcome"], (COMPLETED, OVERRUN))]
+    response = describe(ran["closed_ns"] - ran["release_ns"])
+    used = int((ran["closed_ns"] - ran["woke_ns"]).max()) if len(ran) else None
+    return WindowRow(
+        window.name, window.core, window.offset_ns, window.length_ns, window.period_ns, window.budget_ns,
+        {name: int(count) for name, count in zip(OUTCOMES, counts, strict=True)},
+        describe(calc_lateness(run, index).values), response, used,
+        None if used is None else window.budget_ns - used,
+        None if response is None else window.length_ns - response.max,
+    )  # fmt: skip
+
+
+def list_components(run: Measurement) -> list[ComponentRow]:
+    """Execution times of all components that a window runs."""
+    rows = []
+    for index, component in enumerate(run.table.components):
+        if component.window is None:
+            continue
+        series, unfinished = calc_execution(run, index)
+        execution = describe(series.values)
+        declared = component.worst_case_ns
+        margin = None if execution is None or declared is None else declared - execution.max
+        rows.append(ComponentRow(component.name, run.table.windows[component.window].name, declared, execution, margin, unfinished))
+    return rows
+
+
+def list_misses(run: Measurement) -> list[Miss]:
+    """Each opening that overran or was missed, in order of time."""
+    chosen = np.flatnonzero(np.isin(run.openings["outcome"], (OVERRUN, MISSED)))
+    order = np.argsort(run.openings["release_ns"][chosen], kind="stable")
+    index = _index_steps(run)
+    return [_make_miss(run, index, int(row)) for row in chosen[order]]
+
+
+@dataclass(frozen=True)
+class _StepIndex:
+    """Steps sorted by the row of their opening, and those of them that outlasted the period of their window: a run in which
+    everything overruns must not take minutes to judge."""
+
+    steps: Array
+    rows: Array
+    long_steps: Array
+    long_rows: Array
+
+    def list_candidates(self, first: int, row: int) -> Array:
+        """Steps of opening `row`, and the last long one before it, from row `first` on: nothing else of a window runs while work
+        of it hangs."""
+        begin, end = np.searchsorted(self.rows, [row, row + 1])
+        long_begin, long_end = np.searchsorted(self.long_rows, [first, row])
+        return np.concatenate((self.long_steps[max(long_begin, long_end - 1) : long_end], self.steps[begin:end]))
+
+    def list_components(self, row: int) -> set[int]:
+        """Components that had a step in opening `row`."""
+        begin, end = np.searchsorted(self.rows, [row, row + 1])
+        return set(self.steps["component"][begin:end].tolist())
+
+
+def _index_steps(run: Measurement) -> _StepIndex:
+    order = np.argsort(run.opening_of_step, kind="stable")
+    steps, rows = run.steps[order], run.opening_of_step[order]
+    period = np.array([window.period_ns for window in run.table.windows])[run.openings["window"][rows]]
+    is_long = (steps["end_ns"] == NOT_BACK) | (steps["end_ns"] >= steps["release_ns"] + period)
+    return _StepIndex(steps, rows, steps[is_long], rows[is_long])
+
+
+def _make_miss(run: Measurement, index: _StepIndex, row: int) -> Miss:
+    opening = run.openings[row]
+    window = run.table.windows[int(opening["window"])]
+    release, late = int(opening["release_ns"]), int(opening["woke_ns"] - opening["release_ns"])
+    cycle = release // run.table.frame_ns
+    if opening["outcome"] == MISSED:
+        return Miss(cycle, release, window.name, OUTCOMES[MISSED], None, late, "released after its planned close", True)
+    name, reason, is_host = _find_guilty(run, index, row)
+    return Miss(cycle, release, window.name, OUTCOMES[OVERRUN], name, late, reason, is_host)
+
+
+def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | None, str, bool]:
+    """@return the component that was not back at the deadline of an overrun, or nobody; what happened; whether by the host."""
+    opening = run.openings[row]
+    number = int(opening["window"])
+    window = run.table.windows[number]
+    # As the executive does: a window that opens late keeps its budget, but not beyond its planned close.
+    deadline = min(int(opening["woke_ns"]) + window.budget_ns, int(opening["release_ns"]) + window.length_ns)
+    # Also steps of earlier openings: work that hangs keeps its window closed.
+    steps = index.list_candidates(run.rows_of(number).start, row)
+    late = steps[(steps["start_ns"] <= deadline) & ((steps["end_ns"] == NOT_BACK) | (steps["end_ns"] > deadline))]
+    if len(late):
+        step = late[int(np.argmin(late["start_ns"]))]
+        end, name = int(step["end_ns"]), run.table.component_name(int(step["component"]))
+        text = "never came back" if end == NOT_BACK else f"came back {(end - deadline) / 1e3:.1f} us after the deadline"
+        if step["release_ns"] != opening["release_ns"]:
+            return name, f"{text}; it began in cycle {int(step['release_ns']) // run.table.frame_ns}", False
+        given = deadline - int(opening["woke_ns"])
+        if given < window.budget_ns and NOT_BACK != end <= deadline + window.budget_ns - given:
+            return name, f"{text}, which came {(window.budget_ns - given) / 1e3:.1f} us early: the window was released late", True
+        return name, text, False
+    ran = index.list_components(row)
+    waiting = [component for component in run.table.components_of(number) if component not in ran]
+    if waiting:
+        return run.table.component_name(waiting[0]), "had not begun by the deadline: its thread did not get the processor", True
+    return None, "no step was late: the processor was taken between steps", True
+
+
+def list_findings(windows: list[WindowRow], components: list[ComponentRow], misses: list[Miss]) -> list[str]:
+    """What the code is to blame for, one line each: overruns and declared worst cases that are too low.
+
+    What the host did is none: openings that were missed or cut short since the window was released too late.
+    """
+    findings = []
+    for row in components:
+        if row.execution is not None and row.margin_ns is not None and row.margin_ns < 0:
+            findings.append(f"component '{row.component}': declared worst case {(row.declared_ns or 0) / 1e3:g} us, "
+                            f"measured {row.execution.max / 1e3:g} us")  # fmt: skip
+    for window in windows:
+        overran = [miss for miss in misses if miss.window == window.window and not miss.is_host]
+        if overran:
+            findings.append(f"window '{window.window}': {len(overran)} overran, first in cycle {overran[0].cycle} by "
+                            f"'{overran[0].component}', which {overran[0].reason}")  # fmt: skip
+    return findings

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The stored ratios of a system's components: written when told to, and held against a new run.
+
+A ratio is the median execution time over that of a fixed piece of work in the same run, so a slower machine or a busier hour
+does not change it as it changes times.
+
+@satisfies SWR-TIM-020, SWR-TIM-021      Design: docs/design/timing.md#baseline
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import tomllib
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from mamori_tools.table.document import Table
+from mamori_tools.timing.analysis import ComponentRow
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.text_file import read_text, write_text
+
+SCHEMA = "mamori.timing_baseline/1"
+LIMIT_FACTOR = 1.5
+"""Room for what ratios do not even out (caches, frequency steps): a median that grew by half has another cause."""
+KEYS = ("schema", "system", "table", "limit_factor", "component")
+HOW_TO_MEND = "write it anew with ./mamori timing SYSTEM --accept FILE"
+
+
+@dataclass(frozen=True)
+class Baseline:
+    """`ratios`: of each component, in the order of the table; names may be equal, so the place counts."""
+
+    path: Path
+    system: str
+    table: str
+    limit_factor: float
+    ratios: tuple[tuple[str, float], ...]
+
+
+def make_fingerprint(table: Table) -> str:
+    """Of all that this command reads of a table; a key that is added to the format does not change it."""
+    return hashlib.sha256(json.dumps(asdict(table), sort_keys=True).encode()).hexdigest()
+
+
+def list_ratios(rows: Sequence[ComponentRow], reference_ns: int) -> list[tuple[str, float]]:
+    """Components that were measured, with their ratios."""
+    return [(row.component, row.execution.p50 / reference_ns) for row in rows if row.execution is not None]
+
+
+def load_baseline(path: Path, system: str) -> Baseline:
+    """@raise InputError for what is no baseline, of another format, or of another system than `system`."""
+    try:
+        data = tomllib.loads(read_text(path, "baseline", 1_000_000).text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InputError(f"is no TOML: {error}; {HOW_TO_MEND}", path) from error
+    if data.get("schema") != SCHEMA:
+        raise InputError(f"has the schema '{data.get('schema')}', this command reads '{SCHEMA}'; {HOW_TO_MEND}", path)
+    try:
+        if unknown := sorted(set(data) - set(KEYS)):
+            raise ValueError(f"it has an unknown key '{unknown[0]}'")
+        factor = _read_positive(data["limit_factor"], "limit_factor")
+        if factor < 1.0:
+            raise ValueError(f"limit_factor is {factor:g}, must be at least 1")
+        ratios = tuple((str(row["name"]), _read_positive(row["ratio"], f"ratio of '{row['name']}'", least=0.0)) for row in data["component"])
+        baseline = Baseline(path, str(data["system"]), str(data["table"]), factor, ratios)
+    except KeyError as error:
+        raise InputError(f"is no baseline: it has no {error}; {HOW_TO_MEND}", path) from error
+    except (TypeError, ValueError, AttributeError) as error:
+        raise InputError(f"is no baseline: {error}; {HOW_TO_MEND}", path) from error
+    if baseline.system != system:
+        raise InputError(f"is the baseline of '{baseline.system}', not of '{system}'; name its own, or {HOW_TO_MEND}", path)
+    return baseline
+
+
+def _read_positive(value: object, what: str, least: float = math.ulp(0.0)) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or value < least:
+        raise ValueError(f"{what} is no number in range")
+    return float(value)
+
+
+def check_table(baseline: Baseline, table: Table) -> None:
+    """@raise InputError when it was made of another table: figures of another system do not compare."""
+    if baseline.table != make_fingerprint(table):
+        raise InputError(f"was made of another table of '{baseline.system}'; {HOW_TO_MEND}", baseline.path)
+
+
+def judge_ratios(baseline: Baseline, ratios: Sequence[tuple[str, float]]) -> list[str]:
+    """@return one finding per component over its limit, and for one that the baseline has and the run has not."""
+    findings = []
+    if [name for name, _ in ratios] != [name for name, _ in baseline.ratios]:
+        missing = [name for name, _ in baseline.ratios if name not in dict(ratios)]
+        added = [name for name, _ in ratios if name not in dict(baseline.ratios)]
+        what = f"'{missing[0]}' was not measured" if missing else f"'{added[0]}' is not in it" if added else "the order differs"
+        return [f"baseline: {what}"]
+    for (name, before), (_, now) in zip(baseline.ratios, ratios, strict=True):
+        limit = before * baseline.limit_factor
+        if now > limit:
+            findings.append(f"component '{name}': ratio {now:.3g} to the reference, baseline {before:.3g}, limit {limit:.3g}")
+    return findings
+
+
+def write_baseline(path: Path, system: str, table: Table, ratios: Sequence[tuple[str, float]]) -> None:
+    """Whole or not at all. @raise InputError where it cannot be written."""
+    rows = "".join(f"\n[[component]]\nname = {_quote(name)}\nratio = {ratio!r}\n" for name, ratio in ratios)
+    write_text(path, f"""# SPDX-License-Identifier: Apache-2.0
+# Median execution time of each component over that of a fixed piece of work in the same run, written by
+# `./mamori timing SYSTEM --accept FILE`; --check fails above ratio * limit_factor.
+schema = "{SCHEMA}"
+system = {_quote(system)}
+table = "{make_fingerprint(table)}"
+limit_factor = {LIMIT_FACTOR}
+{rows}""")  # fmt: skip
+
+
+def _quote(text: str) -> str:
+    """A basic string of TOML: that of JSON, but for DEL."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

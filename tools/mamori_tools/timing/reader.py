@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The four files of a measured run as checked arrays. Whoever has a `Measurement` need not look whether its parts agree.
+
+@satisfies SWR-TIM-010, SWR-TIM-011, SWR-TIM-028      Design: docs/design/timing.md#files
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mamori_tools.table.document import Table, read_table
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.json_node import JsonNode
+from mamori_trace.base.text_file import read_text
+
+SCHEMA = "mamori.timing_run/1"
+FILES = ("table.json", "openings.npy", "steps.npy", "run.json")
+RIGHTS = ("priority", "processor", "memory")
+COMPLETED, OVERRUN, MISSED, STOPPED, NOT_DUE = range(5)
+OUTCOMES = ("completed", "overrun", "missed", "stopped", "not due")
+PASSES = ("execute", "state update", "mode step")
+NOT_BACK = -1
+"""End of a step that had not come back when the run ended."""
+
+OPENING = np.dtype([("release_ns", "<i8"), ("woke_ns", "<i8"), ("closed_ns", "<i8"), ("window", "<u4"), ("outcome", "<u4")])
+STEP = np.dtype([("release_ns", "<i8"), ("start_ns", "<i8"), ("end_ns", "<i8"), ("component", "<u4"), ("pass", "<u4")])
+INSTANT_NS_MAX = 2**53
+"""104 days: below it a float counts nanoseconds exactly, and a key of instant and window fits 64 bits."""
+
+HOW_TO_MEND = "measure again"
+Array = np.ndarray[Any, np.dtype[Any]]
+
+
+@dataclass(frozen=True)
+class Right:
+    """A real-time right that the program asked for. `errno` says why it was refused, 0 where it was granted."""
+
+    name: str
+    is_granted: bool
+    errno: int
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """One run. `openings` (OPENING) is sorted by window, then by release; `opening_of_step` is the row of each step's opening.
+
+    All instants [ns] since the epoch of the run; frame n begins at n * table.frame_ns.
+    """
+
+    table: Table
+    openings: Array
+    steps: Array
+    opening_of_step: Array
+    cycles_asked: int
+    cycles_run: int
+    is_partial: bool
+    reference_ns: int
+    rights: tuple[Right, ...]
+    notes: tuple[str, ...] = ()
+    findings: tuple[str, ...] = ()
+    """What the program itself reports: it knows whether its system left the operating state."""
+
+    def rows_of(self, window: int) -> slice:
+        """The openings of one window, in order of time."""
+        first, last = np.searchsorted(self.openings["window"], [window, window + 1])
+        return slice(int(first), int(last))
+
+    @property
+    def refused(self) -> list[Right]:
+        return [right for right in self.rights if not right.is_granted]
+
+
+def read_measurement(folder: Path) -> Measurement:
+    """@raise InputError, one line with the file, for anything that is no whole and consistent run."""
+    table = read_table(folder / "table.json")
+    if table.findings:
+        raise InputError(f"breaks a rule: {table.findings[0]}; ./mamori table --text shows all", folder / "table.json")
+    run = JsonNode(folder / "run.json", "the run", load_json(folder / "run.json"), HOW_TO_MEND)
+    asked, done, is_partial, reference = _read_run(run, table)
+    rights = tuple(read_right(name, run.at("rights").at(name)) for name in RIGHTS)
+    openings = read_rows(folder / "openings.npy", OPENING, "openings")
+    openings = openings[np.lexsort((openings["release_ns"], openings["window"]))]
+    _check_openings(openings, table, folder / "openings.npy")
+    _check_counts(openings, table, done, folder / "openings.npy")
+    steps = read_rows(folder / "steps.npy", STEP, "steps")
+    check_steps(steps, table, folder / "steps.npy")
+    steps, opening_of_step, notes = _match_steps(steps, openings, table, is_partial, folder / "steps.npy")
+    own = tuple(f"the program: {note.text()}" for note in run.at("notes").items())
+    findings = tuple(f"the program: {finding.text()}" for finding in run.at("findings").items()) if run.has("findings") else ()
+    return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, (*own, *notes), findings)
+
+
+def load_json(path: Path) -> object:
+    try:
+        return json.loads(read_text(path, "record of the run", 1_000_000).text)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"is no whole JSON document: {error}; {HOW_TO_MEND}", path) from error
+
+
+def _read_run(run: JsonNode, table: Table) -> tuple[int, int, bool, int]:
+    """@return cycles asked, cycles run, whether the run is partial, reference time [ns]."""
+    schema = run.at("schema").text()
+    if schema != SCHEMA:
+        raise run.at("schema").complain(f"is '{schema}', this command reads '{SCHEMA}'")
+    cycles = run.at("cycles")
+    asked, done, is_partial = cycles.at("asked").count(), cycles.at("run").count(), run.at("is_partial").truth()
+    if asked < 1 or done > asked:
+        raise cycles.complain(f"says that {done} of {asked} were run")
+    if is_partial != (done < asked):
+        raise run.at("is_partial").complain(f"is {is_partial}, but {done} of {asked} cycles were run")
+    if run.at("frame_ns").whole() != table.frame_ns:
+        raise run.at("frame_ns").complain(f"is {run.at('frame_ns').whole()}, but the table's is {table.frame_ns}")
+    reference = run.at("reference_ns").whole()
+    if reference < 1:
+        raise run.at("reference_ns").complain(f"is {reference}, must be positive")
+    if lost := run.at("lost_rows").count():
+        raise run.at("lost_rows").complain(f"says that {lost} rows had no room; measure fewer cycles")
+    return asked, done, is_partial, reference
+
+
+def read_right(name: str, node: JsonNode) -> Right:
+    right = Right(name, node.at("is_granted").truth(), node.at("errno").count())
+    if right.is_granted and right.errno:
+        raise node.complain(f"is granted, with the errno {right.errno} of a refusal")
+    return right
+
+
+def read_rows(path: Path, kind: np.dtype[Any], what: str) -> Array:
+    """A NumPy file of version 1.0 with one dimension of `kind`, as long as its header says. @raise InputError."""
+    try:
+        with path.open("rb") as file:
+            version = np.lib.format.read_magic(file)
+            if version != (1, 0):
+                raise InputError(f"has version {version[0]}.{version[1]} of the NumPy format, must have 1.0; {HOW_TO_MEND}", path)
+            shape, is_fortran, found = np.lib.format.read_array_header_1_0(file)
+            if found != kind or is_fortran or len(shape) != 1:
+                raise InputError(f"holds {len(shape)}-dimensional rows of {found}, {what} are a list of {kind}; {HOW_TO_MEND}", path)
+            wanted, there = shape[0] * kind.itemsize, path.stat().st_size - file.tell()
+            if wanted != there:
+                raise InputError(f"should hold {shape[0]} rows in {wanted} bytes, has {there} bytes; {HOW_TO_MEND}", path)
+            return np.fromfile(file, dtype=kind, count=shape[0])
+    except OSError as error:
+        raise InputError(f"file of {what} cannot be read: {error.strerror}; {HOW_TO_MEND}", path) from error
+    except (ValueError, SyntaxError, TypeError, EOFError, MemoryError, RecursionError) as error:
+        raise InputError(f"is no NumPy file of {what}: {error}; {HOW_TO_MEND}", path) from error
+
+
+def _refuse_first(bad: Array, rows: Array, path: Path, text: str) -> None:
+    """@raise InputError for the first row that `bad` marks."""
+    if bad.any():
+        row = int(np.argmax(bad))
+        values = ", ".join(f"{name} {rows[name][row]}" for name in rows.dtype.names or ())
+        raise InputError(f"{int(bad.sum())} of {len(rows)} rows {text}, first: {values}; {HOW_TO_MEND}", path)
+
+
+def _check_instants(rows: Array, names: tuple[str, ...], path: Path) -> None:
+    for name in names:
+        _refuse_first((rows[name] < NOT_BACK) | (rows[name] >= INSTANT_NS_MAX), rows, path, f"have a {name} out of range")
+
+
+def _check_openings(rows: Array, table: Table, path: Path) -> None:
+    """Each opening lies on the grid of its window, once, and no opening in between is left out."""
+    if not len(rows):
+        raise InputError(f"has no opening at all; let the program run for a whole cycle, or {HOW_TO_MEND}", path)
+    _refuse_first(rows["window"] >= len(table.windows), rows, path, f"name a window beyond the {len(table.windows)} of the table")
+    _refuse_first(rows["outcome"] >= len(OUTCOMES), rows, path, f"have an outcome beyond the {len(OUTCOMES)} that there are")
+    _check_instants(rows, ("release_ns", "woke_ns", "closed_ns"), path)
+    _refuse_first(rows["woke_ns"] < rows["release_ns"], rows, path, "woke before their release")
+    _refuse_first(rows["closed_ns"] < rows["woke_ns"], rows, path, "closed before they woke")
+    period = np.array([window.period_ns for window in table.windows])[rows["window"]]
+    offset = np.array([window.offset_ns for window in table.windows])[rows["window"]]
+    _refuse_first((rows["release_ns"] - offset) % period != 0, rows, path, "are off the grid of their window")
+    step = np.diff(rows["release_ns"])
+    same = np.diff(rows["window"].astype(np.int64)) == 0
+    _refuse_first(np.concatenate(([False], same & (step == 0))), rows, path, "are there twice")
+    _refuse_first(np.concatenate(([False], same & (step != period[1:]))), rows, path, "come after one that is left out")
+
+
+def _check_counts(rows: Array, table: Table, cycles: int, path: Path) -> None:
+    """A window has its openings in each cycle; one cycle may be missing, since a run may begin or end within one."""
+    counts = np.bincount(rows["window"], minlength=len(table.windows))
+    for window, count in zip(table.windows, counts, strict=True):
+        least = (cycles - 1) * (table.frame_ns // window.period_ns)
+        if count < least:
+            raise InputError(f"has {count} openings of window '{window.name}', {cycles} cycles have at least {least}; {HOW_TO_MEND}",
+                             path)  # fmt: skip
+
+
+def check_steps(rows: Array, table: Table, path: Path, by_clock: bool = True) -> None:
+    """@param by_clock release and start are on one time line. @raise InputError for the first row that cannot be."""
+    count = len(table.components)
+    _refuse_first(rows["component"] >= count, rows, path, f"name a component beyond the {count} of the table")
+    _refuse_first(rows["pass"] >= len(PASSES), rows, path, f"have a pass beyond the {len(PASSES)} that there are")
+    _check_instants(rows, ("release_ns", "start_ns", "end_ns"), path)
+    if by_clock:
+        _refuse_first(rows["start_ns"] < rows["release_ns"], rows, path, "began before their release")
+    _refuse_first((rows["end_ns"] < rows["start_ns"]) & (rows["end_ns"] != NOT_BACK), rows, path, "ended before they began")
+    homeless = np.array([component.window is None for component in table.components], dtype=bool)
+    if count:
+        _refuse_first(homeless[rows["component"]], rows, path, "are of a component that no window runs")
+
+
+def _match_steps(steps: Array, openings: Array, table: Table, is_partial: bool, path: Path) -> tuple[Array, Array, tuple[str, ...]]:
+    """@return steps that have an opening, the row of it for each, and a note on those that a stopped run has none for."""
+    if not len(steps):
+        return steps, np.zeros(0, dtype=np.int64), ()
+    window_of = np.array([-1 if component.window is None else component.window for component in table.components], dtype=np.int64)
+    window = window_of[steps["component"]]
+    span = max(int(openings["release_ns"].max()), int(steps["release_ns"].max())) + 1
+    if span * (len(table.windows) + 1) >= 2**63:
+        raise InputError(f"has instants that are too far for {len(table.windows)} windows; {HOW_TO_MEND}", path)
+    keys = openings["window"].astype(np.int64) * span + openings["release_ns"]
+    wanted = window * span + steps["release_ns"]
+    row = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
+    lost = keys[row] != wanted
+    if is_partial:
+        last = np.searchsorted(keys, (window + 1) * span) - 1
+        unfinished = lost & (steps["release_ns"] > openings["release_ns"][last])
+        _refuse_first(lost & ~unfinished, steps, path, "belong to no opening")
+        notes = (f"{int(lost.sum())} steps left out: the run was stopped before their window was over",) if lost.any() else ()
+        return steps[~lost], row[~lost], notes
+    _refuse_first(lost, steps, path, "belong to no opening")
+    return steps, row, ()

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: each finding becomes a sentence with the names and numbers that disagree, and no rows make it stop.
+// Method: tables as a tool makes them at run time, each of which breaks one rule; rows that point nowhere.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "mamori/table_dump/table_dump.hpp"
+#include "mamori/trace/verifies.hpp"
+#include "parts.hpp"
+
+namespace mamori::table_dump {
+namespace {
+
+using testing_support::Fault;
+using testing_support::Filter;
+using testing_support::Reaction;
+using testing_support::Source;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+Source g_encoder{"encoder"};
+Source g_second_encoder{"second_encoder"};
+Filter g_monitor{"monitor"};
+Filter g_planner{"planner"};
+Crossing<double> g_crossing;
+
+/// Keeps every rule; each test breaks one in a copy.
+constexpr auto kSound =
+    system(frame(10_ms),
+           window("sense", 0_us, 200_us, every(1_ms), rate(1000_hz, 500_hz), budget(150_us),
+                  run(worst_case(g_encoder, 40_us), worst_case(g_monitor, 60_us))),
+           window("plan", 1200_us, 8_ms, core(1U), budget(7_ms), run(g_planner)),
+           connect(g_encoder.out, g_monitor.in), connect(g_monitor.out, g_planner.in, through(g_crossing)),
+           faults<Fault::kOverspeed, Fault::kTrackingLost>(),
+           react(Fault::kOverspeed, Reaction::kSs1, within(20_ms)),
+           react(Fault::kTrackingLost, Reaction::kSto, within(5_ms)));
+
+using Sentences = std::vector<std::string>;
+
+class DescribeTest : public ::testing::Test {
+  protected:
+    Sentences describe_table() const { return describe_all(make_view(table_)); }
+
+    std::remove_const_t<decltype(kSound)> table_ = kSound;
+};
+
+TEST_F(DescribeTest, ATableThatKeepsEveryRuleHasNoFindings) {
+    verifies("SWR-TAB-003");
+    EXPECT_EQ(describe_table(), Sentences{});
+    EXPECT_EQ(describe({}, make_view(table_)), "the table keeps every rule");
+}
+
+TEST_F(DescribeTest, TheFrameIsNamedWithItsLength) {
+    verifies("SWR-TAB-003");
+    table_.frame = {-1};
+    EXPECT_EQ(describe_table(), Sentences{"the frame of -1 ns is not positive"});
+}
+
+TEST_F(DescribeTest, WindowsAreNamedWithTheTimesThatDisagree) {
+    verifies("SWR-TAB-003");
+    table_.windows[0].period = 3_ms;
+    table_.windows[0].has_rate = false;
+    table_.windows[0].alternative_count = 0U;
+    table_.windows[1].offset = 3_ms;
+    EXPECT_EQ(
+        describe_table(),
+        (Sentences{"window 'sense': its period of 3 ms does not divide the frame of 10 ms",
+                   "window 'plan': it opens at 3 ms for 8 ms and does not lie inside its period of 10 ms",
+                   "connection 'monitor.out -> planner.in': window 'plan' may open while window 'sense' "
+                   "on another core is open"}));
+}
+
+TEST_F(DescribeTest, OverlappingWindowsAreBothNamed) {
+    verifies("SWR-TAB-003");
+    table_.windows[1].core = 0U;
+    EXPECT_EQ(describe_table(), Sentences{"window 'plan': it overlaps window 'sense' on core 0"});
+}
+
+TEST_F(DescribeTest, WindowsOfOneNameAreToldApartByTheirRows) {
+    verifies("SWR-TAB-003");
+    table_.windows[1].name = "sense";
+    EXPECT_EQ(describe_table(), Sentences{"window 'sense': row 1 has the name of row 0; windows are told "
+                                          "apart by their names"});
+}
+
+TEST_F(DescribeTest, AnAgeLimitIsNamedWithItsConnection) {
+    verifies("SWR-TAB-003");
+    table_.connections[0].age_max = {0};
+    EXPECT_EQ(describe_table(), Sentences{"connection 'encoder.out -> monitor.in': no value is fresh within "
+                                          "0 ns; the limit must be positive"});
+}
+
+TEST_F(DescribeTest, ABudgetIsComparedWithItsWindow) {
+    verifies("SWR-TAB-003");
+    table_.windows[0].budget = 201_us;
+    EXPECT_EQ(describe_table(), Sentences{"window 'sense': its budget of 201 us is not in 1 ns .. its length "
+                                          "of 200 us"});
+}
+
+TEST_F(DescribeTest, WorstCasesAreListedByComponent) {
+    verifies("SWR-TAB-003");
+    table_.component_rows[1].worst_case = 120_us;
+    EXPECT_EQ(describe_table(), Sentences{"window 'sense': the worst cases of its components are longer than "
+                                          "its budget of 150 us: encoder 40 us, monitor 120 us"});
+}
+
+TEST_F(DescribeTest, RatesAreComparedWithTheOpenings) {
+    verifies("SWR-TAB-003");
+    table_.windows[0].rate_hz = 900.0;
+    table_.windows[0].alternative_periods[0] = 1500_us;
+    EXPECT_EQ(
+        describe_table(),
+        (Sentences{"window 'sense': its rate of 900 Hz is not that of its openings, every 1 ms",
+                   "window 'sense': a slower period is no whole multiple of its period of 1 ms: 1500 us"}));
+}
+
+TEST_F(DescribeTest, AComponentInTwoPlacesIsNamedWithBothWindows) {
+    verifies("SWR-TAB-003");
+    const auto table = system(frame(1_ms), window("sense", 0_us, 1_us, budget(1_us), run(g_encoder)),
+                              window("plan", 1_us, 1_us, budget(1_us), run(g_encoder)));
+    EXPECT_EQ(describe_all(make_view(table)),
+              Sentences{"component 'encoder' runs in window 'sense' and again in window 'plan'"});
+}
+
+TEST_F(DescribeTest, ConnectionsAndInputsAreNamedByComponentAndPort) {
+    verifies("SWR-TAB-003");
+    const auto table =
+        system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_encoder, g_monitor, g_planner)),
+               connect(g_encoder.out, g_monitor.in), connect(g_encoder.out, g_monitor.in));
+    EXPECT_EQ(describe_all(make_view(table)),
+              (Sentences{"input 'monitor.in' is fed by more than one connection",
+                         "input 'planner.in' is mandatory and nothing feeds it"}));
+}
+
+TEST_F(DescribeTest, AConnectionOfAStrangerIsNamedAsFarAsItIsKnown) {
+    verifies("SWR-TAB-003");
+    const auto table = system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_monitor)),
+                              connect(g_second_encoder.out, g_monitor.in));
+    EXPECT_EQ(describe_all(make_view(table)),
+              Sentences{"connection '?.out -> monitor.in': one end belongs to no component "
+                        "that a window runs"});
+}
+
+TEST_F(DescribeTest, CrossingsAreNamedByTheirConnections) {
+    verifies("SWR-TAB-003");
+    table_.connections[0].crossing = &g_crossing;
+    table_.connections[1].operations = table_.connections[0].operations;
+    EXPECT_EQ(describe_table(),
+              (Sentences{"connection 'monitor.out -> planner.in' leaves its core or partition without "
+                         "through(...) a Crossing or a queue",
+                         "connection 'monitor.out -> planner.in' uses the Crossing of 'encoder.out -> "
+                         "monitor.in'"}));
+}
+
+TEST_F(DescribeTest, FaultsAndReactionsAreNamedByTheirNumbers) {
+    verifies("SWR-TAB-003");
+    table_.reactions[1].fault = 7U;
+    table_.reactions[0].within = {0};
+    EXPECT_EQ(describe_table(), (Sentences{"fault 1 has no reaction",
+                                           "the reaction to fault 0 has 0 ns and needs a positive time",
+                                           "the reaction to fault 7 answers a fault that is not declared"}));
+    table_.reactions[1].fault = 0U;
+    EXPECT_EQ(describe_table()[0], "fault 0 has more than one reaction");
+}
+
+TEST_F(DescribeTest, RowsThatPointNowhereAreDescribedToo) {
+    verifies("SWR-TAB-003", Technique::kErrorGuessing, Polarity::kViolation);
+    table_.windows[0].name = nullptr;
+    table_.windows[1].component_count = std::numeric_limits<std::size_t>::max();
+    table_.components[0] = nullptr;
+    table_.ports[0].output = nullptr;
+    table_.connections[0].source = nullptr;
+    table_.connections[1].sink_window = 99U;
+    const Sentences sentences = describe_table();
+    ASSERT_EQ(sentences.size(), 6U);
+    EXPECT_EQ(sentences[0].substr(0U, 17U), "window '?': row 0");
+    EXPECT_EQ(sentences[1].substr(0U, 20U), "window 'plan': row 1");
+    EXPECT_EQ(sentences[2].substr(0U, 20U), "component '?': row 0");
+    EXPECT_EQ(sentences[3].substr(0U, 28U), "port 'encoder.?': row 0 need");
+    EXPECT_EQ(sentences[4].substr(0U, 35U), "connection '?.? -> monitor.in': row");
+    EXPECT_EQ(sentences[5].substr(0U, 42U), "connection 'monitor.out -> planner.in': ro");
+}
+
+TEST_F(DescribeTest, EachRuleAndEachElementGivesASentence) {
+    verifies("SWR-TAB-003", Technique::kBoundaryValues, Polarity::kViolation);
+    table_.windows[1].component_count = std::numeric_limits<std::size_t>::max();
+    for (int rule = 0; rule <= static_cast<int>(Rule::kSafeModeActivates) + 1; ++rule) {
+        for (const std::size_t element : {std::size_t{0U}, std::size_t{1U}, kNoIndex}) {
+            const std::string text =
+                describe({static_cast<Rule>(rule), element, kNoIndex}, make_view(table_));
+            EXPECT_GT(text.size(), 20U) << rule << " " << element << " " << text;
+        }
+    }
+    EXPECT_EQ(describe({static_cast<Rule>(99), 0U, 0U}, SystemView{}), "no rule has the number 99");
+}
+
+}  // namespace
+}  // namespace mamori::table_dump

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the JSON of a table holds its modes, transitions, parameters and sets, for any rows. Method: the text
+// is read back by a JSON library; the table of the manual is compared with the file that the tests of the
+// command read; rows that point nowhere are written and described.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "mamori/table_dump/table_dump.hpp"
+#include "mamori/trace/verifies.hpp"
+#include "parts.hpp"
+#include "robot_with_modes.hpp"
+
+namespace mamori::table_dump {
+namespace {
+
+using nlohmann::json;
+using robot::kSystem;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+
+MAMORI_CHECK(kSystem);
+
+constexpr std::size_t kNowhere = 99U;
+
+json dump(const SystemView& view, const Names& names = {}) {
+    std::ostringstream out;
+    write_json(out, view, names);
+    return json::parse(out.str());
+}
+
+json dump_rows(const std::remove_const_t<decltype(kSystem)>& table) {
+    return dump(make_view(table));
+}
+
+TEST(WriteModesTest, TheTableOfTheManualIsTheFileThatTheCommandIsTestedWith) {
+    verifies("SWR-TAB-010", Technique::kBackToBack);
+    const std::string path = ::testing::TempDir() + "robot_with_modes.json";
+
+    ASSERT_EQ(robot::save_table(path), "");
+    const json stored = json::parse(std::ifstream{MAMORI_ROBOT_TABLE});
+    EXPECT_EQ(json::parse(std::ifstream{path}), stored);
+    EXPECT_EQ(stored["findings"], json::array());
+    std::filesystem::remove(path);
+}
+
+TEST(WriteModesTest, ModesSayWhoRunsWithWhichSetAndWhereASystemBeginsAndEnds) {
+    verifies("SWR-TAB-010");
+    const json modes = dump(make_view(kSystem))["modes"];
+
+    ASSERT_EQ(modes.size(), 4U);
+    EXPECT_EQ(modes[0], json::parse(R"({"name": "idle", "safe": false, "initial": true, "components": [0, 1],
+        "set": null})"));
+    EXPECT_EQ(modes[1], json::parse(R"({"name": "work", "safe": false, "initial": false,
+        "components": [0, 1, 2, 4], "set": {"index": 0, "name": "fast"}})"));
+    EXPECT_EQ(modes[3]["safe"], true);
+}
+
+TEST(WriteModesTest, TransitionsHaveTheNameOfTheirEventWhereOneIsGiven) {
+    verifies("SWR-TAB-010");
+    const json transitions = dump(make_view(kSystem), {{}, {}, {"Start"}})["transitions"];
+
+    ASSERT_EQ(transitions.size(), 4U);
+    EXPECT_EQ(transitions[0], json::parse(R"({"from": {"index": 0, "name": "idle"}, "event": 0,
+        "event_name": "Start", "to": {"index": 1, "name": "work"}})"));
+    EXPECT_EQ(transitions[3]["event"], 2);
+    EXPECT_EQ(transitions[3]["event_name"], "2");
+}
+
+TEST(WriteModesTest, ConnectionsSayWhereTheyHoldByDeclarationAndInFact) {
+    verifies("SWR-TAB-010");
+    const json connections = dump(make_view(kSystem))["connections"];
+
+    EXPECT_TRUE(connections[0]["only_in"].is_null());
+    EXPECT_EQ(connections[0]["modes"], json::parse("[0, 1, 2, 3]"));
+    EXPECT_EQ(connections[3]["only_in"], json::parse("[1]"));
+    EXPECT_EQ(connections[3]["modes"], json::parse("[1]"));
+    EXPECT_TRUE(connections[4]["only_in"].is_null());
+    EXPECT_EQ(connections[4]["modes"], json::parse("[2]"));
+}
+
+TEST(WriteModesTest, ParametersHaveTheirOwnerTypeConstraintAndActiveValue) {
+    verifies("SWR-TAB-010");
+    const json document = dump(make_view(kSystem));
+
+    EXPECT_EQ(document["parameters"], json::parse(R"([
+        {"owner": {"index": 1, "name": "monitor"}, "name": "limit_rad_s", "type": "real",
+         "constraint": "0.1<=x<=3.0", "values": [1.0]},
+        {"owner": {"index": 4, "name": "drive"}, "name": "gain", "type": "whole", "constraint": "1<=x<=40",
+         "values": [10]}])"));
+    EXPECT_EQ(document["configuration_sets"][1], json::parse(R"({"name": "slow", "assignments": [
+        {"parameter": {"index": 0, "name": "limit_rad_s"}, "values": [0.25]},
+        {"parameter": {"index": 1, "name": "gain"}, "values": [5]}]})"));
+}
+
+enum class Grip { kOpen, kClosed };
+
+class Tuned final : public Component {
+  public:
+    constexpr Tuned() noexcept : Component("tuned") {}
+    Parameter<std::array<double, 3U>> gains{"gains", {0.1, -2.5, 1.0e300}};
+    Parameter<std::int64_t> low{"low", std::numeric_limits<std::int64_t>::min()};
+    Parameter<std::uint64_t> high{"high", std::numeric_limits<std::uint64_t>::max()};
+    Parameter<bool> is_on{"is_on", true};
+    Parameter<Grip> grip{"grip", Grip::kClosed};
+    using Parameters =
+        mamori::Parameters<&Tuned::gains, &Tuned::low, &Tuned::high, &Tuned::is_on, &Tuned::grip>;
+};
+
+Tuned g_tuned;
+
+TEST(WriteModesTest, ValuesOfEveryTypeKeepAllTheirDigits) {
+    verifies("SWR-TAB-010", Technique::kBoundaryValues);
+    constexpr auto kTable = system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_tuned)));
+    std::ostringstream out;
+    write_json(out, make_view(kTable));
+
+    const std::string text = out.str();
+    for (const char* values : {"\"type\": \"real\", \"constraint\": \"\", \"values\": [0.1, -2.5, 1e+300]",
+                               "\"values\": [-9223372036854775808]", "\"values\": [18446744073709551615]"}) {
+        EXPECT_NE(text.find(values), std::string::npos) << values << " in " << text;
+    }
+    const json parameters = json::parse(text)["parameters"];
+    EXPECT_EQ(parameters[3]["values"], json::parse("[1]"));
+    EXPECT_EQ(parameters[4]["type"], "whole");
+}
+
+TEST(WriteModesTest, ATableWithoutModesHasEmptyLists) {
+    verifies("SWR-TAB-010", Technique::kBoundaryValues);
+    static testing_support::Source source{"source"};
+    constexpr auto kTable = system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(source)));
+    const json document = dump(make_view(kTable));
+
+    for (const char* key : {"modes", "transitions", "parameters", "configuration_sets", "findings"}) {
+        EXPECT_EQ(document[key], json::array()) << key;
+    }
+}
+
+TEST(WriteModesTest, ModesThatPointNowhereAreWrittenWithTheirFindings) {
+    verifies("SWR-TAB-013", Technique::kErrorGuessing, Polarity::kViolation);
+    auto table = kSystem;
+    table.modes.modes[1].set_name = "fsat";
+    table.modes.modes[1].set = kNowhere;
+    table.modes.modes[2].set_name = nullptr;
+    table.modes.members[0].component = nullptr;
+    table.modes.members[0].index = kNowhere;
+    table.modes.transitions[0] = {nullptr, nullptr, 7U, kNowhere, kNoIndex};
+    table.modes.transitions[1].source_name = nullptr;
+    table.modes.connection_modes[0] = {nullptr, 3U, kNowhere};
+
+    const json document = dump_rows(table);
+    EXPECT_EQ(document["modes"][0]["components"], json::parse("[0, 1, null]"));
+    EXPECT_EQ(document["modes"][1]["set"], json::parse(R"({"index": null, "name": "fsat"})"));
+    EXPECT_EQ(document["modes"][2]["set"], json::parse(R"({"index": 1, "name": "slow"})"));
+    EXPECT_EQ(document["transitions"][0], json::parse(R"({"from": {"index": null, "name": "?"}, "event": 7,
+        "event_name": "7", "to": {"index": null, "name": "?"}})"));
+    EXPECT_EQ(document["transitions"][1]["from"], json::parse(R"({"index": 0, "name": "idle"})"));
+    EXPECT_EQ(document["connections"][3]["only_in"], json::parse("[null]"));
+    EXPECT_GE(document["findings"].size(), 4U);
+}
+
+TEST(WriteModesTest, AModeWithoutANameOrBeyondTheMaskIsWritten) {
+    verifies("SWR-TAB-013", Technique::kBoundaryValues, Polarity::kViolation);
+    std::array<SystemModeRow, kSystemModeMax + 1U> many{};
+    SystemView view = make_view(kSystem);
+    view.modes.modes = many;
+    const json document = dump(view);
+
+    ASSERT_EQ(document["modes"].size(), kSystemModeMax + 1U);
+    EXPECT_EQ(document["modes"][0]["name"], "?");
+    EXPECT_EQ(document["modes"][kSystemModeMax]["components"], json::array());
+    EXPECT_NE(document["findings"].dump().find("needs a name and a place among 32"), std::string::npos);
+}
+
+TEST(WriteModesTest, ParametersThatPointNowhereAreWritten) {
+    verifies("SWR-TAB-013", Technique::kErrorGuessing, Polarity::kViolation);
+    auto table = kSystem;
+    table.configuration.parameters[0] = {};
+    table.configuration.parameters[1].owner = &g_tuned;
+
+    const json document = dump_rows(table);
+    EXPECT_EQ(document["parameters"][0], json::parse(R"({"owner": {"index": null, "name": "?"}, "name": "?",
+        "type": null, "constraint": "", "values": null})"));
+    EXPECT_EQ(document["parameters"][1]["owner"], json::parse(R"({"index": null, "name": "tuned"})"));
+    EXPECT_EQ(
+        document["findings"],
+        json::parse(R"(["parameter '?.?': row 0 needs a parameter, its component and the window of that"])"));
+}
+
+TEST(WriteModesTest, SetsThatPointNowhereAreWrittenAndNamed) {
+    verifies("SWR-TAB-013", Technique::kErrorGuessing, Polarity::kViolation);
+    auto table = kSystem;
+    table.configuration.sets[0] = {nullptr, 1U, std::numeric_limits<std::size_t>::max()};
+    table.configuration.assignments[2].parameter = nullptr;
+    table.configuration.assignments[3].first_value = kNowhere;
+
+    const json document = dump_rows(table);
+    EXPECT_EQ(document["configuration_sets"][0], json::parse(R"({"name": "?", "assignments": null})"));
+    EXPECT_EQ(document["configuration_sets"][1]["assignments"],
+              json::parse(R"([{"parameter": {"index": null, "name": "?"}, "values": [0.25]},
+                              {"parameter": {"index": 1, "name": "gain"}, "values": null}])"));
+    const std::string needs = " needs a name and assignments of the table; assignment ";
+    const std::string of_assignment = " needs a parameter and a value for each of its elements";
+    EXPECT_EQ(document["findings"], (json{"configuration set '?': row 0" + needs + "0" + of_assignment,
+                                          "configuration set 'slow': row 1" + needs + "0" + of_assignment,
+                                          "configuration set 'slow': row 1" + needs + "1" + of_assignment}));
+    EXPECT_EQ(describe({Rule::kConfigurationRefused, 0U, 0U}, make_view(table)),
+              "configuration set '?' cannot be judged: a row of the configuration is invalid");
+}
+
+TEST(WriteModesTest, RowsThatAreInvalidInThemselvesAreToldFirstAndAllAtOnce) {
+    verifies("SWR-TAB-013", Technique::kFaultInjection, Polarity::kViolation);
+    auto table = kSystem;
+    table.configuration.sets[0].name = nullptr;
+    table.modes.modes[0].name = nullptr;
+    table.modes.modes[3].is_safe = false;  // no rule of the modes is judged before their rows are valid
+
+    const std::vector<std::string> sentences = describe_all(make_view(table));
+    ASSERT_EQ(sentences.size(), 2U);
+    EXPECT_EQ(sentences[0].substr(0U, 15U), "mode '?': row 0");
+    EXPECT_EQ(sentences[1].substr(0U, 28U), "configuration set '?': row 0");
+}
+
+}  // namespace
+}  // namespace mamori::table_dump

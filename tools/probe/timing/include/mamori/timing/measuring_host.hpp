@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Puts a clock around each step that a host runs, and nothing else: the windows, budgets and consequences
+/// are those of the host behind it.
+///
+/// @satisfies SWR-TIM-001      Design: docs/design/timing.md#log
+#ifndef MAMORI_TIMING_MEASURING_HOST_HPP
+#define MAMORI_TIMING_MEASURING_HOST_HPP
+
+#include <cstddef>
+#include <vector>
+
+#include "mamori/kernel/component/window_host.hpp"
+#include "mamori/ports/posix_rt/core_runner.hpp"
+#include "mamori/timing/run_log.hpp"
+
+namespace mamori::timing {
+
+/// Host and listener of one core. A step costs two more readings of the clock than without it.
+///
+/// Calling context: that of the host behind it. Memory: heap, in the constructor.
+class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningObserver {
+  public:
+    /// @param[in] inner, log must outlive it, and for ever when work hangs for ever; so must this object.
+    /// @param[in] window_count of the system table.
+    /// @param[in] next told of every opening as well, before and after; nullptr: nobody. What it takes before
+    /// a
+    ///            window counts as lateness of the window.
+    MeasuringHost(WindowHost& inner, RunLog& log, std::size_t window_count,
+                  ports::posix_rt::OpeningObserver* next)
+        : inner_(inner), log_(log), next_(next), pieces_(window_count) {}
+    MeasuringHost(const MeasuringHost&) = delete;
+    MeasuringHost& operator=(const MeasuringHost&) = delete;
+    ~MeasuringHost() = default;
+
+    Instant get_now() const noexcept override { return inner_.get_now(); }
+    Instant get_step_end() const noexcept override { return inner_.get_step_end(); }
+    std::size_t run_within(const Work& work, Instant deadline) noexcept override;
+    bool has_returned(std::size_t window) const noexcept override { return inner_.has_returned(window); }
+
+    void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override;
+    void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override;
+
+  private:
+    /// Work of one window that is measured; it is not given out again before it has returned.
+    struct Piece {
+        const WindowHost* clock{nullptr};
+        Work work{};
+        StepRow* rows{nullptr};
+    };
+    static void measure(void* argument, std::size_t begin, std::size_t end) noexcept;
+
+    WindowHost& inner_;
+    RunLog& log_;
+    ports::posix_rt::OpeningObserver* next_;
+    std::vector<Piece> pieces_;
+    OpeningRow current_{};
+};
+
+}  // namespace mamori::timing
+
+#endif  // MAMORI_TIMING_MEASURING_HOST_HPP

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What is noted of a run in real time: each opening of a window and each step of a component, with its
+/// instants. All memory is taken before the run, so that noting costs two readings of the clock and a few
+/// stores.
+///
+/// @satisfies SWR-TIM-001      Design: docs/design/timing.md#log
+#ifndef MAMORI_TIMING_RUN_LOG_HPP
+#define MAMORI_TIMING_RUN_LOG_HPP
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/run/executive.hpp"
+
+namespace mamori::timing {
+
+/// Stands for an instant that never came.
+inline constexpr Instant kNoInstant{-1};
+
+/// One opening of a window.
+struct OpeningRow {
+    Instant release{};  ///< planned
+    Instant woke{};     ///< reading of the clock when everything was ready for the window
+    Instant closed{};   ///< the window was over
+    std::size_t window{0U};
+    WindowOutcome outcome{WindowOutcome::kCompleted};
+};
+
+/// One step of a component. The thread that does the work writes `start` and `end`, maybe long after the
+/// window was given up.
+struct StepRow {
+    Instant release{};  ///< of the opening that it belongs to
+    std::size_t component{0U};
+    WindowHost::Pass pass{WindowHost::Pass::kExecute};
+    std::atomic<std::int64_t> start_ns{kNoInstant.ns};  ///< kNoInstant: it never began
+    std::atomic<std::int64_t> end_ns{kNoInstant.ns};    ///< kNoInstant: it has not come back
+};
+
+/// Rows of one core.
+///
+/// Thread safety: add_opening() and take_steps() from the thread that runs the windows, the rest of a step's
+///                row from the thread that does it; reading once the run is over. Memory: heap, all of it in
+///                the constructor, and touched there.
+class RunLog final {
+  public:
+    /// @param[in] opening_count, step_count room for so many; what comes after is counted, and lost.
+    RunLog(std::size_t opening_count, std::size_t step_count)
+        : openings_(opening_count), steps_(step_count) {}
+
+    void add_opening(const OpeningRow& row) noexcept;
+    /// Room for the steps of one piece of work, whose rows are prepared: `component` and on, one each.
+    /// @return the first of `count` rows; nullptr when there is no room.
+    StepRow* take_steps(Instant release, std::size_t component, std::size_t count,
+                        WindowHost::Pass pass) noexcept;
+
+    Span<const OpeningRow> get_openings() const noexcept { return {openings_.data(), opening_count_}; }
+    Span<const StepRow> get_steps() const noexcept { return {steps_.data(), step_count_}; }
+    /// Rows for which there was no room.
+    std::uint64_t get_lost_count() const noexcept { return lost_count_; }
+
+  private:
+    std::vector<OpeningRow> openings_;
+    std::vector<StepRow> steps_;
+    std::size_t opening_count_{0U};
+    std::size_t step_count_{0U};
+    std::uint64_t lost_count_{0U};
+};
+
+}  // namespace mamori::timing
+
+#endif  // MAMORI_TIMING_RUN_LOG_HPP

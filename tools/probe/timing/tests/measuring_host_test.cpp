@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: every step of every component is noted with its instants, and the windows are none the wiser. Method:
+// a real executive on virtual time, whose steps are modelled, and a log that is too small.
+#include "mamori/timing/measuring_host.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/trace/verifies.hpp"
+
+namespace mamori::timing {
+namespace {
+
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+using Opening = FrameSchedule::Opening;
+using literals::operator""_ms;
+
+/// A clock that moves on by 10 ns whenever it is read.
+class TickingHost final : public WindowHost {
+  public:
+    Instant get_now() const noexcept override {
+        now_ = now_ + Duration{10};
+        return now_;
+    }
+    Instant get_step_end() const noexcept override { return now_; }
+    std::size_t run_within(const Work& work, Instant) noexcept override {
+        work.run(work.argument, work.first, work.first + work.count);
+        return work.count - cut_off_count;
+    }
+    bool has_returned(std::size_t window) const noexcept override { return window != hanging_window; }
+    void wait_until(Instant instant) noexcept { now_ = instant; }
+
+    std::size_t cut_off_count{0U};
+    std::size_t hanging_window{kNoIndex};
+
+  private:
+    mutable Instant now_{};
+};
+
+class Worker final : public Component {
+  public:
+    explicit Worker(const char* name) noexcept : Component(name) {}
+    Status on_execute(ContextHandle) noexcept override {
+        ++run_count;
+        return Status::kOk;
+    }
+    Status on_state_update(ContextHandle) noexcept override { return Status::kOk; }
+    int run_count{0};
+};
+
+class Devices final : public ports::posix_rt::OpeningObserver {
+  public:
+    void before_opening(const Opening& opening, Instant) noexcept override { before = opening.window; }
+    void after_opening(const Opening& opening, WindowOutcome) noexcept override { after = opening.window; }
+    std::size_t before{kNoIndex};
+    std::size_t after{kNoIndex};
+};
+
+class MeasuringHostTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_EQ(executive_.initialize(), Status::kOk);
+        ASSERT_EQ(executive_.start(), Status::kOk);
+    }
+    WindowOutcome open(MeasuringHost& host, std::size_t window, Instant release) {
+        inner_.wait_until(release);
+        host.before_opening({window, release}, release + Duration{7});
+        const WindowOutcome outcome = executive_.run_window(window, release, host);
+        host.after_opening({window, release}, outcome);
+        return outcome;
+    }
+
+    Worker first_{"first"};
+    Worker second_{"second"};
+    SystemTable<1U, 2U, 0U, 0U> table_ =
+        system(frame(10_ms), window("work", 0_ms, 5_ms, budget(5_ms), run(first_, second_)));
+    ExecutiveFor<decltype(table_)> executive_{table_};
+    TickingHost inner_;
+    Devices devices_;
+};
+
+TEST_F(MeasuringHostTest, EachStepIsNotedWithItsComponentPassAndInstants) {
+    verifies("SWR-TIM-001");
+    RunLog log{4U, 16U};
+    MeasuringHost sut{inner_, log, 1U, &devices_};
+
+    EXPECT_EQ(open(sut, 0U, Instant{0}), WindowOutcome::kCompleted);
+
+    ASSERT_EQ(log.get_openings().size(), 1U);
+    const OpeningRow& opening = log.get_openings()[0];
+    EXPECT_EQ(opening.release, Instant{0});
+    EXPECT_EQ(opening.woke, Instant{10}) << "the clock is read again after the devices";
+    EXPECT_EQ(opening.outcome, WindowOutcome::kCompleted);
+    ASSERT_EQ(log.get_steps().size(), 4U) << "two components, two passes";
+    std::int64_t before = 0;
+    for (std::size_t i = 0U; i < 4U; ++i) {
+        const StepRow& row = log.get_steps()[i];
+        EXPECT_EQ(row.component, i % 2U);
+        EXPECT_EQ(row.pass, i < 2U ? WindowHost::Pass::kExecute : WindowHost::Pass::kStateUpdate);
+        EXPECT_GT(row.start_ns.load(), before);
+        EXPECT_GT(row.end_ns.load(), row.start_ns.load());
+        before = row.end_ns.load();
+    }
+    EXPECT_GT(opening.closed.ns, before);
+    EXPECT_EQ(devices_.before, 0U);
+    EXPECT_EQ(devices_.after, 0U);
+}
+
+TEST_F(MeasuringHostTest, WhatTheInnerHostSaysGoesThrough) {
+    verifies("SWR-TIM-001", Technique::kInterface);
+    RunLog log{4U, 16U};
+    MeasuringHost sut{inner_, log, 1U, nullptr};
+
+    inner_.cut_off_count = 1U;
+    inner_.hanging_window = 0U;
+    EXPECT_EQ(open(sut, 0U, Instant{0}), WindowOutcome::kOverrun);
+
+    EXPECT_FALSE(sut.has_returned(0U));
+    EXPECT_EQ(log.get_openings()[0].outcome, WindowOutcome::kOverrun);
+    EXPECT_EQ(log.get_openings()[0].woke, Instant{7}) << "without devices as the runner says";
+    EXPECT_GE(sut.get_step_end(), Instant{10});
+}
+
+TEST_F(MeasuringHostTest, RowsBeyondTheRoomAreCountedAndTheWorkIsDoneAllTheSame) {
+    verifies("SWR-TIM-001", Technique::kBoundaryValues, Polarity::kViolation);
+    RunLog log{1U, 4U};
+    MeasuringHost sut{inner_, log, 1U, nullptr};
+
+    EXPECT_EQ(open(sut, 0U, Instant{0}), WindowOutcome::kCompleted);
+    EXPECT_EQ(log.get_lost_count(), 0U) << "just enough for one opening";
+    EXPECT_EQ(open(sut, 0U, Instant{10'000'000}), WindowOutcome::kCompleted);
+
+    EXPECT_EQ(log.get_lost_count(), 5U) << "four steps and an opening";
+    EXPECT_EQ(log.get_openings().size(), 1U);
+    EXPECT_EQ(first_.run_count, 2);
+    EXPECT_EQ(second_.run_count, 2);
+}
+
+}  // namespace
+}  // namespace mamori::timing

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a run by the clock leaves whole files that say what happened, also when it is interrupted or work of
+// it hangs. Method: a system of two cores and long budgets; the files are read back. Nothing is asked of the
+// speed of the machine.
+#include "mamori/timing/timing_run.hpp"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/trace/verifies.hpp"
+
+namespace mamori::timing {
+namespace {
+
+using Json = nlohmann::json;
+using ports::posix_rt::WindowThread;
+using verification::Polarity;
+using verification::Technique;
+using verification::verifies;
+using literals::operator""_ms;
+
+/// Sends the process a signal, or hangs, in a cycle that the test names.
+class Worker final : public Component {
+  public:
+    explicit Worker(const char* name) noexcept : Component(name) {}
+    Status on_execute(ContextHandle) noexcept override {
+        ++run_count;
+        if (run_count == signal_at) {
+            static_cast<void>(raise(SIGINT));
+        }
+        while (run_count == hang_at && !is_freed) {
+            std::this_thread::yield();
+        }
+        return Status::kOk;
+    }
+    std::atomic<int> run_count{0};
+    int signal_at{0};
+    int hang_at{0};
+    std::atomic<bool> is_freed{false};
+};
+
+std::string read_file(const std::string& path) {
+    std::ifstream in{path, std::ios::binary};
+    return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+/// Number of rows that the header of an .npy file tells.
+std::size_t read_row_count(const std::string& path) {
+    const std::string file = read_file(path);
+    const std::size_t place = file.find("'shape': (");
+    return place == std::string::npos ? 0U : std::stoul(file.substr(place + 10U));
+}
+
+bool has_two_processors() {
+    cpu_set_t set;
+    return sched_getaffinity(0, sizeof(set), &set) == 0 && CPU_COUNT(&set) >= 2;
+}
+
+class TimingRunTest : public ::testing::Test {
+  protected:
+    static constexpr Duration kFrame = 20_ms;
+
+    void SetUp() override {
+        folder_ = ::testing::TempDir() + "timing_run_test";
+        std::filesystem::remove_all(folder_);
+        ASSERT_EQ(upper_.initialize(), Status::kOk);
+        ASSERT_EQ(lower_.initialize(), Status::kOk);
+        ASSERT_EQ(upper_.start(), Status::kOk);
+        ASSERT_EQ(lower_.start(), Status::kOk);
+        options_.out = folder_;
+    }
+    Json read_facts() const { return Json::parse(read_file(folder_ + "/run.json")); }
+
+    std::string folder_;
+    Worker first_{"first"};
+    Worker second_{"second"};
+    SystemTable<2U, 2U, 0U, 0U> table_ =
+        system(frame(kFrame), window("upper", 0_ms, 15_ms, budget(10_ms), run(first_)),
+               window("lower", 0_ms, 20_ms, budget(19_ms), core(1U), run(second_)));
+    ExecutiveFor<decltype(table_)> upper_{table_};
+    ExecutiveFor<decltype(table_)> lower_{table_, 1U};
+    std::array<WindowThread, 2U> upper_threads_;
+    std::array<WindowThread, 2U> lower_threads_;
+    TimingOptions options_{5U, {}, 80, {}, {}};
+};
+
+TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
+    verifies("SWR-TIM-003");
+    if (!has_two_processors()) {
+        GTEST_SKIP() << "verdict=not-shown: needs two processors";
+    }
+    const TimingResult result = run_timing({{upper_, upper_threads_}, {lower_, lower_threads_}}, options_);
+
+    EXPECT_EQ(result.message, "");
+    EXPECT_EQ(result.outcome, TimingOutcome::kWhole);
+    const Json facts = read_facts();
+    EXPECT_EQ(facts["schema"], "mamori.timing_run/1");
+    EXPECT_EQ(facts["cycles"], (Json{{"asked", 5}, {"run", 5}}));
+    EXPECT_FALSE(facts["is_partial"]);
+    EXPECT_EQ(facts["frame_ns"], 20'000'000);
+    EXPECT_GT(facts["reference_ns"], 0);
+    EXPECT_EQ(facts["lost_rows"], 0);
+    for (const char* right : {"priority", "processor", "memory"}) {
+        EXPECT_EQ(facts["rights"][right]["is_granted"], facts["rights"][right]["errno"] == 0) << right;
+    }
+    EXPECT_EQ(read_row_count(folder_ + "/openings.npy"), 10U);
+    EXPECT_EQ(Json::parse(read_file(folder_ + "/table.json"))["components"].size(), 2U);
+    // A machine that is stopped for longer than a window misses openings: their steps are not there.
+    const auto run_count = static_cast<std::size_t>(first_.run_count + second_.run_count);
+    EXPECT_GE(read_row_count(folder_ + "/steps.npy"), run_count);
+    EXPECT_LE(read_row_count(folder_ + "/steps.npy"), 2U * run_count);
+}
+
+TEST_F(TimingRunTest, EachCoreOpensItsWindowsInAllFramesThatWereAskedFor) {
+    verifies("SWR-TIM-002");
+    if (!has_two_processors()) {
+        GTEST_SKIP() << "verdict=not-shown: needs two processors";
+    }
+    EXPECT_EQ(run_timing({{upper_, upper_threads_}, {lower_, lower_threads_}}, options_).outcome,
+              TimingOutcome::kWhole);
+
+    EXPECT_EQ(get_exit_status(TimingOutcome::kWhole), 0);
+    // A machine that stands still for a whole window costs an opening its run.
+    EXPECT_GE(first_.run_count, 1);
+    EXPECT_LE(first_.run_count, 5);
+    EXPECT_GE(second_.run_count, 1);
+    EXPECT_LE(second_.run_count, 5);
+}
+
+TEST_F(TimingRunTest, AnInterruptedRunKeepsWhatItHasAndSaysSo) {
+    verifies("SWR-TIM-002", Technique::kErrorGuessing, Polarity::kViolation);
+    options_.cycles = 100'000U;
+    first_.signal_at = 3;
+
+    const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kInterrupted);
+    EXPECT_EQ(get_exit_status(result.outcome), 130);
+    const Json facts = read_facts();
+    EXPECT_TRUE(facts["is_partial"]);
+    EXPECT_EQ(facts["cycles"]["asked"], 100'000);
+    EXPECT_LT(facts["cycles"]["run"], 100'000);
+    EXPECT_GE(read_row_count(folder_ + "/openings.npy"), 3U);
+}
+
+/// Everything that work may touch which never comes back while the process lives.
+struct HangingSystem {
+    Worker worker{"hanging"};
+    SystemTable<1U, 1U, 0U, 0U> table =
+        system(frame(20_ms), window("only", 0_ms, 15_ms, budget(10_ms), run(worker)));
+    ExecutiveFor<decltype(table)> executive{table};
+    std::array<WindowThread, 1U> threads;
+};
+
+TEST_F(TimingRunTest, WorkThatHangsIsAStepWithoutEndAndTheRunGoesOn) {
+    verifies("SWR-TIM-002", Technique::kFaultInjection, Polarity::kViolation);
+    static HangingSystem hanging;
+    hanging.worker.hang_at = 2;
+    ASSERT_EQ(hanging.executive.initialize(), Status::kOk);
+    ASSERT_EQ(hanging.executive.start(), Status::kOk);
+
+    options_.cycles = 50U;  // in which even a busy machine runs it twice
+    const TimingResult result = run_timing({{hanging.executive, hanging.threads}}, options_);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kWhole);
+    EXPECT_EQ(read_row_count(folder_ + "/openings.npy"), 50U);
+    const std::string steps = read_file(folder_ + "/steps.npy");
+    EXPECT_EQ(steps.substr(steps.size() - 16U, 8U), std::string(8U, '\xFF')) << "the end of the last step";
+    hanging.worker.is_freed = true;
+}
+
+TEST_F(TimingRunTest, BadOptionsAreRefusedBeforeAnythingRuns) {
+    verifies("SWR-TIM-002", Technique::kBoundaryValues, Polarity::kViolation);
+    options_.cycles = 0U;
+    EXPECT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kRefused);
+    options_.cycles = 1U;
+    EXPECT_EQ(run_timing({}, options_).outcome, TimingOutcome::kRefused);
+    options_.out = "/proc/none/of/this";
+    const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+    EXPECT_EQ(result.outcome, TimingOutcome::kRefused);
+    EXPECT_NE(result.message.find("/proc/none/of/this"), std::string::npos);
+
+    EXPECT_EQ(first_.run_count, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder_));
+}
+
+TEST_F(TimingRunTest, MoreCyclesThanMemoryHoldsAreRefused) {
+    verifies("SWR-TIM-002", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const std::uint64_t cycles :
+         {std::uint64_t{100'000'000'000U}, std::numeric_limits<std::uint64_t>::max()}) {
+        options_.cycles = cycles;
+        const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+        EXPECT_EQ(result.outcome, TimingOutcome::kRefused) << cycles;
+        EXPECT_NE(result.message.find("run fewer"), std::string::npos) << result.message;
+    }
+    options_.cycles = 1U;
+    for (const int priority : {10, 100}) {
+        options_.priority = priority;
+        EXPECT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kRefused)
+            << priority;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_));
+}
+
+TEST_F(TimingRunTest, AFileThatCannotBeWrittenFailsTheRunAndLeavesNoFacts) {
+    verifies("SWR-TIM-003", Technique::kFaultInjection, Polarity::kViolation);
+    std::filesystem::create_directories(folder_ + "/steps.npy.part");
+    std::ofstream{folder_ + "/run.json"} << "of an earlier run";
+
+    const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kFailed);
+    EXPECT_EQ(get_exit_status(result.outcome), 1);
+    EXPECT_NE(result.message.find("steps.npy: cannot be written"), std::string::npos) << result.message;
+    EXPECT_FALSE(std::filesystem::exists(folder_ + "/run.json")) << "a folder with it counts as complete";
+}
+
+TEST_F(TimingRunTest, AnEarlierResultThatCannotBeRemovedIsNamedBeforeAnythingRuns) {
+    verifies("SWR-TIM-003", Technique::kFaultInjection, Polarity::kViolation);
+    std::filesystem::create_directories(folder_ + "/openings.npy/full");
+
+    const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kFailed);
+    EXPECT_NE(result.message.find("openings.npy: an earlier result cannot be removed"), std::string::npos)
+        << result.message;
+    EXPECT_EQ(first_.run_count, 0);
+}
+
+TEST_F(TimingRunTest, ASignalWhileTheFilesAreWrittenLosesNothing) {
+    verifies("SWR-TIM-002", Technique::kErrorGuessing, Polarity::kViolation);
+    options_.tell_notes = [] {
+        static_cast<void>(raise(SIGTERM));
+        return std::vector<std::string>{"said \"at the end\""};
+    };
+
+    EXPECT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    EXPECT_FALSE(read_facts()["is_partial"]);
+    EXPECT_EQ(read_facts()["notes"], (Json{"said  at the end "}));
+}
+
+TEST_F(TimingRunTest, FindingsOfTheProgramAreWritten) {
+    verifies("SWR-TIM-005");
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+    EXPECT_EQ(read_facts()["findings"], Json::array());
+
+    options_.tell_findings = [] { return std::vector<std::string>{"the arm stands", "and why"}; };
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    EXPECT_EQ(read_facts()["findings"], (Json{"the arm stands", "and why"}));
+}
+
+TEST_F(TimingRunTest, MoreCoresThanProcessorsAreRefused) {
+    verifies("SWR-TIM-002", Technique::kBoundaryValues, Polarity::kViolation);
+    cpu_set_t before;
+    ASSERT_EQ(sched_getaffinity(0, sizeof(before), &before), 0);
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    for (std::size_t processor = 0U; CPU_COUNT(&one) == 0; ++processor) {
+        if (CPU_ISSET(processor, &before)) {
+            CPU_SET(processor, &one);
+        }
+    }
+    ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
+    const TimingResult result = run_timing({{upper_, upper_threads_}, {lower_, lower_threads_}}, options_);
+    ASSERT_EQ(sched_setaffinity(0, sizeof(before), &before), 0);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kRefused);
+    EXPECT_NE(result.message.find("2 cores"), std::string::npos) << result.message;
+    EXPECT_EQ(first_.run_count, 0);
+}
+
+}  // namespace
+}  // namespace mamori::timing

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The arguments that choose a project in another tool's format: `--format FORMAT PATH [--results FILES]`.
+
+@satisfies SWR-TRC-045      Design: docs/design/trace_formats.md#in-place
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mamori_trace.base.errors import InputError
+from mamori_trace.formats.registry import FORMATS
+
+if TYPE_CHECKING:
+    from mamori_trace.formats.in_place import ForeignInput
+
+
+def add_foreign(parser: argparse.ArgumentParser) -> None:
+    """What to read in place."""
+    words = parser.add_argument_group("a project kept in the format of another tool")
+    words.add_argument("--format", nargs=2, metavar=("FORMAT", "PATH"), help=f"FORMAT is {', '.join(FORMATS)}; PATH a file or folder")
+    words.add_argument("--results", nargs="+", action="extend", type=Path, metavar="FILE", help="JUnit files, or folders of them")
+    words.add_argument("--sources", type=Path, metavar="DIR", help="where code and tests lie (default: the folder of PATH)")
+    words.add_argument("--schema", type=Path, metavar="FILE", help="what its words and levels mean, where the data does not say")
+
+
+def get_foreign(arguments: argparse.Namespace) -> ForeignInput | None:
+    """What was chosen, or None for a project of Mamori's own format. Raises InputError."""
+    if not arguments.format:
+        for name in ("results", "sources", "schema"):
+            if getattr(arguments, name):
+                raise InputError(f"--{name} belongs to --format FORMAT PATH, which is missing")
+        return None
+    name, path = arguments.format
+    check_format(name)
+    sources = arguments.sources
+    if sources is not None and not sources.is_dir():
+        raise InputError(f"{sources}: no such folder of sources")
+    from mamori_trace.formats.in_place import ForeignInput
+
+    return ForeignInput(name, Path(path), arguments.root, arguments.results or [], sources, arguments.schema, arguments.evidence,
+                        arguments.allow_missing, getattr(arguments, "date", None) or "")  # fmt: skip
+
+
+def check_format(name: str) -> None:
+    """Raises InputError for a word that names no format."""
+    if name not in FORMATS:
+        raise InputError(f"--format {name}: unknown; known are {', '.join(FORMATS)}")

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes files of a project in whole, with the messages of the trace tool.
+
+@satisfies SWR-TRC-095      Design: docs/design/trace.md#files-that-are-written
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.system_error import explain
+from mamori_trace.base.whole_file import TargetError, name_part, whole_file
+from mamori_trace.base.whole_file import find_target as find_file
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Writes `text` beside the file that `path` leads to, and renames it. Raises InputError; then the old file is untouched."""
+    write_whole_bytes(path, text.encode("utf-8"))
+
+
+def write_whole_bytes(path: Path, data: bytes) -> None:
+    """The same for bytes."""
+    try:
+        find_target(path)
+        with whole_file(path) as part:
+            part.write_bytes(data)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {explain(error)}") from None
+
+
+def write_folder(path: Path, files: dict[str, str]) -> None:
+    """Writes `files` beside `path`, which must not be there yet, and renames the folder. Raises InputError; then nothing is there."""
+    if os.path.lexists(path):
+        raise InputError(f"{path}: is there already, and a folder is never overwritten; remove it, or name another")
+    part = name_part(path)
+    try:
+        part.mkdir(parents=True)
+        for name, text in files.items():
+            (part / name).parent.mkdir(parents=True, exist_ok=True)
+            (part / name).write_text(text, encoding="utf-8", newline="\n")
+        part.rename(path)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {explain(error)}") from None
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+
+
+def find_target(path: Path) -> Path:
+    """The file that is to be written, links followed, in a folder that is there. Raises InputError, and OSError."""
+    try:
+        target = find_file(path)
+    except TargetError as error:
+        raise InputError(f"{path}: {error}" if path.name else str(error)) from None
+    target.parent.mkdir(parents=True, exist_ok=True)
+    return target

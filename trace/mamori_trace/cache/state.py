@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The state of files and folders as git's index sees it: what must be equal for their content to count as unchanged.
+
+@satisfies SWR-TRC-091      Design: docs/design/trace.md#cache
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterable
+
+FOLDER_NAME = "trace_cache"
+"""Of the caches themselves, below `build`; no listing shows it."""
+RACY_NS = 2_000_000_000
+"""A file written this shortly before a run may be written again within the same tick of its file system, as coarse as two seconds."""
+
+_SKIPPED = {"node_modules", "__pycache__", "report"}
+
+FileState = list[int] | None
+
+
+def read_file_state(path: str) -> FileState:
+    """Device, inode, mode, size, times of change of content and of anything at all; None where there is no such file.
+
+    The last one cannot be set by a program, so a file that was put back with its old time is noticed.
+    """
+    try:
+        found = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    return [found.st_dev, found.st_ino, found.st_mode, found.st_size, found.st_mtime_ns, found.st_ctime_ns]
+
+
+def is_racy(state: FileState, started_ns: int) -> bool:
+    """Whether the file may change once more without a sign."""
+    return state is not None and max(state[4], state[5]) > started_ns - RACY_NS
+
+
+def read_listing(path: str) -> str | None:
+    """Names in a folder, each with its kind; None where it cannot be listed. A name that is a folder now and was a file then differs."""
+    try:
+        with os.scandir(path) as entries:
+            names = sorted(_get_kind(entry) + entry.name for entry in entries if entry.name != FOLDER_NAME)
+    except (OSError, ValueError):
+        return None
+    return "\0".join(names)
+
+
+def _get_kind(entry: os.DirEntry[str]) -> str:
+    """One letter: folder, file, link to a folder, link to anything else."""
+    letters = "LD" if entry.is_dir() else "lf"
+    return letters[not entry.is_symlink()]
+
+
+def list_folders(root: str) -> dict[str, str | None]:
+    """Listing of each folder below `root` in which a reader may look for a name: without hidden folders and build trees."""
+    found: dict[str, str | None] = {}
+    waiting = [os.path.abspath(root)]
+    while waiting:
+        folder = waiting.pop()
+        listing = found[folder] = read_listing(folder)
+        for name in (listing or "").split("\0"):
+            if name.startswith("D") and not name.startswith((".", "build"), 1) and name[1:] not in _SKIPPED:
+                waiting.append(os.path.join(folder, name[1:]))
+    return found
+
+
+def read_clock_ns(folder: str) -> int:
+    """Now, by the clock of the file system that holds `folder` or by ours, whichever is behind. Raises OSError."""
+    path = os.path.join(folder, f".clock.{os.getpid()}")
+    descriptor = os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600)
+    try:
+        return min(os.fstat(descriptor).st_mtime_ns, time.time_ns())
+    finally:
+        os.close(descriptor)
+        os.unlink(path)
+
+
+def read_tool_state(folders: Iterable[str]) -> dict[str, FileState]:
+    """State of each file of the tool itself, so another version of it never repeats what this one said."""
+    found: dict[str, FileState] = {}
+    for top in folders:
+        for folder, names, files in os.walk(top):
+            names[:] = [name for name in names if name not in ("__pycache__", "tests")]
+            for name in files:
+                path = os.path.join(folder, name)
+                found[path] = read_file_state(path)
+    return found

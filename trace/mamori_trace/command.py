@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`mamori trace ACTION`: hands over to the module of the action.
+
+Exit status: 0 clean, 1 findings of severity error, 2 wrong usage or input that could not be read, 3 another command writes there; of `record` that
+of its command.
+
+@satisfies SWR-TRC-010, SWR-TRC-008      Design: docs/design/trace.md#command
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import importlib
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from types import ModuleType
+
+from mamori_trace.base.errors import InputError, MissingError
+from mamori_trace.base.project_lock import hold_lock
+from mamori_trace.base.system_error import describe
+
+_ABOUT = "Judge requirements by executed results, and show the chain from hazard to result."
+_ACTIONS = {
+    "check": "check",
+    "report": "report",
+    "show": "show",
+    "review": "review",
+    "impact": "impact",
+    "init": "init",
+    "new": "new",
+    "query": "query",
+    "bundle": "bundle",
+    "verify": "verify",
+    "record": "record",
+    "import": "import_items",
+    "export": "export_items",
+}
+"""Module of each action, below `actions`."""
+_WRITERS = ("report", "review", "init", "new", "record", "import", "bundle")
+"""Actions that change the project, or need its evidence unchanged while they work."""
+_EXIT_INPUT = 2
+_EXIT_LOCKED = 3
+_EXIT_PIPE = 141
+"""As a shell counts a program that wrote to a reader who is gone."""
+_SHOWN_MAX = 400
+
+
+def add_arguments(subparsers: argparse._SubParsersAction) -> None:
+    """Adds the command `trace` to the sub-commands of the main command."""
+    _add_actions(subparsers.add_parser("trace", help=_ABOUT, description=_ABOUT), list(_ACTIONS))
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Runs what `add_arguments` parsed. @return the exit status."""
+    try:
+        with _without_collector(), _hold_lock(arguments):
+            status = int(_load(arguments.trace_action).run(arguments))
+        sys.stdout.flush()  # what cannot be written is told here, and not when Python ends
+        return status
+    except BrokenPipeError:  # who read it has read enough, such as `head`
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (Python closes it at its end)
+        return _EXIT_PIPE
+    except MissingError as error:
+        _refuse(str(error))
+        return _EXIT_LOCKED
+    except InputError as error:
+        return _refuse(str(error))
+    except OSError as error:
+        return _refuse(describe(error))
+    except UnicodeEncodeError as error:  # half of a letter, from a word, a file name or a JSON escape; no file can hold it
+        near = error.object[max(0, error.start - 20) : error.end]
+        return _refuse(f"nothing was written: {near!a} ends with what is no letter, so UTF-8 cannot hold it")
+
+
+def _refuse(message: str) -> int:
+    if len(message) > 2 * _SHOWN_MAX:  # a word of the command line may have any length; the remedy stands at the end
+        message = f"{message[:_SHOWN_MAX]} ... {message[-_SHOWN_MAX:]}"
+    print(f"mamori trace: {message}", file=sys.stderr)
+    return _EXIT_INPUT
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """@return the exit status; argparse ends the process with 2 on wrong usage."""
+    words = sys.argv[1:] if argv is None else argv
+    parser = argparse.ArgumentParser(prog="mamori trace", description=_ABOUT)
+    # The first word names the action; the modules of the others need not be loaded to understand the rest of the line.
+    _add_actions(parser, [words[0]] if words and words[0] in _ACTIONS else list(_ACTIONS))
+    return run(parser.parse_args(argv))
+
+
+@contextmanager
+def _without_collector() -> Iterator[None]:
+    """Python's search for garbage in cycles rests: what a run reads is kept until its end, and looking through it again and again while it
+    grows finds nothing and takes a twentieth of the time."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
+
+
+@contextmanager
+def _hold_lock(arguments: argparse.Namespace) -> Iterator[None]:
+    """The lock of the project while a writer works. Where its file cannot be made, the action itself reports what it cannot write."""
+    with ExitStack() as stack:
+        if arguments.trace_action in _WRITERS and arguments.root.is_dir():
+            with suppress(OSError):
+                stack.enter_context(hold_lock(arguments.root, f"mamori trace {arguments.trace_action}"))
+        yield
+
+
+def _add_actions(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
+    actions = parser.add_subparsers(dest="trace_action", required=True, metavar="|".join(_ACTIONS))
+    for name in names:
+        action = _load(name)
+        action.add_arguments(actions.add_parser(name, help=action.HELP, description=action.HELP.capitalize() + "."))
+
+
+def _load(name: str) -> ModuleType:
+    return importlib.import_module(f"mamori_trace.actions.{_ACTIONS[name]}")

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The code that was read: which functions there are, and which requirements own each by its tags.
+
+@satisfies SWR-TRC-030      Design: docs/design/trace.md#functions
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from mamori_trace.base.finding import Place
+
+
+@dataclass(frozen=True, slots=True)
+class CodeSchema:
+    """What requirements/schema/code.toml says: `traced` are the folders and files whose functions need an owner; `no_evidence` those
+    whose change leaves the evidence valid; `integration` those whose tests are integration tests."""
+
+    traced: tuple[str, ...] = ()
+    no_evidence: tuple[str, ...] = ()
+    integration: tuple[str, ...] = ()
+
+    def is_traced(self, file: str) -> bool:
+        return _is_below(file, self.traced)
+
+    def is_integration(self, file: str) -> bool:
+        return _is_below(file, self.integration)
+
+
+def _is_below(file: str, places: tuple[str, ...]) -> bool:
+    return any(file == one or file.startswith(f"{one}/") for one in places)
+
+
+class Function(NamedTuple):
+    """A function with a body. Lines count from 1, `last` included; `body` is the line from which on a call leaves a trace.
+
+    `name` holds the classes around it, but no namespace. `requirements` are the ids of all tags that own it, the nearest first.
+    """
+
+    file: str
+    name: str
+    first: int
+    last: int
+    body: int
+    requirements: tuple[str, ...] = ()
+
+    @property
+    def place(self) -> Place:
+        return Place(self.file, self.first)
+
+
+class Scope(NamedTuple):
+    """What a tag speaks for: the lines of a declaration, also where it is defined elsewhere, or (without a name) the whole file."""
+
+    file: str
+    name: str
+    first: int
+    last: int
+    requirements: tuple[str, ...]
+
+
+@dataclass(slots=True)
+class CodeBase:
+    """Filled by the readers. `classes` are those that a C++ file defines; `own_headers` names the headers that declare what it defines."""
+
+    functions: list[Function] = field(default_factory=list)
+    scopes: list[Scope] = field(default_factory=list)
+    classes: dict[str, frozenset[str]] = field(default_factory=dict)
+    own_headers: dict[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def bind(self) -> list[Function]:
+        """All functions with their requirements, in order of file and line."""
+        scopes_of: dict[str, list[Scope]] = defaultdict(list)
+        for scope in self.scopes:
+            scopes_of[scope.file].append(scope)
+        bound = [self._bind(function, scopes_of) for function in self.functions]
+        return sorted(bound, key=lambda function: (function.file, function.first, function.name))
+
+    def _bind(self, function: Function, scopes_of: dict[str, list[Scope]]) -> Function:
+        owners = list(self._find_owners(function, scopes_of))
+        owners.sort(key=lambda scope: (not scope.name, scope.last - scope.first))
+        return function._replace(requirements=tuple(dict.fromkeys(word for scope in owners for word in scope.requirements)))
+
+    def _find_owners(self, function: Function, scopes_of: dict[str, list[Scope]]) -> Iterator[Scope]:
+        for scope in scopes_of.get(function.file, ()):
+            if not scope.name or scope.first <= function.first <= scope.last or _declares(scope, function):
+                yield scope
+        for header in self.own_headers.get(function.file, ()):
+            for scope in scopes_of.get(header, ()):
+                if not scope.name or _declares(scope, function):
+                    yield scope
+
+
+def _declares(scope: Scope, function: Function) -> bool:
+    """Whether the declaration is that of the function, or of a class around it. Overloads share their tags."""
+    return f"::{scope.name}::" in f"::{function.name}::"

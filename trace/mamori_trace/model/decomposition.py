@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Decomposition records: why a child may have a lower SIL than its parent, and who carries the parent's.
+
+@satisfies SWR-TRC-022      Design: docs/design/trace.md#decomposition
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mamori_trace.base.finding import Place
+
+
+@dataclass(frozen=True, slots=True)
+class Decomposition:
+    """One row of requirements/decomposition.toml. `carried_by` are ids of children of the same parent, at its SIL or above."""
+
+    child: str
+    parent: str
+    reason: str
+    independence: str
+    carried_by: tuple[str, ...]
+    by: str
+    place: Place

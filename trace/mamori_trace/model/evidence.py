@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Evidence: tags in code, tests in sources, executed results, campaign cases, and the environment they ran in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, NamedTuple
+
+from mamori_trace.base.finding import Place
+from mamori_trace.model.coverage import CoverageRun
+
+PASSED = "passed"
+FAILED = "failed"
+ERRORED = "error"
+SKIPPED = "skipped"
+NOT_SHOWN = "not shown here"
+"""This host cannot produce the result: a privilege is missing, or the measurement was inconclusive."""
+UNBOUND = "unbound"
+"""Passed, but no evidence record tells what produced the result."""
+
+STATUSES_WORST_FIRST = (ERRORED, FAILED, SKIPPED, UNBOUND, NOT_SHOWN, PASSED)
+
+UNIT = "unit"
+INTEGRATION = "integration"
+CAMPAIGN = "campaign"
+
+
+WHOLE_SUITE = "(whole suite)"
+ANY_SUITE = "*"
+"""Of a test whose source does not tell under which suite its result is written."""
+
+
+class CodeTag(NamedTuple):
+    """`@satisfies`: the code at `place` realises `requirement`. `symbol` is the class or function, or `file`."""
+
+    requirement: str
+    place: Place
+    symbol: str
+
+
+class SourceTest(NamedTuple):
+    """A test as its source states it; `suite` and `name` find its results. `by_comment`: the running test knows nothing of its
+    requirement, so its results cannot tell it."""
+
+    requirement: str
+    suite: str
+    name: str
+    technique: str
+    polarity: str
+    place: Place
+    by_comment: bool = False
+
+    @property
+    def title(self) -> str:
+        return f"{self.suite}.{self.name}" if self.name and self.suite not in ("", ANY_SUITE) else self.name or self.suite
+
+
+@dataclass(slots=True)
+class TestResult:
+    """One executed test case. `requirement` is empty when the test names none; `flaky`: it passed, but not at the first try; `bound_to`: suite and name
+    of its test in the sources."""
+
+    __test__: ClassVar[bool] = False  # pytest would take the class for a group of tests
+
+    suite: str
+    name: str
+    status: str
+    requirement: str
+    technique: str
+    polarity: str
+    message: str
+    time_s: float
+    place: Place
+    source: Place | None = None
+    kind: str = UNIT
+    flaky: bool = False
+    bound_to: tuple[str, str] | None = None
+    is_first: bool = True  # False for the same case again, under another requirement that it names
+
+    @property
+    def title(self) -> str:
+        return f"{self.suite}.{self.name}"
+
+    @property
+    def failing(self) -> bool:
+        return self.status in (FAILED, ERRORED)
+
+
+@dataclass(slots=True)
+class CampaignCase:
+    """One fault-injection case. `passed` needs the written verdict and every single check.
+
+    `requirement_polarity` says which side of each requirement the case shows, where that is not `polarity` for all.
+    """
+
+    id: str
+    scenario: str
+    title: str
+    requirements: tuple[str, ...]
+    polarity: str
+    verdict: str
+    checks: list[dict[str, Any]]
+    expected: dict[str, Any]
+    run: dict[str, Any]
+    folder: str
+    place: Place
+    requirement_polarity: dict[str, str] = field(default_factory=dict)
+    bound: bool = True
+
+    def get_polarity(self, requirement: str) -> str:
+        """Which side of `requirement` the case shows."""
+        return self.requirement_polarity.get(requirement, self.polarity)
+
+    @property
+    def failed_checks(self) -> list[dict[str, Any]]:
+        return [check for check in self.checks if check.get("passed") is not True]
+
+    @property
+    def passed(self) -> bool:
+        return self.verdict == "pass" and not self.failed_checks
+
+    @property
+    def status(self) -> str:
+        """One of PASSED, FAILED and UNBOUND."""
+        return FAILED if not self.passed else PASSED if self.bound else UNBOUND
+
+
+@dataclass(slots=True)
+class TimingRun:
+    """One system by the clock, as `mamori timing` wrote it; its reader has checked `record`. `folder` holds the pictures."""
+
+    folder: str
+    record: dict[str, Any]
+    place: Place
+
+
+@dataclass(slots=True)
+class CostRun:
+    """One system whose steps were counted, as `mamori cost` wrote it; its reader has checked `record`."""
+
+    folder: str
+    record: dict[str, Any]
+    place: Place
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class AnalysisFinding:
+    """Something that a static analysis found; `rule` is the name that its tool gives it."""
+
+    place: Place
+    rule: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class FileRecord:
+    """What `records.json` says of one evidence file. `sources` is the hash of the sources that it was made from, or empty.
+
+    `now` is that hash as it is now, where the record covers chosen folders only; `intact`: the file is as it was recorded.
+    """
+
+    shown: str
+    sources: str
+    now: str = ""
+    intact: bool = True
+
+
+@dataclass(slots=True)
+class Evidence:
+    """Everything below one evidence folder. `folder` is its path as given, `shown` as findings name it.
+
+    `results_shown` names result files that were given one by one.
+    """
+
+    folder: str = ""
+    shown: str = ""
+    results_shown: str = ""
+    results: list[TestResult] = field(default_factory=list)
+    cases: list[CampaignCase] = field(default_factory=list)
+    has_campaign: bool = False
+    timing_runs: list[TimingRun] = field(default_factory=list)
+    cost_runs: list[CostRun] = field(default_factory=list)
+    coverage_runs: list[CoverageRun] = field(default_factory=list)
+    environment: dict[str, Any] = field(default_factory=dict)
+    environment_place: Place = Place("environment.json", 1)
+    analysis: list[AnalysisFinding] = field(default_factory=list)
+    records: dict[str, FileRecord] = field(default_factory=dict)
+    campaign_environment: dict[str, Any] = field(default_factory=dict)
+    campaign_place: Place = Place("campaign/campaign.json", 1)
+
+    @property
+    def present(self) -> bool:
+        return bool(self.folder)
+
+    def unbind(self) -> None:
+        """Takes the word `passed` from every result and case whose file has no intact record."""
+        bound = {record.shown for record in self.records.values() if record.intact}
+        for result in self.results:
+            if result.status == PASSED and result.place.file not in bound:
+                result.status = UNBOUND
+        for case in self.cases:
+            case.bound = case.place.file in bound
+
+    @property
+    def tells_sources(self) -> bool:
+        """Whether the sources that it was made from are known by their hash, not by their commit alone."""
+        environments = (self.environment, self.campaign_environment)
+        return any(get_sources(one) for one in environments) or any(one.sources for one in self.records.values())
+
+
+def get_sources(environment: dict[str, Any]) -> str:
+    """Hash of the sources that an environment names, or nothing."""
+    inputs = environment.get("inputs")
+    made = inputs.get("sources") if isinstance(inputs, dict) else None
+    return made if isinstance(made, str) else ""

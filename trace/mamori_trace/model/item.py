@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Requirement items and the schema that says which words and links they may have."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from dataclasses import dataclass, field
+
+from mamori_trace.base.finding import Place
+from mamori_trace.model.words import UNFINISHED_WORDS, WEAK_WORDS
+
+DRAFT = "draft"
+APPROVED = "approved"
+RETIRED = "retired"
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """Rules of one item level, as requirements/schema/items.toml states them."""
+
+    key: str
+    name: str
+    pattern: re.Pattern[str]
+    parents: tuple[str, ...]
+    also: tuple[str, ...]
+    shall: bool
+    needs_child: bool
+    needs_code: bool
+    from_children: bool
+    through_children: bool
+    hazard: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Schema:
+    """Closed vocabularies; `levels` runs from the top of the V to its bottom, `sil` from the lowest up."""
+
+    attributes: tuple[str, ...]
+    sil: tuple[str, ...]
+    verify: tuple[str, ...]
+    polarity: tuple[str, ...]
+    status: tuple[str, ...]
+    technique: tuple[str, ...]
+    levels: dict[str, Level]
+    unfinished_words: tuple[str, ...] = UNFINISHED_WORDS
+    weak_words: tuple[str, ...] = WEAK_WORDS
+    weak_word_exceptions: tuple[str, ...] = ()
+
+    def find_level(self, item_id: str) -> Level | None:
+        """The level whose id pattern `item_id` matches in full."""
+        level = self.levels.get(item_id.partition("-")[0])
+        return level if level is not None and level.pattern.fullmatch(item_id) else None
+
+
+@dataclass(slots=True)
+class Item:
+    """One item block. `lines` gives the line of each attribute; `whole` is False when the block was malformed.
+
+    An attribute that could not be read is empty, so that rules about other attributes still apply.
+    """
+
+    id: str
+    title: str
+    level: str
+    place: Place
+    statement: str = ""
+    statement_line: int = 0
+    rationale: str = ""
+    parents: tuple[str, ...] = ()
+    sil: str = ""
+    verify: tuple[str, ...] = ()
+    polarity: tuple[str, ...] = ()
+    design: str = ""
+    status: str = ""
+    lines: dict[str, int] = field(default_factory=dict)
+    whole: bool = True
+
+    @property
+    def approved(self) -> bool:
+        return self.status == APPROVED
+
+    @property
+    def retired(self) -> bool:
+        return self.status == RETIRED
+
+    def find_place(self, attribute: str) -> Place:
+        """Place of an attribute, or of the heading where the attribute is missing."""
+        return Place(self.place.file, self.lines.get(attribute, self.place.line))
+
+    def calc_fingerprint(self) -> str:
+        """Fingerprint of what a reviewer of a link has to look at: what is demanded, how hard, and how it is shown.
+
+        Rationale, design link and status may be mended without a new review of the links.
+        """
+        parts = (self.id, self.title, self.statement, self.sil, ",".join(self.verify), ",".join(self.polarity))
+        text = "\n".join([" ".join(part.split()) for part in parts])
+        return hashlib.sha256(text.encode()).hexdigest()[:12]

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Records that a person reviewed or analysed an item: what `Verify: review` and `Verify: analysis` are shown by.
+
+@satisfies SWR-TRC-023      Design: docs/design/trace.md#reviews
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mamori_trace.base.finding import Place
+
+
+@dataclass(frozen=True, slots=True)
+class ReviewRecord:
+    """One row of requirements/reviews.toml. `looked_at` says what was held against the item, `author` who wrote that."""
+
+    item: str
+    method: str
+    fingerprint: str
+    looked_at: str
+    author: str
+    by: str
+    date: str
+    place: Place

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Techniques that a project uses, in which phase of the V, and what shows each.
+
+@satisfies SWR-TRC-027      Design: docs/design/trace.md#techniques
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mamori_trace.base.finding import Place
+
+PHASES = ("planning", "requirements", "architecture", "design", "code", "unit test", "integration test", "system test", "validation",
+          "modification")  # fmt: skip
+"""Phases of the V from its beginning to its end, in this tool's own words."""
+
+
+@dataclass(frozen=True, slots=True)
+class Technique:
+    """One row of requirements/schema/techniques.toml.
+
+    `clause` names where a standard speaks of it. It is shown by `items` that demand it, executed `tests` (words of the schema) and
+    `documents` (file, or file#heading).
+    """
+
+    name: str
+    clause: str
+    phase: str
+    items: tuple[str, ...]
+    tests: tuple[str, ...]
+    documents: tuple[str, ...]
+    place: Place

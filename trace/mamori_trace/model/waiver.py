@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Waivers: findings that the project accepts for a stated reason, for a time.
+
+@satisfies SWR-TRC-021      Design: docs/design/trace.md#waivers
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+from mamori_trace.base.finding import Finding, Place
+
+
+@dataclass(frozen=True, slots=True)
+class Waiver:
+    """One row of requirements/waivers.toml. `expires` is the last day on which it holds, or empty."""
+
+    rule: str
+    item: str
+    file: str
+    reason: str
+    expires: str
+    by: str
+    place: Place
+
+    def is_expired(self, date: str) -> bool:
+        """Whether it holds no more on `date`. On an unknown day, nothing with an end holds."""
+        return bool(self.expires) and (not date or date > self.expires)
+
+    def covers(self, finding: Finding) -> bool:
+        """Whether the finding is the one, or among those, that it is about."""
+        same_rule = finding.rule == self.rule
+        return same_rule and self.item in ("", finding.item) and self.file in ("", finding.place.file)
+
+
+@dataclass(frozen=True, slots=True)
+class Waived:
+    """A finding that does not count, and why."""
+
+    finding: Finding
+    waiver: Waiver
+
+
+def split_waived(findings: list[Finding], waivers: list[Waiver], date: str) -> tuple[list[Finding], list[Waived]]:
+    """(findings that count, findings that are waived). A waiver that is expired or has no reason waives nothing."""
+    of_rule: dict[str, list[Waiver]] = defaultdict(list)
+    for waiver in waivers:
+        if waiver.reason and not waiver.is_expired(date):
+            of_rule[waiver.rule].append(waiver)
+    counting: list[Finding] = []
+    waived: list[Waived] = []
+    for finding in findings:
+        covering = next((each for each in of_rule.get(finding.rule, ()) if each.covers(finding)), None)
+        if covering is None:
+            counting.append(finding)
+        else:
+            waived.append(Waived(finding, covering))
+    return counting, waived

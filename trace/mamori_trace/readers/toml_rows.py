@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the small TOML files that people write by hand: tables of named rows, each with its place.
+
+@satisfies SWR-TRC-021, SWR-TRC-022      Design: docs/design/trace.md#rule-packs
+"""
+
+from __future__ import annotations
+
+import datetime
+import difflib
+import os
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mamori_trace.base.errors import FormatError
+from mamori_trace.base.files import UNREADABLE, get_shown_path, read_text
+from mamori_trace.base.finding import Place, Problem
+from mamori_trace.base.toml_file import parse_toml
+
+_LINE = re.compile(r"\(at line (\d+)")
+
+
+@dataclass(frozen=True, slots=True)
+class Columns:
+    """What a row may say: texts, and lists of texts; those in `needed` it must say, and not with an empty text."""
+
+    texts: tuple[str, ...]
+    lists: tuple[str, ...] = ()
+    needed: tuple[str, ...] = ()
+
+
+def read_rows(path: Path, schema: str, name: str, columns: Columns, root: Path, problems: list[Problem]) -> list[tuple[dict[str, Any], Place]]:
+    """Rows `[[name]]` of a file that may be absent. A broken file, and each broken row, is a problem and left out.
+
+    Every column is there in the rows given back: an empty text or tuple where the row does not say it.
+    """
+    if not os.path.lexists(path):  # a link that leads nowhere is there, and cannot be read
+        return []
+    shown = get_shown_path(path, root)
+    before = len(problems)
+    text = read_text(path, shown, problems)
+    if len(problems) > before:
+        return []
+    try:
+        table = parse_toml(text)
+    except FormatError as error:
+        line = _LINE.search(str(error))
+        problems.append(Problem(UNREADABLE, Place(shown, int(line[1]) if line else text.count("\n") + 1), f"is not TOML: {error}"))
+        return []
+    rows = table.pop(name, [])
+    fault = _find_fault(table, rows, schema, name)
+    if fault:
+        problems.append(Problem(UNREADABLE, Place(shown, 1), fault))
+        return []
+    return list(_list_whole(zip(rows, _list_places(text, shown, name, len(rows)), strict=True), columns, problems))
+
+
+def suggest(word: str, known: Iterable[str]) -> str:
+    """`; nearest: a, b`, or nothing where nothing is near."""
+    near = difflib.get_close_matches(word, list(known), n=3, cutoff=0.6)
+    return f"; nearest: {', '.join(near)}" if near else ""
+
+
+def _find_fault(table: dict[str, Any], rows: Any, schema: str, name: str) -> str:
+    """What is wrong with the file as a whole."""
+    found = table.pop("schema", None)
+    if found != schema:
+        return f"schema is {found!r}; this tool reads {schema!r}"
+    if table:
+        return f"unknown entry '{next(iter(table))}'; the file holds `schema` and rows [[{name}]]"
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        return f"'{name}' is no list of rows; begin each with [[{name}]]"
+    return ""
+
+
+def _list_places(text: str, shown: str, name: str, count: int) -> list[Place]:
+    """The line of each row's head; line 1 where the rows are written in a way that has none."""
+    head = re.compile(rf"\s*\[\[\s*\"?{re.escape(name)}\"?\s*\]\]")
+    lines = [number for number, line in enumerate(text.splitlines(), start=1) if head.match(line)]
+    return [Place(shown, line) for line in lines] if len(lines) == count else [Place(shown, 1)] * count
+
+
+def _list_whole(
+    rows: Iterable[tuple[dict[str, Any], Place]], columns: Columns, problems: list[Problem]
+) -> Iterator[tuple[dict[str, Any], Place]]:
+    known = columns.texts + columns.lists
+    for row, place in rows:
+        values = {key: value.isoformat() if isinstance(value, datetime.date) else value for key, value in row.items()}
+        fault = _find_row_fault(values, columns, known)
+        if fault:
+            problems.append(Problem(UNREADABLE, place, fault))
+            continue
+        whole = {key: values.get(key, "").strip() for key in columns.texts}
+        yield whole | {key: tuple(values.get(key, ())) for key in columns.lists}, place
+
+
+def _find_row_fault(row: dict[str, Any], columns: Columns, known: tuple[str, ...]) -> str:
+    for key, value in row.items():
+        if key not in known:
+            return f"unknown entry '{key}'; known are {', '.join(known)}{suggest(key, known)}"
+        if key in columns.texts and not isinstance(value, str):
+            return f"'{key}' is no text; put it into quotation marks"
+        if key in columns.lists and not (isinstance(value, list) and all(isinstance(each, str) for each in value)):
+            return f"'{key}' is no list of texts"
+    missing = [key for key in columns.needed if not row.get(key) or not str(row[key]).strip()]
+    return f"says no {' and no '.join(missing)}" if missing else ""
+
+
+def is_date(text: str) -> bool:
+    """Whether `text` is a calendar day as ISO 8601 writes it: 2026-11-30."""
+    try:
+        return datetime.date.fromisoformat(text).isoformat() == text
+    except ValueError:
+        return False

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Counts the lines of code and tests, the words of documents and the files of the project, and limits the share of `verification`.
+
+    python -m verification.checks.code_size
+
+Lines count as they are in the file, with comments and empty lines. Data (requirements, TOML, JSON) count as files only.
+
+Design: docs/design/launcher.md#layer-check
+"""
+
+from __future__ import annotations
+
+import subprocess
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+CODE_SUFFIXES = frozenset((".cpp", ".hpp", ".c", ".py", ".rs", ".sh", ".cmake", ".S", ".ld", ".js", ".css", ".html"))
+CODE_NAMES = frozenset(("mamori", "CMakeLists.txt"))
+VERIFICATION_SHARE_MAX = 0.25
+
+
+@dataclass
+class Size:
+    """`code` and `tests` by top folder, in lines; `words` of documents."""
+
+    code: Counter[str] = field(default_factory=Counter)
+    tests: Counter[str] = field(default_factory=Counter)
+    words: int = 0
+    files: int = 0
+
+    @property
+    def share(self) -> float:
+        """Of the code that is in `verification`."""
+        return self.code["verification"] / max(1, self.code.total())
+
+    def __str__(self) -> str:
+        return (f"size: {self.code.total():,} lines of code ({self.share:.1%} in verification), {self.tests.total():,} of tests,"
+                f" {self.words:,} words of documents, {self.files:,} files")  # fmt: skip
+
+
+def list_tracked(root: Path) -> list[str]:
+    """Files that git tracks; none outside of a checkout."""
+    done = subprocess.run(("git", "-C", str(root), "ls-files", "-z"), capture_output=True, text=True, check=False)
+    return [name for name in done.stdout.split("\0") if name] if done.returncode == 0 else []
+
+
+def count_code(root: Path, names: Iterable[str]) -> Size:
+    """@param names files relative to `root`."""
+    size = Size()
+    for name in names:
+        path = root / name
+        if not path.is_file():
+            continue
+        size.files += 1
+        top = name.split("/")[0]
+        if path.suffix == ".md":
+            size.words += len(path.read_text(encoding="utf-8").split())
+        elif path.suffix in CODE_SUFFIXES or path.name in CODE_NAMES:
+            lines = path.read_bytes().count(b"\n")
+            (size.tests if is_test(path.relative_to(root)) else size.code)[top] += lines
+    return size
+
+
+def is_test(path: Path) -> bool:
+    return "tests" in path.parts or path.name.startswith(("test_", "conftest"))
+
+
+def check_share(size: Size) -> list[str]:
+    """@return what is too large."""
+    if size.share <= VERIFICATION_SHARE_MAX:
+        return []
+    return [f"verification has {size.share:.1%} of the code, {VERIFICATION_SHARE_MAX:.0%} are the limit; move what users run to tools/"]
+
+
+if __name__ == "__main__":
+    print(count_code(Path(), list_tracked(Path())))

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the grid of a system that runs by the clock does not drift, and may be looked at from outside
+// meanwhile. Method: short runs; nothing is asked of the speed of the machine. The long ones are the program
+// `grid_times`.
+#include "grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "grid_figures.hpp"
+#include "introspection_load.hpp"
+#include "mamori/trace/verifies.hpp"
+#include "mamori/verification/real_time_result.hpp"
+#include "mamori/verification/stall_watch.hpp"
+
+namespace mamori::time_faults {
+namespace {
+
+using verification::verifies;
+
+class GridTest : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        load_ = std::make_unique<IntrospectionLoad>(grid_.get_introspection());
+        ASSERT_EQ(grid_.open(), Status::kOk);
+    }
+    static void TearDownTestSuite() {
+        load_.reset();
+        grid_.close();
+    }
+    static Grid grid_;
+    static std::unique_ptr<IntrospectionLoad> load_;
+};
+Grid GridTest::grid_;
+std::unique_ptr<IntrospectionLoad> GridTest::load_;
+
+TEST_F(GridTest, PlannedInstantsAreWholePeriodsApartAndNoWakeUpComesBeforeThem) {
+    verifies("SWR-PRT-038");
+    const std::vector<GridRow> rows = grid_.run(300U);
+
+    ASSERT_EQ(rows.size(), 300U);
+    EXPECT_EQ(calc_drift(rows).planned_ns, 0);
+    for (const GridRow& row : rows) {
+        EXPECT_GE(row.woke_ns, row.planned_ns);
+        EXPECT_TRUE(row.started_ns == 0 || row.started_ns >= row.woke_ns);
+    }
+}
+
+TEST_F(GridTest, TurnsWithAndWithoutRequestsEachHaveTheirStart) {
+    verifies("SWR-PRT-039");
+    const auto clock = ports::posix_rt::FrameClock::starting_in(Duration{0});
+    verification::StallWatch stalls{clock, Duration{50'000}, {98, verification::find_processor()}};
+
+    const std::vector<LoadRound> rounds = run_load_rounds(grid_, *load_, 3U, 100U);
+
+    stalls.stop();
+
+    EXPECT_EQ(rounds.size(), 3U);
+    for (const LoadRound& round : rounds) {
+        EXPECT_GT(round.calm_ns, 0);
+        EXPECT_GT(round.steady_ns, 0);
+        EXPECT_GT(round.burst_ns, 0);
+    }
+    // The thread of the load has no priority: a busy host may give it no time at all.
+    verification::RunEvidence evidence;
+    evidence.requested = 1U;
+    evidence.shown = load_->get_request_count() > 0U ? 1U : 0U;
+    evidence.host = stalls.get_figures();
+    verification::report_run(verification::assess_run(evidence));
+}
+
+}  // namespace
+}  // namespace mamori::time_faults

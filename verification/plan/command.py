@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`./mamori test`.
+
+@satisfies SWR-CLI-006      Design: docs/design/launcher.md#steps
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from mamori_tools.campaign.campaign_step import CampaignRequest
+from mamori_tools.host.arguments import Command, add_jobs
+from mamori_tools.host.full_run import FILE, record_full_run
+from mamori_tools.host.project import RELEASE, ROOT, SANITIZED, Project
+from mamori_tools.host.session import begin, finish, show_steps
+from mamori_tools.host.steps import Tier, run_steps
+from verification.plan.gate import list_test_steps
+
+
+def test(jobs: int, tier: Tier) -> int:
+    """The steps of `tier`. @return exit status."""
+    project = Project(ROOT)
+    request = CampaignRequest(project.motion)
+    request.check(project)
+    context = begin(project, jobs, (RELEASE, SANITIZED))
+    outcomes = run_steps(list_test_steps(project, request.run, tier), context)
+    show_steps(outcomes, context)
+    if tier == Tier.ALL:
+        record_full_run(project, outcomes)
+        context.screen.say(f"recorded in {FILE}: add it to the commit")
+    return finish(outcomes, context)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_jobs(parser)
+    tier = parser.add_mutually_exclusive_group()
+    for option, steps in (("--quick", Tier.QUICK), ("--all", Tier.ALL)):
+        tier.add_argument(option, action="store_const", dest="tier", const=steps, default=Tier.GATE)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """@return exit status."""
+    return test(arguments.jobs, arguments.tier)
+
+
+COMMAND = Command(add_arguments, run)

@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The steps that prove Mamori itself. A new check is a new row.
+
+@satisfies SWR-CLI-006, SWR-CLI-012      Design: docs/design/launcher.md#steps
+"""
+
+from __future__ import annotations
+
+from mamori_tools.host.environment import renew_environment
+from mamori_tools.host.plans import BUILD, COMMAND, PYTHON, build_step, campaign_step, timing_step, trace_steps
+from mamori_tools.host.project import CHECKED_LAYERS, RELEASE, ROOT, SANITIZED, Project
+from mamori_tools.host.steps import Action, Step, Tier
+
+PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
+PARALLEL = ("-n", "{jobs}", "--dist", "worksteal")
+REPEAT = (*PYTHON, "verification.real_time.repeat")
+FUZZ_S, LONG_FUZZ_S = 5, 600  # time for each harness
+
+
+def ctest_step(preset: str, tier: Tier = Tier.QUICK, *options: str) -> Step:
+    """@param options of ctest that choose tests."""
+    return Step(
+        name=f"tests {preset}",
+        commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error", *options), (*REPEAT, preset)),
+        needs=(f"build {preset}",),
+        junit=f"build/{preset}/evidence/junit",
+        tier=tier,
+    )
+
+
+def race_steps() -> tuple[Step, ...]:
+    """What two cores share, under the thread sanitizer: these programs alone, since nothing else has threads."""
+    preset = "host-tsan"
+    targets = ("kernel_abandon_stress_test", "kernel_crossing_test", "kernel_introspection_stress_test", "kernel_mode_stress_test",
+               "kernel_stimulus_stress_test", "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test", "supervision_log_test",
+               "timing_test")  # fmt: skip
+    build = Step(
+        name=f"build {preset}",
+        commands=(
+            ("cmake", "-S", str(ROOT), "--preset", preset, "-DMAMORI_WITH_SIMBODY_SIM=OFF"),
+            ("cmake", "--build", str(Project(ROOT, preset).build), "--parallel", "{jobs}", "--target", *targets),
+        ),
+    )
+    run = Step(
+        name=f"tests {preset}",
+        commands=(("ctest", "--preset", preset, "--no-tests=error", "--tests-regex", "|".join(targets)), (*REPEAT, preset, *targets)),
+        needs=(build.name,),
+        junit=f"build/{preset}/evidence/junit",
+    )
+    return build, run
+
+
+def proof_step(name: str, file: str, needs: tuple[str, ...] = (BUILD,), tier: Tier = Tier.GATE) -> Step:
+    """One proof: a pytest file of verification/proofs."""
+    return Step(
+        name=name,
+        commands=((*PYTEST, f"verification/proofs/test_{file}.py"),),
+        needs=needs,
+        result=f"proof-{file}.xml",
+        tier=tier,
+    )
+
+
+def benchmark_step() -> Step:
+    """Exact counts against their baseline, and a short run of the benchmarks. Times are no part of any test."""
+    return Step(
+        name="exact instruction counts",
+        commands=(
+            ("cmake", "--build", "{build}", "--target", "mamori_bench", "mamori_exact", "--parallel", "{jobs}"),
+            (*PYTEST, "verification/proofs/test_exact_counts.py", "verification/proofs/test_benchmarks.py", "verification/proofs/test_cost.py"),
+        ),
+        needs=(BUILD,),
+        result="proof-exact_counts.xml",
+    )
+
+
+def comparison_step() -> Step:
+    """End-to-end protection beside another implementation, on random frames."""
+    return Step(
+        name="comparison of end-to-end protection",
+        commands=((*PYTEST, "verification/e2e/test_differential.py"),),
+        needs=(BUILD,),
+        result="e2e-comparison.xml",
+    )
+
+
+def safe_state_step() -> Step:
+    """Properties of the compiled safe-state machine, proved by z3 and spin, and a seeded defect for each."""
+    return Step(
+        name="proofs of the safe-state machine",
+        commands=((*PYTEST, "verification/safe_state"),),
+        needs=(BUILD,),
+        result="proof-safe_state.xml",
+    )
+
+
+HOST_TOOLS = Step(name="tests of the host tools", commands=((*PYTEST, *PARALLEL),), result="python-tools.xml")
+REPORT_IN_BROWSER = Step(name="report in a browser", commands=((*PYTEST, "trace/tests/browser"),), result="report-browser.xml")
+LAYERS = Step(name="layer check", commands=((*PYTHON, "verification.checks.check_layers"),), tier=Tier.QUICK)
+PYTHON_CHECKS = Step(name="Python checks", commands=((*PYTHON, "verification.checks.check_python", "--root", "{root}"),), tier=Tier.QUICK)
+
+
+def format_step(project: Project) -> Step:
+    return Step(
+        name="format check",
+        commands=(("clang-format-19", "--dry-run", "--Werror", "{files}"),),
+        lists={"{files}": project.cpp_sources()},
+        tier=Tier.QUICK,
+    )
+
+
+def tidy_step() -> Step:
+    layers = "|".join(CHECKED_LAYERS)
+    return Step(
+        name="clang-tidy",
+        commands=(
+            (
+                "run-clang-tidy-19", "-quiet", "-use-color=0", "-j", "{jobs}", "-p", "{build}",
+                f"-header-filter=.*/({layers})/(.*/)?include/.*", f".*/({layers})/(.*/)?src/.*",
+            ),
+        ),
+        needs=(BUILD,),
+    )  # fmt: skip
+
+
+# A part of a table states the constants that it changes; NoTypes has those of a part that changes nothing.
+PARTS_HIDE_CONSTANTS = "--suppress=duplInheritedMember:kernel/include/mamori/kernel/*part*.hpp"
+
+
+def cppcheck_step(project: Project) -> Step:
+    sources = [name for name in project.cpp_sources(CHECKED_LAYERS) if "/src/" in name]
+    includes = [f"-I{path.relative_to(project.root)}" for layer in CHECKED_LAYERS
+                for path in sorted((project.root / layer).rglob("include")) if path.is_dir()]
+    return Step(
+        name="cppcheck",
+        commands=(
+            (
+                "cppcheck", "--quiet", "--language=c++", "--std=c++17", "--enable=warning,performance,portability",
+                "--suppress=missingIncludeSystem", PARTS_HIDE_CONSTANTS, "--inline-suppr", "--error-exitcode=1", "{includes}", "{files}",
+            ),
+        ),
+        lists={"{includes}": includes, "{files}": sources},
+        tier=Tier.QUICK,
+    )  # fmt: skip
+
+
+def strength_steps() -> tuple[Step, ...]:
+    """How strong the tests are: what they reach, which faults they find, and what random bytes find (test_strength.md)."""
+    folder = "verification"
+    return (
+        Step(name="MC/DC of kernel and safety", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
+             needs=(f"tests {SANITIZED}",), result="strength-coverage.xml"),
+        Step(name="mutation", commands=((*PYTEST, f"{folder}/mutation"),), result="strength-mutation.xml"),
+        Step(name=f"fuzz {FUZZ_S} s each", commands=((*PYTEST, f"{folder}/fuzz/test_fuzz.py"), make_fuzz_command(FUZZ_S)), result="strength-fuzz.xml"),
+    )  # fmt: skip
+
+
+def make_fuzz_command(seconds: int) -> tuple[str, ...]:
+    return (*COMMAND, "fuzz", "--seconds", str(seconds), "--jobs", "{jobs}")
+
+
+def long_steps() -> tuple[Step, ...]:
+    """What takes hours, or a host of its own for a while: run before a release, and recorded with date and commit."""
+
+    def campaign(kind: str, *arguments: str) -> Step:
+        return Step(
+            name=f"long run of {kind}_faults",
+            commands=((f"{{build}}/verification/faults/{kind}/{kind}_faults", *arguments),),
+            needs=(BUILD,),
+            inconclusive=(4,),
+            tier=Tier.ALL,
+        )
+
+    return (
+        Step(name="long tests", commands=((*PYTEST, "-m", "long", *(f"verification/{folder}" for folder in ("mutation", "proofs", "safe_state"))),),
+             needs=(BUILD,), result="long-tests.xml", tier=Tier.ALL),
+        Step(name=f"fuzz {LONG_FUZZ_S} s each", commands=(make_fuzz_command(LONG_FUZZ_S),), tier=Tier.ALL),
+        campaign("time", "610000", "1000", "1", "storm"),
+        campaign("partition", "1000", "1"),
+        Step(name="verdicts in real time", commands=((*PYTHON, "verification.real_time", "--all"),), needs=(BUILD,), tier=Tier.ALL),
+    )
+
+
+def cost_step() -> Step:
+    """Instructions of the components of the safe arm against its budgets and its baseline. Counts are exact, so a finding fails."""
+    return Step(
+        name="cost of components",
+        commands=((*COMMAND, "cost", "examples/safe_arm", "--check", "examples/safe_arm/cost_baseline.toml", "--jobs", "{jobs}"),),
+        needs=(BUILD,),
+        produces=f"build/{RELEASE}/evidence/cost/safe_arm/cost.json",
+    )
+
+
+def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
+    """Mamori itself: tests, campaign and report."""
+    return (
+        build_step(RELEASE),
+        ctest_step(RELEASE),
+        HOST_TOOLS,
+        # What only `./mamori test` runs may be missing here; what ran and failed may not.
+        campaign_step(campaign),
+        timing_step(),
+        *trace_steps("--allow-missing"),
+    )
+
+
+def list_test_steps(project: Project, campaign: Action, tier: Tier) -> tuple[Step, ...]:
+    # What must not compile takes a third of the time of all C++ tests, and depends on headers only.
+    fewer = ("--exclude-regex", "compile_fail") if tier == Tier.QUICK else ()
+    steps = (
+        # First, since it writes the stored rows: what all other results are made from is recorded after it.
+        Step(name="mutation rows", commands=((*COMMAND, "mutate", "--missing", "--store", "--jobs", "{jobs}"),), function=renew_environment,
+             tier=Tier.ALL),
+        build_step(RELEASE),
+        ctest_step(RELEASE, Tier.QUICK, *fewer),
+        HOST_TOOLS,
+        REPORT_IN_BROWSER,
+        LAYERS,
+        format_step(project),
+        PYTHON_CHECKS,
+        tidy_step(),
+        cppcheck_step(project),
+        proof_step("symbol proof", "symbols", tier=Tier.QUICK),
+        proof_step("bare-metal proof", "bare_metal", needs=()),
+        proof_step("stack proof", "stack", needs=()),
+        proof_step("loop proof", "loops", needs=(), tier=Tier.QUICK),
+        proof_step("consumer proof", "consumer"),
+        proof_step("plain CMake proof", "plain_cmake"),
+        proof_step("scale proof", "scale"),
+        benchmark_step(),
+        comparison_step(),
+        safe_state_step(),
+        build_step(SANITIZED, Tier.GATE),
+        ctest_step(SANITIZED, Tier.GATE),
+        *race_steps(),
+        proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}")),
+        *strength_steps(),
+        campaign_step(campaign),
+        timing_step(),
+        cost_step(),
+        *long_steps(),
+        *trace_steps(*(("--allow-missing",) if tier == Tier.QUICK else ())),
+    )
+    return tuple(step for step in steps if step.tier <= tier)
+
+
