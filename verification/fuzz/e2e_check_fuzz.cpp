@@ -4,8 +4,8 @@
 /// both orders and on both kinds of input, get what the bytes say. Nothing may be accepted that a
 /// recomputation, which shares no code with them, does not find good; a value may only be what its frame
 /// holds, the one of before, or the substitute; every check has one cause and every reading one outcome.
-/// First byte: which ends. Then steps, see Step. Seeds: corpus/e2e_check.txt. Design:
-/// docs/design/e2e.md#fuzzing
+/// First byte: which ends. Then steps, see Step. Seeds: corpus/e2e_check.txt.
+/// Design: docs/design/e2e.md#fuzzing
 #include <cstdint>
 #include <cstring>
 #include <vector>
