@@ -16,8 +16,11 @@ from pathlib import Path
 import pytest
 from launcher_box import APT_INSTALL, PACKAGES_OF_BUILD, Box, list_errors, listen_to_ctrl_c
 
+from mamori_tools.command.help_texts import FOLDER, OVERVIEW, make_texts
 from mamori_tools.command.main import make_parser
 from mamori_tools.host.project import ROOT
+
+TEXTS = make_texts()
 
 
 @pytest.fixture
@@ -307,30 +310,41 @@ def test_environment_that_could_not_be_filled_is_not_used(box: Box) -> None:
     assert "venv" in box.take_calls()
 
 
-@pytest.mark.verifies("SWR-CLI-004")
-@pytest.mark.parametrize("command", ["", "demo", "run", "test", "build", "verify", "trace", "log", "bench", "timing", "cost", "e2e", "table", "prove", "new"])
-def test_help_needs_nothing_but_bash(box: Box, command: str) -> None:
+@pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
+@pytest.mark.parametrize("words", [("help",), ("-h",), ("--help",), *((name, "--help") for name in TEXTS if name != OVERVIEW), ("trace", "-h")])
+def test_help_needs_nothing_but_bash(box: Box, words: tuple[str, ...]) -> None:
     bare = box.folder / "bare"
     bare.mkdir()
     for name in ("bash", "cat", "dirname", "grep", "tr", "sort"):
         (bare / name).symlink_to(shutil.which(name) or name)
 
-    done = box.run(*command.split(), "--help", PATH=str(bare))
+    done = box.run(*words, PATH=str(bare))
 
-    assert done.returncode == 0
-    assert done.stdout.startswith(f"usage: ./mamori {command}" if command else "Mamori")
-    assert done.stderr == ""
-    assert "--install" in done.stdout
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == TEXTS[words[0] if len(words) == 2 else OVERVIEW]
+
+
+@pytest.mark.verifies("SWR-CLI-004", technique="fault_injection")
+@pytest.mark.parametrize(("name", "words"), [(OVERVIEW, ("--help",)), (OVERVIEW, ("demo",)), ("demo", ("demo", "--help")), ("demo", ("demo", "--jobs", "1"))])
+def test_a_missing_help_text_is_named_in_one_line(box: Box, name: str, words: tuple[str, ...]) -> None:
+    file = box.folder / FOLDER.relative_to(ROOT) / f"{name}.txt"
+    file.unlink()
+
+    done = box.run(*words)
+
+    assert (done.returncode, done.stdout) == (3, "")
+    assert done.stderr == f"mamori: {file} cannot be read; use a complete copy of Mamori\n"
+    assert box.take_calls() == []
 
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
-@pytest.mark.parametrize("command", ["demo", "run", "test", "build", "verify", "log", "bench", "timing", "cost", "e2e", "table", "prove", "new"])
-def test_help_names_each_option_that_the_command_takes_and_no_other(box: Box, command: str) -> None:
+@pytest.mark.parametrize("command", sorted(set(TEXTS) - {OVERVIEW, "trace"}))
+def test_help_names_each_option_that_the_command_takes_and_no_other(command: str) -> None:
     [subparsers] = [action for action in make_parser()._actions if isinstance(action, argparse._SubParsersAction)]
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}
 
     # What follows a bare -- is another program's.
-    shown = {word.strip("[],") for word in box.run(command, "--help").stdout.split() if word.strip("[").startswith("--")}
+    shown = {word.strip("[],;:`") for word in TEXTS[command].split() if word.strip("[").startswith("--")}
 
     assert shown - {"--help", "--", "--install"} == taken - {"--help", "-h"}
 

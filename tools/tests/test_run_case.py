@@ -14,6 +14,7 @@ import pytest
 from mamori_tools.campaign import Plan, load_plan, resolve
 from mamori_tools.campaign.fault import KINDS
 from mamori_tools.command import run_case
+from mamori_tools.command.help_texts import make_texts
 from mamori_tools.command.main import main
 from mamori_tools.host import plans
 from mamori_tools.host.project import ROOT, Project
@@ -223,8 +224,7 @@ def test_a_file_in_the_place_of_the_folder_is_one_line(command: Callable[..., in
 
 @pytest.mark.verifies("SWR-CLI-004", technique="back_to_back")
 def test_the_help_lists_each_kind_that_has_a_scenario(plan: Plan) -> None:
-    script = (ROOT / "mamori").read_text(encoding="utf-8")
-    texts = {name: script[script.index(f"help_{name}()"):].split("\nEOF\n")[0] for name in ("run", "demo")}
+    texts = make_texts()
 
     assert {each.fault.kind for each in plan.scenarios} == {kind for kind in KINDS if kind in texts["run"]}
     assert all(each.name in texts["demo"] for each in plan.scenarios)

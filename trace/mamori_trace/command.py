@@ -22,7 +22,11 @@ from mamori_trace.base.errors import InputError, MissingError
 from mamori_trace.base.project_lock import hold_lock
 from mamori_trace.base.system_error import describe
 
-_ABOUT = "Judge requirements by executed results, and show the chain from hazard to result."
+_SUMMARY = "requirements: check every link and result, show the chain from hazard to result, write the report"
+_ABOUT = "Compares requirements with the results of executed tests, and shows the chain from hazard to result."
+_EPILOG = """check, report and show take --format FORMAT PATH for a project in the format of another tool.
+
+./mamori trace check --help shows the options of an action. docs/manual/trace.md has examples."""
 _ACTIONS = {
     "check": "check",
     "report": "report",
@@ -50,7 +54,7 @@ _SHOWN_MAX = 400
 
 def add_arguments(subparsers: argparse._SubParsersAction) -> None:
     """Adds the command `trace` to the sub-commands of the main command."""
-    _add_actions(subparsers.add_parser("trace", help=_ABOUT, description=_ABOUT), list(_ACTIONS))
+    _add_actions(subparsers.add_parser("trace", help=_SUMMARY, description=_ABOUT, epilog=_EPILOG), list(_ACTIONS))
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -85,7 +89,7 @@ def _refuse(message: str) -> int:
 def main(argv: Sequence[str] | None = None) -> int:
     """@return the exit status; argparse ends the process with 2 on wrong usage."""
     words = sys.argv[1:] if argv is None else argv
-    parser = argparse.ArgumentParser(prog="mamori trace", description=_ABOUT)
+    parser = argparse.ArgumentParser(prog="mamori trace", description=_ABOUT, epilog=_EPILOG)
     # The first word names the action; the modules of the others need not be loaded to understand the rest of the line.
     _add_actions(parser, [words[0]] if words and words[0] in _ACTIONS else list(_ACTIONS))
     return run(parser.parse_args(argv))
@@ -115,10 +119,11 @@ def _hold_lock(arguments: argparse.Namespace) -> Iterator[None]:
 
 
 def _add_actions(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
-    actions = parser.add_subparsers(dest="trace_action", required=True, metavar="|".join(_ACTIONS))
+    actions = parser.add_subparsers(dest="trace_action", required=True, metavar="|".join(_ACTIONS), prog=parser.prog)
+    parser.usage = "%(prog)s ACTION [options]"
     for name in names:
         action = _load(name)
-        action.add_arguments(actions.add_parser(name, help=action.HELP, description=action.HELP.capitalize() + "."))
+        action.add_arguments(actions.add_parser(name, help=action.HELP, description=f"{action.HELP[0].upper()}{action.HELP[1:]}."))
 
 
 def _load(name: str) -> ModuleType:

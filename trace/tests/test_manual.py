@@ -43,12 +43,12 @@ def test_each_action_has_an_example_a_row_and_a_line_of_help() -> None:
     choices = list_choices(list_choices(make_parser())["trace"])
     shown = {shlex.split(line)[2] for line in EXAMPLES}
     commands = (ROOT / "docs" / "manual" / "commands.md").read_text(encoding="utf-8")
-    launcher = (ROOT / "mamori").read_text(encoding="utf-8")
+    overview = (ROOT / "tools" / "mamori_tools" / "command" / "help" / "trace.txt").read_text(encoding="utf-8")
 
     assert set(choices) <= shown
     for action in choices:
         assert re.search(rf"^\| `trace {action}\b", commands, re.MULTILINE), action
-        assert re.search(rf"^  {action}\b", launcher, re.MULTILINE), action
+        assert re.search(rf"^  {action}\b", overview, re.MULTILINE), action
 
 
 @pytest.mark.verifies("SWR-TRC-079", technique="interface", polarity="nominal")

@@ -239,11 +239,15 @@ def show(work: Work, context: Context, folder: Path, before: dict[str, object]) 
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_jobs(parser)
-    parser.add_argument("--only", nargs="+", default=[], metavar="NAME", action="extend")
-    parser.add_argument("--out", type=Path, metavar="DIR")
-    for option in ("--quick", "--gate", "--list", "--accept", "--json"):
-        parser.add_argument(option, action="store_true")
+    parser.add_argument("--quick", action="store_true", help="fewer and shorter rounds: seconds instead of a minute")
+    parser.add_argument("--gate", action="store_true", help="end with status 1 when a gate failed")
+    parser.add_argument("--only", nargs="+", default=[], metavar="NAME", action="extend",
+                        help=f"only these benchmarks ({', '.join(BENCHES)}); default: all")  # fmt: skip
+    parser.add_argument("--list", action="store_true", help="list the benchmarks and their acceptance limits; measures nothing")
+    parser.add_argument("--accept", action="store_true", help="count instructions and store the counts as the new baseline")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder for the results; default: build/host-release/evidence/bench")
+    parser.add_argument("--json", action="store_true", help="print the record as JSON instead of tables")
+    add_jobs(parser, "of the build")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -254,4 +258,9 @@ def run(arguments: argparse.Namespace) -> int:
     return bench(request, arguments.jobs)
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "times of the kernel relative to lower bounds and reference implementations; exact instruction counts",
+    "Measures the kernel, lower bounds and reference implementations in one run and counts instructions exactly. Compares both results with their "
+    "acceptance limits. An absent reference implementation is listed with the package to install. Writes bench.json, bench.svg and "
+    "bench.png.",
+    examples=("bench --quick --only port e2e",))  # fmt: skip

@@ -124,10 +124,11 @@ def _say(text: str) -> None:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("names", nargs="*", metavar="NAME", help="a harness, <NAME>_fuzz.cpp; default: all")
+    parser.add_argument("--seconds", type=at_least_one, default=30, metavar="N",
+                        help="time for each harness in seconds (at least 1); default: %(default)s")  # fmt: skip
+    parser.add_argument("--keep", action="store_true", help="store new inputs that reach code which the stored inputs do not reach")
     add_jobs(parser)
-    parser.add_argument("names", nargs="*", metavar="NAME")
-    parser.add_argument("--seconds", type=at_least_one, default=30, metavar="N")
-    parser.add_argument("--keep", action="store_true")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -135,4 +136,9 @@ def run(arguments: argparse.Namespace) -> int:
     return fuzz(Request(tuple(arguments.names), arguments.seconds, arguments.jobs, arguments.keep))
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "random bytes for everything that reads bytes, under the sanitizers",
+    "Builds the harnesses of verification/fuzz with address and undefined-behaviour sanitizers. Gives them random bytes, beginning with their "
+    "stored inputs. When a harness finds something, the input and the command that repeats it are shown.",
+    {1: "a harness found something, or something failed"},
+    examples=("fuzz --seconds 60 --keep",))  # fmt: skip

@@ -194,12 +194,14 @@ def read_standing(root: Path) -> baseline.Standing:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("files", nargs="*", metavar="FILE", help="source or header of kernel or safety; default: all")
+    parser.add_argument("--sample", type=at_least_one, metavar="N", help="try N of the changes (at least 1), chosen by the seed; default: all")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="integer that selects the sample; default: %(default)s")
+    parser.add_argument("--list", action="store_true", help="show the changes without trying them")
+    parser.add_argument("--store", action="store_true",
+                        help="store the result of each file, as it is finished, in verification/mutation/baseline.toml, to be committed")  # fmt: skip
+    parser.add_argument("--missing", action="store_true", help="only files without a stored result that is valid for their current content")
     add_jobs(parser)
-    parser.add_argument("files", nargs="*", metavar="FILE")
-    parser.add_argument("--sample", type=at_least_one, metavar="N")
-    parser.add_argument("--seed", type=int, default=1, metavar="S")
-    for option in ("--list", "--store", "--missing"):
-        parser.add_argument(option, action="store_true")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -207,4 +209,9 @@ def run(arguments: argparse.Namespace) -> int:
     return mutate(Request(tuple(arguments.files), arguments.sample, arguments.seed, arguments.jobs, arguments.list, arguments.store, arguments.missing))
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "the share of small faults in kernel and safety that the tests find",
+    "Changes one thing at a time in a copy of kernel or safety and runs the tests of the layer. A change that no test finds is shown as a diff. "
+    "Ends with the share of changes that were found, for each layer. The acceptance limits are 90 % for kernel and 95 % for safety.",
+    {1: "a share is below its limit, or something failed"},
+    examples=("mutate --sample 20 --seed 7",))  # fmt: skip

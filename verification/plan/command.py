@@ -16,6 +16,10 @@ from mamori_tools.host.session import begin, finish, show_steps
 from mamori_tools.host.steps import Tier, run_steps
 from verification.plan.gate import list_test_steps
 
+QUICK_HELP = ("only build, C++ tests, static checks and fault campaign, for use during programming; missing results are tolerated")
+ALL_HELP = ("for a release: also what takes hours, such as long campaigns, all mutation rows and long fuzzing. Date and commit are stored in "
+            "verification/full_run.json and shown in each report")  # fmt: skip
+
 
 def test(jobs: int, tier: Tier) -> int:
     """The steps of `tier`. @return exit status."""
@@ -32,10 +36,10 @@ def test(jobs: int, tier: Tier) -> int:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_jobs(parser)
     tier = parser.add_mutually_exclusive_group()
-    for option, steps in (("--quick", Tier.QUICK), ("--all", Tier.ALL)):
-        tier.add_argument(option, action="store_const", dest="tier", const=steps, default=Tier.GATE)
+    for option, steps, text in (("--quick", Tier.QUICK, QUICK_HELP), ("--all", Tier.ALL, ALL_HELP)):
+        tier.add_argument(option, action="store_const", dest="tier", const=steps, default=Tier.GATE, help=text)
+    add_jobs(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -43,4 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     return test(arguments.jobs, arguments.tier)
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "everything that CI runs: all tests, sanitizers, static checks, proofs, campaign, report",
+    "Runs everything that CI runs. Ends with a table of all steps and the line `N passed, N failed, N skipped`. docs/manual/test_tiers.md "
+    "describes the purpose and run time of each step.")  # fmt: skip

@@ -190,11 +190,13 @@ def show(results: Sequence[Result], defect: Defect | BrakeDefect | None, screen:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_jobs(parser)
-    parser.add_argument("machine", choices=("safe-state",), metavar="MACHINE")
-    parser.add_argument("--json", action="store_true")
-    parser.add_argument("--out", type=Path, metavar="DIR")
-    parser.add_argument("--defect", metavar="NAME")
+    parser.add_argument("machine", choices=("safe-state",), metavar="safe-state", help="the safe-state machine and its brake sequence")
+    parser.add_argument("--json", action="store_true", help="print the result as JSON instead of a table")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder for the files; default: build/host-release/evidence/safe_state")
+    parser.add_argument("--defect", metavar="NAME",
+                        help="first seed the stored defect of the property NAME, of the machine or of the brakes, and check only that part: shows "
+                             "that the provers find the defect")  # fmt: skip
+    add_jobs(parser, "of the build")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -202,4 +204,9 @@ def run(arguments: argparse.Namespace) -> int:
     return prove_safe_state(Request(arguments.json, arguments.out, arguments.defect, arguments.jobs))
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "prove properties of the compiled safe-state machine and brake sequence with z3 and spin",
+    "Calls the compiled step of the safe-state machine and the compiled functions of the brake sequence for every situation and every "
+    "combination of inputs. Makes models for z3 and spin from the results and proves the properties of both with them. A violated property is "
+    "shown as steps from power-up. Writes relation.json, machine.smt2, machine.pml, brakes.json, brakes.smt2, brakes.pml and proof.json.",
+    {0: "all properties are proved", 1: "a property is not proved, or a prover failed"})  # fmt: skip

@@ -47,10 +47,15 @@ def show_not_run(names: Sequence[str], context: Context) -> None:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--motion", type=Path, metavar="FILE",
+                        help="BodyMotion YAML file or table (time and joints) to follow; default: the shipped motion")  # fmt: skip
+    parser.add_argument("--scenario", nargs="+", default=[], metavar="NAME", action="extend",
+                        help="only these fault scenarios; default: all of none, encoder_freeze, encoder_freeze_shoulder, encoder_freeze_both, "
+                             "encoder_bit_flip, encoder_bias, controller_hang, torque_runaway_shoulder, torque_runaway_elbow, "
+                             "torque_runaway_wrist, message_lost, message_late, message_lost_once, power_loss, supervisor_hang")  # fmt: skip
+    parser.add_argument("--instants", type=at_least_one, metavar="N",
+                        help="inject each fault at the first N instants (at least 1) of the campaign plan; default: all instants")  # fmt: skip
     add_jobs(parser)
-    parser.add_argument("--motion", type=Path, metavar="FILE")
-    parser.add_argument("--scenario", nargs="+", default=[], metavar="NAME", action="extend")
-    parser.add_argument("--instants", type=at_least_one, metavar="N")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -58,4 +63,8 @@ def run(arguments: argparse.Namespace) -> int:
     return demo(arguments.jobs, arguments.motion, tuple(arguments.scenario), arguments.instants)
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "build the example arm, inject its faults and write the report; runs no tests",
+    "Builds the example arm, lets it follow a motion under injected faults and writes report/index.html. Runs no tests. At the end, it lists the "
+    "steps that only ./mamori test runs.",
+    examples=("demo --scenario encoder_freeze power_loss --instants 1",))  # fmt: skip

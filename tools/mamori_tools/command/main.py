@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Entry of the command: arguments, exit status, orderly stop.
 
-The help texts are those of the launcher script, which answers --help before anything is installed.
+The launcher script prints the help texts before anything is installed. They are stored by mamori_tools.command.help_texts.
 
-@satisfies SWR-CLI-005, SWR-CLI-008, SWR-CLI-044, SWR-CLI-046      Design: docs/design/launcher.md#launcher
+@satisfies SWR-CLI-004, SWR-CLI-005, SWR-CLI-008, SWR-CLI-044, SWR-CLI-046      Design: docs/design/launcher.md#launcher
 """
 
 from __future__ import annotations
@@ -15,12 +15,18 @@ from importlib.metadata import EntryPoint, entry_points
 
 from mamori_tools.command.locks import hold_locks
 from mamori_tools.host.arguments import PROGRAM, Command, Parser
-from mamori_tools.host.exit_status import EXIT_INTERRUPTED, EXIT_MISSING, EXIT_PIPE, EXIT_USAGE
+from mamori_tools.host.exit_status import EXIT_INTERRUPTED, EXIT_MISSING, EXIT_OK, EXIT_PIPE, EXIT_USAGE
 from mamori_tools.host.process import discard_output, end_children, raise_on_signals
 from mamori_trace.base.errors import InputError, MissingError
 from mamori_trace.base.system_error import describe
 
 GROUP = "mamori.commands"
+TRACE = "trace"
+ORDER = ("demo", "run", "test", "build", "verify", "new", TRACE, "log", "bench", "timing", "cost", "e2e", "table", "mutate", "fuzz", "prove")
+"""Of the overview. Other commands follow in alphabetical order."""
+ABOUT = ("Mamori is a safety-oriented real-time middleware kernel for robots. Its tools turn a build into evidence.\n\n"
+         "./mamori COMMAND --help shows the options of a command.")  # fmt: skip
+HELP = ("help", "-h", "--help")
 
 
 def list_commands() -> dict[str, EntryPoint]:
@@ -28,26 +34,41 @@ def list_commands() -> dict[str, EntryPoint]:
     return {point.name: point for point in sorted(entry_points(group=GROUP), key=lambda point: point.name)}
 
 
-def make_parser(wanted: str | None = None) -> Parser:
+def make_parser(wanted: str | None = None, with_trace: bool = False) -> Parser:
     """@param wanted the command whose arguments are known; None: all but `trace`, whose libraries no other command needs."""
-    parser = Parser(prog=PROGRAM, allow_abbrev=False)
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=Parser)
-    for name, point in list_commands().items():
-        own = commands.add_parser(name, allow_abbrev=False)
-        if wanted in (None, name):
-            command: Command = point.load()
-            command.add_arguments(own)
-            own.set_defaults(run=command.run)
-    if wanted == "trace":
-        from mamori_trace.command import add_arguments, run
+    parser = Parser(prog=PROGRAM, allow_abbrev=False, usage="%(prog)s COMMAND [options]", description=ABOUT)
+    parser.statuses = {4: "timing without real-time privileges"}
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=Parser, prog=PROGRAM)
+    points = list_commands()
+    for name in sorted({TRACE, *points}, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name)):
+        if name != TRACE:
+            _add_command(commands, points[name], wanted in (None, name))
+        elif wanted == TRACE or with_trace:
+            from mamori_trace.command import add_arguments, run
 
-        add_arguments(commands)
-        commands.choices["trace"].set_defaults(run=run)
+            add_arguments(commands)
+            commands.choices[TRACE].set_defaults(run=run)
+            commands.choices[TRACE].statuses = {1: "a finding of severity error; `record` ends with the status of its test command"}
     return parser
+
+
+def _add_command(commands: argparse._SubParsersAction[Parser], point: EntryPoint, is_loaded: bool) -> None:
+    if not is_loaded:
+        commands.add_parser(point.name, allow_abbrev=False)
+        return
+    command: Command = point.load()
+    epilog = "\n".join(["examples:", *(f"  ./mamori {line}" for line in command.examples)]) if command.examples else None
+    own = commands.add_parser(point.name, allow_abbrev=False, help=command.summary, description=command.description, epilog=epilog)
+    own.statuses, own.usage_end = command.statuses, command.usage_end
+    command.add_arguments(own)
+    own.set_defaults(run=command.run)
 
 
 def run(argv: list[str]) -> int:
     """Runs the command. @return the exit status."""
+    if argv and argv[0] in HELP:
+        print(make_parser(with_trace=True).format_help(), end="")
+        return EXIT_OK
     own, passed_on = _split(argv)
     arguments = make_parser(own[0] if own else "").parse_args(own)
     arguments.passed_on = passed_on

@@ -169,7 +169,8 @@ def write_project(target: Path, files: dict[str, str]) -> None:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("path", type=Path, metavar="NAME")
+    parser.add_argument("path", type=Path, metavar="NAME", help="name in the current folder, or a path; the folder must not exist. Its last part "
+                        "begins with a letter and has only lower-case letters, digits and _")  # fmt: skip
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -177,4 +178,8 @@ def run(arguments: argparse.Namespace) -> int:
     return new(arguments.path)
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "create a project of yours: two components, a table, requirements, tests",
+    "Creates the folder NAME with a project of yours: two components, a system table, one chain of requirements from need to software, tests "
+    "and CMake. ./mamori verify NAME builds it, runs its tests and writes its report.",
+    {0: "created", 2: "invalid name, existing folder, or not writable; nothing is written"})  # fmt: skip

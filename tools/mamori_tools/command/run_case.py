@@ -28,6 +28,14 @@ if TYPE_CHECKING:
     from mamori_tools.campaign import CaseResult, Plan, Scenario, Selection
     from mamori_tools.motion import Motion
 
+FAULT_HELP = """KIND[,key=value...]; default: none
+  encoder_freeze    joint=1..7|fastest channel=a|b|both
+  encoder_bit_flip  joint channel magnitude=BIT, 0 to 31
+  encoder_bias      joint channel magnitude=RAD, -10 to 10, not 0
+  torque_runaway    joint magnitude=FRACTION of the torque limit, -1 to 1, not 0
+  message_late      magnitude=SECONDS, above 0 to 10
+  message_lost, power_loss, controller_hang, supervisor_hang, none
+Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end"""
 KEYS = ("joint", "channel", "magnitude", "at", "duration")
 REJECTED_INPUT = 2
 """Exit status of the program for input that it rejects."""
@@ -204,9 +212,10 @@ def _write_page(result: CaseResult, folder: Path) -> list[str]:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_jobs(parser)
-    parser.add_argument("--motion", type=Path, metavar="FILE")
-    parser.add_argument("--fault", metavar="FAULT")
+    parser.add_argument("--motion", type=Path, metavar="FILE",
+                        help="BodyMotion YAML file or table (time and joints) to follow; default: the shipped motion")  # fmt: skip
+    parser.add_argument("--fault", metavar="FAULT", help=FAULT_HELP)
+    add_jobs(parser, "of the build")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -214,4 +223,9 @@ def run(arguments: argparse.Namespace) -> int:
     return run_case(arguments.jobs, arguments.motion, arguments.fault)
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "run one case of the example arm with a fault of your choice; show its reaction and plots",
+    "Builds the example arm and runs one case. Shows the states, the reaction, the stopping figures, and the expected and actual end state. "
+    "Writes the plots to build/run/SCENARIO/case.html. Omitted keys come from the most similar scenario of the fault plan.",
+    {0: "the end state is as expected", 1: "the end state differs, or the program failed"},
+    examples=("run --fault encoder_freeze,joint=2,at=1.5", "run --motion my_motion.yaml --fault none"))  # fmt: skip

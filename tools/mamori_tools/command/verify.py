@@ -74,14 +74,21 @@ def check_preset(preset: str) -> None:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("project", nargs="?", type=Path, metavar="PROJECT", help="folder of a project; default: Mamori itself")
     add_jobs(parser)
-    parser.add_argument("project", nargs="?", type=Path, metavar="PROJECT")
 
 
 def add_build_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--preset", default=RELEASE, metavar="NAME", help="configuration of CMakePresets.json; default: %(default)s")
     add_arguments(parser)
-    parser.add_argument("--preset", default=RELEASE, metavar="NAME")
 
 
-BUILD = Command(add_build_arguments, lambda arguments: build(arguments.jobs, arguments.project, arguments.preset))
-VERIFY = Command(add_arguments, lambda arguments: verify(arguments.jobs, arguments.project))
+BUILD = Command(
+    add_build_arguments, lambda arguments: build(arguments.jobs, arguments.project, arguments.preset),
+    "build Mamori, or a project of yours against the installed package",
+    "Configures and builds. PROJECT is a folder with a CMakeLists.txt that calls find_package(mamori). With PROJECT, the package is first "
+    "installed to build/install. PROJECT is then built against it into PROJECT/build/.")  # fmt: skip
+VERIFY = Command(
+    add_arguments, lambda arguments: verify(arguments.jobs, arguments.project),
+    "tests, trace check and report of a project",
+    "Runs tests, trace check and report of PROJECT. Without PROJECT, does this for Mamori itself and runs its fault campaign.")  # fmt: skip

@@ -159,13 +159,17 @@ def _accept(job: Job, report: Report, path: Path) -> None:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_jobs(parser)
-    parser.add_argument("system", metavar="SYSTEM")
-    parser.add_argument("--class", nargs="+", default=[], metavar="NAME", action="extend", dest="classes")
-    parser.add_argument("--out", type=Path, metavar="DIR")
-    parser.add_argument("--check", type=Path, metavar="BASELINE")
-    parser.add_argument("--accept", type=Path, metavar="BASELINE")
-    parser.add_argument("--json", action="store_true")
+    parser.add_argument("system", metavar="SYSTEM",
+                        help="a folder with a timing.toml that has a [cost], for example examples/safe_arm or a folder of a project of yours")  # fmt: skip
+    parser.add_argument("--class", nargs="+", default=[], metavar="NAME", action="extend", dest="classes",
+                        help="only these classes of inputs; default: all")  # fmt: skip
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder for the results; default: build/host-release/evidence/cost/NAME")
+    parser.add_argument("--check", type=Path, metavar="BASELINE",
+                        help="end with status 1 when a maximum count grew by more than [cost] allows; only for the same compiler")  # fmt: skip
+    parser.add_argument("--accept", type=Path, metavar="BASELINE",
+                        help="write the maximum counts to this file, if there are no findings; not together with --check")  # fmt: skip
+    parser.add_argument("--json", action="store_true", help="print the record as JSON instead of text")
+    add_jobs(parser, "of the build")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -174,4 +178,11 @@ def run(arguments: argparse.Namespace) -> int:
     return cost(request, arguments.jobs)
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "exact instruction counts of each step of each component, compared with its budgets",
+    "Counts the instructions of each step of each component exactly (callgrind), for each class of inputs that SYSTEM declares. Shows minimum, "
+    "median and maximum, and the cycle of the maximum. Converts counts to times by a ratio that it measures on this host. Compares these "
+    "times and the declared margin with the window budgets and the worst cases of components. Writes cost.json and cost.txt.",
+    {0: "counted", 1: "a finding (limit below the maximum and its margin, --check, program failed)",
+     130: "stopped by Ctrl-C; no result is written"},
+    examples=("cost examples/safe_arm --json",))  # fmt: skip

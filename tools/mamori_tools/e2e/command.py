@@ -234,10 +234,19 @@ def make_json(answer: Answer) -> str:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    for option in ("--profile", "--length", "--rate", "--pe"):
-        parser.add_argument(option, required=True, metavar=option.removeprefix("--").upper())
-    parser.add_argument("--receivers", default="1", metavar="M")
-    parser.add_argument("--json", action="store_true")
+    names = [str(profile) for profile in PROFILES]
+    for option, text in (("--profile", f"{', '.join(names[:-1])} or {names[-1]}"), ("--length", "length of the message with its header, in bytes"),
+                         ("--rate", "messages per second, from 1e-9 to 1e9"),
+                         ("--pe", "bit error probability of the channel, from 1e-30 to 0.5; use 0.01 unless a lower value is justified")):  # fmt: skip
+        parser.add_argument(option, required=True, metavar={"--length": "BYTES", "--rate": "HZ"}.get(option, "P"), help=text)
+    parser.add_argument("--receivers", default="1", metavar="M",
+                        help="number of receivers that depend on the messages (at least 1); default: %(default)s")  # fmt: skip
+    parser.add_argument("--json", action="store_true", help="print JSON instead of text")
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "residual error probability and rate of an E2E-protected channel",
+    "Calculates residual error probability, residual error rate per hour and Hamming distance of an E2E-protected channel. Compares the rate with "
+    "1 % of the limit of each SIL. Values that are not precomputed take about one minute.",
+    {0: "within the budget of a SIL", 1: "above the budget of every SIL"},
+    examples=("e2e --profile 4 --length 64 --rate 1000 --pe 0.01",))  # fmt: skip

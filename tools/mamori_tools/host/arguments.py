@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a command registers under the entry points `mamori.commands` of pyproject.toml, and the parser of its arguments.
 
-@satisfies SWR-CLI-005      Design: docs/design/launcher.md#launcher
+@satisfies SWR-CLI-004, SWR-CLI-005      Design: docs/design/launcher.md#launcher
 """
 
 from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import NoReturn
 
+from mamori_tools.host.help_format import format_help
 from mamori_trace.base.errors import InputError
 from mamori_trace.base.nearest_names import nearest_names
 
@@ -21,14 +22,28 @@ DIGITS_MAX = 12  # of an option that counts something
 
 @dataclass(frozen=True)
 class Command:
-    """`run` returns the exit status. It raises InputError, MissingError or OSError, which become one line."""
+    """`run` returns the exit status. It raises InputError, MissingError or OSError, which become one line.
+
+    `summary` is the line of the overview. `statuses` replaces or extends the common meanings of exit statuses. `usage_end` names what
+    follows the arguments that argparse knows. `examples` are command lines without the program."""
 
     add_arguments: Callable[[argparse.ArgumentParser], None]
     run: Callable[[argparse.Namespace], int]
+    summary: str
+    description: str
+    statuses: Mapping[int, str] = field(default_factory=dict)
+    usage_end: str = ""
+    examples: tuple[str, ...] = ()
 
 
 class Parser(argparse.ArgumentParser):
     """Rejects an unknown word with one line that names the nearest known words."""
+
+    statuses: Mapping[int, str] = {}
+    usage_end = ""
+
+    def format_help(self) -> str:
+        return format_help(self, self.statuses, self.usage_end)
 
     def error(self, message: str) -> NoReturn:
         raise InputError(f"{self.prog.removeprefix(PROGRAM).strip() or PROGRAM}: {message}")
@@ -61,6 +76,7 @@ def at_least_one(text: str) -> int:
     return int(text)
 
 
-def add_jobs(parser: argparse.ArgumentParser) -> None:
+def add_jobs(parser: argparse.ArgumentParser, scope: str = "") -> None:
     """The option of each command that compiles or runs several programs at the same time."""
-    parser.add_argument("--jobs", type=at_least_one, default=os.cpu_count() or 1, metavar="N")
+    parser.add_argument("--jobs", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
+                        help=f"parallel jobs{scope and f' {scope}'} (at least 1); default: number of processors")  # fmt: skip

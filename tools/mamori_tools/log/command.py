@@ -21,12 +21,13 @@ from mamori_trace.base.errors import InputError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, metavar="FILE")
-    parser.add_argument("--mcap", type=Path, metavar="OUT")
+    parser.add_argument("file", type=Path, metavar="FILE", help="file of a flight recorder")
+    parser.add_argument("--mcap", type=Path, metavar="OUT", help="also write the events as MCAP, for Foxglove and other log viewers")
     form = parser.add_mutually_exclusive_group()
-    form.add_argument("--csv", type=Path, metavar="OUT")
-    form.add_argument("--json", action="store_true")
-    parser.add_argument("--names", type=Path, metavar="NAMES")
+    form.add_argument("--csv", type=Path, metavar="OUT", help="also write the events as CSV")
+    form.add_argument("--json", action="store_true", help="print the events as JSON instead of a table")
+    parser.add_argument("--names", type=Path, metavar="NAMES",
+                        help="table of names for sources, codes and arguments (JSON, YAML or TOML); default: FILE.names.json, if present")  # fmt: skip
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -98,4 +99,9 @@ def _make_complaint(recording: Recording) -> str:
                           "printed; keep a copy of the file before a program goes on over it", recording.path))
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "print the file of a flight recorder; export it for viewers",
+    "Prints the events in FILE, which a flight recorder wrote. This also works while the recorder writes and after a crash. Missing, torn and "
+    "corrupt parts are reported with their offset in the file.",
+    {0: "all events were read", 1: "printed, but something is damaged or missing", 2: "nothing to print, or wrong arguments"},
+    examples=("log run.rec --mcap run.mcap",))  # fmt: skip

@@ -25,14 +25,19 @@ FILES = {"text": "table.txt", "time_line": "time_line.svg", "graph": "graph.svg"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, metavar="FILE")
+    parser.add_argument("file", type=Path, metavar="FILE",
+                        help="JSON that a program wrote with mamori::table_dump, for example by `safe_arm table --out FILE`")  # fmt: skip
     form = parser.add_mutually_exclusive_group()
-    form.add_argument("--text", action="store_true")
-    form.add_argument("--json", action="store_true")
-    parser.add_argument("--svg-time-line", type=Path, metavar="OUT")
-    parser.add_argument("--svg-graph", type=Path, metavar="OUT")
-    parser.add_argument("--svg-modes", type=Path, metavar="OUT")
-    parser.add_argument("--out", type=Path, metavar="DIR")
+    form.add_argument("--text", action="store_true",
+                      help="print windows, connections, modes, parameters, reactions, and every rule that the table violates; the default")  # fmt: skip
+    form.add_argument("--json", action="store_true", help="print the table as JSON after it has been checked")
+    parser.add_argument("--svg-time-line", type=Path, metavar="OUT",
+                        help="write a picture of one major frame: a lane for each core, windows with their budgets")  # fmt: skip
+    parser.add_argument("--svg-graph", type=Path, metavar="OUT",
+                        help="write a picture of the data flow: components by core and window, connections by port")  # fmt: skip
+    parser.add_argument("--svg-modes", type=Path, metavar="OUT",
+                        help="write a picture of the modes: transitions, events, initial mode and safe mode")  # fmt: skip
+    parser.add_argument("--out", type=Path, metavar="DIR", help=f"write all four to DIR: {', '.join(FILES.values())}")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -115,4 +120,8 @@ def _print(table: Table) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "show the system table of a program as text and as pictures",
+    "Shows a system table that a program wrote. Without an option, it prints the text.",
+    {0: "shown", 1: "shown, but the table violates a rule", 2: "nothing to show, or wrong arguments"},
+    examples=("table table.json --out pictures",))  # fmt: skip

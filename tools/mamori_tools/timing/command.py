@@ -258,14 +258,18 @@ def _get_last_line(log: Path) -> str:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_jobs(parser)
-    parser.add_argument("system", metavar="SYSTEM")
-    parser.add_argument("--cycles", type=at_least_one, default=60_000, metavar="N")
-    parser.add_argument("--out", type=Path, metavar="DIR")
-    parser.add_argument("--load", action="store_true")
-    parser.add_argument("--check", type=Path, metavar="BASELINE")
-    parser.add_argument("--accept", type=Path, metavar="BASELINE")
-    parser.add_argument("--json", action="store_true")
+    parser.add_argument("system", metavar="SYSTEM",
+                        help="a folder with a timing.toml, for example examples/safe_arm or a folder of a project of yours that calls "
+                             "find_package(mamori); or a program")  # fmt: skip
+    parser.add_argument("--cycles", type=at_least_one, default=CYCLES, metavar="N", help="major frames to run (at least 1); default: %(default)s")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder for the results; default: build/host-release/evidence/timing/NAME")
+    parser.add_argument("--load", action="store_true", help="keep all processors busy with stress-ng during the run")
+    parser.add_argument("--check", type=Path, metavar="BASELINE",
+                        help="end with status 1 when the ratio of a component to the reference work exceeds the limit in this file")  # fmt: skip
+    parser.add_argument("--accept", type=Path, metavar="BASELINE",
+                        help="write the ratios of this run to this file, if there are no findings; not together with --check")  # fmt: skip
+    parser.add_argument("--json", action="store_true", help="print the record as JSON instead of text")
+    add_jobs(parser, "of the build")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -275,4 +279,12 @@ def run(arguments: argparse.Namespace) -> int:
     return timing(request, arguments.jobs)
 
 
-COMMAND = Command(add_arguments, run)
+COMMAND = Command(
+    add_arguments, run, "run a system in real time: lateness, execution times, latencies and the responsible component",
+    "Runs a system in real time. Shows release lateness, execution time and end-to-end latency for each window, component and event chain, "
+    "next to the values in virtual time. Shows each overrun and skipped window with its cycle and the responsible component, and the margins "
+    "of budgets. Writes timing.json, timing.txt and pictures. ARGUMENTS are passed on to the program.",
+    {0: "measured", 1: "a finding (overrun, declared worst case exceeded, --check, program failed)",
+     4: "measured without all real-time privileges", 130: "stopped by Ctrl-C; the measurements so far are kept and marked partial"},
+    usage_end="[-- ARGUMENTS]",
+    examples=("timing examples/safe_arm --cycles 10000 --load",))  # fmt: skip

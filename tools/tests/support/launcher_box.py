@@ -13,6 +13,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+from mamori_tools.command.help_texts import FOLDER
 from mamori_tools.host.project import ROOT
 
 PACKAGES_OF_BUILD = ("python3 python3-venv g++ cmake ninja-build libsimbody-dev liborocos-kdl-dev libeigen3-dev "
@@ -87,6 +88,7 @@ class Box:
             (self.folder / "bin" / name).symlink_to(shutil.which(name) or name)
         for name in ("mamori", "requirements.lock", "requirements-test.lock", "pyproject.toml"):
             shutil.copy(ROOT / name, self.folder)
+        shutil.copytree(FOLDER, self.folder / FOLDER.relative_to(ROOT))
         # Without a compiler, the folders of the real system would be searched.
         script = self.folder / "mamori"
         text = script.read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ from mamori_trace.actions.common import add_input, add_output, get_status, print
 from mamori_trace.actions.foreign import get_foreign
 from mamori_trace.base.errors import InputError
 
-HELP = "pack report, evidence and requirements with a manifest of hashes, signed on demand"
+HELP = "pack report, evidence and requirements with a manifest of hashes, signed on request"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

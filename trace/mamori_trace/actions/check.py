@@ -7,7 +7,7 @@ import argparse
 
 from mamori_trace.actions.common import SARIF, add_input, add_output, get_status, print_outcome, read_input
 
-HELP = "report every finding, with rule, file and line"
+HELP = "check every requirement, link and result; report each finding with rule, file and line, and end with status 1 for an error"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -39,8 +39,8 @@ def add_input(parser: argparse.ArgumentParser) -> None:
     add_root(parser)
     parser.add_argument("--evidence", type=Path, metavar="DIR", help="default: build/host-release/evidence, or the only one")
     add_foreign(parser)
-    parser.add_argument("--allow-missing", action="store_true", help="results that are missing (not failing) are no errors")
-    parser.add_argument("--release", action="store_true", help="what this host could not show is an error, too")
+    parser.add_argument("--allow-missing", action="store_true", help="missing (not failing) results are not errors")
+    parser.add_argument("--release", action="store_true", help="a result that this host cannot produce is also an error")
     parser.add_argument("--date", type=_parse_date, metavar="DAY",
                         help="day by which waivers expire, as 2026-11-30 (default: of the commit, or else of the evidence)")  # fmt: skip
 

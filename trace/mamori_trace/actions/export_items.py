@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("target", choices=_TARGETS, metavar="FORMAT", help=", ".join(_TARGETS))
     parser.add_argument("--out", type=Path, required=True, metavar="FILE",
                         help=f"the file to write; for {', '.join(FOLDER_WRITERS)} a folder, which must not be there yet")  # fmt: skip
-    parser.add_argument("--format", nargs=2, metavar=("FORMAT", "PATH"), help="take the items from another tool's files instead")
+    parser.add_argument("--format", nargs=2, metavar=("FORMAT", "PATH"), help="export the items in the files of another tool")
 
 
 def run(arguments: argparse.Namespace) -> int:

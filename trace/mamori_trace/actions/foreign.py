@@ -22,8 +22,8 @@ def add_foreign(parser: argparse.ArgumentParser) -> None:
     words = parser.add_argument_group("a project kept in the format of another tool")
     words.add_argument("--format", nargs=2, metavar=("FORMAT", "PATH"), help=f"FORMAT is {', '.join(FORMATS)}; PATH a file or folder")
     words.add_argument("--results", nargs="+", action="extend", type=Path, metavar="FILE", help="JUnit files, or folders of them")
-    words.add_argument("--sources", type=Path, metavar="DIR", help="where code and tests lie (default: the folder of PATH)")
-    words.add_argument("--schema", type=Path, metavar="FILE", help="what its words and levels mean, where the data does not say")
+    words.add_argument("--sources", type=Path, metavar="DIR", help="folder of code and tests (default: the folder of PATH)")
+    words.add_argument("--schema", type=Path, metavar="FILE", help="meaning of its values and levels, where the data does not specify it")
 
 
 def get_foreign(arguments: argparse.Namespace) -> ForeignInput | None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mamori_trace.actions.common import EXIT_CLEAN, add_output, add_root
 
-HELP = "show what a change touches, and what must run and be reviewed again"
+HELP = "show the functions, requirements and hazards that a change touches, the tests to run and the links to review again"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

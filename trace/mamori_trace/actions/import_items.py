@@ -20,7 +20,7 @@ from mamori_trace.readers.history import read_texts
 from mamori_trace.readers.lock import write_lock
 from mamori_trace.readers.project import read_requirements
 
-HELP = "take requirements of another tool over as Markdown items"
+HELP = "import requirements of another tool as Markdown items"
 MAP_NAME = "import_map.csv"
 
 
@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("path", type=Path, metavar="PATH", help="file or folder of the other tool")
     parser.add_argument("--into", type=Path, required=True, metavar="FOLDER", help="folder below requirements/; nothing in it is overwritten")
     parser.add_argument("--area", default="IMP", metavar="WORD", help="area of new ids: SWR-WORD-001, or the next free number (default: IMP)")
-    parser.add_argument("--schema", type=Path, metavar="FILE", help="what the words and levels of the project mean")
+    parser.add_argument("--schema", type=Path, metavar="FILE", help="meaning of the values and levels of the project")
 
 
 def run(arguments: argparse.Namespace) -> int:

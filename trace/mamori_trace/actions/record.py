@@ -24,7 +24,7 @@ from mamori_trace.readers.code_schema import read_code_schema
 from mamori_trace.readers.evidence_records import hash_file
 from mamori_trace.readers.sources import calc_sources, calc_sources_of
 
-HELP = "run a test command, and record what produced its results"
+HELP = "run a test command, record what produced its results, and end with the status of the command"
 EXIT_MISSING = 3
 _EXIT_INTERRUPTED = 130
 _EXIT_SIGNAL = 128
@@ -41,7 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--source", nargs="+", action="extend", default=[], type=Path, metavar="DIR",
                         help="sources that they are made from (default: all files that git does not ignore)")  # fmt: skip
     parser.add_argument("--evidence", type=Path, metavar="DIR", help="folder of records.json (default: the folder of the results; above `junit`)")
-    parser.add_argument("command", nargs="+", metavar="COMMAND", help="the test command, behind `--`")
+    parser.add_argument("command", nargs="+", metavar="COMMAND", help="the test command, after `--`")
+    parser.usage = "%(prog)s --results GLOB ... [options] -- COMMAND"
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -11,14 +11,14 @@ from pathlib import Path
 from mamori_trace.actions.common import SARIF, add_input, add_output, get_status, print_outcome, read_input
 from mamori_trace.base.errors import InputError
 
-HELP = "write one offline HTML file, and a PDF"
+HELP = "write one offline HTML file from the present evidence, and on request a PDF"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_input(parser)
     add_output(parser, SARIF)
     parser.add_argument("--out", type=Path, default=None, metavar="FILE", help="default: report/index.html in the project")
-    parser.add_argument("--pdf", type=Path, default=None, metavar="FILE", help="print to this file, too (needs chromium)")
+    parser.add_argument("--pdf", type=Path, default=None, metavar="FILE", help="also print to this PDF file (needs chromium)")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -21,16 +21,16 @@ from mamori_trace.readers.ids import IDS_PATH, write_ids
 from mamori_trace.readers.lock import LOCK_PATH, write_lock
 from mamori_trace.readers.project import read_requirements
 
-HELP = f"record in {LOCK_PATH} that links were looked at"
+HELP = f"record in {LOCK_PATH} that links were reviewed"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_root(parser)
-    parser.add_argument("items", nargs="*", metavar="ID", help="items whose links, up and down, were looked at, or that are no more")
-    parser.add_argument("--all", action="store_true", help="every link was looked at")
+    parser.add_argument("items", nargs="*", metavar="ID", help="items whose links, up and down, were reviewed, or that no longer exist")
+    parser.add_argument("--all", action="store_true", help="every link was reviewed")
     parser.add_argument("--format", nargs=2, metavar=("FORMAT", "PATH"), help=f"a project of another tool; its record is {LOCK_NAME} beside PATH")
-    parser.add_argument("--schema", type=Path, metavar="FILE", help="what the words and levels of that project mean")
-    parser.add_argument("--by", default="", metavar="NAME", help="who looked (default: the user name that git knows)")
+    parser.add_argument("--schema", type=Path, metavar="FILE", help="meaning of the values and levels of that project")
+    parser.add_argument("--by", default="", metavar="NAME", help="the reviewer (default: the user name in the git configuration)")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -14,13 +14,13 @@ from mamori_trace.model.verdict import calc_verdicts
 from mamori_trace.reports.json_report import make_item
 from mamori_trace.reports.text import Paint, format_item
 
-HELP = "show one item with its chain from hazard to result"
+HELP = "show one item with its chain from hazard to result; with --history the commits that changed it"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_input(parser)
     add_output(parser)
-    parser.add_argument("item", metavar="ID")
+    parser.add_argument("item", metavar="ID", help="id of the item")
     parser.add_argument("--history", action="store_true", help="also the commits that changed the item, newest first")
 
 

@@ -14,14 +14,14 @@ from mamori_trace.base.errors import InputError
 if TYPE_CHECKING:
     from mamori_trace.base.signature import Opinion
 
-HELP = "hold a bundle against its manifest and its signature"
+HELP = "compare a bundle with its manifest and its signature; end with status 1 when something differs"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_output(parser)
     parser.add_argument("bundle", type=Path, metavar="BUNDLE", help="folder or .tar file")
     parser.add_argument("--signers", type=Path, metavar="FILE",
-                        help="demand a signature of somebody in this file of allowed signers (ssh-keygen)")  # fmt: skip
+                        help="require a signature of a signer in this file of allowed signers (ssh-keygen)")  # fmt: skip
 
 
 def run(arguments: argparse.Namespace) -> int:
