@@ -19,6 +19,7 @@ from pathlib import Path
 CODE_SUFFIXES = frozenset((".cpp", ".hpp", ".c", ".py", ".rs", ".sh", ".cmake", ".S", ".ld", ".js", ".css", ".html"))
 CODE_NAMES = frozenset(("mamori", "CMakeLists.txt"))
 VERIFICATION_SHARE_MAX = 0.25
+GENERATED = ("build", "report")
 
 
 @dataclass
@@ -41,9 +42,12 @@ class Size:
 
 
 def list_tracked(root: Path) -> list[str]:
-    """Files that git tracks; none outside of a checkout."""
+    """Files that git tracks; outside of a checkout, all files that are not generated."""
     done = subprocess.run(("git", "-C", str(root), "ls-files", "-z"), capture_output=True, text=True, check=False)
-    return [name for name in done.stdout.split("\0") if name] if done.returncode == 0 else []
+    if done.returncode == 0 and done.stdout:
+        return [name for name in done.stdout.split("\0") if name]
+    names = (path.relative_to(root) for path in root.rglob("*") if path.is_file())
+    return [str(name) for name in names if name.parts[0] not in GENERATED and not name.parts[0].startswith(".") and "__pycache__" not in name.parts]
 
 
 def count_code(root: Path, names: Iterable[str]) -> Size:

@@ -33,6 +33,13 @@ def test_a_share_of_verification_over_the_limit_is_found(tmp_path: Path, lines: 
     assert len(check_share(count_code(tmp_path, ["kernel/a.cpp", "verification/a.py"]))) == found
 
 
+@pytest.mark.verifies("SWR-PRF-042", technique="equivalence_classes")
+def test_a_tree_without_git_is_listed_without_what_is_generated(tmp_path: Path) -> None:
+    count(tmp_path, {"kernel/a.cpp": "a\n", "build/a.cpp": "a\n", "report/a.cpp": "a\n", ".venv/a.py": "a\n", "tools/__pycache__/a.py": "a\n"})
+
+    assert list_tracked(tmp_path) == ["kernel/a.cpp"]
+
+
 @pytest.mark.verifies("SWR-PRF-042")
 def test_the_project_keeps_the_limit() -> None:
     size = count_code(ROOT, list_tracked(ROOT))
