@@ -4,6 +4,7 @@
 // Method: one table of scenarios (support/context_script.hpp); every step is compared in result, actions and
 // their order. A scenario that shows several requirements runs once for each. docs/design/rtc_semantics.md
 // explains the numbers.
+#include <ostream>
 #include <vector>
 
 #include "mamori/trace/verifies.hpp"
@@ -309,7 +310,7 @@ const std::vector<Scenario> kScenarios{
     // Rates.
     {"R3_OnlyAPeriodicContextHasARate",
      {Tags::rtc_classes},
-     "rate = 1000; kind = 0; event_driven; rate = none; kind = 1"},
+     "rate = 1000; divisor = 1; kind = 0; event_driven; rate = none; kind = 1"},
     {"E10_AnInvalidRateIsABadParameterAndTheRateStays",
      {Tags::rtc_limits_violation},
      "set_rate 0 = B; set_rate -1 = B; set_rate nan = B; set_rate inf = B; apply = no; rate = 1000"},
@@ -366,6 +367,11 @@ struct TaggedScenario {
     Tags::Tag verify;
     const char* steps;
 };
+/// The value in the result file: no addresses.
+void PrintTo(const TaggedScenario& scenario,
+             std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest
+    *out << scenario.steps;
+}
 
 std::vector<TaggedScenario> get_tagged_scenarios() {
     std::vector<TaggedScenario> result;

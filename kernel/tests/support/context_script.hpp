@@ -272,6 +272,7 @@ class ContextScript {
         {"turn", [this](Words&) { return spell(sut_.take_turn()); }},
         {"apply", [this](Words&) { return spell(sut_.apply_pending_rate()); }},
         {"rate", [this](Words&) { return spell(sut_.get_rate()); }},
+        {"divisor", [this](Words&) { return std::to_string(sut_.get_divisor()); }},
         {"kind", [this](Words&) { return std::to_string(static_cast<std::uint32_t>(sut_.get_kind())); }},
         {"refusing", [this](Words&) { return spell(sut_.get_refusing_position()); }},
         {"acting", [this](Words&) { return spell(sut_.get_acting_position()); }},
