@@ -368,8 +368,7 @@ struct TaggedScenario {
     const char* steps;
 };
 /// The value in the result file: no addresses.
-void PrintTo(const TaggedScenario& scenario,
-             std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest
+void PrintTo(const TaggedScenario& scenario, std::ostream* out) {
     *out << scenario.steps;
 }
 
