@@ -21,9 +21,7 @@ namespace mamori {
 namespace {
 
 using testing_support::SpyRecords;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using literals::operator""_ns;
 
 constexpr std::int64_t kFrames = 20'000;

@@ -19,9 +19,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 void report_and_exit(const AssertionRecord& record) noexcept {
     const char* name = std::strrchr(record.file, '/');

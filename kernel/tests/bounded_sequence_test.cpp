@@ -13,9 +13,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Three = BoundedSequence<int, 3>;
 static_assert(std::is_trivially_copyable_v<Three>);

@@ -14,9 +14,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Three = BoundedString<3>;
 static_assert(std::is_trivially_copyable_v<Three>);

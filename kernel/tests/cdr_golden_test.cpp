@@ -23,9 +23,7 @@ namespace {
 using cdr_checks::Bytes;
 using cdr_checks::to_hex;
 using namespace mamori::rtc;  // NOLINT: one table of all their names
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr Time kTime{0x01020304U, 0x05060708U};
 

@@ -77,9 +77,7 @@ MAMORI_FIELDS(mamori::Forty, a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, b0, b1, b2,
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 TEST(CdrLimitsTest, AnEncodingThatIsCutBeforeAnyOfFortyFieldsIsRefused) {
     verifies("SWR-CDR-013", Technique::kBoundaryValues, Polarity::kViolation);

@@ -27,9 +27,7 @@ using rtc::TimedDoubleSeq;
 using rtc::TimedPose3D;
 using rtc::TimedString;
 using rtc::TimedStringSeq;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr auto kBig = ByteOrder::kBig;
 constexpr auto kLittle = ByteOrder::kLittle;

@@ -55,9 +55,7 @@ using cdr_checks::encode_exactly;
 using cdr_checks::from_hex;
 using cdr_checks::to_hex;
 using cdr_checks::view;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 const Mixed kMixed{0x12U, -2, true, 0x0102030405060708U, 'A', 1.5F, -1, -2.0};
 const std::string kMixedLittle =

@@ -10,9 +10,7 @@ namespace mamori {
 namespace {
 
 using testing_support::expect_refused;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 TEST(CompileFailTest, AConnectionOfTwoPayloadTypesIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);

@@ -21,9 +21,7 @@ namespace {
 
 using testing_support::Axis;
 using testing_support::NamedAxis;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 Axis g_axis;
 NamedAxis g_named{"named"};

@@ -12,9 +12,7 @@ namespace mamori {
 namespace {
 
 using testing_support::Axis;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 Axis g_axis;
 

@@ -16,9 +16,7 @@ namespace {
 
 using testing_support::Axis;
 using testing_support::NamedAxis;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class Plain final : public Component {
   public:

@@ -18,9 +18,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 enum class Mode : std::uint8_t { kOff, kSlow, kFast };
 constexpr const char* get_name(Mode mode) noexcept {

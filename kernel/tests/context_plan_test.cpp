@@ -15,9 +15,7 @@ namespace {
 
 using testing_support::Calls;
 using testing_support::take;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class ContextPlanTest : public testing_support::ContextFixture {
   protected:
@@ -106,34 +104,6 @@ TEST_F(ContextPlanTest, APlanThatContradictsItselfIsRefused) {
     }));
 }
 
-TEST_F(ContextPlanTest, ARangeRunsAsItsPositionsDoOneByOne) {
-    verifies("SWR-RTC-002", Technique::kBackToBack);
-    start_and_activate();
-
-    ASSERT_EQ(sut_.begin_cycle(now_), Status::kOk);
-    sut_.execute_range(0U, 2U);
-    sut_.update_range(0U, 2U);
-    sut_.end_cycle();
-    const Calls in_ranges = take(calls_);
-
-    EXPECT_EQ(in_ranges, run_cycle());
-    EXPECT_FALSE(sut_.get_acting_position().has_value());
-}
-
-TEST_F(ContextPlanTest, ARangeNamesTheComponentThatActs) {
-    verifies("SWR-RTC-002", Technique::kInterface);
-    start_and_activate();
-    a_.inside = [this](const std::string&) { EXPECT_EQ(sut_.get_acting_position().get_value(), 0U); };
-    b_.inside = [this](const std::string&) { EXPECT_EQ(sut_.get_acting_position().get_value(), 1U); };
-
-    ASSERT_EQ(sut_.begin_cycle(now_), Status::kOk);
-    sut_.execute_range(0U, 2U);
-    sut_.update_range(0U, 2U);
-    sut_.end_cycle();
-
-    EXPECT_EQ(calls_.size(), 4U);
-}
-
 TEST_F(ContextPlanTest, ARangeWhoseCycleWasEndedMeanwhileBeginsNoFurtherAction) {
     verifies("SWR-RTC-002", Technique::kFaultInjection, Polarity::kViolation);
     start_and_activate();
@@ -167,16 +137,6 @@ TEST_F(ContextPlanTest, ARangeBeyondTheListOrOutsideACycleEndsInTheAssertion) {
     sut_.end_cycle();
 
     EXPECT_TRUE(calls_.empty()) << "an empty range does nothing";
-}
-
-TEST_F(ContextPlanTest, TheStateIsToldByPositionAsByComponent) {
-    verifies("SWR-RTC-002", Technique::kInterface);
-    start_and_activate();
-    bring_a_into_error();
-
-    EXPECT_EQ(sut_.get_state_at(0U), LifecycleState::kError);
-    EXPECT_EQ(sut_.get_state_at(1U), LifecycleState::kActive);
-    EXPECT_EQ(get_state(b_), LifecycleState::kActive);
 }
 
 }  // namespace

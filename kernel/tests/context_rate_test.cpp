@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a rate changes at a frame boundary, among those that the plan declares, and everybody is told.
-// Method: two spies, windows counted; each refusal; on_rate_changed with each answer in each state.
+// Goal: a rate changes at a frame boundary, among those that the plan declares.
+// Method: two spies, windows counted; each rejected rate. What the participants do: rtc_scenario_test.cpp.
 #include <limits>
 
 #include "mamori/kernel/component/external_trigger.hpp"
@@ -10,11 +10,7 @@
 namespace mamori {
 namespace {
 
-using testing_support::Calls;
-using testing_support::take;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::array<Duration, 2> kAlternatives{2_ms, 3_ms};
 
@@ -91,19 +87,6 @@ TEST_F(ContextRateTest, TheLastWishCountsAndTheRateInUseTakesItBack) {
     EXPECT_TRUE(sut_.apply_pending_rate());
 
     EXPECT_EQ(sut_.get_divisor(), 1);
-}
-
-TEST_F(ContextRateTest, EveryParticipantIsToldOnceInItsFirstTurnAtTheNewRate) {
-    verifies("SWR-RTC-003", Technique::kStateTransition);
-    start_and_activate();
-    ASSERT_EQ(sut_.deactivate_component(b_, now_), Status::kOk);
-    ASSERT_EQ(sut_.set_rate(500.0), Status::kOk);
-    ASSERT_TRUE(sut_.apply_pending_rate());
-    calls_.clear();
-
-    EXPECT_EQ(run_cycle(),
-              (Calls{"a.on_rate_changed", "a.on_execute", "b.on_rate_changed", "a.on_state_update"}));
-    EXPECT_EQ(run_cycle(), (Calls{"a.on_execute", "a.on_state_update"}));
 }
 
 TEST_F(ContextRateTest, ARestartBeginsWithACycleAndANewContextWithThePlan) {
@@ -199,137 +182,6 @@ TEST_F(ContextRateTest, ABusyContextTakesNoWishAndKeepsTheOneItHas) {
 
     EXPECT_TRUE(sut_.apply_pending_rate());
     EXPECT_DOUBLE_EQ(sut_.get_rate(), 500.0);
-}
-
-class RateFailureTest : public ContextRateTest, public ::testing::WithParamInterface<Status> {
-  protected:
-    void change_rate() {
-        ASSERT_EQ(sut_.set_rate(500.0), Status::kOk);
-        ASSERT_TRUE(sut_.apply_pending_rate());
-        a_.answers["on_rate_changed"] = GetParam();
-    }
-};
-
-TEST_P(RateFailureTest, AnActiveComponentThatRefusesTheRateGoesToErrorAndTheRateStays) {
-    verifies("SWR-RTC-004", Technique::kFaultInjection, Polarity::kViolation);
-    start_and_activate();
-    change_rate();
-
-    EXPECT_EQ(run_cycle(), (Calls{"a.on_rate_changed", "a.on_aborting", "b.on_rate_changed", "b.on_execute",
-                                  "b.on_state_update"}));
-
-    EXPECT_EQ(get_state(a_), LifecycleState::kError);
-    EXPECT_DOUBLE_EQ(sut_.get_rate(), 500.0);
-    EXPECT_EQ(a_.get_last_failure().action, ComponentAction::kRateChanged);
-    EXPECT_EQ(a_.get_last_failure().status, GetParam());
-    EXPECT_EQ(a_.get_last_failure().at, now_);
-    EXPECT_EQ(run_cycle(), (Calls{"a.on_error", "b.on_execute", "b.on_state_update"}));
-}
-
-TEST_P(RateFailureTest, AnInactiveOrFailedComponentThatRefusesTheRateStaysWhatItIs) {
-    verifies("SWR-RTC-004", Technique::kFaultInjection, Polarity::kViolation);
-    start_and_activate();
-    bring_a_into_error();
-    change_rate();
-    EXPECT_EQ(run_cycle(), (Calls{"a.on_rate_changed", "a.on_error", "b.on_rate_changed", "b.on_execute",
-                                  "b.on_state_update"}));
-    EXPECT_EQ(get_state(a_), LifecycleState::kError);
-    ASSERT_EQ(sut_.reset_component(a_, now_), Status::kOk);
-    ASSERT_EQ(sut_.set_rate(1000.0), Status::kOk);
-    ASSERT_TRUE(sut_.apply_pending_rate());
-    calls_.clear();
-
-    EXPECT_EQ(run_cycle(),
-              (Calls{"a.on_rate_changed", "b.on_rate_changed", "b.on_execute", "b.on_state_update"}));
-    EXPECT_EQ(get_state(a_), LifecycleState::kInactive);
-    EXPECT_EQ(a_.get_last_failure().action, ComponentAction::kRateChanged);
-}
-
-INSTANTIATE_TEST_SUITE_P(AllCodes, RateFailureTest,
-                         ::testing::Values(Status::kError, Status::kBadParameter, Status::kUnsupported,
-                                           Status::kOutOfResources, Status::kPreconditionNotMet),
-                         [](const auto& parameter) { return std::string(get_name(parameter.param)); });
-
-TEST_F(ContextRateTest, TheLastFailureNamesTheActionThatFailed) {
-    verifies("SWR-RTC-004", Technique::kInterface);
-    EXPECT_EQ(a_.get_last_failure().status, Status::kOk) << "nothing has failed yet";
-    std::string failing;
-    const auto fail = [this, &failing](const char* action) {
-        a_.answers = {{action, Status::kUnsupported}};
-        failing = action;
-    };
-    const auto check = [this, &failing] {
-        a_.answers.clear();
-        EXPECT_EQ(a_.get_last_failure().status, Status::kUnsupported) << failing;
-        EXPECT_EQ(get_name(a_.get_last_failure().action), failing);
-    };
-    fail("on_startup");
-    EXPECT_EQ(sut_.start(now_), Status::kUnsupported);
-    check();
-    ASSERT_EQ(sut_.start(now_), Status::kOk);
-    fail("on_shutdown");
-    EXPECT_EQ(sut_.stop(now_), Status::kUnsupported);
-    check();
-    ASSERT_EQ(sut_.start(now_), Status::kOk);
-    fail("on_activated");
-    EXPECT_EQ(sut_.activate_component(a_, now_), Status::kUnsupported);
-    check();
-    fail("on_reset");
-    EXPECT_EQ(sut_.reset_component(a_, now_), Status::kUnsupported);
-    check();
-    for (const char* action : {"on_execute", "on_state_update"}) {
-        ASSERT_EQ(sut_.reset_component(a_, now_), Status::kOk);
-        ASSERT_EQ(sut_.activate_component(a_, now_), Status::kOk);
-        fail(action);
-        a_.answers["on_aborting"] = Status::kError;
-        a_.answers["on_error"] = Status::kError;
-        run_cycle();
-        run_cycle();
-        check();
-    }
-    ASSERT_EQ(sut_.reset_component(a_, now_), Status::kOk);
-    ASSERT_EQ(sut_.activate_component(a_, now_), Status::kOk);
-    fail("on_deactivated");
-    EXPECT_EQ(sut_.deactivate_component(a_, now_), Status::kUnsupported);
-    check();
-    EXPECT_STREQ(get_name(static_cast<ComponentAction>(200U)), "invalid_action");
-}
-
-/// The same failures under OpenRTM's order.
-class AbortPolicyTest : public testing_support::ContextFixture {
-  protected:
-    AbortPolicyTest() { plan_.abort_policy = AbortPolicy::kOpenRtmCompat; }
-};
-
-TEST_F(AbortPolicyTest, UnderOpenRtmCompatOnDeactivatedComesBeforeOnAborting) {
-    verifies("SWR-RTC-005", Technique::kStateTransition);
-    start_and_activate();
-    a_.answers["on_execute"] = Status::kError;
-    b_.answers["on_state_update"] = Status::kError;
-
-    EXPECT_EQ(run_cycle(), (Calls{"a.on_execute", "a.on_deactivated", "a.on_aborting", "b.on_execute",
-                                  "b.on_state_update", "b.on_deactivated", "b.on_aborting"}));
-    EXPECT_EQ(run_cycle(), (Calls{"a.on_error", "b.on_error"}));
-}
-
-TEST_F(AbortPolicyTest, UnderOpenRtmCompatAFailedActivationIsCleanedUpToo) {
-    verifies("SWR-RTC-005", Technique::kFaultInjection);
-    a_.answers["on_activated"] = Status::kError;
-    a_.inside = [this](const std::string&) { EXPECT_NE(get_state(a_), LifecycleState::kActive); };
-
-    EXPECT_EQ(sut_.activate_component(a_, now_), Status::kError);
-
-    EXPECT_EQ(take(calls_), (Calls{"a.on_activated", "a.on_deactivated", "a.on_aborting"}));
-    EXPECT_EQ(get_state(a_), LifecycleState::kError);
-}
-
-TEST_F(AbortPolicyTest, AnOrderlyDeactivationIsTheSameUnderBothPolicies) {
-    verifies("SWR-RTC-005", Technique::kBackToBack);
-    start_and_activate();
-
-    EXPECT_EQ(sut_.deactivate_component(a_, now_), Status::kOk);
-
-    EXPECT_EQ(take(calls_), Calls{"a.on_deactivated"});
 }
 
 }  // namespace

@@ -17,8 +17,7 @@
 namespace mamori {
 namespace {
 
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::uint32_t kWrites = 500'000U;
 

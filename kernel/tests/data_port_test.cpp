@@ -28,9 +28,7 @@ MAMORI_FIELDS(mamori::testing_support::Wide, values)
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class DataPortTest : public ::testing::Test {
   protected:

@@ -20,9 +20,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr Result<Decimal> read(const char* text) {
     TextCursor cursor{make_text(text)};

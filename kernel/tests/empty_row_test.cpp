@@ -19,8 +19,7 @@
 namespace mamori {
 namespace {
 
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 template <typename... Numbers>
 constexpr bool are_zero(Numbers... numbers) noexcept {

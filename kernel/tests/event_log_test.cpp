@@ -11,9 +11,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class EventLogTest : public ::testing::Test {
   protected:

@@ -14,9 +14,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using literals::operator""_ns;
 

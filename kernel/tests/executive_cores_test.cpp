@@ -13,12 +13,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Counter;
-using testing_support::FakeHost;
-using testing_support::Sink;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 using Values = std::vector<std::int64_t>;
 
 /// The counter writes from 0 to 400 ns on core 0, the sink reads at 400 ns on core 1.

@@ -16,9 +16,7 @@ namespace {
 
 using testing_support::Counter;
 using testing_support::FakeHost;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class FailingSink final : public Component {
   public:

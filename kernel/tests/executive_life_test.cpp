@@ -13,14 +13,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Calls;
-using testing_support::Counter;
-using testing_support::FakeHost;
-using testing_support::SpyComponent;
-using testing_support::take;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 class ExecutiveLifeTest : public ::testing::Test {
   protected:

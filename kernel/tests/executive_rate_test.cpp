@@ -14,9 +14,7 @@ namespace {
 
 using testing_support::FakeHost;
 using testing_support::SpyObserver;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class Beat final : public Component {
   public:

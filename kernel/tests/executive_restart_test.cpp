@@ -19,9 +19,7 @@ namespace {
 
 using testing_support::Counter;
 using testing_support::FakeHost;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::int64_t kHour{3'600'000'000'000};
 

@@ -14,14 +14,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Counter;
-using testing_support::FakeHost;
-using testing_support::Relay;
-using testing_support::Sink;
-using testing_support::SpyObserver;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 using Values = std::vector<std::int64_t>;
 using Seen = std::vector<std::uint32_t>;
 

@@ -16,9 +16,7 @@ namespace {
 
 using testing_support::Calls;
 using testing_support::SpyComponent;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class ExternalTriggerTest : public ::testing::Test {
   protected:

@@ -68,9 +68,7 @@ MAMORI_FIELDS(mamori::NotCopyable, value)
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 /// Writes every scalar down.
 struct Notes {

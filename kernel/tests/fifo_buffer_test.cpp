@@ -15,9 +15,7 @@ namespace mamori {
 namespace {
 
 using testing_support::SteppedAtomic;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 template <FullPolicy kFull, EmptyPolicy kEmpty = EmptyPolicy::kDoNothing>
 using Fifo3 = FifoBuffer<std::int32_t, 3U, kFull, kEmpty>;

@@ -14,13 +14,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Exploration;
-using testing_support::explore;
-using testing_support::step;
-using testing_support::SteppedAtomic;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 struct Pair {
     std::uint32_t first;

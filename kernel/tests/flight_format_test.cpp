@@ -17,9 +17,7 @@
 namespace mamori::flight {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr FlightRecord kRecord{
     0x0102030405060708U, Instant{-2}, 0x1122334455667788, 0xA1A2A3A4U, 0xB1B2U, 0xC1C2U, Severity::kFault};

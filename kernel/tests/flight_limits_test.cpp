@@ -17,9 +17,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::size_t kMostRecords = std::numeric_limits<std::uint32_t>::max();
 

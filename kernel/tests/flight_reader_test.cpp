@@ -16,9 +16,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Region = std::vector<std::byte>;
 

@@ -16,9 +16,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class FlightRecorderTest : public ::testing::Test {
   protected:

@@ -18,9 +18,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Bytes = std::vector<std::byte>;
 

@@ -19,11 +19,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Counter;
-using testing_support::FakeHost;
-using testing_support::Sink;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 using Values = std::vector<std::int64_t>;
 
 /// Writes into one of two outputs in turn.

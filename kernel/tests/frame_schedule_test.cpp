@@ -14,8 +14,7 @@
 namespace mamori {
 namespace {
 
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Openings = std::vector<std::pair<std::size_t, std::int64_t>>;
 

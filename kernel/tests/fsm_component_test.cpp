@@ -19,13 +19,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Calls;
-using testing_support::SpyActions;
-using testing_support::SpyComponent;
-using testing_support::take;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 enum : FsmIndex { kClosed, kOpen, kLocked };
 enum : FsmIndex { kPush, kPull, kTurnKey };

@@ -14,9 +14,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class FsmEventQueueTest : public ::testing::Test {
   protected:

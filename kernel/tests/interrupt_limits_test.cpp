@@ -17,13 +17,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::FaultHandler;
-using testing_support::PagedObject;
-using testing_support::run_in_turns;
-using testing_support::run_interrupted;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 using Cells = std::array<FsmEventCell, 4U>;
 

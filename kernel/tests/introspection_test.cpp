@@ -19,13 +19,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Counter;
-using testing_support::FakeHost;
-using testing_support::Relay;
-using testing_support::SpyObserver;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 /// Reads at most one value per cycle; room for two.
 class Taker final : public Component {

@@ -12,9 +12,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr LifecycleState kCreated = LifecycleState::kCreated;
 constexpr LifecycleState kInactive = LifecycleState::kInactive;

@@ -10,9 +10,7 @@ namespace mamori {
 namespace {
 
 using testing_support::expect_refused;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 void expect_broken(int number, const std::string& expected) {
     expect_refused("system_modes", "", expected, std::to_string(number));

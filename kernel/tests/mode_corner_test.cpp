@@ -17,21 +17,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Command;
-using testing_support::kHalt;
-using testing_support::kIdle;
-using testing_support::kTeach;
-using testing_support::kWork;
-using testing_support::ModeHost;
-using testing_support::ModeObserver;
-using testing_support::Part;
-using testing_support::Robot;
-using testing_support::SpyObserver;
-using testing_support::Trouble;
-using testing_support::TroublePlan;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 constexpr std::int64_t kLongEnough = 16;
 

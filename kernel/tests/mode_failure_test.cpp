@@ -13,17 +13,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Command;
-using testing_support::kHalt;
-using testing_support::kIdle;
-using testing_support::kTeach;
-using testing_support::kWork;
-using testing_support::Part;
-using testing_support::Robot;
-using testing_support::Trouble;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 struct Transition {
     std::size_t source;

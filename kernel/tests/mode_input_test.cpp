@@ -11,14 +11,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Command;
-using testing_support::ModeHost;
-using testing_support::Part;
-using testing_support::Robot;
-using testing_support::TroublePlan;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 using Values = std::vector<std::int64_t>;
 
 struct ModeInputTest : ::testing::Test {

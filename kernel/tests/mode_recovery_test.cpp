@@ -10,16 +10,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Command;
-using testing_support::kHalt;
-using testing_support::kWork;
-using testing_support::ModeHost;
-using testing_support::Part;
-using testing_support::Robot;
-using testing_support::TroublePlan;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 constexpr std::int64_t kFrameNumbers = 65536;  ///< that a plan can tell apart
 

@@ -15,12 +15,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Command;
-using testing_support::kHalt;
-using testing_support::ModeHost;
-using testing_support::Robot;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 constexpr std::int64_t kFrames = 20'000;
 

@@ -15,12 +15,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Calls;
-using testing_support::SpyActions;
-using testing_support::take;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 constexpr Mode kNormal{"normal"};
 constexpr Mode kSlow{"slow"};

@@ -11,9 +11,7 @@ namespace {
 
 using testing_support::compile;
 using testing_support::expect_refused;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 TEST(ParameterCompileFailTest, AMalformedConstraintIsRefusedWithItsRule) {
     verifies("SWR-PAR-004", Technique::kInterface, Polarity::kViolation);

@@ -22,9 +22,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 enum class Gear : std::uint8_t { kNeutral, kFirst, kSecond };
 constexpr const char* get_name(Gear gear) noexcept {

@@ -18,9 +18,7 @@ namespace {
 
 using testing_support::Counter;
 using testing_support::FakeHost;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using Values = std::vector<std::int64_t>;
 
 template <FullPolicy kFull, EmptyPolicy kEmpty>

@@ -17,12 +17,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Calls;
-using testing_support::kEveryStatus;
-using testing_support::SpyComponent;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 constexpr std::array<FsmState, 1> kStates{{{"only"}}};
 constexpr std::array<FsmMessage, 1> kMessages{{{"go"}}};

@@ -15,12 +15,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Exploration;
-using testing_support::explore;
-using testing_support::SteppedAtomic;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 TEST(SnapshotCellTest, EveryReaderGetsWhatWasWrittenLast) {
     verifies("SWR-BUF-007");

@@ -9,9 +9,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 TEST(StatusTest, NumbersAndNamesAreThoseOfTheRtcStandard) {
     verifies("SWR-KRN-001", Technique::kInterface);

@@ -18,9 +18,7 @@ namespace mamori {
 namespace {
 
 using namespace mamori::literals;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::array<FsmState, 1> kStates{{{"on"}}};
 constexpr std::array<FsmMessage, 1> kMessages{{{"tick"}}};

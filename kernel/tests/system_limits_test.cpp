@@ -18,9 +18,7 @@ namespace {
 
 using testing_support::Counter;
 using testing_support::Relay;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using Rules = std::vector<Rule>;
 
 enum class Fault : std::uint32_t { kHot = 3, kFast = 7, kCold = 9 };

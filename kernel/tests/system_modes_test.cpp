@@ -11,17 +11,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::Command;
-using testing_support::kHalt;
-using testing_support::kIdle;
-using testing_support::kTeach;
-using testing_support::kWork;
-using testing_support::ModeObserver;
-using testing_support::Robot;
-using testing_support::Trouble;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 using Steps = std::vector<ModeObserver::Step>;
 
 class SystemModesTest : public ::testing::Test {

@@ -12,13 +12,8 @@
 namespace mamori {
 namespace {
 
-using testing_support::ModeHost;
-using testing_support::ModeObserver;
-using testing_support::Part;
-using testing_support::TroublePlan;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 using Speeds = std::vector<double>;
 
 struct PlantParts {

@@ -20,9 +20,7 @@ namespace {
 
 using testing_support::Counter;
 using testing_support::Relay;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 enum class Fault : std::uint32_t { kHot = 3, kFast = 7 };
 enum class Reaction : std::uint32_t { kSlow = 1, kStop = 2 };

@@ -16,9 +16,7 @@ namespace {
 
 using testing_support::Counter;
 using testing_support::Relay;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class Listener final : public Component {
   public:

@@ -25,9 +25,7 @@ namespace mamori {
 namespace {
 
 using testing_support::FakeHost;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 enum class Command { kStart, kStop };
 enum class Fault : std::uint32_t { kHot, kFast };

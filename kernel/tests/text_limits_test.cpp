@@ -16,9 +16,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 Text make_view_of(const std::string& text) {
     return {text.data(), text.size()};

@@ -14,9 +14,7 @@
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 template <typename A, typename B, typename = void>
 struct CanAdd : std::false_type {};

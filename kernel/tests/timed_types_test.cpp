@@ -17,9 +17,7 @@
 namespace mamori::rtc {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 /// Largest sizes of several types, in order.
 template <typename... T>

@@ -26,9 +26,7 @@ MAMORI_FIELDS(mamori::Padded, small, large)
 namespace mamori {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 std::uint64_t hash_text(const std::string& text) {
     TraceHash hash;

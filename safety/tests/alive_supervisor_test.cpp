@@ -12,9 +12,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class AliveSupervisorTest : public ::testing::Test {
   protected:

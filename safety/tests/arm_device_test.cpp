@@ -7,9 +7,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 struct Count {
     std::size_t scalars{0U};

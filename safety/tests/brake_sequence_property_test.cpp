@@ -14,9 +14,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 // Time goes on by one per step, and after five nothing depends on it any more.
 constexpr StopBounds kBounds{Duration{1}, Duration{4}};

@@ -7,9 +7,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 void expect_refused(const char* defect, const char* fault, const char* advice) {
     const rig::Compilation result = rig::compile("channel_budget_source.cpp", defect);

@@ -10,9 +10,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr Instant kFirst{std::numeric_limits<std::int64_t>::min()};
 constexpr Instant kLast{std::numeric_limits<std::int64_t>::max()};

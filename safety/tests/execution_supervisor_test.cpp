@@ -14,9 +14,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using literals::operator""_us;
 using literals::operator""_ms;

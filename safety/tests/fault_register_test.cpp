@@ -13,9 +13,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using FaultRegisterTest = testing_support::FaultRegisterFixture;
 

@@ -161,9 +161,7 @@ namespace arm {
 namespace {
 
 using mamori::Instant;
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 using safety::SelfTestStatus;
 
 class IntegrityPageTest : public ::testing::Test {

@@ -7,9 +7,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 rig::Compilation compile(const std::string& defect) {
     return rig::compile("reaction_table_source.cpp", defect);

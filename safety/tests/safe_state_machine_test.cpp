@@ -17,9 +17,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class SafeStateMachineTest : public ::testing::Test {
   protected:

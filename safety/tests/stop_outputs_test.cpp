@@ -8,9 +8,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr StopOutputs kTorqueOff{false, false, false, false};
 constexpr StopOutputs kMoving{true, true, false, false};

@@ -15,9 +15,7 @@ namespace {
 using mamori::Instant;
 using mamori::safety::AssumptionMonitor;
 using mamori::safety::SelfTestStatus;
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 mamori::ports::virtual_time::VirtualWatchdog g_served{kWatchdogTimeout};
 ArmChecks g_sound{g_served};

@@ -9,9 +9,7 @@ namespace safe_arm {
 namespace {
 
 using mamori::Status;
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 class ArmReaderTest : public ::testing::Test {
   protected:

@@ -13,9 +13,7 @@
 namespace safe_arm {
 namespace {
 
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 using Row = std::vector<std::string>;
 

@@ -15,9 +15,7 @@ namespace {
 using mamori::Duration;
 using mamori::Instant;
 using mamori::Status;
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Just inside and just outside of a limit.

@@ -9,9 +9,7 @@
 namespace safe_arm {
 namespace {
 
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 class ModelCheckTest : public ::testing::Test {
   protected:

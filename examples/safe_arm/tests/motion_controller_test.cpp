@@ -17,8 +17,7 @@ namespace {
 using mamori::Instant;
 using mamori::Status;
 using mamori::safety::SafeState;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 constexpr Instant kBegin{10000000};
 

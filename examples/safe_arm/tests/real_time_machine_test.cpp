@@ -18,9 +18,7 @@ namespace {
 
 using mamori::Instant;
 using mamori::WindowOutcome;
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 using Opening = mamori::FrameSchedule::Opening;
 
 class Holder final : public mamori::sim::PlantObserver {

@@ -24,9 +24,7 @@ namespace safe_arm {
 namespace {
 
 namespace fs = std::filesystem;
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 class RunTest : public ::testing::Test {
   protected:

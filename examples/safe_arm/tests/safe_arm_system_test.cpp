@@ -11,9 +11,7 @@ using mamori::safety::calc_reaction;
 using mamori::safety::FaultIndex;
 using mamori::safety::FaultRecord;
 using mamori::safety::FaultRegister;
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 bool is_forward(const mamori::OutPortBase& source, const mamori::InPortBase& sink) {
     for (const mamori::ConnectionRow& row : executive.get_view().connections) {

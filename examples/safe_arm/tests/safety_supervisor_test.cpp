@@ -15,9 +15,7 @@ using mamori::Instant;
 using mamori::Status;
 using mamori::safety::SafeState;
 using mamori::safety::SelfTestStatus;
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 using SafetySupervisorTest = SafetySupervisorFixture;
 

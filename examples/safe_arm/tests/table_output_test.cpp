@@ -15,9 +15,7 @@
 namespace safe_arm {
 namespace {
 
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 TEST(TableOutputTest, TheWholeTableIsWrittenWithTheReactionOfEachFault) {
     verifies("SWR-TAB-001");

@@ -15,9 +15,7 @@
 namespace mamori::ports::conformance {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 TrialFactory make_exact(HostFlaw flaw) {
     return make_host_trials([flaw] { return std::make_unique<ExactHostRig>(flaw); });

@@ -12,9 +12,7 @@
 namespace mamori::ports::conformance {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 struct Number {
     int value{0};

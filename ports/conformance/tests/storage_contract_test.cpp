@@ -15,9 +15,7 @@
 namespace mamori::ports::conformance {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 enum class StorageFlaw {
     kNone,

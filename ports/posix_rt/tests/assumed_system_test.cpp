@@ -27,9 +27,7 @@ namespace {
 using safety::assume;
 using safety::ProvisionCheck;
 using safety::SelfTestStatus;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr Duration kFrame = 5_ms;
 constexpr std::int64_t kChange = 60;  ///< frame in which something is taken away

@@ -15,9 +15,7 @@ namespace {
 
 using safety::SelfTestStatus;
 using safety::TickSourceCheck;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 /// Linux's clock, `percent` of its rate.
 class ScaledClock final : public TimeSource {

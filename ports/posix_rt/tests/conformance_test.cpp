@@ -36,8 +36,7 @@ using conformance::Report;
 using conformance::run_in_order;
 using conformance::run_randomly;
 using conformance::TrialFactory;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::uint64_t kSeed = 20261122U;
 

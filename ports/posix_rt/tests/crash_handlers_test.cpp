@@ -37,9 +37,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::size_t kCapacity = 256U;
 constexpr std::uint64_t kUnreachable = 0x10U;

@@ -15,9 +15,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr CrashNote kNote{Instant{-2}, 0x1122334455667788U, 0xA1A2A3A4U, {0xB1B2U, 0xC1C2U}, SIGSEGV, true};
 constexpr CrashNoteBytes kGolden{0xFE, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x88, 0x77,

@@ -12,7 +12,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-using verification::verifies;
+using namespace verification;
 
 TEST(CrashStackTest, IsTakenOnceAndGivenBack) {
     verifies("SWR-PRT-026");

@@ -25,9 +25,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using literals::operator""_ms;
 
 constexpr int kHandled = 7;  ///< exit status of a process whose handler came to its end

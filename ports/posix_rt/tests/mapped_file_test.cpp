@@ -17,9 +17,7 @@ namespace mamori::ports::posix_rt {
 namespace {
 
 namespace fs = std::filesystem;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::size_t kSize = 5000U;  // no whole number of pages
 

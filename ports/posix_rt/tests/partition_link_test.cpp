@@ -29,9 +29,7 @@ namespace {
 
 using partition_link_test::Colour;
 using partition_link_test::Message;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::size_t kCapacity = PartitionSender<Message>::kCapacity;
 

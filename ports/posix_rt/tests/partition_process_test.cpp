@@ -24,9 +24,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 /// Longer than any of this takes on a machine that is busy.
 constexpr int kPatience_ms = 20'000;

@@ -28,9 +28,7 @@ namespace {
 
 using safety::ProvisionCheck;
 using safety::SelfTestStatus;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 // ---- Memory ----
 

@@ -19,9 +19,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 int read_priority() {
     int policy = -1;

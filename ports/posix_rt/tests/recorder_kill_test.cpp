@@ -23,9 +23,7 @@ namespace mamori::ports::posix_rt {
 namespace {
 
 namespace fs = std::filesystem;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Bytes = std::vector<std::byte>;
 

@@ -22,9 +22,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::size_t kCapacity = 29U;  // no whole number of words
 constexpr std::size_t kSize = calc_frame_region_size(kCapacity);

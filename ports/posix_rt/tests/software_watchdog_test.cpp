@@ -18,9 +18,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr Duration kShort = 5_ms;
 constexpr Duration kHour = Duration{3'600'000'000'000};

@@ -14,8 +14,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using literals::operator""_ms;
 using literals::operator""_ns;
 

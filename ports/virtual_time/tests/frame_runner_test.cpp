@@ -18,8 +18,7 @@
 namespace mamori::ports::virtual_time {
 namespace {
 
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 /// Publishes what the devices gave it.
 class Sensor final : public Component {

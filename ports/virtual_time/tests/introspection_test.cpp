@@ -16,9 +16,7 @@
 namespace mamori::ports::virtual_time {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr int kFrames = 5000;
 

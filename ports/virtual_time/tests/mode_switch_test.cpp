@@ -15,9 +15,7 @@
 namespace mamori::ports::virtual_time {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 enum class Command { kStart, kTeach };
 

@@ -13,9 +13,7 @@
 namespace mamori::ports::virtual_time {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr int kNothing = -1;
 

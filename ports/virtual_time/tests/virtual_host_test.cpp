@@ -11,9 +11,7 @@
 namespace mamori::ports::virtual_time {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using Pass = WindowHost::Pass;
 
 class VirtualHostTest : public ::testing::Test {

@@ -8,9 +8,7 @@
 namespace mamori::ports::virtual_time {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 TEST(VirtualWatchdogTest, RelayStaysClosedWhileTheServiceComesInTime) {
     verifies("SWR-VTM-005", Technique::kBoundaryValues);

@@ -20,9 +20,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 enum class Assumption : AssumptionIndex {
     kTickSource,

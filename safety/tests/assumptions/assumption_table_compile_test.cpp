@@ -12,9 +12,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr const char* kSource = "assumption_table_source.cpp";
 

@@ -16,8 +16,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Bytes = std::vector<std::byte>;
 

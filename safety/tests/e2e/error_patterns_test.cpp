@@ -11,9 +11,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 template <typename Case>
 std::uint64_t count(std::size_t length, unsigned weight) {

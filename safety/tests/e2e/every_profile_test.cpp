@@ -16,9 +16,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::size_t kLength = 24U;
 

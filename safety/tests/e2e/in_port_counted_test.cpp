@@ -9,9 +9,7 @@
 namespace e2e_port_test {
 namespace {
 
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 // ---- Each frame once ----
 

@@ -12,9 +12,7 @@
 namespace e2e_port_test {
 namespace {
 
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 constexpr Instant kFirst{std::numeric_limits<std::int64_t>::min()};
 constexpr Instant kLast{std::numeric_limits<std::int64_t>::max()};

@@ -10,9 +10,7 @@
 namespace e2e_port_test {
 namespace {
 
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 // ---- Every profile, both orders, both kinds of input ----
 

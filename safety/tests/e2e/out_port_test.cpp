@@ -10,9 +10,7 @@
 namespace e2e_port_test {
 namespace {
 
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 template <typename Frame>
 std::vector<std::byte> to_bytes(const Frame& frame) {

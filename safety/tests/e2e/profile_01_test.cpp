@@ -13,9 +13,7 @@ namespace {
 
 using rig::fill;
 using rig::show;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Channel = NibbleCounterChannel;
 

@@ -14,9 +14,7 @@ namespace {
 
 using rig::fill;
 using rig::show;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 /// First two bytes of a frame of 8 zeros, by counter.
 constexpr std::array<const char*, 16U> kHeaders{"0e 00", "1b 01", "98 02", "31 03", "0d 04", "18 05",

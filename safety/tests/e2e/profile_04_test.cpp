@@ -14,9 +14,7 @@ namespace {
 
 using rig::fill;
 using rig::show;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::uint32_t kId = 0x0A0B0C0DU;
 

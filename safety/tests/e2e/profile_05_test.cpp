@@ -12,9 +12,7 @@ namespace {
 
 using rig::fill;
 using rig::show;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 TEST(E2eProfile05Test, BytesAreThoseOfOthers) {
     verifies("SWR-E2E-003", Technique::kBackToBack);

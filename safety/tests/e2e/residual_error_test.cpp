@@ -14,9 +14,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::array<double, 3U> kErrorProbabilities{1e-2, 1e-3, 1e-5};
 using Published = std::array<double, 3U>;

@@ -15,9 +15,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Statuses = std::vector<CheckStatus>;
 using Counters = std::vector<std::uint32_t>;

@@ -11,9 +11,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr ChannelDemands kDemands{{3U, 1U}, {2U, 2U}, {4U, 0U}};
 

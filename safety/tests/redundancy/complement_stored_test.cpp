@@ -15,9 +15,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 template <std::size_t kBytes>
 struct Block {

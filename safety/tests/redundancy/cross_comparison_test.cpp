@@ -44,9 +44,7 @@ namespace {
 using cross_comparison_test::Joint;
 using cross_comparison_test::Mode;
 using cross_comparison_test::Ports;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr Joint kJointTolerance{0.5, 0.25F};
 constexpr Ports kTolerance{{{kJointTolerance, {0.0, 0.0F}}},

@@ -12,9 +12,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr ClockRatioLimits kClocks{Duration{1000000}, 100U};  // 100 ns in a window
 

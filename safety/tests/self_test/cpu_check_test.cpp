@@ -16,9 +16,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 /// The real processor with one fault between it and the check.
 struct FaultyCpu {

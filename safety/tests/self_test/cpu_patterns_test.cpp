@@ -15,8 +15,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using Do = ArithmeticOperation;
 
 template <typename T>

@@ -17,9 +17,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::size_t kWords = 6U;
 constexpr std::size_t kBits = kWords * FaultySram::kBits;

@@ -13,9 +13,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 /// Declares `count` steps, and ends after `length` of them with `result`.
 class FakeTest final : public SelfTest {

@@ -11,9 +11,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 constexpr std::size_t kWords = 20U;
 constexpr StackLimits kLimits{2U, 8U, 5U};  // a margin of 12 words, in three steps

@@ -11,9 +11,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 enum class Point : CheckpointIndex { kTick, kTock };
 

@@ -14,9 +14,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 enum class Entity : EntityIndex { kControl, kPlanner };
 enum class Point : CheckpointIndex { kRead, kWrite, kPlan };

@@ -15,9 +15,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using Violation = CheckpointViolation;
 
 using literals::operator""_ns;

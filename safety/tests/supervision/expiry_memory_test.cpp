@@ -23,9 +23,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using Violation = CheckpointViolation;
 
 constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();

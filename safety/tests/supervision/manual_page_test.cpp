@@ -92,9 +92,7 @@ namespace supervised {
 namespace {
 
 using mamori::Instant;
-using mamori::verification::Polarity;
-using mamori::verification::Technique;
-using mamori::verification::verifies;
+using namespace mamori::verification;
 
 class FakeChallenge final : public mamori::safety::ChallengeWatchdog {
   public:

@@ -9,9 +9,7 @@
 namespace mamori::safety {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using Violation = CheckpointViolation;
 
 enum class Entity : EntityIndex { kLeft, kMiddle, kRight };

@@ -15,9 +15,7 @@ namespace {
 
 using broken::Entity;
 using broken::Point;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using Fault = SupervisionFault;
 
 constexpr std::size_t kCheckpointMax = 8U;

@@ -21,9 +21,7 @@ using ports::posix_rt::PartitionSender;
 using safety::E2eOutcome;
 using safety::E2eWorth;
 using safety::FrameCause;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 using Frame = SafeSpeed::Frame;
 using Bytes = std::vector<std::byte>;

@@ -25,9 +25,7 @@ using safety::ChannelState;
 using safety::E2eOutcome;
 using safety::E2eWorth;
 using safety::FrameCause;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 class NoDevices final : public FrameDevices {
   public:

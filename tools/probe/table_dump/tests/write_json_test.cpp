@@ -16,14 +16,8 @@ namespace mamori::table_dump {
 namespace {
 
 using nlohmann::json;
-using testing_support::Fault;
-using testing_support::Filter;
-using testing_support::Logger;
-using testing_support::Reaction;
-using testing_support::Source;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace testing_support;
+using namespace verification;
 
 Source g_encoder{"encoder"};
 Filter g_monitor{"monitor"};

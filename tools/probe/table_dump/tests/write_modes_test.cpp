@@ -20,9 +20,7 @@ namespace {
 
 using nlohmann::json;
 using robot::kSystem;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 
 MAMORI_CHECK(kSystem);
 

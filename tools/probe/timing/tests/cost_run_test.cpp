@@ -18,9 +18,7 @@ namespace mamori::timing {
 namespace {
 
 using Json = nlohmann::json;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using literals::operator""_ms;
 
 class Worker final : public Component {

@@ -21,9 +21,7 @@ using ports::virtual_time::FrameRunner;
 using ports::virtual_time::kNever;
 using ports::virtual_time::SimulatedCore;
 using ports::virtual_time::VirtualHost;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using literals::operator""_ms;
 using literals::operator""_us;
 

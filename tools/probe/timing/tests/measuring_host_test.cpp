@@ -13,9 +13,7 @@
 namespace mamori::timing {
 namespace {
 
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using Opening = FrameSchedule::Opening;
 using literals::operator""_ms;
 

@@ -10,7 +10,7 @@
 namespace mamori::timing {
 namespace {
 
-using verification::verifies;
+using namespace verification;
 
 TEST(Npy, RowsFollowAHeaderThatNamesThemAndEndsAtAMultipleOf64) {
     verifies("SWR-TIM-003");

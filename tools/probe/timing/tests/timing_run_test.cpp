@@ -24,9 +24,7 @@ namespace {
 
 using Json = nlohmann::json;
 using ports::posix_rt::WindowThread;
-using verification::Polarity;
-using verification::Technique;
-using verification::verifies;
+using namespace verification;
 using literals::operator""_ms;
 
 /// Sends the process a signal, or hangs, in a cycle that the test names.
