@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <thread>
 
@@ -168,7 +169,7 @@ TEST_F(ConfigurationAdminTest, SingleValuesBecomeActiveAtTheBoundaryAfterTheSet)
     verifies("SWR-PAR-009");
 
     ASSERT_EQ(sut_.set_value(g_axis.speed, 2.0), Status::kOk);
-    ASSERT_EQ(sut_.set_value(g_named.level, make_text("-10")), Status::kOk);
+    ASSERT_EQ(sut_.set_value(g_named.level, std::array{to_scalar(-10)}), Status::kOk);
     ASSERT_EQ(sut_.activate_configuration_set(1U), Status::kOk);
     EXPECT_EQ(g_axis.speed.get(), 1.0);
     ASSERT_EQ(sut_.switch_at_frame_boundary(), Status::kOk);
@@ -190,10 +191,10 @@ TEST_F(ConfigurationAdminTest, ASingleValueOutsideItsConstraintIsRefusedAtOnce) 
     verifies("SWR-PAR-009", Technique::kBoundaryValues, Polarity::kViolation);
 
     EXPECT_EQ(sut_.set_value(g_axis.speed, 3.1), Status::kBadParameter);
-    EXPECT_EQ(sut_.set_value(g_axis.speed, make_text("0.4")), Status::kBadParameter);
-    EXPECT_EQ(sut_.set_value(g_axis.speed, make_text("fast")), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_value(g_axis.speed, std::array{to_scalar(0.4)}), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_value(g_axis.speed, std::array{to_scalar(1)}), Status::kBadParameter);
     EXPECT_EQ(sut_.set_value(g_stranger.speed, 1.0), Status::kBadParameter);
-    EXPECT_EQ(sut_.set_value(g_stranger.speed, make_text("1.0")), Status::kBadParameter);
+    EXPECT_EQ(sut_.set_value(g_stranger.speed, std::array{to_scalar(1.0)}), Status::kBadParameter);
     ASSERT_EQ(sut_.switch_at_frame_boundary(), Status::kOk);
     EXPECT_EQ(g_axis.speed.get(), 1.0);
 }

@@ -7,7 +7,7 @@
 #include "mamori/kernel/component/detail/fsm_machine.hpp"
 #include "mamori/kernel/parameter/configuration_finding.hpp"
 #include "mamori/kernel/parameter/configuration_table.hpp"
-#include "mamori/kernel/parameter/detail/decimal.hpp"
+#include "mamori/kernel/parameter/parameter_base.hpp"
 #include "mamori/kernel/payload/timed_types.hpp"
 #include "mamori/kernel/record/event_log.hpp"
 #include "mamori/kernel/record/flight_format.hpp"
@@ -94,8 +94,9 @@ TEST(EmptyRowTest, AnEventASnapshotAndANumberAreZero) {
     static_assert(is_empty(CoreSnapshot{}) && is_empty(WindowSnapshot{}) && is_empty(PortSnapshot{}));
     static_assert(ComponentSnapshot{}.window == kNoIndex && ComponentSnapshot{}.cycles == 0U);
     static_assert(are_zero(rtc::Time{}.sec, rtc::Time{}.nsec, rtc::TimedState{}.data, Duration{}.ns));
-    static_assert(are_zero(Decimal{}.digits, Decimal{}.exponent, Whole{}.magnitude) && !Whole{}.is_negative);
-    EXPECT_FALSE(Decimal{}.is_negative);
+    static_assert(are_zero(Whole{}.magnitude, ScalarRange{}.element) && !Whole{}.is_negative);
+    static_assert(!ScalarRange{}.has_lower && !ScalarRange{}.has_upper);
+    EXPECT_FALSE(ScalarRange{}.is_lower_open || ScalarRange{}.is_upper_open);
 }
 
 }  // namespace

@@ -288,7 +288,7 @@ TEST(ModeCornerTest, AWindowThatOpensTwiceInAFrameCrossesTheBoundaryOnce) {
     ASSERT_EQ(sut.start(), Status::kOk);
     for (std::int64_t release = 0; release < 3000; release += 500) {
         if (release == 500) {
-            ASSERT_EQ(modes.get_configuration().set_value(p.first.speed, make_text("2.5")), Status::kOk);
+            ASSERT_EQ(modes.get_configuration().set_value(p.first.speed, 2.5), Status::kOk);
         }
         p.host.now = Instant{release};
         ASSERT_EQ(sut.run_window(0U, Instant{release}, p.host), WindowOutcome::kCompleted);

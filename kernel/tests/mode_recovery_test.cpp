@@ -80,7 +80,7 @@ TEST_F(ModeRecoveryTest, TheSameSetIsTakenAgainWhenItsPlanHasTheSameWord) {
     ASSERT_EQ(configuration.activate_configuration_set(0U), Status::kOk);
     sut_.run_frames(6);
     ASSERT_EQ(sut_.planner.speed.get(), 0.5);
-    ASSERT_EQ(configuration.set_value(sut_.planner.speed, make_text("1.5")), Status::kOk);
+    ASSERT_EQ(configuration.set_value(sut_.planner.speed, 1.5), Status::kOk);
     sut_.run_frames(kFrameNumbers - 6);
     ASSERT_EQ(sut_.planner.speed.get(), 1.5);
     ASSERT_EQ(configuration.activate_configuration_set(0U), Status::kOk);

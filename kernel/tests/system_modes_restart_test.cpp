@@ -33,7 +33,7 @@ class SystemModesRestartTest : public ::testing::Test {
     }
     /// A value that no set has, so that a set which is activated afterwards shows.
     void set_speed() {
-        ASSERT_EQ(configuration().set_value(sut_.planner.speed, make_text("1.5")), Status::kOk);
+        ASSERT_EQ(configuration().set_value(sut_.planner.speed, 1.5), Status::kOk);
         sut_.run_frames(1);
         ASSERT_EQ(get_speed(), 1.5);
     }

@@ -37,7 +37,7 @@ class Node final : public Component {
     InPort<std::int64_t, Need::kOptional> in{"in"};
     OutPort<std::int64_t> out{"out"};
     using Ports = mamori::Ports<&Node::in, &Node::out>;
-    Parameter<double> speed{"speed", 1.0, "0.1<=x<=3.0"};
+    Parameter<double> speed{"speed", 1.0, between(0.1, 3.0)};
     using Parameters = mamori::Parameters<&Node::speed>;
 
     Status on_execute(ContextHandle) noexcept override {

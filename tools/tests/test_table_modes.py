@@ -20,6 +20,7 @@ from mamori_tools.table.document import read_table
 from mamori_tools.table.graph import make_dot
 from mamori_tools.table.mode_graph import make_mode_dot
 from mamori_tools.table.text import make_text
+from mamori_trace.base.errors import InputError
 
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "tools" / "probe" / "table_dump" / "tests" / "robot_with_modes.hpp"
@@ -92,7 +93,7 @@ def test_text_shows_parameters_and_sets(tmp_path: Path) -> None:
     lines = read_lines(tmp_path, changed(parameters__1__values=[1, -2, 18446744073709551615]))
 
     assert section(lines, "parameters") == [
-        "parameter type value constraint", "monitor.limit_rad_s real 1 0.1<=x<=3.0",
+        "parameter type value constraint", "monitor.limit_rad_s real 1 0.1<=x<=3",
         "drive.gain whole[3] 1, -2, 18446744073709551615 1<=x<=40"]  # fmt: skip
     assert section(lines, "configuration sets") == [
         "set parameter value", "fast monitor.limit_rad_s 2", "fast drive.gain 25", "slow monitor.limit_rad_s 0.25", "slow drive.gain 5"]  # fmt: skip
@@ -217,6 +218,14 @@ def test_rows_that_point_nowhere_are_shown_with_a_question_mark(tmp_path: Path) 
     assert section(lines, "transitions")[1] == "? 9 nowhere (?)"
     assert section(lines, "parameters")[1] == "?.? ? ?"
     assert section(lines, "configuration sets")[1:] == ["? ? ?", "slow ?.speed ?", "slow drive.gain ?"]
+
+
+@pytest.mark.verifies("SWR-TAB-008", technique="error_guessing", polarity="violation")
+def test_constraint_that_is_not_in_the_notation_is_rejected_with_its_column(tmp_path: Path) -> None:
+    path = write(tmp_path, changed(parameters__1__constraint="1<=x<=40a"))
+
+    with pytest.raises(InputError, match=r"parameters\[1\]\.constraint is '1<=x<=40a': nothing or a comma is expected here \(column 9\)"):
+        read_table(path)
 
 
 @needs_graphviz

@@ -65,8 +65,8 @@ bool ConfigurationAdmin::is_known(const ParameterBase& parameter) const noexcept
     return false;
 }
 
-Status ConfigurationAdmin::set_value(ParameterBase& parameter, Text value) noexcept {
-    return is_known(parameter) ? parameter.request_text(value) : Status::kBadParameter;
+Status ConfigurationAdmin::set_value(ParameterBase& parameter, Span<const Scalar> values) noexcept {
+    return is_known(parameter) ? parameter.request_scalars(values) : Status::kBadParameter;
 }
 
 Result<ParameterBase*> ConfigurationAdmin::find(Text component, Text parameter) const noexcept {

@@ -10,7 +10,7 @@
 class Axis final : public mamori::Component {
   public:
     constexpr Axis() noexcept : Component("axis") {}
-    mamori::Parameter<double> speed{"speed", 1.0, "0.5<=x<=3.0"};
+    mamori::Parameter<double> speed{"speed", 1.0, mamori::between(0.5, 3.0)};
     mamori::Parameter<int> gain{"gain", 1};
     using Parameters = mamori::Parameters<&Axis::speed, &Axis::gain>;
 };

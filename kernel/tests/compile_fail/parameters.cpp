@@ -3,37 +3,76 @@
 // Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
 #include "parameter_parts.hpp"
 
-// The upper limit of a constraint has a letter too many, at character 11.
-namespace constraint_malformed {
+// A constraint excludes every value.
+namespace constraint_without_value {
 class Monitor final : public mamori::Component {
   public:
     constexpr Monitor() noexcept : Component("monitor") {}
-#ifdef MAMORI_BREAK_CONSTRAINT_MALFORMED
-    mamori::Parameter<double> limit{"limit", 1.0, "0.1<=x<=3.0a"};
+#ifdef MAMORI_BREAK_CONSTRAINT_WITHOUT_VALUE
+    mamori::Parameter<double> limit{"limit", 1.0, mamori::between(3.0, 0.1)};
 #else
-    mamori::Parameter<double> limit{"limit", 1.0, "0.1<=x<=3.0"};
+    mamori::Parameter<double> limit{"limit", 1.0, mamori::between(0.1, 3.0)};
 #endif
 };
 MAMORI_CONSTINIT Monitor g_monitor;
-}  // namespace constraint_malformed
+}  // namespace constraint_without_value
 
 // A limit is one more than the type of the parameter can hold.
-namespace constraint_not_in_type {
-#ifdef MAMORI_BREAK_CONSTRAINT_NOT_IN_TYPE
-MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{"retries", 3U, "x<=256"};
+namespace limit_not_in_type {
+#ifdef MAMORI_BREAK_LIMIT_NOT_IN_TYPE
+MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{"retries", 3U, mamori::at_most(256)};
 #else
-MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{"retries", 3U, "x<=255"};
+MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{"retries", 3U, mamori::at_most(255)};
 #endif
-}  // namespace constraint_not_in_type
+}  // namespace limit_not_in_type
+
+// A limit of a float is a double.
+namespace limit_of_other_type {
+#ifdef MAMORI_BREAK_LIMIT_OF_OTHER_TYPE
+mamori::Parameter<float> g_gain{"gain", 1.0F, mamori::at_least(0.1)};
+#else
+mamori::Parameter<float> g_gain{"gain", 1.0F, mamori::at_least(0.1F)};
+#endif
+}  // namespace limit_of_other_type
+
+// A constraint is a text in the notation of the RTC Profile.
+namespace constraint_as_text {
+#ifdef MAMORI_BREAK_CONSTRAINT_AS_TEXT
+mamori::Parameter<double> g_limit{"limit", 1.0, "0.1<=x<=3.0"};
+#else
+mamori::Parameter<double> g_limit{"limit", 1.0, mamori::between(0.1, 3.0)};
+#endif
+}  // namespace constraint_as_text
+
+// Two constraints for three elements.
+namespace constraint_count {
+using Gains = std::array<int, 3U>;
+#ifdef MAMORI_BREAK_CONSTRAINT_COUNT
+mamori::Parameter<Gains> g_gains{"gains", Gains{1, 1, 1}, mamori::above(0), mamori::above(0)};
+#else
+mamori::Parameter<Gains> g_gains{"gains", Gains{1, 1, 1}, mamori::above(0)};
+#endif
+}  // namespace constraint_count
 
 // A constraint has one choice more than the parameter has room for.
 namespace constraint_without_room {
+constexpr auto kRates = mamori::one_of(2400, 4800, 9600, 19200, 38400);
 #ifdef MAMORI_BREAK_CONSTRAINT_WITHOUT_ROOM
-MAMORI_CONSTINIT mamori::Parameter<int> g_baud{"baud", 9600, "(2400,4800,9600,19200,38400)"};
+mamori::Parameter<int> g_baud{"baud", 9600, kRates};
 #else
-MAMORI_CONSTINIT mamori::Parameter<int, 5U> g_baud{"baud", 9600, "(2400,4800,9600,19200,38400)"};
+mamori::Parameter<int, 5U> g_baud{"baud", 9600, kRates};
 #endif
 }  // namespace constraint_without_room
+
+// A list of choices has values of two types.
+namespace choices_of_two_types {
+#ifdef MAMORI_BREAK_CHOICES_OF_TWO_TYPES
+constexpr auto kChoices = mamori::one_of(1, 2U);
+#else
+constexpr auto kChoices = mamori::one_of(1, 2);
+#endif
+mamori::Parameter<int> g_step{"step", 1, kChoices};
+}  // namespace choices_of_two_types
 
 // A default lies below the lower limit.
 namespace default_outside_constraint {
@@ -42,7 +81,7 @@ constexpr double kDefault = 0.09;
 #else
 constexpr double kDefault = 0.1;
 #endif
-MAMORI_CONSTINIT mamori::Parameter<double> g_limit{"limit", kDefault, "0.1<=x<=3.0"};
+MAMORI_CONSTINIT mamori::Parameter<double> g_limit{"limit", kDefault, mamori::between(0.1, 3.0)};
 }  // namespace default_outside_constraint
 
 // A parameter is a pointer.

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from mamori_tools.profiles.constraint_parser import ConstraintError, parse_constraint
+from mamori_tools.profiles.scalar_type import DOUBLE, ScalarType
 from mamori_trace.base.json_node import JsonNode
 
-TYPES = ("real", "whole")
+TYPES = {"real": DOUBLE, "whole": ScalarType("integer", -(2**63), 2**64 - 1)}
 Values = tuple[float | int | None, ...]
 """One for each element; None: no number that JSON has."""
 
@@ -48,6 +50,7 @@ class Parameter:
     name: str
     type: str | None
     constraint: str
+    """In canonical form where the type is known."""
     values: Values | None
 
 
@@ -76,9 +79,9 @@ def read_transition(node: JsonNode, mode_count: int) -> Transition:
 
 
 def read_parameter(node: JsonNode, component_count: int) -> Parameter:
-    kind = node.at("type")
-    return Parameter(_read_reference(node.at("owner"), component_count), node.at("name").text(),
-                     None if kind.is_none() else kind.text(TYPES), node.at("constraint").text(), _read_values(node.at("values")))  # fmt: skip
+    kind, values = None if node.at("type").is_none() else node.at("type").text(tuple(TYPES)), _read_values(node.at("values"))
+    return Parameter(_read_reference(node.at("owner"), component_count), node.at("name").text(), kind,
+                     _read_constraint(node.at("constraint"), kind, len(values or ())), values)  # fmt: skip
 
 
 def read_set(node: JsonNode, parameter_count: int) -> ConfigurationSet:
@@ -91,6 +94,16 @@ def read_set(node: JsonNode, parameter_count: int) -> ConfigurationSet:
 
 def _read_reference(node: JsonNode, size: int) -> Reference:
     return Reference(node.at("index").index_or_none(size), node.at("name").text())
+
+
+def _read_constraint(node: JsonNode, kind: str | None, element_count: int) -> str:
+    text = node.text()
+    if kind is None or element_count == 0:
+        return text
+    try:
+        return parse_constraint(text, TYPES[kind], element_count).format_canonical()
+    except ConstraintError as error:
+        raise node.complain(f"is {text!r}: {error}") from error
 
 
 def _read_values(node: JsonNode) -> Values | None:

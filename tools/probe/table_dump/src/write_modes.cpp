@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "write_modes.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "element_names.hpp"
@@ -68,6 +69,49 @@ std::string format_values(Span<const Scalar> values) {
     return make_list(values.size(), [&](std::size_t i) { return format_scalar(values[i]); });
 }
 
+/// One range in the notation of the RTC Profile.
+std::string format_range(const ScalarRange& range) {
+    const std::string lower = format_scalar(range.lower);
+    const std::string upper = format_scalar(range.upper);
+    if (range.has_lower && range.has_upper) {
+        return lower + (range.is_lower_open ? "<x" : "<=x") + (range.is_upper_open ? "<" : "<=") + upper;
+    }
+    if (range.has_lower) {
+        return (range.is_lower_open ? "x>" : "x>=") + lower;
+    }
+    return range.has_upper ? (range.is_upper_open ? "x<" : "x<=") + upper : "";
+}
+
+/// The constraint of one element, or of each, from its first range on. @return and the range after it.
+std::pair<std::string, std::size_t> format_element(const ParameterBase& parameter, std::size_t first) {
+    const ScalarRange range = parameter.get_range(first).get_value();
+    std::string choices = format_scalar(range.lower);
+    std::size_t next = first + 1U;
+    for (; parameter.get_range(next).has_value(); ++next) {
+        const ScalarRange other = parameter.get_range(next).get_value();
+        if (other.element != range.element) {
+            break;
+        }
+        choices += "," + format_scalar(other.lower);
+    }
+    if (next > first + 1U) {
+        return {"(" + choices + ")", next};
+    }
+    const bool is_one_value = choices == format_scalar(range.upper);
+    return {is_one_value ? choices : format_range(range), next};
+}
+
+/// A constraint in the canonical form of the notation of the RTC Profile.
+std::string format_constraint(const ParameterBase& parameter) {
+    auto [text, next] = format_element(parameter, 0U);
+    while (parameter.get_range(next).has_value()) {
+        const auto [element, after] = format_element(parameter, next);
+        text += "," + element;
+        next = after;
+    }
+    return text;
+}
+
 std::string make_parameter(const SystemView& view, std::size_t index) {
     const ParameterRow& row = view.configuration.parameters[index];
     std::size_t owner = 0U;
@@ -87,7 +131,7 @@ std::string make_parameter(const SystemView& view, std::size_t index) {
     const bool is_real = !values.empty() && values[0].is_real;
     return "{\"owner\": " + reference + ", \"name\": " + quote(to_text(row.parameter->get_name())) +
            ", \"type\": \"" + (is_real ? "real" : "whole") +
-           "\", \"constraint\": " + quote(to_text(row.parameter->get_constraint())) +
+           "\", \"constraint\": " + quote(format_constraint(*row.parameter)) +
            ", \"values\": " + format_values({values.data(), values.size()}) + "}";
 }
 

@@ -88,12 +88,42 @@ TEST(WriteModesTest, ParametersHaveTheirOwnerTypeConstraintAndActiveValue) {
 
     EXPECT_EQ(document["parameters"], json::parse(R"([
         {"owner": {"index": 1, "name": "monitor"}, "name": "limit_rad_s", "type": "real",
-         "constraint": "0.1<=x<=3.0", "values": [1.0]},
+         "constraint": "0.1<=x<=3", "values": [1.0]},
         {"owner": {"index": 4, "name": "drive"}, "name": "gain", "type": "whole", "constraint": "1<=x<=40",
          "values": [10]}])"));
     EXPECT_EQ(document["configuration_sets"][1], json::parse(R"({"name": "slow", "assignments": [
         {"parameter": {"index": 0, "name": "limit_rad_s"}, "values": [0.25]},
         {"parameter": {"index": 1, "name": "gain"}, "values": [5]}]})"));
+}
+
+class Limited final : public Component {
+  public:
+    constexpr Limited() noexcept : Component("limited") {}
+    Parameter<std::array<double, 6U>> each{"each",           {1.0, 1.0, 1.0, 1.0, 0.0, 9.5},
+                                           at_least(0.1),    above(-2.5),
+                                           at_most(1.0e300), below(3.0),
+                                           any_value(),      between(above(-0.5), below(1.0e1))};
+    Parameter<std::array<double, 2U>> every{"every", {1.0, 2.0}, between(above(0.0), at_most(2.0))};
+    Parameter<std::int64_t, 3U> choices{"choices", 7, one_of(-7, 7, 9)};
+    Parameter<std::uint8_t> value{"value", 255U, one_of(255)};
+    Parameter<std::array<int, 2U>> last{"last", {1, 2}, any_value(), one_of(2, 3)};
+    using Parameters = mamori::Parameters<&Limited::each, &Limited::every, &Limited::choices, &Limited::value,
+                                          &Limited::last>;
+};
+
+Limited g_limited;
+
+TEST(WriteModesTest, ConstraintsAreWrittenInTheNotationOfTheRtcProfile) {
+    verifies("SWR-TAB-010", Technique::kEquivalenceClasses);
+    constexpr auto kTable = system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_limited)));
+    const json parameters = dump(make_view(kTable))["parameters"];
+    std::vector<std::string> constraints;
+    for (const json& parameter : parameters) {
+        constraints.push_back(parameter["constraint"]);
+    }
+
+    EXPECT_EQ(constraints, (std::vector<std::string>{"x>=0.1,x>-2.5,x<=1e+300,x<3,,-0.5<x<10", "0<x<=2",
+                                                     "(-7,7,9)", "255", ",(2,3)"}));
 }
 
 enum class Grip { kOpen, kClosed };

@@ -14,7 +14,9 @@
 #include <limits>
 
 #include "mamori/kernel/base/assert.hpp"
+#include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/base/text.hpp"
 #include "mamori/kernel/parameter/configuration_check.hpp"
 #include "mamori/kernel/parameter/configuration_finding.hpp"
 #include "mamori/kernel/parameter/configuration_table.hpp"
@@ -62,8 +64,8 @@ class ConfigurationAdmin final {
                      const typename Parameter<T, kRanges>::Value& value) noexcept {
         return is_known(parameter) ? parameter.request(value) : Status::kBadParameter;
     }
-    /// The same for a text, as tools and files have it: "0.5", "1,2,3", "true".
-    Status set_value(ParameterBase& parameter, Text value) noexcept;
+    /// The same for values without their type, one per element.
+    Status set_value(ParameterBase& parameter, Span<const Scalar> values) noexcept;
 
     /// @return the parameter of this name in the component of this name; kBadParameter when there is none.
     Result<ParameterBase*> find(Text component, Text parameter) const noexcept;

@@ -10,7 +10,7 @@
 #include <cstddef>
 
 #include "mamori/kernel/base/span.hpp"
-#include "mamori/kernel/base/text_cursor.hpp"
+#include "mamori/kernel/base/text.hpp"
 #include "mamori/kernel/parameter/configuration_finding.hpp"
 #include "mamori/kernel/parameter/configuration_row_check.hpp"
 #include "mamori/kernel/parameter/configuration_table.hpp"

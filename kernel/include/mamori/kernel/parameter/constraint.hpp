@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Which values a parameter may have, in the notation of the RTC Profile of OpenRTM:
+/// The values that a parameter may have. A declaration names one constraint for the parameter, or one for
+/// each element of an array:
 ///
-///     (nothing)              every value of the type
-///     100                    this value only
-///     x>=100    100<=x<200   limits; each side may be open or closed, and read in either direction
-///     (9600,19200)           one of these values; enumerators and bool also by name
-///     0<=x<=1, , (1,2)       one constraint for each element of an array, of which any may be empty
-///     {pan: x>0, tilt: x<1}  the same, each element with a name
+///     at_least(a)   above(a)   at_most(b)   below(b)      one limit; above() and below() exclude it
+///     between(a, b)                                        a <= value <= b
+///     between(above(a), at_most(b))                        limits of either kind
+///     one_of(a, b, c)                                      one of these values
+///     any_value()                                          for an element without a limit
 ///
-/// A constraint without a list holds for every element. A parameter is a finite number: NaN and infinities
-/// satisfy no constraint, not even the empty one.
+/// `./mamori constraint TEXT` converts the notation of the RTC Profile to these functions. A parameter is a
+/// finite number: NaN and infinities satisfy no constraint.
 ///
-/// @satisfies SWR-PAR-001, SWR-PAR-003      Design: docs/design/parameters.md#grammar
-/// Source:   RTC Profile 0.2/0.3, attribute `constraint` of a configuration parameter, as RTSystemEditor
-///           reads it
+/// @satisfies SWR-PAR-002, SWR-PAR-003, SWR-PAR-004      Design: docs/design/parameters.md#constraints
 #ifndef MAMORI_KERNEL_CONSTRAINT_HPP
 #define MAMORI_KERNEL_CONSTRAINT_HPP
 
@@ -22,20 +20,88 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/parameter/scalar.hpp"
 
 namespace mamori {
 
+/// Lower limit of a value, before the type of the parameter is known.
+template <typename L>
+struct LowerLimit {
+    L value;
+    bool is_open;  ///< the limit itself is excluded
+};
+/// Upper limit of a value, before the type of the parameter is known.
+template <typename L>
+struct UpperLimit {
+    L value;
+    bool is_open;  ///< the limit itself is excluded
+};
+/// Values between two limits.
+template <typename L>
+struct Interval {
+    LowerLimit<L> lower;
+    UpperLimit<L> upper;
+};
+/// A list of values.
+template <typename L, std::size_t kCount>
+struct Choices {
+    std::array<L, kCount> values;
+};
+/// Every finite value.
+struct AnyValue {};
+
+/// @name Constraints
+/// @param limit, lower, upper, first, others of the element's type. A limit of an integer parameter may have
+/// another integer type that can represent it.
+/// @{
+template <typename L>
+constexpr LowerLimit<L> at_least(L limit) noexcept {
+    return {limit, false};
+}
+template <typename L>
+constexpr LowerLimit<L> above(L limit) noexcept {
+    return {limit, true};
+}
+template <typename L>
+constexpr UpperLimit<L> at_most(L limit) noexcept {
+    return {limit, false};
+}
+template <typename L>
+constexpr UpperLimit<L> below(L limit) noexcept {
+    return {limit, true};
+}
+template <typename L>
+constexpr Interval<L> between(L lower, L upper) noexcept {
+    return {{lower, false}, {upper, false}};
+}
+template <typename L>
+constexpr Interval<L> between(LowerLimit<L> lower, UpperLimit<L> upper) noexcept {
+    return {lower, upper};
+}
+template <typename L, typename... Ls>
+constexpr Choices<L, sizeof...(Ls) + 1U> one_of(L first, Ls... others) noexcept {
+    static_assert((... && std::is_same_v<L, Ls>), "the values of one_of() have one type");
+    return {{first, others...}};
+}
+constexpr AnyValue any_value() noexcept {
+    return {};
+}
+/// @}
+
 /// Values from `lower` to `upper`, either of which may be excluded, for one element or for each.
 template <typename S>
 struct Range {
     static constexpr std::uint16_t kEachElement = std::numeric_limits<std::uint16_t>::max();
-
     /// Of an enumeration the numbers count.
-    S lower{static_cast<S>(std::numeric_limits<detail::Number<S>>::lowest())};
-    S upper{static_cast<S>(std::numeric_limits<detail::Number<S>>::max())};
+    static constexpr S kLowest = static_cast<S>(std::numeric_limits<detail::Number<S>>::lowest());
+    static constexpr S kMax = static_cast<S>(std::numeric_limits<detail::Number<S>>::max());
+
+    S lower{kLowest};
+    S upper{kMax};
     std::uint16_t element{kEachElement};  ///< 0 .. 65534, or each
     bool is_lower_open{false};
     bool is_upper_open{false};
@@ -50,7 +116,7 @@ struct Range {
 
 /// A constraint as data: an element may have a value that lies in any of its ranges.
 ///
-/// Thread safety: constant once parsed. Time: O(kRanges). Memory: kRanges ranges; no text, no heap.
+/// Thread safety: constant once made. Time: O(kRanges). Memory: kRanges ranges, no heap.
 /// Before any range is added it admits nothing.
 template <typename S, std::size_t kRanges>
 class Constraint final {
@@ -59,8 +125,7 @@ class Constraint final {
   public:
     /// May element `element` have `value`? @param[in] element 0 .. number of elements - 1.
     constexpr bool admits(S value, std::size_t element) const noexcept {
-        for (std::size_t i = 0U; i < range_count_; ++i) {
-            const Range<S>& range = ranges_[i];
+        for (const Range<S>& range : get_ranges()) {
             if ((range.element == Range<S>::kEachElement || range.element == element) &&
                 range.contains(value)) {
                 return true;
@@ -68,32 +133,140 @@ class Constraint final {
         }
         return false;
     }
-    /// The ranges in the order of the text, for tools; valid as long as the constraint.
+    /// The ranges in the order of the declaration; valid as long as the constraint.
     constexpr Span<const Range<S>> get_ranges() const noexcept { return {ranges_.data(), range_count_}; }
 
-    /// @name For the parser
-    /// @{
-    /// @return false when there is no room.
-    constexpr bool add(const Range<S>& range) noexcept {
-        if (range_count_ == kRanges) {
-            return false;
-        }
+    /// Adds a range. The caller keeps within kRanges ranges.
+    constexpr void add(const Range<S>& range) noexcept {
         ranges_[range_count_] = range;
         ++range_count_;
-        return true;
     }
-    /// A list of one is a constraint for every element.
-    constexpr void widen_to_each_element() noexcept {
-        for (Range<S>& range : ranges_) {
-            range.element = Range<S>::kEachElement;
-        }
-    }
-    /// @}
 
   private:
     std::array<Range<S>, kRanges> ranges_{};
     std::size_t range_count_{0U};
 };
+
+namespace detail {
+
+/// @name Stop the compiler in a constant expression with their own names in the message; at run time the
+/// declaration is a contract violation.
+/// @{
+constexpr void require_limit_within_type(bool is_within) noexcept {
+    MAMORI_REQUIRE(1, is_within);
+}
+constexpr void require_range_contains_a_value(bool contains) noexcept {
+    MAMORI_REQUIRE(2, contains);
+}
+/// @}
+
+/// Ranges of a constraint; 0 for what is not a constraint.
+template <typename C>
+inline constexpr std::size_t kRangeCountOf = 0U;
+template <typename L>
+inline constexpr std::size_t kRangeCountOf<LowerLimit<L>> = 1U;
+template <typename L>
+inline constexpr std::size_t kRangeCountOf<UpperLimit<L>> = 1U;
+template <typename L>
+inline constexpr std::size_t kRangeCountOf<Interval<L>> = 1U;
+template <typename L, std::size_t kCount>
+inline constexpr std::size_t kRangeCountOf<Choices<L, kCount>> = kCount;
+template <>
+inline constexpr std::size_t kRangeCountOf<AnyValue> = 1U;
+
+/// bool is an integer type of C++, but not a number here.
+template <typename S>
+inline constexpr bool kIsInteger = std::is_integral_v<S> && !std::is_same_v<S, bool>;
+
+template <typename S, typename L>
+constexpr S to_limit(L limit) noexcept {
+    static_assert(std::is_same_v<S, L> || (kIsInteger<S> && kIsInteger<L>),
+                  "a limit has the type of its parameter, for example 0.0 for double and 0.1F for float");
+    const Result<S> value = from_scalar<S>(to_scalar(limit));
+    require_limit_within_type(value.has_value());
+    return value.get_value();
+}
+
+/// Of floating-point limits it is not checked how many numbers of the type are between them.
+template <typename S>
+constexpr bool has_value(const Range<S>& range) noexcept {
+    if (!(range.lower < range.upper)) {
+        return range.contains(range.lower);
+    }
+    if constexpr (std::is_floating_point_v<S>) {
+        return true;
+    } else {
+        return !range.is_lower_open || !range.is_upper_open ||
+               static_cast<Number<S>>(range.lower) + 1 < static_cast<Number<S>>(range.upper);
+    }
+}
+
+/// Adds the constraints of a declaration to the constraint of a parameter.
+template <typename S, std::size_t kRanges>
+struct ConstraintMaker {
+    Constraint<S, kRanges> constraint{};
+    Range<S> range{};
+
+    constexpr void add() noexcept {
+        require_range_contains_a_value(has_value(range));
+        constraint.add(range);
+    }
+    template <typename L>
+    constexpr void set(const LowerLimit<L>& limit) noexcept {
+        range.lower = to_limit<S>(limit.value);
+        range.is_lower_open = limit.is_open;
+    }
+    template <typename L>
+    constexpr void set(const UpperLimit<L>& limit) noexcept {
+        range.upper = to_limit<S>(limit.value);
+        range.is_upper_open = limit.is_open;
+    }
+    template <typename L>
+    constexpr void set(const Interval<L>& interval) noexcept {
+        set(interval.lower);
+        set(interval.upper);
+    }
+    constexpr void set(AnyValue) noexcept {}
+
+    template <typename C>
+    constexpr void take(std::uint16_t element, const C& part) noexcept {
+        range = {};
+        range.element = element;
+        set(part);
+        add();
+    }
+    template <typename L, std::size_t kCount>
+    constexpr void take(std::uint16_t element, const Choices<L, kCount>& choices) noexcept {
+        for (const L value : choices.values) {
+            take(element, between(value, value));
+        }
+    }
+};
+
+}  // namespace detail
+
+/// The constraint of a parameter with `kElements` elements of type S.
+/// @param[in] parts none, one for every element, or one for each.
+template <typename S, std::size_t kRanges, std::size_t kElements, typename... Cs>
+constexpr Constraint<S, kRanges> make_constraint(const Cs&... parts) noexcept {
+    static_assert((... && (detail::kRangeCountOf<Cs> > 0U)),
+                  "a constraint is at_least(), above(), at_most(), below(), between(), one_of() or "
+                  "any_value(); ./mamori constraint TEXT converts a constraint of the RTC Profile");
+    static_assert(sizeof...(Cs) <= 1U || sizeof...(Cs) == kElements,
+                  "a parameter has one constraint, or one constraint for each element");
+    static_assert((detail::kRangeCountOf<Cs> + ... + 0U) <= kRanges,
+                  "more ranges and choices than the parameter has room for: increase its kRanges");
+    detail::ConstraintMaker<S, kRanges> maker{};
+    if constexpr (sizeof...(Cs) == 0U) {
+        maker.take(Range<S>::kEachElement, any_value());
+    } else if constexpr (sizeof...(Cs) == 1U) {
+        (maker.take(Range<S>::kEachElement, parts), ...);
+    } else {
+        std::uint16_t element = 0U;
+        (maker.take(element++, parts), ...);
+    }
+    return maker.constraint;
+}
 
 }  // namespace mamori
 

@@ -3,7 +3,7 @@
 /// A parameter of a component: a value with a constraint that is set from outside and never changes while its
 /// component is in a cycle. It is a member of the component, listed like a port:
 ///
-///     mamori::Parameter<double> limit_rad_s{"limit_rad_s", 1.0, "0.1<=x<=3.0"};
+///     mamori::Parameter<double> limit_rad_s{"limit_rad_s", 1.0, mamori::between(0.1, 3.0)};
 ///     using Parameters = mamori::Parameters<&SpeedMonitor::limit_rad_s>;
 ///
 /// @satisfies SWR-PAR-003, SWR-PAR-004, SWR-PAR-005      Design: docs/design/parameters.md#parameters
@@ -17,10 +17,7 @@
 #include "mamori/kernel/base/assert.hpp"
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
-#include "mamori/kernel/base/text_cursor.hpp"
 #include "mamori/kernel/parameter/constraint.hpp"
-#include "mamori/kernel/parameter/constraint_parser.hpp"
-#include "mamori/kernel/parameter/detail/constraint_refusal.hpp"
 #include "mamori/kernel/parameter/detail/parameter_elements.hpp"
 #include "mamori/kernel/parameter/parameter_base.hpp"
 #include "mamori/kernel/parameter/scalar.hpp"
@@ -41,8 +38,9 @@ enum class RequestSlot : std::uint8_t { kEmpty, kFull, kBusy };
 
 /// Parameter of type T: bool, an integer, float, double, an enum, or a `std::array` of one of them.
 ///
-/// A constraint that is malformed and a default that violates it stop the compiler when the component is a
-/// constant (MAMORI_CONSTINIT) and end in the assertion handler otherwise.
+/// A limit that the type does not have, a range without a value and a default that violates the constraint
+/// stop the compiler when the component is a constant (MAMORI_CONSTINIT) and call the assertion handler
+/// otherwise.
 ///
 /// Thread safety: as ParameterBase; get() from its component, admits() from any thread.
 /// Time:          O(elements * kRanges); get() and commit() copy at most one T. Nothing blocks.
@@ -61,10 +59,11 @@ class Parameter final : public ParameterBase {
 
     /// @param[in] name          name within the component, static storage.
     /// @param[in] default_value value from the start on; the constraint holds for it.
-    /// @param[in] constraint    see constraint.hpp; static storage.
-    constexpr Parameter(const char* name, const T& default_value, const char* constraint = "") noexcept
-        : ParameterBase(name, constraint, Elements::kCount),
-          constraint_(parse_or_refuse(constraint)),
+    /// @param[in] constraints   none, one for every element, or one for each element; see constraint.hpp.
+    template <typename... Cs>
+    constexpr Parameter(const char* name, const T& default_value, const Cs&... constraints) noexcept
+        : ParameterBase(name, Elements::kCount),
+          constraint_(make_constraint<Element, kRanges, Elements::kCount>(constraints...)),
           active_(default_value),
           requested_(default_value) {
         detail::require_default_within_constraint(admits(default_value));
@@ -107,9 +106,23 @@ class Parameter final : public ParameterBase {
         return admits_scalars(values) ? Status::kOk : Status::kBadParameter;
     }
     Status request_scalars(Span<const Scalar> values) noexcept override {
-        return request_result(to_value(values));
+        const Result<T> value = to_value(values);
+        return value.has_value() ? request(value.get_value()) : value.get_status();
     }
-    Status request_text(Text text) noexcept override { return request_result(read_text(text)); }
+    Result<ScalarRange> get_range(std::size_t index) const noexcept override {
+        const Span<const Range<Element>> ranges = constraint_.get_ranges();
+        if (index >= ranges.size()) {
+            return Status::kBadParameter;
+        }
+        const Range<Element>& range = ranges[index];
+        return ScalarRange{to_scalar(range.lower),
+                           to_scalar(range.upper),
+                           range.element,
+                           range.is_lower_open || range.lower > Range<Element>::kLowest,
+                           range.is_upper_open || range.upper < Range<Element>::kMax,
+                           range.is_lower_open,
+                           range.is_upper_open};
+    }
     Status read(Span<Scalar> values) const noexcept override {
         if (values.size() != Elements::kCount) {
             return Status::kBadParameter;
@@ -140,12 +153,6 @@ class Parameter final : public ParameterBase {
     }
 
   private:
-    static constexpr Constraint<Element, kRanges> parse_or_refuse(const char* text) noexcept {
-        const auto parsed = parse_constraint<Element, kRanges>(make_text(text), Elements::kCount);
-        detail::require_well_formed(parsed.finding);
-        return parsed.constraint;
-    }
-
     static constexpr Result<T> to_value(Span<const Scalar> values) noexcept {
         if (values.size() != Elements::kCount) {
             return Status::kBadParameter;
@@ -159,26 +166,6 @@ class Parameter final : public ParameterBase {
             Elements::set(value, i, element.get_value());
         }
         return value;
-    }
-
-    static Result<T> read_text(Text text) noexcept {
-        TextCursor cursor{text};
-        T value{};
-        for (std::size_t i = 0U; i < Elements::kCount; ++i) {
-            cursor.skip_spaces();
-            const Result<Element> element = take_value<Element>(cursor);
-            cursor.skip_spaces();
-            const bool is_last = i + 1U == Elements::kCount;
-            if (!element.has_value() || !(is_last ? cursor.is_at_end() : cursor.take(','))) {
-                return Status::kBadParameter;
-            }
-            Elements::set(value, i, element.get_value());
-        }
-        return value;
-    }
-
-    Status request_result(const Result<T>& value) noexcept {
-        return value.has_value() ? request(value.get_value()) : value.get_status();
     }
 
     Constraint<Element, kRanges> constraint_;

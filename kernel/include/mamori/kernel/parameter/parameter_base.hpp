@@ -7,19 +7,30 @@
 #define MAMORI_KERNEL_PARAMETER_BASE_HPP
 
 #include <cstddef>
+#include <cstdint>
 
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
-#include "mamori/kernel/base/text_cursor.hpp"
 #include "mamori/kernel/parameter/scalar.hpp"
 
 namespace mamori {
+
+/// One range of a constraint without its type. An element may have a value that lies in any of its ranges.
+struct ScalarRange {
+    Scalar lower{};
+    Scalar upper{};
+    std::uint16_t element{0U};  ///< or Range<S>::kEachElement
+    bool has_lower{false};      ///< else the range begins with the minimum of the type
+    bool has_upper{false};      ///< else the range ends with the maximum of the type
+    bool is_lower_open{false};
+    bool is_upper_open{false};
+};
 
 /// Type-free part of a parameter, for the configuration admin and for tools.
 ///
 /// Thread safety: check(), the requests and what was given at construction from any thread, each without
 ///                waiting; the others only from the context that runs the component, between its cycles.
-/// Time:          O(elements * ranges of the constraint), for a text also its length. Memory: no heap.
+/// Time:          O(elements * ranges of the constraint). Memory: no heap.
 class ParameterBase {
   public:
     ParameterBase(const ParameterBase&) = delete;
@@ -27,8 +38,6 @@ class ParameterBase {
 
     /// Name within the component; static storage, never nullptr.
     const char* get_name() const noexcept { return name_; }
-    /// Text of the constraint as it was declared; "" when there is none.
-    const char* get_constraint() const noexcept { return constraint_text_; }
     /// 1 for a scalar, else the size of the array.
     std::size_t get_element_count() const noexcept { return element_count_; }
 
@@ -40,10 +49,9 @@ class ParameterBase {
     /// @return kOk; kBadParameter as check(); kPreconditionNotMet (another request or the commit is at this
     ///         parameter at this moment: ask again).
     virtual Status request_scalars(Span<const Scalar> values) noexcept = 0;
-    /// The same for a text: numbers or names, separated by commas, as configuration files have them.
-    /// @param[in] text one word per element; need not outlive the call.
-    /// @return as request_scalars(); kBadParameter also for a text that does not spell the values.
-    virtual Status request_text(Text text) noexcept = 0;
+    /// Range `index` of the constraint, in the order of the declaration.
+    /// @return kBadParameter (there are not so many ranges).
+    virtual Result<ScalarRange> get_range(std::size_t index) const noexcept = 0;
     /// Copies the active value. @param[out] values one per element; written on kOk only.
     /// @return kOk; kBadParameter (not one place per element).
     virtual Status read(Span<Scalar> values) const noexcept = 0;
@@ -57,14 +65,13 @@ class ParameterBase {
     /// @}
 
   protected:
-    /// @param[in] name, constraint static storage, not nullptr. @param[in] element_count >= 1.
-    constexpr ParameterBase(const char* name, const char* constraint, std::size_t element_count) noexcept
-        : name_(name), constraint_text_(constraint), element_count_(element_count) {}
+    /// @param[in] name static storage, not nullptr. @param[in] element_count >= 1.
+    constexpr ParameterBase(const char* name, std::size_t element_count) noexcept
+        : name_(name), element_count_(element_count) {}
     ~ParameterBase() = default;
 
   private:
     const char* name_;
-    const char* constraint_text_;
     std::size_t element_count_;
 };
 

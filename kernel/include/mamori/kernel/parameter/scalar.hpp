@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One number, bool or enumerator without its type, for tables and tools that hold values of many types; and
-/// the ways from text and from such a number to a typed value, which never round or wrap unseen.
+/// One number, bool or enumerator without its type, for tables and tools that hold values of many types. Its
+/// conversion to a typed value is exact.
 ///
-/// @satisfies SWR-PAR-002      Design: docs/design/parameters.md#numbers
+/// @satisfies SWR-PAR-002      Design: docs/design/parameters.md#values
 #ifndef MAMORI_KERNEL_SCALAR_HPP
 #define MAMORI_KERNEL_SCALAR_HPP
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 #include "mamori/kernel/base/status.hpp"
-#include "mamori/kernel/base/text_cursor.hpp"
-#include "mamori/kernel/parameter/decimal_rounding.hpp"
 
 namespace mamori {
 
-/// A value without its type: a real number, or a whole one (bool is 0 or 1, an enumerator its number).
+/// An integer as sign and magnitude, so that both 64-bit types fit.
+struct Whole {
+    std::uint64_t magnitude{0U};
+    bool is_negative{false};
+};
+
+/// A value without its type: a real number or an integer (bool is 0 or 1, an enumerator its number).
 struct Scalar {
     double real{0.0};  ///< when is_real
     Whole whole{};     ///< else
@@ -39,16 +41,6 @@ struct NumberOf<S, true> {
 };
 template <typename S>
 using Number = typename NumberOf<S>::Type;
-
-/// Has the enum a `get_name(E)` that gives its enumerators' names, as Status and LifecycleState have?
-template <typename S, typename = void>
-struct HasNames : std::false_type {};
-template <typename S>
-struct HasNames<S, std::void_t<decltype(get_name(std::declval<S>()))>>
-    : std::is_convertible<decltype(get_name(std::declval<S>())), const char*> {};
-
-/// Enumerators 0 .. 63 can be written by name; 64 must not be one.
-inline constexpr std::uint32_t kNamedEnumerators = 64U;
 
 }  // namespace detail
 
@@ -121,62 +113,6 @@ constexpr Result<S> from_scalar(const Scalar& scalar) noexcept {
     } else {
         return from_whole<S>(scalar.whole);
     }
-}
-
-/// The decimal number as an S: the nearest real one, or exactly this whole one.
-/// @return kBadParameter when S has no such value (overflow, underflow, a fraction, a sign).
-template <typename S>
-constexpr Result<S> from_decimal(const Decimal& decimal) noexcept {
-    static_assert(is_scalar<S>());
-    if constexpr (std::is_floating_point_v<S>) {
-        return to_real<S>(decimal);
-    } else {
-        const Result<Whole> whole = to_whole(decimal);
-        return whole.has_value() ? from_whole<S>(whole.get_value()) : Result<S>{whole.get_status()};
-    }
-}
-
-/// The value that is called `name`: `true` and `false` of bool, an enumerator by its get_name(). Of an
-/// enumeration with names the enumerators 0 .. 63 are found, and 64 must not be one: what get_name() says of
-/// it is taken for what it says of no enumerator. O(64 names).
-/// @return kBadParameter (S has no value of this name); kUnsupported (the values of S have no names).
-template <typename S>
-constexpr Result<S> from_name(Text name) noexcept {
-    if constexpr (std::is_same_v<S, bool>) {
-        const bool is_true = name == make_text("true");
-        return is_true || name == make_text("false") ? Result<S>{is_true} : Status::kBadParameter;
-    } else if constexpr (std::is_enum_v<S> && detail::HasNames<S>::value) {
-        // What get_name() answers for a value that is no enumerator is not a name.
-        if (make_text(get_name(static_cast<S>(detail::kNamedEnumerators))) == name) {
-            return Status::kBadParameter;
-        }
-        for (std::uint32_t i = 0U; i < detail::kNamedEnumerators; ++i) {
-            const auto candidate = static_cast<S>(i);
-            if (make_text(get_name(candidate)) == name) {
-                return candidate;
-            }
-        }
-        return Status::kBadParameter;
-    } else {
-        static_cast<void>(name);
-        return Status::kUnsupported;
-    }
-}
-
-/// Takes a number, or a name where S has names.
-/// @return the value; kBadParameter (nothing of S stands here); kUnsupported (too many digits). `cursor` then
-///         stands somewhere in the offending word.
-template <typename S>
-constexpr Result<S> take_value(TextCursor& cursor) noexcept {
-    TextCursor ahead = cursor;
-    const Text word = ahead.take_word();
-    const Result<S> named = word.empty() ? Result<S>{Status::kUnsupported} : from_name<S>(word);
-    if (named.has_value()) {
-        cursor = ahead;
-        return named;
-    }
-    const Result<Decimal> decimal = take_decimal(cursor);
-    return decimal.has_value() ? from_decimal<S>(decimal.get_value()) : Result<S>{decimal.get_status()};
 }
 
 }  // namespace mamori

@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "mamori/kernel/base/text_cursor.hpp"
+#include "mamori/kernel/base/text.hpp"
 #include "mamori/kernel/table/mode_table.hpp"
 
 namespace mamori::detail {

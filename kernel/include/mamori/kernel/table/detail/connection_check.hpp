@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "mamori/kernel/base/text_cursor.hpp"
+#include "mamori/kernel/base/text.hpp"
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/table/detail/finding_list.hpp"
 #include "mamori/kernel/table/detail/opening_distance.hpp"

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Names as characters with a length: how they are made and compared, in constant expressions as well as at
+/// run time.
+///
+/// @satisfies SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
+#ifndef MAMORI_KERNEL_TEXT_HPP
+#define MAMORI_KERNEL_TEXT_HPP
+
+#include <cstddef>
+
+#include "mamori/kernel/base/span.hpp"
+
+namespace mamori {
+
+/// Characters without a terminating zero; the caller keeps their owner alive.
+using Text = Span<const char>;
+
+/// Text of a C string. O(length). @param[in] characters not nullptr; must outlive the text.
+constexpr Text make_text(const char* characters) noexcept {
+    std::size_t size = 0U;
+    while (characters[size] != '\0') {
+        ++size;
+    }
+    return {characters, size};
+}
+
+/// Are the characters the same? O(length).
+constexpr bool operator==(Text a, Text b) noexcept {
+    if (a.size() != b.size()) {
+        return false;
+    }
+    for (std::size_t i = 0U; i < a.size(); ++i) {
+        if (a[i] != b[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace mamori
+
+#endif  // MAMORI_KERNEL_TEXT_HPP
