@@ -302,7 +302,7 @@ std::vector<Fault> make_plan(const CampaignRequest& request) {
     return plan;
 }
 
-Verdict run(const CampaignRequest& request) {
+Verdict run(const CampaignRequest& request, const char* out) {
     // Work that hangs longer than the run may still look at these.
     static const FrameClock clock = FrameClock::starting_in(200_ms);
     static const int processor = find_processor();
@@ -365,6 +365,9 @@ Verdict run(const CampaignRequest& request) {
     verdict.has_run = *verdict.trouble == '\0';
     verdict.has_priority =
         combine(right, combine(host.get_priority_right(), host.get_processor_right())).is_granted;
+    if (out != nullptr) {
+        static_cast<void>(write_course(request, course, verdict, out));
+    }
     return verdict;
 }
 

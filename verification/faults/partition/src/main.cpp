@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "campaign.hpp"
+#include "mamori/verification/course_file.hpp"
 
 namespace {
 
@@ -20,6 +21,7 @@ bool read(const char* text, std::uint64_t& number) {
 int main(int argc, char** argv) {
     using namespace mamori::partition_faults;  // NOLINT: all of it
     CampaignRequest request{0U, 1U, MAMORI_PARTITION_WORKER, {}};
+    const char* const out = mamori::verification::take_option(argc, argv, "--out");
     if (!mamori::verification::take_defect(argc, argv, request.defect) || argc != 3 ||
         !read(argv[1], request.fault_count) || !read(argv[2], request.seed) || request.fault_count == 0U ||
         request.fault_count > kFaultsMax) {
@@ -28,7 +30,7 @@ int main(int argc, char** argv) {
                   << kFaultsMax << " faults\n";
         return 2;
     }
-    const Verdict verdict = run(request);
+    const Verdict verdict = run(request, out);
     std::cout << to_json(request, verdict);
     if (!verdict.has_priority) {
         std::cerr

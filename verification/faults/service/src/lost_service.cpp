@@ -12,6 +12,7 @@
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
 #include "mamori/verification/awake_processor.hpp"
+#include "mamori/verification/course_file.hpp"
 #include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::lost_service {
@@ -252,9 +253,36 @@ LossRun run_losses(const LossRequest& request) {
         clock.wait_until(clock.get_now() + kTick);
     }
     result.verdict = judge_losses(trials, stalls.get_stalls(), kServiceTimeout);
+    result.trials = trials;
+    result.stalls = stalls.get_stalls();
     result.host = stalls.get_figures();
     result.has_priority = rig.right.is_granted;
     return result;
+}
+
+bool write_course(const LossRequest& request, const LossRun& run, const char* path) {
+    verification::CourseFile file{"service"};
+    file.add("seed", request.seed);
+    file.add("defect", verification::get_name(request.defect));
+    file.add("frames", run.frames);
+    file.add("has_priority", run.has_priority);
+    file.add("frame_ns", kTick.ns);
+    file.add("timeout_ns", kServiceTimeout.ns);
+    file.add("losses", {"none", "hang", "wait", "unhealthy", "inconsistent", "runaway", "no_window"});
+    file.add("host", run.host);
+    file.add("stalls", run.stalls);
+    file.add<LossTrial>(
+        "trials", run.trials,
+        {{"loss", [](const LossTrial& row) { return static_cast<std::int64_t>(row.loss); }},
+         {"is_injected", [](const LossTrial& row) { return std::int64_t{row.is_injected}; }},
+         {"injected_ns", [](const LossTrial& row) { return row.injected_at.ns; }},
+         {"service_begin_ns", [](const LossTrial& row) { return row.asked_at.ns; }},
+         {"service_end_ns", [](const LossTrial& row) { return row.taken_at.ns; }},
+         {"is_closed", [](const LossTrial& row) { return std::int64_t{row.is_closed}; }},
+         {"closed_ns", [](const LossTrial& row) { return row.closed_at.ns; }},
+         {"cause", [](const LossTrial& row) { return static_cast<std::int64_t>(row.cause); }},
+         {"end_ns", [](const LossTrial& row) { return row.ended_at.ns; }}});
+    return file.write(path);
 }
 
 std::string to_json(const LossRequest& request, const LossRun& run) {

@@ -31,6 +31,8 @@ struct LossRun {
     std::uint64_t frames{0U};  ///< in all, most of them served
     verification::HostFigures host{};
     bool has_priority{false};
+    std::vector<LossTrial> trials{};
+    std::vector<Stall> stalls{};
 
     /// For `assess_run()`.
     verification::RunEvidence get_evidence() const noexcept;
@@ -41,6 +43,9 @@ LossRun run_losses(const LossRequest& request);
 
 /// One JSON document.
 std::string to_json(const LossRequest& request, const LossRun& run);
+
+/// @return false: the file cannot be written.
+bool write_course(const LossRequest& request, const LossRun& run, const char* path);
 
 }  // namespace mamori::lost_service
 

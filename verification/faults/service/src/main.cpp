@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "lost_service.hpp"
+#include "mamori/verification/course_file.hpp"
 
 namespace {
 
@@ -20,6 +21,7 @@ bool read_number(const char* text, std::uint64_t& number) {
 int main(int argc, char** argv) {
     using namespace mamori::lost_service;  // NOLINT: this program is made of it
     LossRequest request;
+    const char* const out = mamori::verification::take_option(argc, argv, "--out");
     if (!mamori::verification::take_defect(argc, argv, request.defect) ||
         request.defect == mamori::verification::Defect::kWrongName || argc != 3 ||
         !read_number(argv[1], request.trial_count) || !read_number(argv[2], request.seed) ||
@@ -30,6 +32,9 @@ int main(int argc, char** argv) {
     }
     const LossRun run = run_losses(request);
     std::cout << to_json(request, run);
+    if (out != nullptr && !write_course(request, run, out)) {
+        return 2;
+    }
     return mamori::verification::get_exit_status(
         mamori::verification::assess_run(run.get_evidence()).verdict);
 }

@@ -36,6 +36,7 @@ struct Report {
     Instant at{};
     Duration lateness{};  ///< of a late release
     Duration kept_off{};  ///< time that the runner was ready and did not run, since the opening before
+    Duration component_kept_off{};
 };
 
 /// The runner was ready and did not run for half of the time that it is late, and for kLossMin. The threads

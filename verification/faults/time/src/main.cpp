@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "mamori/verification/course_file.hpp"
 #include "time_faults.hpp"
 
 namespace {
@@ -35,13 +36,14 @@ bool read(int argc, char** argv, Request& request) {
 
 int main(int argc, char** argv) {
     Request request;
+    const char* const out = mamori::verification::take_option(argc, argv, "--out");
     if (!read(argc, argv, request)) {
         std::cerr << "time_faults: expected FRAMES FAULTS SEED [storm] [--defect "
                      "late_release|overrun|wrong_name]: integers, at least 1 frame and "
                   << kDistance << " frames for each fault\n";
         return 2;
     }
-    const Verdict verdict = run(request);
+    const Verdict verdict = run(request, out);
     std::cout << to_json(request, verdict);
     return mamori::verification::get_exit_status(
         mamori::verification::assess_run(verdict.get_evidence()).verdict);

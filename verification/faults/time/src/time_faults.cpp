@@ -93,6 +93,14 @@ void add_deeds(Course& course) {
     }
 }
 
+void add_component_delays(Course& course, const Ends& ends) {
+    for (Report& report : course.reports) {
+        if (report.is_overrun && ends.covers(report.release)) {
+            report.component_kept_off = ends.get_kept_off(report.component, report.release);
+        }
+    }
+}
+
 void add_page_faults(Verdict& verdict) {
     // Those of one window run on one thread: the first of them tells for all.
     for (const std::size_t component : {std::size_t{0U}, std::size_t{1U}, std::size_t{3U}}) {
@@ -124,7 +132,7 @@ std::vector<Injection> make_injections(const Request& request) {
     return injections;
 }
 
-Verdict run(const Request& request) {
+Verdict run(const Request& request, const char* out) {
     Verdict verdict;
     const auto seconds = static_cast<unsigned>(request.frame_count / 1000U + 10U);
     PageStorm storm{request.with_storm ? seconds : 0U};
@@ -165,6 +173,7 @@ Verdict run(const Request& request) {
     }
     add_deeds(course);
     course.ends = ends;
+    add_component_delays(course, ends);
     verdict = judge(make_plan(), course);
     verdict.frames = request.frame_count;
     verdict.requested = request.injection_count;
@@ -175,6 +184,9 @@ Verdict run(const Request& request) {
     verdict.has_storm = has_blown;
     verdict.has_locked_memory = memory.is_granted && has_locked_pages();
     add_page_faults(verdict);
+    if (out != nullptr) {
+        static_cast<void>(write_course(request, make_plan(), course, verdict, out));
+    }
     return verdict;
 }
 

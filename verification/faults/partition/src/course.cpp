@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdlib>
+
+#include "campaign.hpp"
+#include "mamori/verification/course_file.hpp"
+
+namespace mamori::partition_faults {
+namespace {
+
+std::int64_t to_number(std::uint64_t count) noexcept {
+    return static_cast<std::int64_t>(count);
+}
+
+/// More messages than this between two polls are all the same; memory that is corrupted may show any number.
+constexpr std::uint64_t kSkippedShown = 1'000'000U;
+
+void add(verification::CourseFile& file, const char* key, const std::vector<Opening>& openings) {
+    file.add<Opening>(key, openings,
+                      {{"window", [](const Opening& row) { return to_number(row.window); }},
+                       {"release_ns", [](const Opening& row) { return row.release.ns; }}});
+}
+
+}  // namespace
+
+bool write_course(const CampaignRequest& request, const Course& course, const Verdict& verdict,
+                  const char* path) {
+    const char* const commit = std::getenv("MAMORI_COMMIT");
+    verification::CourseFile file{"partition"};
+    file.add("commit", commit == nullptr ? "unknown" : commit);
+    file.add("seed", request.seed);
+    file.add("defect", verification::get_name(request.defect));
+    file.add("requested", verdict.requested);
+    file.add("has_priority", verdict.has_priority);
+    file.add("has_run", verdict.has_run);
+    file.add("is_too_slow", verdict.is_too_slow);
+    file.add("trouble", verdict.trouble);
+    file.add("frame_ns", kFrame.ns);
+    file.add("silent_frames", std::uint64_t{kSilentFrames});
+    file.add("skipped_max", kSkippedMax);
+    file.add("reaction_time_ns", kReactionTime.ns);
+    file.add("kinds", {"kill", "stop", "flood", "corrupt"});
+    file.add("faults", {"silent", "flooding", "corrupt", "none"});
+    file.add("knows_foreign", course.knows_foreign);
+    file.add("host", verdict.host);
+    file.add<Deed>("injections", course.deeds,
+                   {{"kind", [](const Deed& row) { return static_cast<std::int64_t>(row.kind); }},
+                    {"is_injected", [](const Deed& row) { return std::int64_t{row.is_done}; }},
+                    {"begin_ns", [](const Deed& row) { return row.begin.ns; }},
+                    {"injected_ns", [](const Deed& row) { return row.done.ns; }},
+                    {"end_ns", [](const Deed& row) { return row.over.ns; }}});
+    file.add<ReactionBegin>(
+        "reactions", course.reactions,
+        {{"at_ns", [](const ReactionBegin& row) { return row.at.ns; }},
+         {"fault", [](const ReactionBegin& row) { return static_cast<std::int64_t>(row.fault); }},
+         {"is_declared", [](const ReactionBegin& row) { return std::int64_t{row.is_declared}; }}});
+    file.add<Look>("receptions", course.looks,
+                   {{"at_ns", [](const Look& row) { return row.at.ns; }},
+                    {"is_answer", [](const Look& row) { return std::int64_t{row.is_answer}; }},
+                    {"is_check_right", [](const Look& row) { return std::int64_t{row.is_check_right}; }},
+                    {"is_malformed", [](const Look& row) { return std::int64_t{row.is_refused}; }},
+                    {"skipped", [](const Look& row) { return to_number(std::min(row.skipped, kSkippedShown)); }}});
+    file.add<TimedOpening>("windows", course.openings,
+                           {{"window", [](const TimedOpening& row) { return to_number(row.opening.window); }},
+                            {"release_ns", [](const TimedOpening& row) { return row.opening.release.ns; }},
+                            {"woke_ns", [](const TimedOpening& row) { return row.woke.ns; }},
+                            {"end_ns", [](const TimedOpening& row) { return row.end.ns; }},
+                            {"is_missed", [](const TimedOpening& row) { return std::int64_t{row.is_missed}; }},
+                            {"is_overrun", [](const TimedOpening& row) { return std::int64_t{row.is_overrun}; }}});
+    add(file, "ran", course.ran);
+    add(file, "expected", course.expected);
+    file.add("stalls", course.stalls);
+    file.add("late_polls", course.late_looks);
+    file.add("foreign", course.foreign);
+    return file.write(path);
+}
+
+}  // namespace mamori::partition_faults
