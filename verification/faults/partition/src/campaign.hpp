@@ -37,7 +37,8 @@ std::vector<Fault> make_plan(const CampaignRequest& request);
 
 /// Runs it: some 0.2 s per fault. To be called once per process.
 Verdict run(const CampaignRequest& request, const char* out = nullptr);
-bool write_course(const CampaignRequest& request, const Course& course, const Verdict& verdict, const char* path);
+bool write_course(const CampaignRequest& request, const Course& course, const Verdict& verdict,
+                  const char* path);
 
 /// One JSON document: commit, configuration, seed and figures; the plan with the outcome of each fault when
 /// it is not well.

@@ -12,7 +12,7 @@ std::int64_t to_number(std::uint64_t count) noexcept {
     return static_cast<std::int64_t>(count);
 }
 
-/// More messages than this between two polls are all the same; memory that is corrupted may show any number.
+/// Highest number of skipped messages that is recorded: corrupted memory may show any number.
 constexpr std::uint64_t kSkippedShown = 1'000'000U;
 
 void add(verification::CourseFile& file, const char* key, const std::vector<Opening>& openings) {
@@ -54,19 +54,21 @@ bool write_course(const CampaignRequest& request, const Course& course, const Ve
         {{"at_ns", [](const ReactionBegin& row) { return row.at.ns; }},
          {"fault", [](const ReactionBegin& row) { return static_cast<std::int64_t>(row.fault); }},
          {"is_declared", [](const ReactionBegin& row) { return std::int64_t{row.is_declared}; }}});
-    file.add<Look>("receptions", course.looks,
-                   {{"at_ns", [](const Look& row) { return row.at.ns; }},
-                    {"is_answer", [](const Look& row) { return std::int64_t{row.is_answer}; }},
-                    {"is_check_right", [](const Look& row) { return std::int64_t{row.is_check_right}; }},
-                    {"is_malformed", [](const Look& row) { return std::int64_t{row.is_refused}; }},
-                    {"skipped", [](const Look& row) { return to_number(std::min(row.skipped, kSkippedShown)); }}});
-    file.add<TimedOpening>("windows", course.openings,
-                           {{"window", [](const TimedOpening& row) { return to_number(row.opening.window); }},
-                            {"release_ns", [](const TimedOpening& row) { return row.opening.release.ns; }},
-                            {"woke_ns", [](const TimedOpening& row) { return row.woke.ns; }},
-                            {"end_ns", [](const TimedOpening& row) { return row.end.ns; }},
-                            {"is_missed", [](const TimedOpening& row) { return std::int64_t{row.is_missed}; }},
-                            {"is_overrun", [](const TimedOpening& row) { return std::int64_t{row.is_overrun}; }}});
+    file.add<Look>(
+        "receptions", course.looks,
+        {{"at_ns", [](const Look& row) { return row.at.ns; }},
+         {"is_answer", [](const Look& row) { return std::int64_t{row.is_answer}; }},
+         {"is_check_right", [](const Look& row) { return std::int64_t{row.is_check_right}; }},
+         {"is_malformed", [](const Look& row) { return std::int64_t{row.is_refused}; }},
+         {"skipped", [](const Look& row) { return to_number(std::min(row.skipped, kSkippedShown)); }}});
+    file.add<TimedOpening>(
+        "windows", course.openings,
+        {{"window", [](const TimedOpening& row) { return to_number(row.opening.window); }},
+         {"release_ns", [](const TimedOpening& row) { return row.opening.release.ns; }},
+         {"woke_ns", [](const TimedOpening& row) { return row.woke.ns; }},
+         {"end_ns", [](const TimedOpening& row) { return row.end.ns; }},
+         {"is_missed", [](const TimedOpening& row) { return std::int64_t{row.is_missed}; }},
+         {"is_overrun", [](const TimedOpening& row) { return std::int64_t{row.is_overrun}; }}});
     add(file, "ran", course.ran);
     add(file, "expected", course.expected);
     file.add("stalls", course.stalls);

@@ -271,17 +271,16 @@ bool write_course(const LossRequest& request, const LossRun& run, const char* pa
     file.add("losses", {"none", "hang", "wait", "unhealthy", "inconsistent", "runaway", "no_window"});
     file.add("host", run.host);
     file.add("stalls", run.stalls);
-    file.add<LossTrial>(
-        "trials", run.trials,
-        {{"loss", [](const LossTrial& row) { return static_cast<std::int64_t>(row.loss); }},
-         {"is_injected", [](const LossTrial& row) { return std::int64_t{row.is_injected}; }},
-         {"injected_ns", [](const LossTrial& row) { return row.injected_at.ns; }},
-         {"service_begin_ns", [](const LossTrial& row) { return row.asked_at.ns; }},
-         {"service_end_ns", [](const LossTrial& row) { return row.taken_at.ns; }},
-         {"is_closed", [](const LossTrial& row) { return std::int64_t{row.is_closed}; }},
-         {"closed_ns", [](const LossTrial& row) { return row.closed_at.ns; }},
-         {"cause", [](const LossTrial& row) { return static_cast<std::int64_t>(row.cause); }},
-         {"end_ns", [](const LossTrial& row) { return row.ended_at.ns; }}});
+    file.add<LossTrial>("trials", run.trials,
+                        {{"loss", [](const LossTrial& row) { return static_cast<std::int64_t>(row.loss); }},
+                         {"is_injected", [](const LossTrial& row) { return std::int64_t{row.is_injected}; }},
+                         {"injected_ns", [](const LossTrial& row) { return row.injected_at.ns; }},
+                         {"service_begin_ns", [](const LossTrial& row) { return row.asked_at.ns; }},
+                         {"service_end_ns", [](const LossTrial& row) { return row.taken_at.ns; }},
+                         {"is_closed", [](const LossTrial& row) { return std::int64_t{row.is_closed}; }},
+                         {"closed_ns", [](const LossTrial& row) { return row.closed_at.ns; }},
+                         {"cause", [](const LossTrial& row) { return static_cast<std::int64_t>(row.cause); }},
+                         {"end_ns", [](const LossTrial& row) { return row.ended_at.ns; }}});
     return file.write(path);
 }
 

@@ -63,12 +63,11 @@ bool write_course(const Request& request, const Plan& plan, const Course& course
                          {{"begin_ns", [](const ClockFault& row) { return row.begin.ns; }},
                           {"end_ns", [](const ClockFault& row) { return row.end.ns; }},
                           {"ppm", [](const ClockFault& row) { return row.ppm; }}});
-    file.add<Found>(
-        "findings", course.watch.found,
-        {{"fault", [](const Found& row) { return static_cast<std::int64_t>(row.finding.fault); }},
-         {"due_ns", [](const Found& row) { return row.finding.due.ns; }},
-         {"seen_ns", [](const Found& row) { return row.finding.seen.ns; }},
-         {"cleared_ns", [](const Found& row) { return row.cleared.ns; }}});
+    file.add<Found>("findings", course.watch.found,
+                    {{"fault", [](const Found& row) { return static_cast<std::int64_t>(row.finding.fault); }},
+                     {"due_ns", [](const Found& row) { return row.finding.due.ns; }},
+                     {"seen_ns", [](const Found& row) { return row.finding.seen.ns; }},
+                     {"cleared_ns", [](const Found& row) { return row.cleared.ns; }}});
     file.add("stalls", course.stalls);
     file.add("late_polls", course.late_looks);
     file.add("runner_delays", course.runner_delays);

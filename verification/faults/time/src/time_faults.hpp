@@ -67,7 +67,8 @@ std::vector<Injection> make_injections(const Request& request);
 
 /// Runs it: `frame_count` ticks. To be called once per process, while it has one thread.
 Verdict run(const Request& request, const char* out = nullptr);
-bool write_course(const Request& request, const Plan& plan, const Course& course, const Verdict& verdict, const char* path);
+bool write_course(const Request& request, const Plan& plan, const Course& course, const Verdict& verdict,
+                  const char* path);
 
 /// One JSON document.
 std::string to_json(const Request& request, const Verdict& verdict);
