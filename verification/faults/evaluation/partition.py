@@ -137,8 +137,9 @@ def evaluate(course: Course) -> Result:
     facts = {
         "requested": evidence.requested, "windows_run": len(record.windows), "bound_ns": record.limits.bound_ns, "disordered": disordered,
         "trouble": course.get_text("trouble"), "reactions": reactions.to_json(), "windows": windows.to_json(), "lateness": measure_lateness(record),
-        "injected_in_order": [f"{kind}: {outcome}" for kind, outcome in reactions.outcomes],
     }  # fmt: skip
+    if finding.verdict != "passed":
+        facts["outcomes_in_order"] = [f"{kind}: {outcome}" for kind, outcome in reactions.outcomes]
     return Result(finding, facts, course.get_flag("has_priority"), {"system": finding})
 
 
