@@ -8,20 +8,21 @@ from typing import Any
 
 import pytest
 
-from mamori_tools.campaign.fault import Fault
-from mamori_tools.campaign.judge import Check, is_passed, judge
-from mamori_tools.campaign.plan import Bounds, Expected
-from mamori_tools.campaign.selection import Case
+from mamori_tools.campaign.arm.fault import Fault
+from mamori_tools.campaign.arm.judge import judge
+from mamori_tools.campaign.arm.plan import Bounds, Expected
+from mamori_tools.campaign.arm.selection import ArmCase
+from mamori_tools.campaign.case import Check, conclude
 
 BOUNDS = Bounds(hold_drift_rad=0.002, hold_observed_s=0.5, tracking_error_rad=0.02)
 
-STOP = Case(
+STOP = ArmCase(
     id="encoder_freeze-1", scenario="encoder_freeze", title="freeze", fault=Fault("encoder_freeze", 1.5, 2, "a"), seed=3,
     frames=4000, watch_s=2.0, expected=Expected("Safe", ("Ss1", "Sto"), ("EncoderDiscrepancy",), 0.1), bounds=BOUNDS,
     requirements={"SYS-020": "violation"},
 )  # fmt: skip
 
-QUIET = Case(
+QUIET = ArmCase(
     id="none-1", scenario="none", title="none", fault=None, seed=3, frames=None, watch_s=7.8,
     expected=Expected("Operational", ("None",), ("None",), None, watchdog_bitten=False), bounds=BOUNDS,
     requirements={"SYS-027": "nominal"},
@@ -63,7 +64,7 @@ def test_a_run_that_stopped_as_wanted_passes() -> None:
     checks = judge(STOP, STOPPED)
 
     assert failed(checks) == []
-    assert is_passed(checks)
+    assert conclude(checks) == "passed"
     assert [check.name for check in checks] == [
         "run", "fault injected", "seed", "operational first", "time watched", "no false trip", "final state", "detected fault",
         "reaction", "reaction time", "speed limit", "position range", "standstill", "standstill watched", "hold drift"]
@@ -114,7 +115,7 @@ def test_a_stop_just_outside_a_bound_fails(path: str, value: object, check: str)
     checks = judge(STOP, change(STOPPED, path, value))
 
     assert check in failed(checks)
-    assert not is_passed(checks)
+    assert conclude(checks) == "failed"
 
 
 @pytest.mark.parametrize(("path", "value", "check"), [
@@ -140,15 +141,15 @@ def test_a_fault_free_run_just_inside_a_bound_passes(path: str, value: object) -
 @pytest.mark.verifies("SWR-CMP-003")
 def test_a_wanted_bite_of_the_watchdog_is_demanded(bitten: bool, passes: bool) -> None:
     expected = Expected("Safe", ("Ss1",), ("EncoderDiscrepancy",), 0.1, watchdog_bitten=True)
-    case = Case(**{**STOP.__dict__, "expected": expected})
+    case = ArmCase(**{**STOP.__dict__, "expected": expected})
 
-    assert is_passed(judge(case, change(STOPPED, "watchdog_bitten", bitten))) is passes
+    assert (conclude(judge(case, change(STOPPED, "watchdog_bitten", bitten))) == "passed") is passes
 
 
 @pytest.mark.verifies("SWR-CMP-003")
 def test_a_degraded_arm_need_not_stand_still() -> None:
     expected = Expected("Degraded", ("Degrade",), ("EncoderDiscrepancy",), 0.1)
-    case = Case(**{**STOP.__dict__, "expected": expected})
+    case = ArmCase(**{**STOP.__dict__, "expected": expected})
     run = STOPPED | {"reaction": "Degrade", "final_state": "Degraded", "standstill_at_s": None}
 
     assert failed(judge(case, run)) == []
@@ -198,4 +199,4 @@ def test_a_missing_run_and_a_run_with_a_problem_fail() -> None:
 
 @pytest.mark.verifies("SWR-CMP-004", polarity="violation")
 def test_no_check_is_no_pass() -> None:
-    assert not is_passed([])
+    assert conclude([]) == "failed"

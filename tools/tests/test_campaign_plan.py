@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mamori_tools.campaign import Case, Plan, load_plan, resolve, select
-from mamori_tools.campaign.fault import Fault
-from mamori_tools.campaign.vocabulary import DETECTED_FAULTS, NOTHING
+from mamori_tools.campaign import load_plan, load_subject, select
+from mamori_tools.campaign.arm.fault import KINDS, Fault
+from mamori_tools.campaign.arm.plan import ArmPlan
+from mamori_tools.campaign.arm.selection import ArmCase, resolve
+from mamori_tools.campaign.arm.vocabulary import DETECTED_FAULTS, NOTHING
 from mamori_tools.motion import Motion, load_limits, read_motion
 from mamori_trace.base.errors import InputError
 
@@ -45,11 +47,17 @@ scenarios:
 """
 
 
+def load(path: Path) -> ArmPlan:
+    plan = load_plan(path)
+    assert isinstance(plan, ArmPlan)
+    return plan
+
+
 @pytest.fixture
-def plan(tmp_path: Path) -> Plan:
+def plan(tmp_path: Path) -> ArmPlan:
     path = tmp_path / "faults.yaml"
     path.write_text(GOOD)
-    return load_plan(path)
+    return load(path)
 
 
 @pytest.fixture
@@ -61,12 +69,12 @@ def motion() -> Motion:
     return Motion("test", "0" * 64, ("J1", "J2"), time_s, np.column_stack([first, second]))
 
 
-def resolve_one(plan: Plan, motion: Motion, name: str, instants: int | None = None) -> tuple[Case, ...]:
+def resolve_one(plan: ArmPlan, motion: Motion, name: str, instants: int | None = None) -> tuple[ArmCase, ...]:
     return resolve(select(plan, [name], instants), motion)
 
 
 @pytest.mark.verifies("SWR-CMP-001")
-def test_a_plan_is_read_as_written(plan: Plan) -> None:
+def test_a_plan_is_read_as_written(plan: ArmPlan) -> None:
     none, freeze, late = plan.scenarios
 
     assert (plan.seed, plan.observe_s, plan.bounds.hold_drift_rad) == (7, 2.0, 0.002)
@@ -141,7 +149,7 @@ def test_hostile_yaml_is_refused(tmp_path: Path, text: str) -> None:
 
 
 @pytest.mark.verifies("SWR-CMP-002")
-def test_scenarios_are_selected_by_name_in_the_order_of_the_plan(plan: Plan, motion: Motion) -> None:
+def test_scenarios_are_selected_by_name_in_the_order_of_the_plan(plan: ArmPlan, motion: Motion) -> None:
     names = [case.id for case in resolve(select(plan, ["message_late", "none", "none"]), motion)]
 
     assert names == ["none-1", "message_late-1", "message_late-2"]
@@ -149,31 +157,31 @@ def test_scenarios_are_selected_by_name_in_the_order_of_the_plan(plan: Plan, mot
 
 
 @pytest.mark.verifies("SWR-CMP-002")
-def test_the_first_instants_of_each_scenario_can_be_selected(plan: Plan, motion: Motion) -> None:
+def test_the_first_instants_of_each_scenario_can_be_selected(plan: ArmPlan, motion: Motion) -> None:
     assert [case.id for case in resolve(select(plan, instants=1), motion)] == ["none-1", "encoder_freeze-1", "message_late-1"]
     assert len(resolve(select(plan, instants=3), motion)) == 6
 
 
 @pytest.mark.verifies("SWR-CMP-002", technique="boundary_values", polarity="violation")
-def test_more_instants_than_the_plan_has_are_refused(plan: Plan) -> None:
+def test_more_instants_than_the_plan_has_are_refused(plan: ArmPlan) -> None:
     with pytest.raises(InputError, match="4 instants per scenario; the plan has 3: write 1 to 3"):
         select(plan, instants=4)
 
 
 @pytest.mark.verifies("SWR-CMP-002", polarity="violation")
-def test_an_unknown_scenario_is_answered_with_the_nearest_names(plan: Plan) -> None:
+def test_an_unknown_scenario_is_answered_with_the_nearest_names(plan: ArmPlan) -> None:
     with pytest.raises(InputError, match="unknown scenario 'encoder_frieze'; nearest: encoder_freeze"):
         select(plan, ["encoder_frieze"])
 
 
 @pytest.mark.verifies("SWR-CMP-002", technique="boundary_values", polarity="violation")
-def test_less_than_one_instant_is_refused(plan: Plan) -> None:
+def test_less_than_one_instant_is_refused(plan: ArmPlan) -> None:
     with pytest.raises(InputError, match="write 1 or more"):
         select(plan, instants=0)
 
 
 @pytest.mark.verifies("SWR-CMP-001")
-def test_an_injection_is_placed_where_a_joint_moves(plan: Plan, motion: Motion) -> None:
+def test_an_injection_is_placed_where_a_joint_moves(plan: ArmPlan, motion: Motion) -> None:
     faults = [case.fault for case in resolve_one(plan, motion, "encoder_freeze")]
 
     # 1.0 s: nothing moves until 2.5 s; the window of 0.1 s reaches 0.1 rad/s when a third of it lies behind that.
@@ -182,17 +190,17 @@ def test_an_injection_is_placed_where_a_joint_moves(plan: Plan, motion: Motion) 
 
 
 @pytest.mark.verifies("SWR-CMP-001")
-def test_the_fastest_joint_at_the_instant_is_taken(plan: Plan, motion: Motion, tmp_path: Path) -> None:
+def test_the_fastest_joint_at_the_instant_is_taken(plan: ArmPlan, motion: Motion, tmp_path: Path) -> None:
     path = tmp_path / "early.yaml"
     path.write_text(GOOD.replace("instants: [0.25,", "instants: [0.1,"))
-    cases = resolve_one(load_plan(path), motion, "encoder_freeze", 1)
+    cases = resolve_one(load(path), motion, "encoder_freeze", 1)
 
     assert cases[0].fault == Fault("encoder_freeze", 0.4, 1, "a")
     assert cases[0].title == "Joint 1 freezes"
 
 
 @pytest.mark.verifies("SWR-CMP-001")
-def test_a_case_is_watched_for_the_declared_time(plan: Plan, motion: Motion) -> None:
+def test_a_case_is_watched_for_the_declared_time(plan: ArmPlan, motion: Motion) -> None:
     late = resolve_one(plan, motion, "message_late")[0]
     none = resolve_one(plan, motion, "none")[0]
 
@@ -268,3 +276,21 @@ def test_the_shipped_plan_verifies_each_campaign_requirement_with_the_polarity_i
     shown = {pair for scenario in load_plan(SHIPPED).scenarios for pair in scenario.requirements.items()}
 
     assert needed and needed <= shown
+
+
+@pytest.mark.verifies("SWR-CMP-008")
+def test_a_plan_without_a_subject_is_one_of_the_arm(plan: ArmPlan, tmp_path: Path) -> None:
+    path = tmp_path / "named.yaml"
+    path.write_text(GOOD.replace("seed: 7", "subject: arm\nseed: 7"))
+
+    assert plan.subject == "arm" == load_plan(path).subject
+    assert load_subject("arm").name == "arm" and set(load_subject("arm").kinds) == set(KINDS)
+
+
+@pytest.mark.verifies("SWR-CMP-008", technique="error_guessing", polarity="violation")
+def test_an_unknown_subject_is_rejected_with_its_line_and_the_nearest_names(tmp_path: Path) -> None:
+    path = tmp_path / "named.yaml"
+    path.write_text(GOOD.replace("seed: 7", "subject: arn\nseed: 7"))
+
+    with pytest.raises(InputError, match=r"named.yaml:2: subject: unknown subject 'arn'; .*arm"):
+        load_plan(path)

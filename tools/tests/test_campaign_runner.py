@@ -14,12 +14,10 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from mamori_tools.campaign import CampaignResult, CaseResult, load_plan, run_campaign, select
 from mamori_tools.campaign import __main__ as command
-from mamori_tools.motion import Motion
 from mamori_trace.base.errors import InputError
 
 PLAN = """\
@@ -81,17 +79,13 @@ if mode == 8:
 """
 
 
-@pytest.fixture
-def motion() -> Motion:
-    return Motion("test", "0" * 64, ("J1",), np.array([0.0, 4.0]), np.array([[0.0], [0.4]]))
-
-
 class Bench:
     """A folder with plan, program and model, and one call that runs a campaign in it."""
 
-    def __init__(self, folder: Path, motion: Motion) -> None:
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.motion = motion
+        self.motion = folder / "motion.txt"
+        self.motion.write_text("0.0 0.0\n4.0 0.4\n")
         self.evidence = folder / "evidence"
         self.program = folder / "program"
         self.program.write_text(PROGRAM.format(python=sys.executable))
@@ -105,7 +99,7 @@ class Bench:
         self.plan.write_text(PLAN.replace("magnitude: 0.0", f"magnitude: {mode}.0"))
 
     def run(self, **options: object) -> CampaignResult:
-        settings: dict[str, object] = {"program": self.program, "model": self.model, "motion": self.motion,
+        settings: dict[str, object] = {"program": self.program, "files": {"model": self.model, "motion": self.motion},
                                        "evidence": self.evidence, "jobs": 2,
                                        "environment": {"commit": "abc"}} | options  # fmt: skip
         return run_campaign(select(load_plan(self.plan)), **settings)  # type: ignore[arg-type]
@@ -118,8 +112,8 @@ class Bench:
 
 
 @pytest.fixture
-def bench(tmp_path: Path, motion: Motion) -> Bench:
-    return Bench(tmp_path, motion)
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path)
 
 
 @pytest.mark.verifies("SWR-CMP-005")
@@ -266,7 +260,7 @@ def test_an_interrupted_campaign_ends_its_processes_and_leaves_no_verdict(bench:
 
 @pytest.mark.parametrize(("options", "words"), [
     ({"program": Path("/nowhere/safe_arm")}, "build it first"),
-    ({"model": Path("/nowhere/model.yaml")}, "model file not found"),
+    ({"files": {"model": Path("/nowhere/model.yaml"), "motion": Path("/nowhere/motion.txt")}}, "model file not found"),
     ({"jobs": 0}, "0 jobs"),
     ({"timeout_s": 0.0}, "time-out of 0 s"),
     ({"timeout_s": float("nan")}, "time-out of nan s"),

@@ -11,8 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from mamori_tools.campaign import Plan, load_plan, resolve
-from mamori_tools.campaign.fault import KINDS
+from mamori_tools.campaign import Plan, load_plan
+from mamori_tools.campaign.arm.fault import KINDS
+from mamori_tools.campaign.arm.plan import ArmScenario
+from mamori_tools.campaign.arm.selection import resolve
 from mamori_tools.command import run_case
 from mamori_tools.command.help_texts import make_texts
 from mamori_tools.command.main import main
@@ -226,5 +228,5 @@ def test_a_file_in_the_place_of_the_folder_is_one_line(command: Callable[..., in
 def test_the_help_lists_each_kind_that_has_a_scenario(plan: Plan) -> None:
     texts = make_texts()
 
-    assert {each.fault.kind for each in plan.scenarios} == {kind for kind in KINDS if kind in texts["run"]}
+    assert {each.fault.kind for each in plan.scenarios if isinstance(each, ArmScenario)} == {kind for kind in KINDS if kind in texts["run"]}
     assert all(each.name in texts["demo"] for each in plan.scenarios)

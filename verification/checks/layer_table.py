@@ -62,7 +62,7 @@ PACKAGE_LEVELS = {
     "mamori_trace.formats": 3, "mamori_trace.reports": 4, "mamori_trace.actions": 5, "mamori_trace": 6,
     "mamori_tools.host": 7, "mamori_tools.motion": 7, "mamori_tools.profiles": 8, "mamori_tools.table": 9, "mamori_tools.log": 8, "mamori_tools.e2e": 8,
     "mamori_tools.campaign": 8, "mamori_tools.timing": 10, "mamori_tools.cost": 11, "mamori_tools.command": 12,
-    "verification.checks": 13,
+    "verification.checks": 13, "verification.faults": 13,
 }  # fmt: skip
 PACKAGE_FOLDERS = {"trace/mamori_trace": "mamori_trace", "tools/mamori_tools": "mamori_tools", "verification": "verification"}
 

@@ -28,6 +28,18 @@ def ctest_step(preset: str, tier: Tier = Tier.QUICK, *options: str) -> Step:
     )
 
 
+def faults_step(preset: str, tier: Tier = Tier.QUICK) -> Step:
+    """A short run of each fault campaign in real time; one that the host disturbed is repeated."""
+    junit = f"build/{preset}/evidence/junit"
+    return Step(
+        name=f"faults in real time {preset}",
+        commands=((*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={junit}/faults.xml", "verification/faults", "--preset", preset),),
+        needs=(f"build {preset}",),
+        junit=junit,
+        tier=tier,
+    )
+
+
 def race_steps() -> tuple[Step, ...]:
     """What two cores share, under the thread sanitizer: these programs alone, since nothing else has threads."""
     preset = "host-tsan"
@@ -165,7 +177,7 @@ def long_steps() -> tuple[Step, ...]:
     def campaign(kind: str, *arguments: str) -> Step:
         return Step(
             name=f"long run of {kind}_faults",
-            commands=((f"{{build}}/verification/faults/{kind}/{kind}_faults", *arguments),),
+            commands=((*PYTHON, "verification.faults", kind, *arguments),),
             needs=(BUILD,),
             inconclusive=(4,),
             tier=Tier.ALL,
@@ -196,6 +208,7 @@ def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
     return (
         build_step(RELEASE),
         ctest_step(RELEASE),
+        faults_step(RELEASE),
         HOST_TOOLS,
         # What only `./mamori test` runs may be missing here; what ran and failed may not.
         campaign_step(campaign),
@@ -213,6 +226,7 @@ def list_test_steps(project: Project, campaign: Action, tier: Tier) -> tuple[Ste
              tier=Tier.ALL),
         build_step(RELEASE),
         ctest_step(RELEASE, Tier.QUICK, *fewer),
+        faults_step(RELEASE),
         HOST_TOOLS,
         REPORT_IN_BROWSER,
         LAYERS,
@@ -232,6 +246,7 @@ def list_test_steps(project: Project, campaign: Action, tier: Tier) -> tuple[Ste
         safe_state_step(),
         build_step(SANITIZED, Tier.GATE),
         ctest_step(SANITIZED, Tier.GATE),
+        faults_step(SANITIZED, Tier.GATE),
         *race_steps(),
         proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}")),
         *strength_steps(),

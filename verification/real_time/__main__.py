@@ -11,7 +11,6 @@ Design: docs/design/test_strength.md#real-time-verdicts
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import subprocess
 import sys
@@ -24,35 +23,11 @@ from pathlib import Path
 
 from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK, EXIT_USAGE
 from mamori_tools.host.project import RELEASE, ROOT, Project
-from verification.real_time.repeat import REPEATS_MAX
+from mamori_trace.base.errors import WorkError
+from verification.faults.run import CAMPAIGNS, DEFECTS, Campaign, run_short
 
-DEFECTS = ("late_release", "overrun", "wrong_name")
-VERDICTS = {0: "passed", 1: "failed", 4: "inconclusive"}
 WORST_FIRST = ("failed", "inconclusive", "passed")
-PROGRAM_TIMEOUT_S = 120
 LOAD_TIMEOUT_S = 300
-
-
-@dataclass(frozen=True)
-class Program:
-    """A campaign program with the size of its short run."""
-
-    name: str
-    place: str  # its folder, below that of `verification` in the build tree
-    before_seed: tuple[str, ...]
-    after_seed: tuple[str, ...] = ()
-    defects: tuple[str, ...] = DEFECTS
-
-    def make_command(self, folder: Path, seed: int, defect: str) -> list[str]:
-        chosen = ("--defect", defect) if defect else ()
-        return [str(folder / self.place / self.name), *self.before_seed, str(seed), *self.after_seed, *chosen]
-
-
-PROGRAMS = (
-    Program("time_faults", "faults/time", ("4000", "50"), ("storm",)),
-    Program("lost_service", "faults/service", ("70",), defects=("late_release", "overrun")),
-    Program("partition_faults", "faults/partition", ("8",)),
-)
 
 
 @dataclass(frozen=True)
@@ -65,20 +40,13 @@ class Ended:
     reason: str
 
 
-def run_program(program: Program, folder: Path, seed: int, defect: str) -> Ended:
+def run_program(campaign: Campaign, build: Path, seed: int, defect: str) -> Ended:
     """At most three times, each with its own seed."""
-    verdict, reason, repeats = "failed", "", 0
-    for repeats in range(REPEATS_MAX + 1):
-        command = program.make_command(folder, seed + 1000 * repeats, defect)
-        try:
-            child = subprocess.run(command, capture_output=True, text=True, timeout=PROGRAM_TIMEOUT_S, check=False)
-        except subprocess.TimeoutExpired:
-            return Ended(program.name, "failed", repeats, f"did not end within {PROGRAM_TIMEOUT_S} s")
-        verdict = VERDICTS.get(child.returncode, "failed")
-        reason = json.loads(child.stdout)["reason"] if child.returncode in VERDICTS else f"status {child.returncode}"
-        if verdict != "inconclusive":
-            break
-    return Ended(program.name, verdict, repeats, reason)
+    try:
+        result, repeats = run_short(campaign, build, seed, defect)
+    except WorkError as error:
+        return Ended(campaign.program, "failed", 0, str(error))
+    return Ended(campaign.program, result.finding.verdict, repeats, result.finding.reason)
 
 
 @contextmanager
@@ -97,13 +65,13 @@ def load(is_wanted: bool) -> Iterator[None]:
         child.wait()
 
 
-def measure(folder: Path, runs: int, is_loaded: bool, defect: str, first_seed: int) -> list[list[Ended]]:
+def measure(build: Path, runs: int, is_loaded: bool, defect: str, first_seed: int) -> list[list[Ended]]:
     """`runs` runs; prints what is not passed at once."""
-    programs = [program for program in PROGRAMS if not defect or defect in program.defects]
+    campaigns = [campaign for campaign in CAMPAIGNS.values() if not defect or defect in campaign.defects]
     results = []
     for number in range(runs):
         with load(is_loaded):
-            ended = [run_program(program, folder, first_seed + number, defect) for program in programs]
+            ended = [run_program(campaign, build, first_seed + number, defect) for campaign in campaigns]
         results.append(ended)
         for item in ended:
             if item.verdict != "passed" and not defect:
@@ -146,10 +114,9 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--all", action="store_true", help="without load, under load, and each defect under load")
     parser.add_argument("--build", type=Path, default=Project(ROOT, RELEASE).build, metavar="DIR")
     given = parser.parse_args(arguments)
-    folder = given.build / "verification"
-    missing = [p.name for p in PROGRAMS if not os.access(folder / p.place / p.name, os.X_OK)]
+    missing = [campaign.program for campaign in CAMPAIGNS.values() if not os.access(campaign.get_program(given.build), os.X_OK)]
     if given.runs < 1 or missing:
-        what = f"{folder}: {', '.join(missing)} missing; build the targets" if missing else f"--runs {given.runs}: at least 1"
+        what = f"{given.build}: {', '.join(missing)} missing; build the targets" if missing else f"--runs {given.runs}: at least 1"
         print(f"real_time: {what}", file=sys.stderr)
         return EXIT_USAGE
     plan = [(given.load, defect) for defect in given.defect or [""]]
@@ -159,7 +126,7 @@ def main(arguments: Sequence[str]) -> int:
     for is_loaded, defect in plan:
         label = f"{'load' if is_loaded else 'no load'}{', ' + defect if defect else ''}"
         print(f"{label}: {given.runs} runs, {time.strftime('%H:%M:%S')}", flush=True)
-        results = measure(folder, given.runs, is_loaded, defect, given.seed)
+        results = measure(given.build, given.runs, is_loaded, defect, given.seed)
         rows += make_rows(label, results)
         is_well = is_well and is_accepted(results, is_loaded, defect)
     print("| host, defect | program | passed | failed | inconclusive | repetitions |", "|---|---|---|---|---|---|", *rows, sep="\n")

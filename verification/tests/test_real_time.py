@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: the measurement of the real-time part counts what its programs decided. Method: programs of one line with known verdicts."""
+"""Goal: the measurement of the real-time part counts what its programs decided. Method: programs of one line that write courses with known verdicts."""
 
 from __future__ import annotations
 
@@ -8,23 +8,29 @@ from pathlib import Path
 
 import pytest
 
-from verification.real_time.__main__ import DEFECTS, PROGRAMS, Ended, Program, get_worst, is_accepted, main, make_rows, run_program
+from mamori_tools.host.project import ROOT
+from verification.faults.run import CAMPAIGNS, DEFECTS, Campaign
+from verification.real_time.__main__ import Ended, get_worst, is_accepted, main, make_rows, run_program
 
-STATUS = {"passed": 0, "failed": 1, "inconclusive": 4}
+COURSES = ROOT / "verification" / "faults" / "courses"
+TIME = CAMPAIGNS["time"]
 
 
-def write_program(folder: Path, program: Program, *verdicts: str) -> None:
-    """A program that ends with the next verdict at each run, with the last one again and again."""
-    place = folder / "verification" / program.place
-    place.mkdir(parents=True, exist_ok=True)
-    statuses = " ".join(str(STATUS.get(verdict, 77)) for verdict in verdicts)
-    file = place / program.name
-    file.write_text(
-        f"#!/bin/sh\nset -- {statuses}\nn=$(cat {place}/count 2>/dev/null || echo 0)\nn=$((n + 1))\necho $n > {place}/count\n"
-        f'[ $n -gt $# ] && n=$#\nshift $((n - 1))\necho \'{json.dumps({"reason": "figures"})}\'\nexit $1\n',
+def write_program(build: Path, campaign: Campaign, *verdicts: str) -> None:
+    """A program that writes the course of the next verdict at each run, with the last one again and again."""
+    program = campaign.get_program(build)
+    program.parent.mkdir(parents=True, exist_ok=True)
+    for number, verdict in enumerate(verdicts):
+        course = json.loads((COURSES / f"{campaign.name}.json").read_text(encoding="utf-8"))
+        if verdict != "passed":  # too few faults took effect: by the host only if it stalled
+            course |= {"requested": 100, "host": course["host"] | {"stalls": int(verdict == "inconclusive")}}
+        (program.parent / str(number)).write_text(json.dumps(course) if verdict != "crashed" else "", encoding="utf-8")
+    program.write_text(
+        f"#!/bin/sh\ncd {program.parent}\nn=$(cat count 2>/dev/null || echo 0)\necho $((n + 1)) > count\n"
+        f'[ $n -lt {len(verdicts)} ] || n={len(verdicts) - 1}\nwhile [ $# -gt 1 ]; do shift; done\ncp $n "$1"\n',
         encoding="utf-8",
     )
-    file.chmod(0o755)
+    program.chmod(0o755)
 
 
 def make_results(*verdicts: str) -> list[list[Ended]]:
@@ -44,9 +50,9 @@ def make_results(*verdicts: str) -> list[list[Ended]]:
     ],
 )
 def test_a_campaign_program_runs_again_only_while_inconclusive(tmp_path: Path, verdicts: tuple[str, ...], expected: str, repeats: int) -> None:
-    write_program(tmp_path, PROGRAMS[1], *verdicts)
+    write_program(tmp_path, TIME, *verdicts)
 
-    ended = run_program(PROGRAMS[1], tmp_path / "verification", 1, "")
+    ended = run_program(TIME, tmp_path, 1, "")
 
     assert (ended.verdict, ended.repeats) == (expected, repeats)
 
@@ -69,9 +75,9 @@ def test_the_worst_verdict_of_its_programs_is_that_of_a_run() -> None:
 
 
 @pytest.mark.verifies("SWR-VER-022", technique="fault_injection", polarity="violation")
-def test_the_table_has_a_row_for_each_program_and_the_status_tells_the_limits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for program in PROGRAMS:
-        write_program(tmp_path, program, "passed")
+def test_the_table_has_a_row_for_each_program_and_the_status_reports_the_limits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for campaign in CAMPAIGNS.values():
+        write_program(tmp_path, campaign, "passed")
     assert main(["--runs", "2", "--build", str(tmp_path)]) == 0
     out = capsys.readouterr().out
     assert "| no load | time_faults | 2 | 0 | 0 | 0 |" in out and out.endswith("within the limits\n")
@@ -84,7 +90,7 @@ def test_the_table_has_a_row_for_each_program_and_the_status_tells_the_limits(tm
 def test_programs_that_are_not_built_and_no_runs_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--build", str(tmp_path)]) == 2
     assert "time_faults, lost_service, partition_faults missing" in capsys.readouterr().err
-    for program in PROGRAMS:
-        write_program(tmp_path, program, "passed")
+    for campaign in CAMPAIGNS.values():
+        write_program(tmp_path, campaign, "passed")
     assert main(["--runs", "0", "--build", str(tmp_path)]) == 2
     assert capsys.readouterr().err.count("\n") == 1

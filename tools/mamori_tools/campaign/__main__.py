@@ -11,7 +11,6 @@ from typing import NoReturn
 
 from mamori_tools.campaign import CampaignResult, CaseResult, Plan, load_plan, run_campaign, select
 from mamori_tools.campaign.runner import DEFAULT_TIMEOUT_S
-from mamori_tools.motion import load_limits, read_motion
 from mamori_trace.base.errors import InputError
 
 EXIT_OK = 0
@@ -34,8 +33,7 @@ def main(arguments: list[str] | None = None) -> int:
         if missing:
             raise InputError("give " + ", ".join(f"--{name}" for name in missing))
         selection = select(plan, options.scenario, options.instants)
-        motion = read_motion(options.motion, load_limits(options.model))
-        result = run_campaign(selection, program=options.program, model=options.model, motion=motion,
+        result = run_campaign(selection, program=options.program, files={"model": options.model, "motion": options.motion},
                               evidence=options.evidence, jobs=options.jobs, timeout_s=options.timeout,
                               progress=_show_progress)  # fmt: skip
     except InputError as error:
@@ -75,7 +73,7 @@ def _interrupt(*_: object) -> NoReturn:
 
 
 def _list_scenarios(plan: Plan) -> str:
-    return "\n".join(f"{each.name:<24}{max(1, len(each.instants)):>2} x  {each.title}" for each in plan.scenarios)
+    return "\n".join(f"{each.name:<24}{each.case_count:>2} x  {each.title}" for each in plan.scenarios)
 
 
 def _show_progress(result: CaseResult, done: int, total: int) -> None:

@@ -19,7 +19,6 @@ from mamori_trace.base.errors import WorkError
 
 if TYPE_CHECKING:
     from mamori_tools.campaign import Selection
-    from mamori_tools.motion import Motion
 
 
 @dataclass(frozen=True)
@@ -33,15 +32,10 @@ class CampaignRequest:
     def check(self, project: Project) -> tuple[str, ...]:
         """@return what the motion has that is not used, in words. @raise InputError for a motion that cannot be followed, or scenarios
         and instants that it or the plan lacks."""
-        from mamori_tools.campaign import resolve
-        from mamori_trace.base.errors import InputError
+        from mamori_tools.campaign import load_subject
 
-        try:
-            motion = self._read_motion(project)
-            resolve(self._select(project), motion)
-            return motion.notes
-        except InputError as error:
-            raise InputError(str(error)) from error
+        selection = self._select(project)
+        return load_subject(selection.plan.subject).expand(selection, self._list_files(project)).notes
 
     def run(self, context: Context, tick: Tick, log: TextIO) -> None:
         """Runs the campaign as a step, with a line per case in `log`. @raise WorkError when a case failed."""
@@ -55,9 +49,8 @@ class CampaignRequest:
 
         project = context.project
         try:
-            result = run_campaign(self._select(project), program=project.safe_arm, model=project.model,
-                                  motion=self._read_motion(project), evidence=project.evidence, jobs=context.jobs,
-                                  progress=show)  # fmt: skip
+            result = run_campaign(self._select(project), program=project.safe_arm, files=self._list_files(project),
+                                  evidence=project.evidence, jobs=context.jobs, progress=show)  # fmt: skip
         except InputError as error:
             raise WorkError(str(error)) from error
         if not result.passed:
@@ -69,7 +62,5 @@ class CampaignRequest:
 
         return select(load_plan(project.campaign_plan), self.scenarios, self.instants)
 
-    def _read_motion(self, project: Project) -> Motion:
-        from mamori_tools.motion import load_limits, read_motion
-
-        return read_motion(self.motion, load_limits(project.model))
+    def _list_files(self, project: Project) -> dict[str, Path]:
+        return {"model": project.model, "motion": self.motion}

@@ -7,31 +7,43 @@ import json
 import shlex
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mamori_tools.campaign.judge import Check, is_passed
-from mamori_tools.campaign.selection import Case
+from mamori_tools.campaign.case import Case, Check, Evaluation, Verdict
 from mamori_trace.base.text_file import write_text
 
 SCHEMA = "mamori.campaign/1"
 TECHNIQUE = "fault_injection"
+VERDICT_WORDS: Mapping[Verdict, str] = {"passed": "pass", "failed": "fail", "inconclusive": "inconclusive"}
 
 
 @dataclass(frozen=True)
 class CaseResult:
-    """A judged case. `run` is run.json as written, empty where there is none; `command` made it; `wall_s` [s]."""
+    """A judged case. `command` ran it in `wall_s` [s]; `description` is what the subject states of it."""
 
     case: Case
-    run: Mapping[str, Any]
-    checks: tuple[Check, ...]
+    evaluation: Evaluation
     command: tuple[str, ...]
     wall_s: float
+    description: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def run(self) -> Mapping[str, Any]:
+        return self.evaluation.run
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        return self.evaluation.checks
+
+    @property
+    def verdict(self) -> Verdict:
+        return self.evaluation.verdict
 
     @property
     def passed(self) -> bool:
-        return is_passed(self.checks)
+        return self.verdict == "passed"
 
     @property
     def reproduction(self) -> str:
@@ -47,21 +59,18 @@ class CaseResult:
 
     def to_json(self) -> dict[str, Any]:
         case = self.case
-        expected = case.expected
         return {
             "id": case.id,
             "scenario": case.scenario,
             "title": case.title,
             "requirements": list(case.requirements),
-            "polarity": "nominal" if case.fault is None else "violation",
             "requirement_polarity": dict(case.requirements),
-            "expected": {"state": expected.state, "reaction": list(expected.reactions),
-                         "detected_fault": list(expected.detected_faults), "within_s": expected.within_s},
+            **self.description,
             "run": dict(self.run),
             "folder": case.id,
             "command": shlex.join(self.command),
             "checks": [asdict(check) for check in self.checks],
-            "verdict": "pass" if self.passed else "fail",
+            "verdict": VERDICT_WORDS[self.verdict],
         }  # fmt: skip
 
 
@@ -74,7 +83,7 @@ class CampaignResult:
 
     @property
     def failed_cases(self) -> tuple[CaseResult, ...]:
-        return tuple(each for each in self.cases if not each.passed)
+        return tuple(each for each in self.cases if each.verdict == "failed")
 
     @property
     def passed(self) -> bool:
@@ -96,7 +105,7 @@ class CampaignResult:
         suite.set("tests", str(len(suite)))
         suite.set("failures", str(len(suite.findall("testcase/failure"))))
         suite.set("errors", "0")
-        suite.set("skipped", "0")
+        suite.set("skipped", str(len(suite.findall("testcase/skipped"))))
         suite.set("time", f"{sum(each.wall_s for each in self.cases):.3f}")
         suites = ElementTree.Element("testsuites")
         suites.append(suite)
@@ -111,7 +120,10 @@ def _make_testcase(result: CaseResult, requirement: str, polarity: str) -> Eleme
     properties = ElementTree.SubElement(element, "properties")
     for name, value in (("requirement", requirement), ("technique", TECHNIQUE), ("polarity", polarity)):
         ElementTree.SubElement(properties, "property", name=name, value=value)
-    if not result.passed:
+    if result.verdict == "inconclusive":
+        ElementTree.SubElement(element, "skipped")
+        ElementTree.SubElement(properties, "property", name="verdict", value="inconclusive")
+    elif not result.passed:
         failure = ElementTree.SubElement(element, "failure", message=_clean(result.failure))
         failure.text = _clean(f"{result.failure}; {result.reproduction}")
     return element

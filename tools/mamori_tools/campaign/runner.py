@@ -17,12 +17,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mamori_tools.campaign.judge import judge
+from mamori_tools.campaign.case import Case, Selection
 from mamori_tools.campaign.result import CampaignResult, CaseResult
-from mamori_tools.campaign.run_record import load_run
-from mamori_tools.campaign.selection import Case, Selection, resolve
-from mamori_tools.motion import Motion, write_canonical
-from mamori_trace.base.errors import InputError, WorkError
+from mamori_tools.campaign.subject import Subject, load_subject
+from mamori_trace.base.errors import InputError
+from mamori_trace.base.text_file import write_text
 
 DEFAULT_TIMEOUT_S = 120.0
 """Wall time after which a run is ended; a run takes about a second."""
@@ -51,8 +50,7 @@ def run_campaign(
     selection: Selection,
     *,
     program: Path,
-    model: Path,
-    motion: Motion,
+    files: Mapping[str, Path],
     evidence: Path,
     jobs: int | None = None,
     timeout_s: float = DEFAULT_TIMEOUT_S,
@@ -68,18 +66,22 @@ def run_campaign(
     among them, the running processes are ended.
     Raises InputError: program or model missing, a bad number, an instant that the motion does not have, no room to write.
     """
-    _check_setting(program, model, jobs, timeout_s)
-    cases = resolve(selection, motion)
+    _check_setting(program, jobs, timeout_s)
+    subject = load_subject(selection.plan.subject)
+    expansion = subject.expand(selection, files)
+    cases = expansion.cases
     folder = evidence / "campaign"
     _clear(evidence, cases)
-    table = folder / "motion.txt"
-    write_canonical(motion, table)
-    commands = [_make_command(case, program, model, table, folder / case.id) for case in cases]
+    for name, content in expansion.inputs.items():
+        write_text(folder / name, content.decode("utf-8"))
+    # A bare name would be searched in PATH, not here.
+    program = program.absolute()
+    commands = [subject.command(case, program, folder, folder / case.id) for case in cases]
     known = find_environment(evidence) if environment is None else environment
     variables = dict(os.environ)
     if isinstance(known.get("commit"), str):
         variables["MAMORI_COMMIT"] = known["commit"]
-    queue = _Queue(cases, commands, folder, variables, timeout_s, progress)
+    queue = _Queue(subject, cases, commands, folder, variables, timeout_s, progress)
     results = queue.run(jobs or len(os.sched_getaffinity(0)))
     result = CampaignResult(tuple(results), known)
     result.write(evidence)
@@ -106,8 +108,9 @@ def find_environment(evidence: Path) -> dict[str, Any]:
 class _Queue:
     """Keeps up to `jobs` processes busy until every case is judged."""
 
-    def __init__(self, cases: Sequence[Case], commands: Sequence[tuple[str, ...]], folder: Path,
+    def __init__(self, subject: Subject, cases: Sequence[Case], commands: Sequence[tuple[str, ...]], folder: Path,
                  variables: Mapping[str, str], timeout_s: float, progress: Progress | None) -> None:  # fmt: skip
+        self._subject = subject
         self._waiting = list(enumerate(zip(cases, commands, strict=True)))[::-1]
         self._folder = folder
         self._variables = variables
@@ -140,16 +143,14 @@ class _Queue:
                 _end(job.process)
                 problem = f"no end after {self._timeout_s:g} s; the process was ended"
             self._running.remove(job)
-            self._results[job.index] = _conclude(job, problem)
+            self._results[job.index] = _conclude(self._subject, job, problem)
             if self._progress is not None:
                 self._progress(self._results[job.index], len(self._results), self._total)
 
 
-def _check_setting(program: Path, model: Path, jobs: int | None, timeout_s: float) -> None:
+def _check_setting(program: Path, jobs: int | None, timeout_s: float) -> None:
     if not program.is_file() or not os.access(program, os.X_OK):
         raise InputError("no program that can be run; build it first", program)
-    if not model.is_file():
-        raise InputError("model file not found; check the path", model)
     if jobs is not None and jobs < 1:
         raise InputError(f"{jobs} jobs; write 1 or more")
     if not timeout_s > 0.0:
@@ -173,18 +174,6 @@ def _clear(evidence: Path, cases: Sequence[Case]) -> None:
         raise InputError(f"evidence cannot be written: {error.strerror}; check the folder", evidence) from error
 
 
-def _make_command(case: Case, program: Path, model: Path, table: Path, folder: Path) -> tuple[str, ...]:
-    # A bare name would be searched in PATH, not here.
-    name = str(program) if program.parent != Path() else f"./{program}"
-    command = [name, "run", "--model", str(model), "--motion", str(table)]
-    if case.fault is not None:
-        command += ["--fault", case.fault.to_text()]
-    command += ["--seed", str(case.seed)]
-    if case.frames is not None:
-        command += ["--frames", str(case.frames)]
-    return (*command, "--out", str(folder))
-
-
 def _start(index: int, case: Case, command: tuple[str, ...], folder: Path, variables: Mapping[str, str]) -> _Job:
     try:
         with (folder / "program.log").open("wb") as log:
@@ -203,18 +192,13 @@ def _end(process: subprocess.Popen[bytes]) -> None:
         process.wait()
 
 
-def _conclude(job: _Job, problem: str) -> CaseResult:
+def _conclude(subject: Subject, job: _Job, problem: str) -> CaseResult:
     status = job.process.returncode
     if not problem and status != 0:
         how = f"exit status {status}" if status > 0 else f"signal {-status}"
         problem = f"program ended with {how}: {_last_words(job.folder / 'program.log')}"
-    run: dict[str, Any] = {}
-    try:
-        run = load_run(job.folder / "run.json")
-    except WorkError as error:
-        problem = problem or str(error)
-    checks = judge(job.case, run, problem)
-    return CaseResult(job.case, run, tuple(checks), job.command, time.monotonic() - job.started_s)
+    evaluation = subject.evaluate(job.case, job.folder, problem)
+    return CaseResult(job.case, evaluation, job.command, time.monotonic() - job.started_s, subject.describe(job.case))
 
 
 def _last_words(log: Path) -> str:

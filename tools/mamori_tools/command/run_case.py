@@ -25,7 +25,8 @@ from mamori_tools.host.steps import Context, all_passed, run_steps
 from mamori_trace.base.errors import InputError
 
 if TYPE_CHECKING:
-    from mamori_tools.campaign import CaseResult, Plan, Scenario, Selection
+    from mamori_tools.campaign import CaseResult, Plan, Selection
+    from mamori_tools.campaign.arm.plan import ArmScenario
     from mamori_tools.motion import Motion
 
 FAULT_HELP = """KIND[,key=value...]; default: none
@@ -43,11 +44,13 @@ REJECTED_INPUT = 2
 
 def run_case(jobs: int, motion_file: Path | None, fault: str | None) -> int:
     """Builds the program, runs one case, shows it and writes its page. @return exit status. @raise InputError."""
-    from mamori_tools.campaign import load_plan, resolve, run_campaign
+    from mamori_tools.campaign import load_plan, run_campaign
+    from mamori_tools.campaign.arm.selection import resolve
     from mamori_tools.motion import load_limits, read_motion
 
     project = Project(ROOT)
-    motion = read_motion(motion_file or project.motion, load_limits(project.model))
+    files = {"model": project.model, "motion": motion_file or project.motion}
+    motion = read_motion(files["motion"], load_limits(project.model))
     selection = select_case(load_plan(project.campaign_plan), motion, fault)
     case = resolve(selection, motion)[0]
     context = Context(project, jobs)
@@ -55,7 +58,7 @@ def run_case(jobs: int, motion_file: Path | None, fault: str | None) -> int:
         return EXIT_FAILED
     folder = project.root / "build" / "run" / case.scenario
     _make_empty(folder)
-    result = run_campaign(selection, program=project.safe_arm, model=project.model, motion=motion, evidence=folder, jobs=1).cases[0]
+    result = run_campaign(selection, program=project.safe_arm, files=files, evidence=folder, jobs=1).cases[0]
     log = folder / "campaign" / case.id / "program.log"
     if not result.run and f"exit status {REJECTED_INPUT}" in result.failure:
         raise InputError("run: " + log.read_text(encoding="utf-8").strip().splitlines()[-1].removeprefix("safe_arm: "))
@@ -82,11 +85,13 @@ def _make_empty(folder: Path) -> None:
 def select_case(plan: Plan, motion: Motion, fault: str | None) -> Selection:
     """The one case that `fault` (KIND[,key=value...]) asks for; None: no fault. @raise InputError with the valid words."""
     from mamori_tools.campaign import Selection
+    from mamori_tools.campaign.arm.plan import ArmScenario
 
     kind, *pairs = ("none" if fault is None else fault).removeprefix("kind=").split(",")
-    scenarios = [each for each in plan.scenarios if each.fault.kind == kind]
+    known = [each for each in plan.scenarios if isinstance(each, ArmScenario)]
+    scenarios = [each for each in known if each.fault.kind == kind]
     if not scenarios:
-        raise InputError(f"run: --fault: unknown kind '{kind}'; known: {_join(each.fault.kind for each in plan.scenarios)}")
+        raise InputError(f"run: --fault: unknown kind '{kind}'; known: {_join(each.fault.kind for each in known)}")
     given = _read_pairs(pairs, scenarios[0], motion)
     # Scenarios in the order of the plan; a scenario with each part that was given comes first.
     scenario = max(scenarios, key=lambda each: sum(getattr(each.fault, _FIELDS[key]) == value
@@ -104,8 +109,8 @@ _FIELDS = {"joint": "joint", "channel": "channel", "magnitude": "magnitude", "du
 """Part of a fault on the command line -> field of the plan."""
 
 
-def _read_pairs(pairs: Iterable[str], scenario: Scenario, motion: Motion) -> dict[str, Any]:
-    from mamori_tools.campaign.fault import KINDS
+def _read_pairs(pairs: Iterable[str], scenario: ArmScenario, motion: Motion) -> dict[str, Any]:
+    from mamori_tools.campaign.arm.fault import KINDS
 
     kind = scenario.fault.kind
     uses = KINDS[kind]
@@ -124,7 +129,7 @@ def _read_pairs(pairs: Iterable[str], scenario: Scenario, motion: Motion) -> dic
 
 
 def _read_value(key: str, text: str, motion: Motion) -> int | float | str:
-    from mamori_tools.campaign.fault import CHANNELS, FASTEST
+    from mamori_tools.campaign.arm.fault import CHANNELS, FASTEST
 
     joints = len(motion.joint_names)
     if key == "channel":
@@ -157,7 +162,10 @@ def _join(words: Iterable[str]) -> str:
 
 def summarise(result: CaseResult) -> list[str]:
     """One screen: fault, reaction, stopping figures, expected and real end state."""
+    from mamori_tools.campaign.arm.selection import ArmCase
+
     case, run = result.case, result.run
+    assert isinstance(case, ArmCase)
     physics = run.get("physics", {})
     begin = (run.get("fault") or {}).get("at_s")
     travel = max(physics.get("stop_travel_rad", []), default=None)

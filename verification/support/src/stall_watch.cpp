@@ -51,25 +51,12 @@ std::uint64_t read_involuntary_switches() {
 
 }  // namespace
 
-bool overlaps(const std::vector<Stall>& stalls, Instant begin, Instant end) {
-    const auto first = find_first(stalls, begin);
-    return first != stalls.end() && first->begin <= end;
-}
-
 Duration calc_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end) {
     Duration loss{0};
     for (auto look = find_first(late_looks, begin); look != late_looks.end() && look->begin < end; ++look) {
         loss = loss + (std::min(look->end, end) - std::max(look->begin, begin));
     }
     return loss;
-}
-
-Duration calc_longest_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end) {
-    Duration longest{0};
-    for (auto look = find_first(late_looks, begin); look != late_looks.end() && look->begin < end; ++look) {
-        longest = std::max(longest, std::min(look->end, end) - std::max(look->begin, begin));
-    }
-    return longest;
 }
 
 int find_processor() noexcept {

@@ -32,7 +32,7 @@ constexpr std::uint32_t kWellFrames{20U};
 constexpr Duration kStep = 1_ms;
 constexpr Duration kPatience = 20_s;
 /// A partition that has not done what it was told by then does not come to it.
-constexpr Duration kDeedPatience = 2_s;
+constexpr Duration kInjectionPatience = 2_s;
 constexpr int kStartTries{20};
 /// Frames for which there is room in the logs: some five times what a fault takes, and a slow start.
 constexpr std::size_t kFramesPerFault{1000U};
@@ -73,7 +73,7 @@ struct Link {
     }
 };
 
-/// Takes down each opening, on the thread that runs the windows.
+/// Records each window instance, on the thread that runs the windows.
 class OpeningLog final : public OpeningObserver {
   public:
     OpeningLog(const FrameClock& clock, std::size_t room, verification::Defect defect)
@@ -125,7 +125,7 @@ class Director final {
         static_cast<void>(wait([this] { return partition_.check() != PartitionState::kRunning; }, kPatience));
         return trouble;
     }
-    const std::vector<Deed>& get_deeds() const noexcept { return deeds_; }
+    const std::vector<Injected>& get_injections() const noexcept { return injections_; }
 
   private:
     template <typename Condition>
@@ -160,15 +160,16 @@ class Director final {
         if (!is_well) {
             return kNoTime;
         }
-        Deed deed = commit(fault.kind);
-        static_cast<void>(wait([] { return is_stopped.load(std::memory_order_acquire); }, kDeedPatience));
+        Injected injected = inject(fault.kind);
+        static_cast<void>(
+            wait([] { return is_stopped.load(std::memory_order_acquire); }, kInjectionPatience));
         clock_.wait_until(clock_.get_now() + fault.hold);
         static_cast<void>(partition_.end());
         if (!wait([this] { return partition_.check() == PartitionState::kEnded; }, kPatience)) {
             return "the partition did not end";
         }
-        deed.over = clock_.get_now();
-        deeds_.push_back(deed);
+        injected.over = clock_.get_now();
+        injections_.push_back(injected);
         return "";
     }
 
@@ -201,8 +202,8 @@ class Director final {
             kPatience);
     }
 
-    Deed commit(Kind kind) {
-        Deed deed{kind, clock_.get_now(), {}, {}, true};
+    Injected inject(Kind kind) {
+        Injected injected{kind, clock_.get_now(), {}, {}, true};
         int signal = SIGKILL;
         switch (kind) {
             case Kind::kKill:
@@ -218,13 +219,14 @@ class Director final {
                 break;
         }
         static_cast<void>(::kill(partition_.get_pid(), signal));
-        deed.done = clock_.get_now();
+        injected.done = clock_.get_now();
         if (kind == Kind::kFlood || kind == Kind::kCorrupt) {
             Note note{};
-            deed.is_done =
-                wait([&] { return link_.take_note(note, deed.done) && note == Note::kDone; }, kDeedPatience);
+            injected.is_done =
+                wait([&] { return link_.take_note(note, injected.done) && note == Note::kDone; },
+                     kInjectionPatience);
         }
-        return deed;
+        return injected;
     }
 
     const CampaignRequest& request_;
@@ -232,7 +234,7 @@ class Director final {
     Link& link_;
     Instant last_;
     PartitionProcess partition_{};
-    std::vector<Deed> deeds_{};
+    std::vector<Injected> injections_{};
 };
 
 /// Nothing around the windows.
@@ -253,7 +255,7 @@ std::vector<Opening> run_in_virtual_time(const std::vector<TimedOpening>& openin
     const auto frames = static_cast<std::uint64_t>(last.release.ns / kFrame.ns) + 1U;
     SystemLog log;
     log.ran.resize(frames * kWindowCount);
-    log.looks.reserve(frames);
+    log.receptions.reserve(frames);
     SystemLog* const before = system_log;
     system_log = &log;
     std::array<Duration, 1U> durations{1_us};
@@ -273,12 +275,6 @@ std::vector<Opening> run_in_virtual_time(const std::vector<TimedOpening>& openin
         }
     }
     return expected;
-}
-
-Verdict refuse(const char* trouble) {
-    Verdict verdict;
-    verdict.trouble = trouble;
-    return verdict;
 }
 
 }  // namespace
@@ -302,7 +298,7 @@ std::vector<Fault> make_plan(const CampaignRequest& request) {
     return plan;
 }
 
-Verdict run(const CampaignRequest& request) {
+Course run(const CampaignRequest& request) {
     // Work that hangs longer than the run may still look at these.
     static const FrameClock clock = FrameClock::starting_in(200_ms);
     static const int processor = find_processor();
@@ -311,7 +307,7 @@ Verdict run(const CampaignRequest& request) {
     static Link link;
     const std::size_t frames = request.fault_count * kFramesPerFault + kFramesBeside;
     log.ran.resize(frames * kWindowCount);
-    log.looks.reserve(frames);
+    log.receptions.reserve(frames);
     log.reactions.reserve(frames);
     log.clock = &clock;
     log.defect = request.defect;
@@ -320,7 +316,9 @@ Verdict run(const CampaignRequest& request) {
     static_cast<void>(lock_memory(256U * 1024U));
     if (!link.open() || host.open(kRunnerPriority) != Status::kOk || executive.initialize() != Status::kOk ||
         executive.start() != Status::kOk) {
-        return refuse("the safety system does not start");
+        Course course;
+        course.trouble = "the safety system does not start";
+        return course;
     }
     CoreRunner runner{executive, host, clock};
     runner.set_observer(&openings);
@@ -329,7 +327,7 @@ Verdict run(const CampaignRequest& request) {
     StallWatch stalls{clock,
                       Duration{kFrame.ns / std::int64_t{kLooksPerFrame}},
                       {kWatchPriority, processor},
-                      frames * kLooksPerFrame};  // none may be missing: they are excuses
+                      frames * kLooksPerFrame};  // none may be missing: they are host causes
     Right right{};
     std::thread thread{[&runner, &right] {
         right =
@@ -345,27 +343,23 @@ Verdict run(const CampaignRequest& request) {
     stalls.stop();
     occupancy.stop();
     const bool is_closed = host.close() == Status::kOk;
-    Course course{{},
-                  log.take_ran(),
-                  std::move(openings.openings),
-                  std::move(log.looks),
-                  std::move(log.reactions),
-                  director.get_deeds(),
-                  stalls.get_stalls(),
-                  stalls.get_late_looks(),
-                  occupancy.knows(),
-                  occupancy.get_foreign()};
+    Course course;
+    course.ran = log.take_ran();
+    course.openings = std::move(openings.openings);
+    course.receptions = std::move(log.receptions);
+    course.reactions = std::move(log.reactions);
+    course.injections = director.get_injections();
+    course.stalls = stalls.get_stalls();
+    course.late_polls = stalls.get_late_looks();
+    course.knows_foreign = occupancy.knows();
+    course.foreign = occupancy.get_foreign();
     course.expected = run_in_virtual_time(course.openings);
-    Verdict verdict = judge(course);
-    verdict.frames = course.openings.size() / kWindowCount;
-    verdict.requested = request.fault_count;
-    verdict.host = stalls.get_figures();
-    verdict.is_too_slow = trouble == kTooSlow || trouble == kNoTime;
-    verdict.trouble = is_closed ? trouble : "work of a safety window hangs";
-    verdict.has_run = *verdict.trouble == '\0';
-    verdict.has_priority =
+    course.host = stalls.get_figures();
+    course.is_too_slow = trouble == kTooSlow || trouble == kNoTime;
+    course.trouble = is_closed ? trouble : "work of a safety window hangs";
+    course.has_priority =
         combine(right, combine(host.get_priority_right(), host.get_processor_right())).is_granted;
-    return verdict;
+    return course;
 }
 
 }  // namespace mamori::partition_faults

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Runs a safety system by the clock beside a process that is killed, stopped, floods and corrupts at random
+/// Runs a safety system in real time next to a process that is killed, stopped, floods and corrupts at random
 /// instants, and restarts it after each.
 #ifndef MAMORI_PARTITION_FAULTS_CAMPAIGN_HPP
 #define MAMORI_PARTITION_FAULTS_CAMPAIGN_HPP
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "judge.hpp"
+#include "course.hpp"
 #include "mamori/verification/seeded_defect.hpp"
 
 namespace mamori::partition_faults {
 
-/// Most faults of one run: what is written down of them fits into the memory that is taken before.
+/// Most faults of one run: their records fit into the memory that is taken before.
 inline constexpr std::uint64_t kFaultsMax{5000U};
 
 /// One fault of the plan.
@@ -35,12 +34,11 @@ struct CampaignRequest {
 /// The same request gives the same faults. Each kind comes once in four faults.
 std::vector<Fault> make_plan(const CampaignRequest& request);
 
-/// Runs it: some 0.2 s per fault. To be called once per process.
-Verdict run(const CampaignRequest& request);
+/// Runs it: some 0.2 s per fault. Call once per process.
+Course run(const CampaignRequest& request);
 
-/// One JSON document: commit, configuration, seed and figures; the plan with the outcome of each fault when
-/// it is not well.
-std::string to_json(const CampaignRequest& request, const Verdict& verdict);
+/// @return false: the file cannot be written.
+bool write_course(const CampaignRequest& request, const Course& course, const char* path);
 
 }  // namespace mamori::partition_faults
 

@@ -92,7 +92,7 @@ class Guard final : public Component {
         const bool is_right = is_answer && answer.read().check == calc_check(answer.read());
         const bool is_malformed = now.outcome == FrameOutcome::kMalformed;
         const bool is_flood = is_answer && now.skipped > kSkippedMax;
-        add(system_log->looks, {context.now, is_answer, is_right, is_malformed, now.skipped});
+        add(system_log->receptions, {context.now, is_answer, is_right, is_malformed, now.skipped});
         follow_reset();
         const bool is_good = is_right && !is_flood;
         if (is_good) {

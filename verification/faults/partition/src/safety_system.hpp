@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The safety system beside the partition: it asks, supervises what comes back, and stops its drive when that
-/// is silent, too much or wrong. What it does is written down for the judge.
+/// is silent, too much or wrong. What it does is recorded.
 #ifndef MAMORI_PARTITION_FAULTS_SAFETY_SYSTEM_HPP
 #define MAMORI_PARTITION_FAULTS_SAFETY_SYSTEM_HPP
 
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "judge.hpp"
+#include "course.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
@@ -39,7 +39,7 @@ struct SystemLog {
     /// By place, since work that was cut off may come back beside that of another window.
     std::vector<Opening> ran{};
     std::atomic<std::size_t> ran_count{0U};
-    std::vector<Look> looks{};
+    std::vector<Reception> receptions{};
     std::vector<ReactionBegin> reactions{};
     /// The openings that were written down. To be called once, when nothing runs any more.
     std::vector<Opening> take_ran() {

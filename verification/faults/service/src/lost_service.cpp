@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lost_service.hpp"
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <random>
@@ -12,6 +11,7 @@
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
 #include "mamori/verification/awake_processor.hpp"
+#include "mamori/verification/course_file.hpp"
 #include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::lost_service {
@@ -165,16 +165,6 @@ struct Rig {
     ports::posix_rt::Right right;
 };
 
-std::string to_text(const LossTrial& trial) {
-    return "{\"loss\": " + std::to_string(static_cast<int>(trial.loss)) +
-           ", \"cause\": " + std::to_string(static_cast<int>(trial.cause)) +
-           ", \"asked_at_ns\": " + std::to_string(trial.asked_at.ns) +
-           ", \"taken_at_ns\": " + std::to_string(trial.taken_at.ns) +
-           ", \"injected_at_ns\": " + std::to_string(trial.injected_at.ns) +
-           ", \"closed_at_ns\": " + std::to_string(trial.closed_at.ns) +
-           ", \"ended_at_ns\": " + std::to_string(trial.ended_at.ns) + "}";
-}
-
 /// @return frames. Afterwards `stage.trial` is what became of it.
 std::uint64_t run_trial(Rig& rig, Loss loss, std::uint64_t loss_frame) {
     SoftwareWatchdog watchdog{rig.clock, kWatchdogWindow, {&Stage::close_outputs, &stage, false}};
@@ -208,17 +198,6 @@ std::uint64_t run_trial(Rig& rig, Loss loss, std::uint64_t loss_frame) {
 
 }  // namespace
 
-verification::RunEvidence LossRun::get_evidence() const noexcept {
-    return {verdict.unanswered + verdict.early,
-            verdict.late + verdict.invented,
-            verdict.suspected,
-            verdict.by_host + verdict.late_by_host,
-            frames,
-            verdict.injected,
-            verdict.requested,
-            host};
-}
-
 LossRun run_losses(const LossRequest& request) {
     static const FrameClock clock = FrameClock::starting_in(100_ms);
     static_cast<void>(ports::posix_rt::lock_memory(256U * 1024U));
@@ -232,63 +211,51 @@ LossRun run_losses(const LossRequest& request) {
     runner.set_observer(&director);
     stage.defect = request.defect;
     LossRun result;
-    // Started once, since a component lives once; each run goes on with it.
-    static const bool is_started = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
-    if (!is_started || host.open() != Status::kOk) {
+    if (executive.initialize() != Status::kOk || executive.start() != Status::kOk ||
+        host.open() != Status::kOk) {
         return result;
     }
     Rig rig{clock, host, runner, director, processor, combine(right, host.get_priority_right())};
     std::mt19937_64 random{request.seed};
-    std::vector<LossTrial> trials;
     const verification::AwakeProcessor awake{processor};
     StallWatch stalls{clock, Duration{kTick.ns / 20}, {kStallPriority, processor}};
     for (std::uint64_t i = 0U; i < request.trial_count; ++i) {
         const std::uint64_t loss_frame = kFramesBefore + random() % kFramesSpread;
         result.frames += run_trial(rig, static_cast<Loss>(i % kLossCount), loss_frame);
-        trials.push_back(stage.trial);
+        result.trials.push_back(stage.trial);
     }
     stalls.stop();
     while (host.close() != Status::kOk) {
         clock.wait_until(clock.get_now() + kTick);
     }
-    result.verdict = judge_losses(trials, stalls.get_stalls(), kServiceTimeout);
+    result.stalls = stalls.get_stalls();
     result.host = stalls.get_figures();
     result.has_priority = rig.right.is_granted;
     return result;
 }
 
-std::string to_json(const LossRequest& request, const LossRun& run) {
-    std::vector<std::int64_t> sorted = run.verdict.reaction_ns;
-    std::sort(sorted.begin(), sorted.end());
-    const auto quantile = [&sorted](std::size_t percent) {
-        return sorted.empty() ? std::int64_t{0} : sorted[(sorted.size() - 1U) * percent / 100U];
-    };
-    const auto number = [](const char* key, std::int64_t value) {
-        return ",\n \"" + std::string{key} + "\": " + std::to_string(value);
-    };
-    const auto count = [&number](const char* key, std::uint64_t value) {
-        return number(key, static_cast<std::int64_t>(value));
-    };
-    const LossVerdict& verdict = run.verdict;
-    const verification::RunFinding finding = verification::assess_run(run.get_evidence());
-    std::string list;
-    for (const LossTrial& trial : verdict.unexplained) {
-        list += (list.empty() ? "\n  " : ",\n  ") + to_text(trial);
-    }
-    return "{\"schema\": \"mamori.lost_service/2\"" + count("seed", request.seed) +
-           count("trials", request.trial_count) + count("frames", run.frames) +
-           count("requested", verdict.requested) + count("injected", verdict.injected) +
-           count("answered", verdict.answered) + count("unanswered", verdict.unanswered) +
-           count("late", verdict.late) + count("late_by_host", verdict.late_by_host) +
-           count("early", verdict.early) + count("invented", verdict.invented) +
-           count("suspected", verdict.suspected) + count("by_host", verdict.by_host) +
-           count("stalls", run.host.stalls) + number("longest_stall_ns", run.host.longest_stall.ns) +
-           number("timeout_ns", kServiceTimeout.ns) + number("reaction_p50_ns", quantile(50U)) +
-           number("reaction_p99_ns", quantile(99U)) + number("reaction_max_ns", quantile(100U)) +
-           ",\n \"unexplained\": [" + list + "]" +
-           ",\n \"has_priority\": " + (run.has_priority ? "true" : "false") + ",\n \"defect\": \"" +
-           verification::get_name(request.defect) + "\",\n \"verdict\": \"" +
-           verification::get_name(finding.verdict) + "\",\n \"reason\": \"" + finding.reason + "\"\n}\n";
+bool write_course(const LossRequest& request, const LossRun& run, const char* path) {
+    verification::CourseFile file{"service"};
+    file.add("seed", request.seed);
+    file.add("defect", verification::get_name(request.defect));
+    file.add("frames", run.frames);
+    file.add("has_priority", run.has_priority);
+    file.add("frame_ns", kTick.ns);
+    file.add("timeout_ns", kServiceTimeout.ns);
+    file.add("losses", {"none", "hang", "wait", "unhealthy", "inconsistent", "runaway", "no_window"});
+    file.add("host", run.host);
+    file.add("stalls", run.stalls);
+    file.add<LossTrial>("trials", run.trials,
+                        {{"loss", [](const LossTrial& row) { return static_cast<std::int64_t>(row.loss); }},
+                         {"is_injected", [](const LossTrial& row) { return std::int64_t{row.is_injected}; }},
+                         {"injected_ns", [](const LossTrial& row) { return row.injected_at.ns; }},
+                         {"service_begin_ns", [](const LossTrial& row) { return row.asked_at.ns; }},
+                         {"service_end_ns", [](const LossTrial& row) { return row.taken_at.ns; }},
+                         {"is_closed", [](const LossTrial& row) { return std::int64_t{row.is_closed}; }},
+                         {"closed_ns", [](const LossTrial& row) { return row.closed_at.ns; }},
+                         {"cause", [](const LossTrial& row) { return static_cast<std::int64_t>(row.cause); }},
+                         {"end_ns", [](const LossTrial& row) { return row.ended_at.ns; }}});
+    return file.write(path);
 }
 
 }  // namespace mamori::lost_service

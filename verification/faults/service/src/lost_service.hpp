@@ -1,46 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Takes the service away from the watchdog of a system that runs by the clock, in each way and at random
-/// instants, and judges whether the outputs were closed in time.
+/// Takes the service away from the watchdog of a system that runs in real time, in each way and at random
+/// instants, and records when the outputs were closed. `verification/faults/evaluation` decides.
 #ifndef MAMORI_LOST_SERVICE_LOST_SERVICE_HPP
 #define MAMORI_LOST_SERVICE_LOST_SERVICE_HPP
 
 #include <cstdint>
-#include <string>
+#include <vector>
 
-#include "loss_judge.hpp"
-#include "mamori/verification/run_verdict.hpp"
+#include "mamori/kernel/base/time.hpp"
+#include "mamori/ports/posix_rt/software_watchdog.hpp"
 #include "mamori/verification/seeded_defect.hpp"
+#include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::lost_service {
+
+/// Major frame of the system.
+inline constexpr Duration kTick{1'000'000};
 
 /// Longest time without a service in these runs: that of the example arm.
 inline constexpr Duration kServiceTimeout{5'000'000};
 
-/// Trials go through the ways in turn, kNone among them, each with a new watchdog; the seed gives the
-/// instants.
+/// How the watchdog loses its service.
+enum class Loss : std::uint8_t {
+    kNone,          ///< it keeps its service
+    kHang,          ///< the supervisor computes until the outputs are closed
+    kWait,          ///< it waits until the outputs are closed
+    kUnhealthy,     ///< a component of the safety partition has expired, so the gate rejects
+    kInconsistent,  ///< the safe-state machine contradicts itself, so the gate rejects
+    kRunaway,       ///< an endless loop services again at once
+    kNoWindow,      ///< the thread that starts the windows hangs, so no window starts
+};
+inline constexpr std::size_t kLossCount = 7U;
+
+/// A watchdog from its first service on, and at most one loss.
+struct LossTrial {
+    Loss loss{Loss::kNone};
+    bool is_injected{false};
+    Instant injected_at{};
+    Instant asked_at{};  ///< reading of the clock before the last service that was taken
+    Instant taken_at{};  ///< and after it: the watchdog time began in between
+    bool is_closed{false};
+    Instant closed_at{};  ///< of the outputs
+    ports::posix_rt::WatchdogCause cause{ports::posix_rt::WatchdogCause::kNone};
+    Instant ended_at{};  ///< reading of the clock before the watchdog was closed
+};
+
+/// Trials run through the ways one after another, kNone among them, each with a new watchdog; the seed gives
+/// the instants.
 struct LossRequest {
     std::uint64_t trial_count{0U};
     std::uint64_t seed{1U};
     verification::Defect defect{verification::Defect::kNone};
 };
 
-/// What came of it.
+/// The course of a run.
 struct LossRun {
-    LossVerdict verdict{};
-    std::uint64_t frames{0U};  ///< in all, most of them served
+    std::vector<LossTrial> trials{};  ///< empty: the system did not start
+    std::vector<verification::Stall> stalls{};
+    std::uint64_t frames{0U};  ///< of all trials, most of them serviced
     verification::HostFigures host{};
     bool has_priority{false};
-
-    /// For `assess_run()`.
-    verification::RunEvidence get_evidence() const noexcept;
 };
 
-/// Some 40 frames of 1 ms for each trial. To be called from the same thread each time.
+/// Some 40 frames of 1 ms for each trial. Call once per process.
 LossRun run_losses(const LossRequest& request);
 
-/// One JSON document.
-std::string to_json(const LossRequest& request, const LossRun& run);
+/// @return false: the file cannot be written.
+bool write_course(const LossRequest& request, const LossRun& run, const char* path);
 
 }  // namespace mamori::lost_service
 

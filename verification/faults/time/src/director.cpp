@@ -24,23 +24,23 @@ Director::Director(const Stage& stage, std::vector<Injection> injections)
     : stage_(stage), injections_(std::move(injections)) {
     course_.reports.reserve(kReportRoom);
     course_.delays.reserve(injections_.size());
-    course_.watch.holds.reserve(injections_.size());
-    course_.watch.clock_faults.reserve(injections_.size());
-    course_.watch.found.reserve(kReportRoom);
+    course_.holds.reserve(injections_.size());
+    course_.clock_faults.reserve(injections_.size());
+    course_.found.reserve(kReportRoom);
     course_.runner_delays.reserve(kReportRoom);
 }
 
 void Director::before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept {
     release_ = opening.release;
     woke_ = woke;
-    kept_off_ = meter_.take();
-    if (is_runner_kept_off(kept_off_, woke - opening.release) &&
+    runner_delay_ = meter_.take();
+    if (is_runner_delayed(runner_delay_, woke - opening.release) &&
         course_.runner_delays.size() < course_.runner_delays.capacity()) {
-        course_.runner_delays.push_back({opening.release - kept_off_, woke});
+        course_.runner_delays.push_back({opening.release - runner_delay_, woke});
     }
-    reads_under_way_ += stage_.is_reading.load(std::memory_order_relaxed) ? 1U : 0U;
+    course_.reads_under_way += stage_.is_reading.load(std::memory_order_relaxed) ? 1U : 0U;
     if (is_sleep_held_) {
-        note_held_sleep(opening);
+        record_held_sleep(opening);
     }
     if (get_surroundings().defect == Defect::kLateRelease && opening.window == 1U &&
         calc_frame(opening) % kDefectEvery == 0U) {
@@ -58,7 +58,7 @@ void Director::after_opening(const FrameSchedule::Opening& opening, WindowOutcom
     const Instant close = opening.release + get_executive().get_view().windows[opening.window].length;
     if (is_guard_held_) {
         is_guard_held_ = false;
-        course_.watch.holds.push_back({close, stage_.clock.get_now()});
+        course_.holds.push_back({close, stage_.clock.get_now()});
     }
     const Injection* const due = find_due(opening);
     if (due != nullptr && !is_done_before_opening(due->kind)) {
@@ -111,12 +111,12 @@ void Director::begin(const Injection& injection, const FrameSchedule::Opening& o
             }
             hold_back(opening.release + injection.size);
             course_.delays.push_back({opening.window, opening.release, stage_.clock.get_now()});
-            course_.watch.holds.push_back({opening.release, stage_.clock.get_now()});
+            course_.holds.push_back({opening.release, stage_.clock.get_now()});
             break;
         case Kind::kFastClock:
         case Kind::kSlowClock: {
             const Instant now = stage_.clock.get_now();
-            course_.watch.clock_faults.push_back({now, now + injection.size, injection.ppm});
+            course_.clock_faults.push_back({now, now + injection.size, injection.ppm});
             stage_.time.set_rate(injection.ppm);
             is_clock_wrong_ = true;
             break;
@@ -144,36 +144,36 @@ void Director::begin_after(const Injection& injection, const FrameSchedule::Open
     hold_back(next.release + injection.size);
     const Instant now = stage_.clock.get_now();
     course_.delays.push_back({next.window, next.release, now});
-    course_.watch.holds.push_back({close, now});
+    course_.holds.push_back({close, now});
     finish(kAftermath);
 }
 
-void Director::note_held_sleep(const FrameSchedule::Opening& opening) noexcept {
+void Director::record_held_sleep(const FrameSchedule::Opening& opening) noexcept {
     is_sleep_held_ = false;
     if (stage_.time.is_sleep_to_be_held()) {
         stage_.time.hold_sleep(Duration{0});  // it was late already and did not sleep: another time
         return;
     }
     course_.delays.push_back({opening.window, opening.release, woke_});
-    course_.watch.holds.push_back({opening.release, woke_});
+    course_.holds.push_back({opening.release, woke_});
     finish(kAftermath);
 }
 
 void Director::end_clock_fault() noexcept {
-    if (is_clock_wrong_ && woke_ >= course_.watch.clock_faults.back().end) {
+    if (is_clock_wrong_ && woke_ >= course_.clock_faults.back().end) {
         stage_.time.set_rate(0);
-        course_.watch.clock_faults.back().end = stage_.clock.get_now();
+        course_.clock_faults.back().end = stage_.clock.get_now();
         is_clock_wrong_ = false;
         quiet_until_ = woke_ + kAftermath;
     }
 }
 
-/// Writes a finding down and clears it as soon as the watch lets it.
+/// Records a finding and clears it as soon as the watch permits it.
 void Director::look_after_watch() noexcept {
     if (watch_ == nullptr || !watch_->is_latched()) {
         return;
     }
-    std::vector<Found>& found = course_.watch.found;
+    std::vector<Found>& found = course_.found;
     const ports::posix_rt::GridFinding finding = watch_->get_finding();
     if (found.empty() || found.back().cleared != ports::posix_rt::GridBeat::kNever) {
         found.push_back({finding, ports::posix_rt::GridBeat::kNever});
@@ -197,12 +197,12 @@ void Director::on_budget_overrun(std::size_t window, std::size_t component, Inst
     if (get_surroundings().defect == Defect::kWrongName) {
         component = (component + 1U) % kComponentCount;
     }
-    add({true, window, component, release_, woke_, now, Duration{0}, kept_off_});
+    add({true, window, component, release_, woke_, now, runner_delay_, {}});
 }
 
 void Director::on_late_release(std::size_t window, Duration lateness, Instant now) noexcept {
     if (lateness > kTick) {
-        add({false, window, kNoIndex, release_, woke_, now, lateness, kept_off_});
+        add({false, window, kNoIndex, release_, woke_, now, runner_delay_, {}});
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Puts the faults of a plan into a running system, each at its frame, and writes down what it did and what
+/// Injects the faults of a plan into a running system, each at its frame, and records what it did and what
 /// was reported.
 #ifndef MAMORI_TIME_FAULTS_DIRECTOR_HPP
 #define MAMORI_TIME_FAULTS_DIRECTOR_HPP
@@ -8,9 +8,9 @@
 #include <atomic>
 #include <vector>
 
+#include "course.hpp"
 #include "faulty_time.hpp"
 #include "inversion.hpp"
-#include "judge.hpp"
 #include "mamori/kernel/run/execution_observer.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
@@ -42,9 +42,8 @@ class Director final : public ports::posix_rt::OpeningObserver, public Execution
     void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override;
     void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override;
 
-    /// What was written down, but for deeds and stalls. To be asked after the run.
+    /// What was recorded, without overruns and stalls. Call after the run.
     const Course& get_course() const noexcept { return course_; }
-    std::uint64_t get_reads_under_way() const noexcept { return reads_under_way_; }
 
   private:
     void look_after_watch() noexcept;
@@ -52,7 +51,7 @@ class Director final : public ports::posix_rt::OpeningObserver, public Execution
     const Injection* find_due(const FrameSchedule::Opening& opening) noexcept;
     void begin(const Injection& injection, const FrameSchedule::Opening& opening) noexcept;
     void begin_after(const Injection& injection, const FrameSchedule::Opening& opening) noexcept;
-    void note_held_sleep(const FrameSchedule::Opening& opening) noexcept;
+    void record_held_sleep(const FrameSchedule::Opening& opening) noexcept;
     void finish(Duration aftermath) noexcept;
     void hold_back(Instant end) const noexcept;
     void add(const Report& report) noexcept;
@@ -66,11 +65,10 @@ class Director final : public ports::posix_rt::OpeningObserver, public Execution
     Instant release_{};
     Instant woke_{};
     verification::RunDelayMeter meter_{};
-    Duration kept_off_{};
+    Duration runner_delay_{};
     bool is_sleep_held_{false};
     bool is_guard_held_{false};
     bool is_clock_wrong_{false};
-    std::uint64_t reads_under_way_{0U};
 };
 
 }  // namespace mamori::time_faults

@@ -35,25 +35,15 @@ constexpr int kMiddlePriority = 60;
 
 std::array<WindowThread, kWindowCount> threads;
 
-Plan make_plan() {
-    Plan plan{kBudget, {kWindowOf.begin(), kWindowOf.end()}, {}, {}};
-    for (const WindowRow& row : get_executive().get_view().windows) {
-        plan.window_lengths.push_back(row.length);
-    }
-    const Duration span = kWatchLimits.rate.span;
-    plan.watch = {kTick, span + span + kTick};
-    return plan;
-}
-
 bool is_about_component(Kind kind) noexcept {
     return kind == Kind::kLoop || kind == Kind::kSleep || kind == Kind::kLockedOut ||
            kind == Kind::kStuckGuard;
 }
 
-/// What happens to the outputs is not looked at here, only whether and when it does.
+/// What happens to the outputs is not recorded, only whether and when it does.
 void keep_outputs(void*) noexcept {}
 
-/// Runs the frames under the eyes of the watch and of the thread that tells stalls.
+/// Runs the frames while the watch and the thread that records stalls poll.
 Course run_frames(const Request& request, Director& director, CoreRunner& runner, const FrameClock& clock) {
     const int processor = find_processor();
     static std::array<GridBeat, 1U> beats{GridBeat{get_executive().get_view(), 0U, &director}};
@@ -68,7 +58,7 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
     StallWatch stalls{clock,
                       Duration{kTick.ns / std::int64_t{kLooksPerFrame}},
                       {kStallPriority, processor},
-                      request.frame_count * kLooksPerFrame};  // none may be missing: they are excuses
+                      request.frame_count * kLooksPerFrame};  // none may be missing: they are host causes
     if (watch.open() == Status::kOk) {
         beats[0].expect(Instant{0});
         runner.run(request.frame_count);
@@ -79,25 +69,33 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
     stalls.stop();
     Course course = director.get_course();
     course.stalls = stalls.get_stalls();
-    course.late_looks = stalls.get_late_looks();
+    course.late_polls = stalls.get_late_looks();
     course.host = stalls.get_figures();
     return course;
 }
 
-void add_deeds(Course& course) {
+void add_overruns(Course& course) {
     const Surroundings& around = get_surroundings();
-    for (std::size_t i = 0U; i < around.deed_count.load(std::memory_order_relaxed); ++i) {
-        const Doing& doing = (*around.deeds)[i];
-        const Instant end{doing.end_ns.load(std::memory_order_acquire)};
-        course.deeds.push_back({doing.component, doing.begin, end, doing.cause});
+    for (std::size_t i = 0U; i < around.overrun_count.load(std::memory_order_relaxed); ++i) {
+        const OpenOverrun& overrun = (*around.overruns)[i];
+        const Instant end{overrun.end_ns.load(std::memory_order_acquire)};
+        course.overruns.push_back({overrun.component, overrun.begin, end, overrun.cause});
     }
 }
 
-void add_page_faults(Verdict& verdict) {
+void add_component_delays(const ComponentDelays& delays, Course& course) {
+    for (Report& report : course.reports) {
+        if (report.is_overrun) {
+            report.component_delay = delays.get(report.component, report.release);
+        }
+    }
+}
+
+void add_page_faults(Course& course) {
     // Those of one window run on one thread: the first of them tells for all.
     for (const std::size_t component : {std::size_t{0U}, std::size_t{1U}, std::size_t{3U}}) {
-        verdict.major_faults += get_victim(component).get_meter().get_major();
-        verdict.minor_faults += get_victim(component).get_meter().get_minor();
+        course.major_faults += get_victim(component).get_meter().get_major();
+        course.minor_faults += get_victim(component).get_meter().get_minor();
     }
 }
 
@@ -124,25 +122,24 @@ std::vector<Injection> make_injections(const Request& request) {
     return injections;
 }
 
-Verdict run(const Request& request) {
-    Verdict verdict;
+Course run(const Request& request) {
     const auto seconds = static_cast<unsigned>(request.frame_count / 1000U + 10U);
     PageStorm storm{request.with_storm ? seconds : 0U};
     static IntrospectionLoad load{get_introspection()};
-    // Work that hangs longer than the run may still look at these.
+    // Work that hangs longer than the run may still use these.
     static FaultyTime time{2U * request.injection_count};
     static const FrameClock clock = FrameClock::starting_in(kLead, time);
-    static std::vector<Doing> deeds(request.injection_count + 1U);
-    static Ends ends{kComponentCount, request.frame_count};
+    static std::vector<OpenOverrun> overruns(request.injection_count + 1U);
+    static ComponentDelays delays{kComponentCount, request.frame_count};
     const Right memory = ports::posix_rt::lock_memory(std::size_t{256U} * 1024U);
-    // All on one processor, or whoever tells of stalls would watch another one.
+    // All on one processor: stalls of another one would say nothing about the windows.
     const int processor = find_processor();
     static Inversion inversion{clock, kMiddlePriority, processor};
     load.bind(processor);
     get_surroundings().clock = &clock;
-    get_surroundings().deeds = &deeds;
+    get_surroundings().overruns = &overruns;
     get_surroundings().mutex = &inversion.get_mutex();
-    get_surroundings().ends = &ends;
+    get_surroundings().delays = &delays;
     get_surroundings().defect = request.defect;
     const Right right = combine(ports::posix_rt::set_priority(pthread_self(), kRunnerPriority),
                                 ports::posix_rt::set_processor(pthread_self(), processor));
@@ -152,30 +149,26 @@ Verdict run(const Request& request) {
     get_executive().set_introspection(&get_introspection());
     if (host.open() != Status::kOk || get_executive().initialize() != Status::kOk ||
         get_executive().start() != Status::kOk) {
-        return verdict;
+        return {};
     }
     get_executive().set_observer(&director);
     load.set_pace(Pace::kWithoutPause);
     Course course = run_frames(request, director, runner, clock);
     load.set_pace(Pace::kNone);
     static_cast<void>(ports::posix_rt::set_priority(pthread_self(), 0));
-    const bool has_blown = storm.stop();
+    course.has_storm = storm.stop();
     while (host.close() != Status::kOk) {
         clock.wait_until(clock.get_now() + kTick);
     }
-    add_deeds(course);
-    course.ends = ends;
-    verdict = judge(make_plan(), course);
-    verdict.frames = request.frame_count;
-    verdict.requested = request.injection_count;
-    verdict.has_priority =
+    add_overruns(course);
+    add_component_delays(delays, course);
+    course.has_run = true;
+    course.has_priority =
         combine(right, combine(host.get_priority_right(), host.get_processor_right())).is_granted;
-    verdict.reads_under_way = director.get_reads_under_way();
-    verdict.requests = load.get_request_count();
-    verdict.has_storm = has_blown;
-    verdict.has_locked_memory = memory.is_granted && has_locked_pages();
-    add_page_faults(verdict);
-    return verdict;
+    course.requests = load.get_request_count();
+    course.has_locked_memory = memory.is_granted && has_locked_pages();
+    add_page_faults(course);
+    return course;
 }
 
 }  // namespace mamori::time_faults

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Faults of time, put into a system that runs by the clock: work that takes too long, windows that are
-/// released too late, a guard, a runner and a timer that hang, a clock that is fast or slow, a component that
-/// waits for a thread without priority; at random places and of random size. Judges whether each was seen, in
-/// time and under its name, and that nothing else was.
+/// Faults of time, injected into a system that runs in real time: work that takes too long, windows that
+/// start too late, a guard, a runner and a timer that hang, a clock that is fast or slow, a component that
+/// waits for a thread without priority; at random instants and of random size. Records what was injected and
+/// reported.
 ///
 /// @satisfies SWR-PRT-036
 /// Design: docs/design/posix_rt.md#faults-of-time
@@ -11,10 +11,9 @@
 #define MAMORI_TIME_FAULTS_TIME_FAULTS_HPP
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "judge.hpp"
+#include "course.hpp"
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
 #include "mamori/verification/seeded_defect.hpp"
@@ -58,18 +57,18 @@ struct Request {
     std::uint64_t frame_count{0U};
     std::size_t injection_count{0U};
     std::uint64_t seed{1U};
-    bool with_storm{false};  ///< a process beside it faults pages all the time
+    bool with_storm{false};  ///< another process faults pages all the time
     Defect defect{Defect::kNone};
 };
 
 /// The same request gives the same faults, in the order of their frames.
 std::vector<Injection> make_injections(const Request& request);
 
-/// Runs it: `frame_count` ticks. To be called once per process, while it has one thread.
-Verdict run(const Request& request);
+/// Runs it: `frame_count` ticks. Call once per process, while it has one thread.
+Course run(const Request& request);
 
-/// One JSON document.
-std::string to_json(const Request& request, const Verdict& verdict);
+/// @return false: the file cannot be written.
+bool write_course(const Request& request, const Course& course, const char* path);
 
 }  // namespace mamori::time_faults
 

@@ -71,7 +71,7 @@ Status Victim::on_execute(ContextHandle handle) noexcept {
     const Duration delay = delay_meter_.take();
     const Duration used = after.processor - before.processor;
     const bool is_own = after.voluntary_switches != before.voluntary_switches || used >= kLossMin;
-    around.ends->set(place_, handle.now, end, is_own ? Duration{0} : std::max(end - begin - used, delay));
+    around.delays->set(place_, handle.now, is_own ? Duration{0} : std::max(end - begin - used, delay));
     return Status::kOk;
 }
 
@@ -93,10 +93,10 @@ void Victim::do_as_told() noexcept {
     }
     Surroundings& around = get_surroundings();
     const Instant begin = around.clock->get_now();
-    Doing& deed = (*around.deeds)[around.deed_count.fetch_add(1U, std::memory_order_relaxed)];
-    deed.component = place_;
-    deed.begin = begin;
-    deed.cause = cause_;
+    OpenOverrun& overrun = (*around.overruns)[around.overrun_count.fetch_add(1U, std::memory_order_relaxed)];
+    overrun.component = place_;
+    overrun.begin = begin;
+    overrun.cause = cause_;
     if (way_ == Way::kLock) {
         const std::lock_guard<std::mutex> lock{*around.mutex};
     } else {
@@ -107,7 +107,7 @@ void Victim::do_as_told() noexcept {
         while (around.clock->get_now() < end) {
         }
     }
-    deed.end_ns.store(around.clock->get_now().ns, std::memory_order_release);
+    overrun.end_ns.store(around.clock->get_now().ns, std::memory_order_release);
 }
 
 }  // namespace mamori::time_faults

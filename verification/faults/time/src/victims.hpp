@@ -11,7 +11,7 @@
 #include <mutex>
 #include <vector>
 
-#include "judge.hpp"
+#include "course.hpp"
 #include "mamori/kernel/component/component.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/run/introspection.hpp"
@@ -26,8 +26,8 @@ namespace mamori::time_faults {
 /// What a component does too long.
 enum class Way : std::uint8_t { kCompute, kSleep, kLock };
 
-/// A deed that is under way. The thread that does it may be given up meanwhile, and comes back all the same.
-struct Doing {
+/// An injected overrun that has begun. Its thread may be released meanwhile; it returns nevertheless.
+struct OpenOverrun {
     std::size_t component{0U};
     Instant begin{};
     Cause cause{Cause::kWork};
@@ -37,10 +37,10 @@ struct Doing {
 /// What the components use; set before the run, for work that never has to look for it.
 struct Surroundings {
     const ports::posix_rt::FrameClock* clock{nullptr};
-    std::vector<Doing>* deeds{nullptr};  ///< room for all of the run
+    std::vector<OpenOverrun>* overruns{nullptr};  ///< room for all of the run
     std::mutex* mutex{nullptr};
-    Ends* ends{nullptr};
-    std::atomic<std::size_t> deed_count{0U};
+    ComponentDelays* delays{nullptr};
+    std::atomic<std::size_t> overrun_count{0U};
     Defect defect{Defect::kNone};
 };
 Surroundings& get_surroundings() noexcept;

@@ -63,11 +63,11 @@ TEST_F(GridTest, TurnsWithAndWithoutRequestsEachHaveTheirStart) {
         EXPECT_GT(round.burst_ns, 0);
     }
     // The thread of the load has no priority: a busy host may give it no time at all.
-    verification::RunEvidence evidence;
-    evidence.requested = 1U;
-    evidence.shown = load_->get_request_count() > 0U ? 1U : 0U;
-    evidence.host = stalls.get_figures();
-    verification::report_run(verification::assess_run(evidence));
+    if (load_->get_request_count() == 0U) {
+        ASSERT_GT(stalls.get_figures().stalls, 0U) << "no request on a host without a stall";
+        verification::report_inconclusive("no request, " + std::to_string(stalls.get_figures().stalls) +
+                                          " stalls");
+    }
 }
 
 }  // namespace

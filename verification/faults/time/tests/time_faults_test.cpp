@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: whatever takes too long, comes too late or shows the wrong time is reported in time and under its
-// name, by the guard or by the watch, and nothing else is. Method: one short run by the clock with faults at
-// random places, beside a process that faults pages and a reader that is kept from running at random;
-// `assess_run()` decides from the evidence. The long run is the program `time_faults`.
+// Goal: a request gives the same faults each time, and the delay of a component is recorded for its cycle.
+// Method: plans and records without a run. `verification.faults` makes the runs.
 #include "time_faults.hpp"
 
 #include <gtest/gtest.h>
@@ -12,72 +10,30 @@
 #include <vector>
 
 #include "mamori/trace/verifies.hpp"
-#include "mamori/verification/real_time_result.hpp"
 
 namespace mamori::time_faults {
 namespace {
 
-using verification::assess_run;
-using verification::Polarity;
-using verification::report_run;
 using verification::Technique;
 using verification::verifies;
 
-constexpr Request kRequest{4000U, 50U, 20261122U, true};
-/// All tests look at one run.
-class TimeFaultsRunTest : public ::testing::Test {
-  protected:
-    static void SetUpTestSuite() {
-        verdict_ = run(kRequest);
-        facts_ = to_json(kRequest, verdict_);
-    }
-    void SetUp() override {
-        RecordProperty("seed", static_cast<int>(kRequest.seed));
-        ASSERT_EQ(verdict_.frames, kRequest.frame_count);
-        if (!verdict_.has_priority) {
-            GTEST_SKIP() << "verdict=no-privilege: no fixed priority: any thread of the machine may hold up "
-                            "what tells of stalls, or "
-                            "the windows";
-        }
-    }
-    static Verdict verdict_;
-    static std::string facts_;
-};
-Verdict TimeFaultsRunTest::verdict_;
-std::string TimeFaultsRunTest::facts_;
+TEST(ComponentDelaysTest, ADelayBelongsToOneComponentAndOneFrame) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues);
+    ComponentDelays sut{2U, 9U};
+    sut.set(0U, Instant{8'000'000}, Duration{100'000});
+    sut.set(1U, Instant{9'000'000}, Duration{100'000});
 
-TEST_F(TimeFaultsRunTest, EachFaultIsReportedInATickUnderItsNameAndNoneIsInvented) {
-    verifies("SWR-PRT-007", Technique::kFaultInjection, Polarity::kViolation);
-    report_run(assess_run(verdict_.get_report_evidence()), facts_);
+    EXPECT_EQ(sut.get(0U, Instant{8'300'000}).ns, 100'000) << "the same frame";
+    EXPECT_EQ(sut.get(0U, Instant{7'000'000}).ns, 0) << "another frame";
+    EXPECT_EQ(sut.get(1U, Instant{8'000'000}).ns, 0) << "another component";
+    EXPECT_EQ(sut.get(1U, Instant{9'000'000}).ns, 0) << "after the last frame";
 }
 
-TEST_F(TimeFaultsRunTest, EachHangOfTheRunnerAndEachWrongClockIsFoundInItsBoundAndNoneIsInvented) {
-    verifies("SWR-PRT-034", Technique::kFaultInjection, Polarity::kViolation);
-    EXPECT_GT(verdict_.watch.holds_seen, 0U) << facts_;
-    EXPECT_GT(verdict_.watch.clock_faults_seen, 0U) << facts_;
-    report_run(assess_run(verdict_.get_watch_evidence()), facts_);
-}
-
-TEST_F(TimeFaultsRunTest, AComponentThatWaitsForAThreadWithoutPriorityIsCutAndNamed) {
-    verifies("SWR-PRT-035", Technique::kFaultInjection, Polarity::kViolation);
-    EXPECT_GT(verdict_.locked_out, 0U) << facts_;
-    EXPECT_EQ(verdict_.locked_out_seen, verdict_.locked_out) << facts_;
-}
-
-TEST_F(TimeFaultsRunTest, AReaderThatIsStoppedInTheMiddleOfARequestHoldsUpNoWindow) {
-    verifies("SWR-PRT-036", Technique::kFaultInjection, Polarity::kViolation);
-    EXPECT_GT(verdict_.requests, 0U);
-    EXPECT_GT(verdict_.reads_under_way, 0U) << "it was stopped there, since it runs on the same processor";
-    report_run(assess_run(verdict_.get_report_evidence()), facts_);
-}
-
-TEST_F(TimeFaultsRunTest, AProcessThatFaultsPagesCausesNoneInTheWindows) {
-    verifies("SWR-PRT-037", Technique::kFaultInjection, Polarity::kViolation);
-    EXPECT_TRUE(verdict_.has_storm) << "it must blow until the end";
-    if (!verdict_.has_locked_memory) {
-        GTEST_SKIP() << "verdict=no-privilege: the machine does not let this process lock its memory";
-    }
-    EXPECT_TRUE(verdict_.are_pages_well()) << facts_;
+TEST(TimeFaultsTest, TheRunnerIsDelayedForHalfOfItsLatenessAndForHalfABudgetAtLeast) {
+    verifies("SWR-PRT-007", Technique::kBoundaryValues);
+    EXPECT_TRUE(is_runner_delayed(Duration{100'000}, Duration{200'000}));
+    EXPECT_FALSE(is_runner_delayed(Duration{99'999}, Duration{100'000}));
+    EXPECT_FALSE(is_runner_delayed(Duration{100'000}, Duration{200'001}));
 }
 
 TEST(TimeFaultsTest, ARequestAlwaysGivesTheSameFaultsInsideItsLimits) {

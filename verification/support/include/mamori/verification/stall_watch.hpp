@@ -7,12 +7,12 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <thread>
 #include <vector>
 
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
-#include "mamori/verification/run_verdict.hpp"
 
 namespace mamori::verification {
 
@@ -23,14 +23,20 @@ struct Stall {
     Instant end{};
 };
 
-/// Whether a stall lies, in part, within the two instants. @param[in] stalls in the order of their instants.
-bool overlaps(const std::vector<Stall>& stalls, Instant begin, Instant end);
+/// What the host did during a run.
+struct HostFigures {
+    std::uint64_t stalls{0U};  ///< the watch was away for longer than two of its steps
+    Duration longest_stall{};
+    Duration lost{};  ///< sum of what the polls of the watch were late by
+    std::uint64_t late_polls{0U};
+    Duration run_delay{};        ///< the watch was ready and did not run (/proc/thread-self/schedstat)
+    std::uint64_t steal_ms{0U};  ///< time that the hypervisor took (/proc/stat)
+    std::uint64_t involuntary_switches{0U};  ///< of all threads of the process (getrusage)
+};
 
 /// What is lost of the time within the two instants: those parts of the late looks that lie there, together.
 /// @param[in] late_looks in the order of their instants.
 Duration calc_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end);
-/// The largest of those parts.
-Duration calc_longest_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end);
 
 /// The first processor that this process may use: threads whose stalls are watched must be on that of the
 /// watch.

@@ -3,30 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any
 
-from mamori_tools.campaign.run_record import RunRecord, read_record
-from mamori_tools.campaign.selection import Case
-from mamori_tools.campaign.vocabulary import NOTHING
+from mamori_tools.campaign.arm.run_record import RunRecord, read_record
+from mamori_tools.campaign.arm.selection import ArmCase
+from mamori_tools.campaign.arm.vocabulary import NOTHING
+from mamori_tools.campaign.case import Check
 from mamori_trace.base.errors import WorkError
 
 ROUNDING_S = 1e-9
 """Excess over a bound in time that is rounding: times are frames of 1 ms written as decimals [s]."""
 
 
-@dataclass(frozen=True)
-class Check:
-    """One line of a verdict, in words for a person."""
-
-    name: str
-    wanted: str
-    measured: str
-    passed: bool
-
-
-def judge(case: Case, run: Mapping[str, Any] | None, problem: str = "") -> list[Check]:
+def judge(case: ArmCase, run: Mapping[str, Any] | None, problem: str = "") -> list[Check]:
     """All checks of a case. `problem` says why there is no run, or why it cannot count; the case fails then."""
     if problem or run is None:
         return [Check("run", "a whole run", problem or "no run", False)]
@@ -43,12 +33,7 @@ def judge(case: Case, run: Mapping[str, Any] | None, problem: str = "") -> list[
     return checks
 
 
-def is_passed(checks: Sequence[Check]) -> bool:
-    """True where there is a check and none failed."""
-    return bool(checks) and all(check.passed for check in checks)
-
-
-def _judge_setting(case: Case, record: RunRecord) -> list[Check]:
+def _judge_setting(case: ArmCase, record: RunRecord) -> list[Check]:
     """The run is the one that was asked for: the right fault, at work when it came, watched long enough."""
     if case.fault is None:
         wanted = "no fault"
@@ -69,7 +54,7 @@ def _judge_setting(case: Case, record: RunRecord) -> list[Check]:
     ]  # fmt: skip
 
 
-def _judge_false_trip(case: Case, record: RunRecord) -> Check:
+def _judge_false_trip(case: ArmCase, record: RunRecord) -> Check:
     """Nothing is detected and nothing reacts before there is something to react to."""
     happened = [("detected", record.detected_fault, record.detected_at_s), ("reacted", record.reaction, record.reacted_at_s)]
     events = [(verb, name, at_s) for verb, name, at_s in happened if name not in (None, NOTHING)]
@@ -83,7 +68,7 @@ def _judge_false_trip(case: Case, record: RunRecord) -> Check:
     return Check("no false trip", wanted, measured or "none", not wrong)
 
 
-def _judge_outcome(case: Case, record: RunRecord) -> list[Check]:
+def _judge_outcome(case: ArmCase, record: RunRecord) -> list[Check]:
     expected = case.expected
     detected = record.detected_fault or NOTHING
     reaction = record.reaction or NOTHING
@@ -117,7 +102,7 @@ def _judge_position(record: RunRecord) -> Check:
     return Check("position range", "margin >= 0 rad", f"{margin:.4f} rad", margin >= 0.0)
 
 
-def _judge_stop(case: Case, record: RunRecord) -> list[Check]:
+def _judge_stop(case: ArmCase, record: RunRecord) -> list[Check]:
     bounds = case.bounds
     still = record.standstill_at_s
     begin = record.injected_at_s or 0.0
@@ -133,7 +118,7 @@ def _judge_stop(case: Case, record: RunRecord) -> list[Check]:
     ]  # fmt: skip
 
 
-def _judge_tracking(case: Case, record: RunRecord) -> Check:
+def _judge_tracking(case: ArmCase, record: RunRecord) -> Check:
     error = record.max_tracking_error_rad
     bound = case.bounds.tracking_error_rad
     return Check("tracking error", f"< {bound:g} rad", "unknown" if error is None else f"{error:.6f} rad",

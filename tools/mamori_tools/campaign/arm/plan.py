@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The plan of a campaign: which faults, when, and what must come of them. Data in a YAML file, checked as a whole."""
+"""The plan of the arm: which faults, when, and what must come of them. Data in a YAML file, checked as a whole."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from mamori_tools.campaign.fault import FaultSpec, read_fault, read_positive
-from mamori_tools.campaign.vocabulary import DETECTED_FAULTS, NOTHING, REACTIONS, STATES, STOPS
-from mamori_trace.base.marked_yaml import Node, load
+from mamori_tools.campaign.arm.fault import FaultSpec, read_fault, read_positive
+from mamori_tools.campaign.arm.vocabulary import DETECTED_FAULTS, NOTHING, REACTIONS, STATES, STOPS
+from mamori_tools.campaign.case import Plan, Scenario
+from mamori_trace.base.marked_yaml import Node
 from mamori_trace.base.nearest_names import nearest_names
 
-SCHEMA = "mamori.fault_plan/1"
+SUBJECT_NAME = "arm"
 POLARITIES = ("nominal", "violation")
 
-_TOP_KEYS = frozenset({"schema", "seed", "instants", "motion_begins_at_s", "observe_s", "bounds", "scenarios"})
+_TOP_KEYS = frozenset({"schema", "subject", "seed", "instants", "motion_begins_at_s", "observe_s", "bounds", "scenarios"})
 _BOUND_KEYS = frozenset({"hold_drift_rad", "hold_observed_s", "tracking_error_rad"})
 _SCENARIO_KEYS = frozenset({"name", "title", "fault", "at", "at_s", "expected", "requirements"})
 _EXPECTED_KEYS = frozenset({"state", "reaction", "detected_fault", "within_s", "watchdog_bitten"})
@@ -57,61 +58,56 @@ class Expected:
 
 
 @dataclass(frozen=True)
-class Scenario:
+class ArmScenario(Scenario):
     """One row of the plan. `instants` are fractions of the motion, or seconds of it where `in_seconds`."""
 
-    name: str
-    title: str
     fault: FaultSpec
     instants: tuple[float, ...]
     in_seconds: bool
     expected: Expected
-    requirements: Mapping[str, str]
-    node: Node = field(repr=False, compare=False)
+
+    @property
+    def case_count(self) -> int:
+        return max(1, len(self.instants))
 
 
 @dataclass(frozen=True)
-class Plan:
-    """A whole plan. Times in seconds: `motion_begins_at_s` since the start of a run, `observe_s` since the injection."""
+class ArmPlan(Plan):
+    """A complete plan. Times in seconds: `motion_begins_at_s` since the start of a run, `observe_s` since the injection."""
 
-    path: Path
-    seed: int
+    scenarios: tuple[ArmScenario, ...]
     motion_begins_at_s: float
     observe_s: float
     bounds: Bounds
-    scenarios: tuple[Scenario, ...]
 
 
-def load_plan(path: Path | str) -> Plan:
-    """Reads a plan. Raises InputError, one line with file and line, for the first fault found."""
-    root = load(path, "fault plan")
+def read_plan(root: Node, path: Path) -> ArmPlan:
+    """Raises InputError, one line with file and line, for the first fault found."""
     root.as_mapping(_TOP_KEYS)
-    schema = root.get("schema")
-    if schema.as_text() != SCHEMA:
-        raise schema.error(f"'{schema.as_text()}', this tool reads {SCHEMA}")
     bounds = root.get("bounds")
     bounds.as_mapping(_BOUND_KEYS)
     instants = _read_fractions(root.get("instants"))
     nodes = root.get("scenarios").as_list()
     if not nodes:
         raise root.get("scenarios").error("lists no scenario; add one")
-    scenarios: dict[str, Scenario] = {}
+    scenarios: dict[str, ArmScenario] = {}
     for node in nodes:
         scenario = _read_scenario(node, instants)
         if scenario.name in scenarios:
             raise node.get("name").error(f"'{scenario.name}' stands twice; rename one")
         scenarios[scenario.name] = scenario
-    return Plan(
-        Path(path),
+    return ArmPlan(
+        path,
+        SUBJECT_NAME,
         _read_seed(root.get("seed")),
+        tuple(scenarios.values()),
         _read_not_negative(root.get("motion_begins_at_s")),
         read_positive(root.get("observe_s")),
         Bounds(*(read_positive(bounds.get(key)) for key in ("hold_drift_rad", "hold_observed_s", "tracking_error_rad"))),
-        tuple(scenarios.values()),
     )
 
 
-def _read_scenario(node: Node, usual_instants: tuple[float, ...]) -> Scenario:
+def _read_scenario(node: Node, usual_instants: tuple[float, ...]) -> ArmScenario:
     entries = node.as_mapping(_SCENARIO_KEYS)
     name = node.get("name").as_text()
     if not _NAME.fullmatch(name):
@@ -129,9 +125,9 @@ def _read_scenario(node: Node, usual_instants: tuple[float, ...]) -> Scenario:
     expected = _read_expected(node.get("expected"))
     if fault.kind == "none" and expected.wants_reaction:
         raise node.get("expected").error(f"a reaction without a fault is a false trip; write reaction: [{NOTHING}]")
-    return Scenario(
-        name, node.get("title").as_text(), fault, instants, "at_s" in entries, expected,
-        _read_requirements(node.get("requirements")), node,
+    return ArmScenario(
+        name, node.get("title").as_text(), _read_requirements(node.get("requirements")), node,
+        fault, instants, "at_s" in entries, expected,
     )  # fmt: skip
 
 

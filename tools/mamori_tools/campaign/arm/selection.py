@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From a plan to the cases of one campaign: which scenarios, how many instants, and what they mean for one motion."""
+"""From a selection to the cases of the arm: what the instants and joints of a plan mean for one motion."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from mamori_tools.campaign.fault import FASTEST, Fault
-from mamori_tools.campaign.plan import Bounds, Expected, Plan, Scenario
+from mamori_tools.campaign.arm.fault import FASTEST, Fault
+from mamori_tools.campaign.arm.plan import ArmPlan, ArmScenario, Bounds, Expected
+from mamori_tools.campaign.case import Case, Selection
 from mamori_tools.motion import Motion
-from mamori_trace.base.errors import InputError
-from mamori_trace.base.nearest_names import nearest_names
 
 FRAME_S = 0.001
 """Major frame of the program under test [s]."""
@@ -26,72 +24,43 @@ SEARCH_STEP_S = 0.01
 
 
 @dataclass(frozen=True)
-class Selection:
-    """Scenarios of a plan, in its order, each with the number of instants that are taken from its first on."""
-
-    plan: Plan
-    scenarios: tuple[Scenario, ...]
-    instants: int | None
-
-
-@dataclass(frozen=True)
-class Case:
+class ArmCase(Case):
     """One run: everything that decides it, and everything that it is judged by.
 
     `fault` is None for a fault-free run. `frames` is None where the program itself ends with the motion.
     `watch_s` is how long the run must go on after the injection; where there is none, how long it must be [s].
     """
 
-    id: str
-    scenario: str
-    title: str
     fault: Fault | None
-    seed: int
     frames: int | None
     watch_s: float
     expected: Expected
     bounds: Bounds
-    requirements: Mapping[str, str]
 
 
-def select(plan: Plan, names: Sequence[str] = (), instants: int | None = None) -> Selection:
-    """Scenarios by name, all where no name is given; the first `instants` of each, all where None.
-
-    Raises InputError for an unknown name (with the nearest ones), and for less than one instant or more than the plan has.
-    """
-    known = [scenario.name for scenario in plan.scenarios]
-    for name in names:
-        if name not in known:
-            raise InputError(f"unknown scenario '{name}'; {nearest_names(name, known)}; valid: {', '.join(known)}")
-    if instants is not None and instants < 1:
-        raise InputError(f"{instants} instants per scenario; write 1 or more")
-    chosen = tuple(each for each in plan.scenarios if not names or each.name in names)
-    most = max(len(each.instants) for each in chosen)
-    if instants is not None and instants > most:
-        raise InputError(f"{instants} instants per scenario; the plan has {most}: write 1 to {most}, or add instants to {plan.path}")
-    return Selection(plan, chosen, instants)
-
-
-def resolve(selection: Selection, motion: Motion) -> tuple[Case, ...]:
+def resolve(selection: Selection, motion: Motion) -> tuple[ArmCase, ...]:
     """The cases for one motion. Raises InputError where an instant or a joint of the plan does not exist in it."""
-    cases: list[Case] = []
+    cases: list[ArmCase] = []
+    plan = selection.plan
+    assert isinstance(plan, ArmPlan)
     for scenario in selection.scenarios:
+        assert isinstance(scenario, ArmScenario)
         if scenario.fault.kind == "none":
-            cases.append(_make_case(selection.plan, scenario, 1, None, motion))
+            cases.append(_make_case(plan, scenario, 1, None, motion))
             continue
         earliest_s = 0.0
         for number, instant in enumerate(scenario.instants[:selection.instants], start=1):
             asked_s = instant if scenario.in_seconds else instant * motion.duration_s
             fault = _place_fault(scenario, motion, max(asked_s, earliest_s))
-            cases.append(_make_case(selection.plan, scenario, number, fault, motion))
+            cases.append(_make_case(plan, scenario, number, fault, motion))
             earliest_s = fault.at_s + SEARCH_STEP_S
     return tuple(cases)
 
 
-def _make_case(plan: Plan, scenario: Scenario, number: int, fault: Fault | None, motion: Motion) -> Case:
+def _make_case(plan: ArmPlan, scenario: ArmScenario, number: int, fault: Fault | None, motion: Motion) -> ArmCase:
     end_s = plan.motion_begins_at_s + (0.0 if fault is None else fault.at_s) + plan.observe_s
     joint = "" if fault is None or fault.joint is None else str(fault.joint)
-    return Case(
+    return ArmCase(
         id=f"{scenario.name}-{number}",
         scenario=scenario.name,
         title=scenario.title.replace("{joint}", joint),
@@ -105,7 +74,7 @@ def _make_case(plan: Plan, scenario: Scenario, number: int, fault: Fault | None,
     )
 
 
-def _place_fault(scenario: Scenario, motion: Motion, asked_s: float) -> Fault:
+def _place_fault(scenario: ArmScenario, motion: Motion, asked_s: float) -> Fault:
     """Fixes time and joint of a fault; the time falls on a frame."""
     spec = scenario.fault
     place_s, joint = asked_s, None
@@ -120,7 +89,7 @@ def _place_fault(scenario: Scenario, motion: Motion, asked_s: float) -> Fault:
     return Fault(spec.kind, at_s, joint, spec.channel, spec.magnitude, spec.duration_s)
 
 
-def _find_moving_joint(scenario: Scenario, motion: Motion, asked_s: float) -> tuple[float, int]:
+def _find_moving_joint(scenario: ArmScenario, motion: Motion, asked_s: float) -> tuple[float, int]:
     """The first instant from `asked_s` on at which the joint moves fast enough, and the joint's number from 1."""
     spec = scenario.fault
     least = spec.min_speed_rad_s or 0.0
