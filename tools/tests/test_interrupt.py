@@ -4,6 +4,7 @@
 # signal goes to the whole process group, as a terminal sends it, or to the command alone.
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import signal
@@ -13,6 +14,7 @@ import time
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+import psutil
 import pytest
 
 from mamori_tools.host.project import ROOT, Project
@@ -97,17 +99,13 @@ sys.exit(status)
 PARTS = (0.1, 0.6, 0.9, 0.99)
 
 
-def list_session(leader: int) -> list[str]:
+def list_session(leader: int) -> list[psutil.Process]:
     """Living processes of a session."""
     found = []
-    for path in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            text = path.read_text(encoding="utf-8", errors="replace")
-        except OSError:
-            continue
-        state, _, _, session = text.rsplit(") ", 1)[1].split()[:4]
-        if state != "Z" and int(session) == leader:
-            found.append(text)
+    for process in psutil.process_iter():
+        with contextlib.suppress(psutil.NoSuchProcess, ProcessLookupError):
+            if process.status() != psutil.STATUS_ZOMBIE and os.getsid(process.pid) == leader:
+                found.append(process)
     return found
 
 

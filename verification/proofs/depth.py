@@ -8,38 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
+import networkx as nx
+
 
 def find_groups(calls: Mapping[str, Collection[str]]) -> list[list[str]]:
-    """Strongly connected components, callees before callers (Tarjan's algorithm, without recursion of its own).
-
-    A group of one function is no recursion unless the function calls itself.
-    """
-    number: dict[str, int] = {}
-    low: dict[str, int] = {}
-    open_nodes: dict[str, None] = {}  # keeps its order, and tells quickly what is in it
-    groups: list[list[str]] = []
-    for start in sorted(calls):
-        work = [] if start in number else [(start, iter(sorted(calls[start])))]
-        while work:
-            node, callees = work[-1]
-            if node not in number:
-                number[node] = low[node] = len(number)
-                open_nodes[node] = None
-            callee = next(callees, None)
-            if callee is None:
-                work.pop()
-                if work:
-                    low[work[-1][0]] = min(low[work[-1][0]], low[node])
-                if low[node] == number[node]:
-                    group = [open_nodes.popitem()[0]]
-                    while group[-1] != node:
-                        group.append(open_nodes.popitem()[0])
-                    groups.append(sorted(group))
-            elif callee not in number:
-                work.append((callee, iter(sorted(calls.get(callee, ())))))
-            elif callee in open_nodes:
-                low[node] = min(low[node], number[callee])
-    return groups
+    """Strongly connected components, callees before callers. A group of one function is no recursion unless the function calls itself."""
+    graph = nx.condensation(nx.DiGraph({name: sorted(calls[name]) for name in sorted(calls)}))
+    return [sorted(graph.nodes[number]["members"]) for number in reversed(list(nx.topological_sort(graph)))]
 
 
 def is_recursive(group: Collection[str], calls: Mapping[str, Collection[str]]) -> bool:

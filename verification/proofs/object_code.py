@@ -2,7 +2,7 @@
 """Reads what a compiler tells about one unit: frames and calls, virtual calls, classes; and its object file.
 
 Formats: VCG call graph of -fcallgraph-info, GIMPLE of -fdump-tree-optimized-lineno, class layouts of -fdump-lang-class, and
-`readelf`. What is not understood here is missed later: each indirect call of the call graph must find its explanation.
+ELF. What is not understood here is missed later: each indirect call of the call graph must find its explanation.
 
 @satisfies SWR-PRF-020, SWR-PRF-021      Design: docs/design/proofs.md#indirect-calls
 """
@@ -14,7 +14,12 @@ from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from verification.proofs.toolchain import Toolchain, Unit, run_tool
+from elftools.elf.descriptions import describe_reloc_type
+from elftools.elf.elffile import ELFFile
+from elftools.elf.relocation import RelocationSection
+from elftools.elf.sections import SymbolTableSection
+
+from verification.proofs.toolchain import Toolchain, Unit
 
 INDIRECT = "__indirect_call"
 NODE = re.compile(r'node: \{ title: "(?P<title>[^"]+)" label: "(?P<label>[^"]*)"')
@@ -28,15 +33,6 @@ GIMPLE_VIRTUAL = re.compile(  # the place of a statement is the first on its lin
 CLASS_VTABLE = re.compile(r"vptr=\(\(& .*?(?P<vtable>_ZTV\w+)\) \+ (?P<offset>\d+)\)")
 CLASS_PRIMARY = re.compile(r"primary-for .* \((?P<address>0x\w+)\)")
 CLASS_LINE = re.compile(r"^(?P<name>\S.*) \((?P<address>0x\w+)\) ")
-SECTION_LINE = re.compile(r"^\s*\[\s*(?P<index>\d+)\] (?P<name>\S+)\s")
-SYMBOL_LINE = re.compile(
-    r"^\s*\d+: (?P<value>[0-9a-f]+)\s+(?P<size>\w+) (?P<type>\w+)\s+(?P<bind>\w+)\s+\w+\s+(?P<section>\w+) (?P<name>\S+)$"
-)
-RELOCATIONS_LINE = re.compile(r"^Relocation section '\.rela?(?P<section>\.\S+)'")
-RELOCATION_LINE = re.compile(
-    r"^(?P<offset>[0-9a-f]+)\s+[0-9a-f]+\s+(?P<type>R_\w+)\s+[0-9a-f]+\s+(?P<target>\S+)"
-    r"(?: (?P<sign>[+-]) (?P<addend>[0-9a-f]+))?"
-)
 NOT_LOADED = (".debug", ".eh_frame", ".ARM.ex", ".note", ".comment")
 THUNK = re.compile(r"_ZTh[n]?\d+_(?P<rest>\w+)|_ZTv[n]?\d+_[n]?\d+_(?P<virtual>\w+)")
 
@@ -169,27 +165,28 @@ def _read_classes(text: str, facts: UnitFacts) -> None:
 
 
 def _read_object(toolchain: Toolchain, path: Path, facts: UnitFacts) -> None:
-    sections: dict[str, str] = {}
     relocations: list[tuple[str, int, str, str, int]] = []
     tables: dict[str, list[tuple[str, int]]] = defaultdict(list)  # section -> virtual tables in it
-    section = ""
-    for line in run_tool([f"{toolchain.prefix}readelf", "-S", "-s", "-r", "-W", str(path)]).splitlines():
-        if match := RELOCATIONS_LINE.match(line):
-            section = match["section"]
-        elif match := RELOCATION_LINE.match(line):
-            addend = int(f"{match['sign']}{match['addend']}", 16) if match["addend"] else 0
-            relocations.append((section, int(match["offset"], 16), match["type"], match["target"], addend))
-        elif match := SECTION_LINE.match(line):
-            sections[match["index"]] = match["name"]
-        elif match := SYMBOL_LINE.match(line):
-            place = sections.get(match["section"])
-            value = int(match["value"], 16)
-            if place and match["type"] == "FUNC":
-                facts.defined[match["name"]] = Defined(place, value & ~1 if toolchain.word_bytes == 4 else value,
-                                                       int(match["size"], 0), match["bind"] == "LOCAL")  # fmt: skip
-            elif place and match["type"] == "OBJECT" and match["name"].startswith("_ZTV"):
-                tables[place].append((match["name"], value))
-                facts.vtables[match["name"]] = {}
+    with path.open("rb") as file:
+        elf = ELFFile(file)
+        sections = [section.name for section in elf.iter_sections()]
+        symbols = [one for table in elf.iter_sections() if isinstance(table, SymbolTableSection) for one in table.iter_symbols()]
+        for one in symbols:
+            number, value, kind = one["st_shndx"], one["st_value"], one["st_info"]["type"]
+            if not isinstance(number, int):  # undefined or absolute
+                continue
+            if kind == "STT_FUNC":
+                facts.defined[one.name] = Defined(sections[number], value & ~1 if toolchain.word_bytes == 4 else value,
+                                                  one["st_size"], one["st_info"]["bind"] == "STB_LOCAL")  # fmt: skip
+            elif kind == "STT_OBJECT" and one.name.startswith("_ZTV"):
+                tables[sections[number]].append((one.name, value))
+                facts.vtables[one.name] = {}
+        for rows in elf.iter_sections():
+            for row in rows.iter_relocations() if isinstance(rows, RelocationSection) else ():
+                aim = symbols[row["r_info_sym"]]
+                name = aim.name or sections[aim["st_shndx"]]  # the symbol of a section has no name of its own
+                addend = row["r_addend"] if row.is_RELA() else 0
+                relocations.append((sections[rows["sh_info"]], row["r_offset"], describe_reloc_type(row["r_info_type"], elf), name, addend))
     by_section: dict[str, list[tuple[int, int, str]]] = defaultdict(list)
     for symbol, where in facts.defined.items():
         by_section[where.section].append((where.offset, where.size, symbol))

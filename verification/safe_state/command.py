@@ -25,24 +25,22 @@ from mamori_tools.timing.command import check_folder
 from mamori_trace.base.errors import InputError, WorkError
 from mamori_trace.base.nearest_names import nearest_names
 from mamori_trace.base.text_file import write_text
-from verification.safe_state.brakes import promela as brake_promela
-from verification.safe_state.brakes import smt as brake_smt
 from verification.safe_state.brakes.coupling import Pair
-from verification.safe_state.brakes.defects import BRAKE_DEFECTS, BrakeDefect
-from verification.safe_state.brakes.prove import prove_brakes
+from verification.safe_state.brakes.defects import BRAKE_DEFECTS
 from verification.safe_state.brakes.relation import read_brakes
-from verification.safe_state.brakes.sequence import make_cycles
+from verification.safe_state.brakes.sequence import Brakes, make_cycles
+from verification.safe_state.brakes.subject import BrakeSubject
 from verification.safe_state.defects import DEFECTS, Defect
 from verification.safe_state.machine import Machine, merge
-from verification.safe_state.prove import Result, make_record, prove
+from verification.safe_state.machine_subject import MachineSubject
+from verification.safe_state.prove import Result, Subject, make_record, prove
 from verification.safe_state.relation import read_relation, run_program
 
 TARGET = "mamori_safe_state_relation"
 BRAKE_TARGET = "mamori_brake_sequence_relation"
 TOOLS = {"z3": "z3", "spin": "spin", "gcc": "gcc"}
 """Programs, and the Debian packages that bring them."""
-MODELS = ("machine.smt2", "machine.pml")
-BRAKE_MODELS = (brake_smt.MODEL, brake_promela.MODEL)
+AnyDefect = Defect[Machine] | Defect[Brakes]
 
 
 @dataclass(frozen=True)
@@ -90,11 +88,11 @@ def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
     return EXIT_OK if all(result.is_proved for result in results) else EXIT_FAILED
 
 
-def choose_defect(name: str | None) -> Defect | BrakeDefect | None:
+def choose_defect(name: str | None) -> AnyDefect | None:
     """@raise InputError when there is no property of that name."""
     if name is None:
         return None
-    defects: tuple[Defect | BrakeDefect, ...] = (*DEFECTS, *BRAKE_DEFECTS)
+    defects: tuple[AnyDefect, ...] = (*DEFECTS, *BRAKE_DEFECTS)
     known = {defect.breaks: defect for defect in defects}
     if name not in known:
         raise InputError(f"prove: there is no defect '{name}'; {nearest_names(name, known)}")
@@ -121,42 +119,40 @@ def _build(project: Project, jobs: int) -> None:
             raise WorkError(f"{TARGET} and {BRAKE_TARGET} could not be built; the compiler's words are in {log}")
 
 
-def _get_folder(project: Project, defect: Defect | BrakeDefect | None) -> Path:
+def _get_folder(project: Project, defect: AnyDefect | None) -> Path:
     """Where the files go. What a defect does is no evidence of the machine."""
     folder = project.evidence / "safe_state"
     return folder / "defects" / defect.breaks if defect else folder
 
 
-def _prove(text: str, brake_text: str, defect: Defect | BrakeDefect | None) -> list[Proof]:
-    """A defect is judged by the properties of the part that it sits in."""
-    relation = read_relation(text, Path(TARGET))
-    machine = merge(relation)
+def _prove(text: str, brake_text: str, defect: AnyDefect | None) -> list[Proof]:
+    """A defect is checked by the properties of the part that it is in."""
+    relation, brake_relation = read_relation(text, Path(TARGET)), read_brakes(brake_text, Path(BRAKE_TARGET))
+    machine, brakes = merge(relation), make_cycles(brake_relation)
+    facts = {"situations": len(relation.labels), "merged_situations": len(machine.labels), "steps": relation.steps,
+             "corrupted_objects": relation.corrupted_objects}  # fmt: skip
+    brake_facts = {"brake_situations": len(brake_relation.fitted), "merged_brake_situations": len(brakes.fitted),
+                   "brake_calls": brake_relation.calls}  # fmt: skip
+    own = next((one for one in DEFECTS if one is defect), None)
+    of_brakes = next((one for one in BRAKE_DEFECTS if one is defect), None)
     proofs = []
     with tempfile.TemporaryDirectory(prefix="mamori-prove-") as scratch:
-        folder = Path(scratch)
-        if not isinstance(defect, BrakeDefect):
-            facts = {"situations": len(relation.labels), "merged_situations": len(machine.labels), "steps": relation.steps,
-                     "corrupted_objects": relation.corrupted_objects}  # fmt: skip
-            results = prove(defect.seed(machine) if defect else machine, folder)
-            proofs.append(Proof(results, facts, {**_read_all(folder, MODELS), "relation.json": text}))
-        if not isinstance(defect, Defect):
-            proofs.append(_prove_brakes(machine, brake_text, defect, folder))
+        if not of_brakes:
+            subject = MachineSubject(own.seed(machine) if own else machine)
+            proofs.append(_prove_part(subject, facts, {"relation.json": text}, Path(scratch)))
+        if not own:
+            brake_subject = BrakeSubject(Pair(machine, of_brakes.seed(brakes) if of_brakes else brakes))
+            proofs.append(_prove_part(brake_subject, brake_facts, {"brakes.json": brake_text}, Path(scratch)))
     return proofs
 
 
-def _prove_brakes(machine: Machine, text: str, defect: BrakeDefect | None, folder: Path) -> Proof:
-    relation = read_brakes(text, Path(BRAKE_TARGET))
-    brakes = make_cycles(relation)
-    results = prove_brakes(Pair(machine, defect.seed(brakes) if defect else brakes), folder)
-    facts = {"brake_situations": len(relation.fitted), "merged_brake_situations": len(brakes.fitted), "brake_calls": relation.calls}
-    return Proof(results, facts, {**_read_all(folder, BRAKE_MODELS), "brakes.json": text})
+def _prove_part(subject: Subject, facts: Mapping[str, Any], files: Mapping[str, str], folder: Path) -> Proof:
+    results = prove(subject, folder)
+    models = (f"{subject.name}.smt2", f"{subject.name}.pml")
+    return Proof(results, facts, {**files, **{name: (folder / name).read_text(encoding="utf-8") for name in models}})
 
 
-def _read_all(folder: Path, names: Sequence[str]) -> dict[str, str]:
-    return {name: (folder / name).read_text(encoding="utf-8") for name in names}
-
-
-def _keep(proofs: Sequence[Proof], defect: Defect | BrakeDefect | None, folder: Path) -> str:
+def _keep(proofs: Sequence[Proof], defect: AnyDefect | None, folder: Path) -> str:
     """Writes all files to `folder`, now that everything is known. @return the record as JSON."""
     facts = {name: value for proof in proofs for name, value in proof.facts.items()}
     results = [result for proof in proofs for result in proof.results]
@@ -172,7 +168,7 @@ def _keep(proofs: Sequence[Proof], defect: Defect | BrakeDefect | None, folder: 
     return record
 
 
-def show(results: Sequence[Result], defect: Defect | BrakeDefect | None, screen: Screen) -> None:
+def show(results: Sequence[Result], defect: AnyDefect | None, screen: Screen) -> None:
     """A line per property, the steps of those that do not hold, and a closing line."""
     if defect is not None:
         screen.say(f"seeded defect: {defect.sentence}")

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -16,15 +17,16 @@ from verification.safe_state.machine import Machine, Past
 from verification.safe_state.relation import INPUTS, OUTPUTS, VALUES
 
 Cell = tuple[str, str]
+Part = TypeVar("Part")
 
 
 @dataclass(frozen=True)
-class Defect:
-    """`breaks`: name of the property. `sentence`: what the machine does wrong."""
+class Defect(Generic[Part]):
+    """`breaks`: name of the property. `sentence`: what the part does wrong. `seed`: makes the faulty part from the correct one."""
 
     breaks: str
     sentence: str
-    seed: Callable[[Machine], Machine]
+    seed: Callable[[Part], Part]
 
 
 TRUSTED: dict[str, Sequence[str]] = {"lock_out": ("no",), "self_test": ("Running", "Passed")}
@@ -81,7 +83,7 @@ def close_brakes(state: str) -> Callable[[Machine], Machine]:
     return seed
 
 
-DEFECTS: tuple[Defect, ...] = (
+DEFECTS: tuple[Defect[Machine], ...] = (
     Defect("stop-weakened-by-reset-only", "The safe state ends by itself when all is well.",
            bend("Safe", "SelfTest", WELL, {"reset_button": ("no",)})),
     Defect("held-reset-restarts-nothing", "A reset that is held down resets again in each cycle.",

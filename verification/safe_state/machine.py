@@ -6,13 +6,13 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from verification.safe_state.graph import merge_alike, walk
 from verification.safe_state.relation import INPUTS, SHAPE, VALUES, Array, Label, Relation
 
 RUNNING = VALUES["self_test"].index("Running")
@@ -26,10 +26,6 @@ class Past:
     start: bool = True
     reset: bool = True
     has_run: bool = False
-
-
-Roads = dict[tuple[int, Past], tuple[tuple[int, Past], tuple[int, ...]] | None]
-"""For each situation with a past: the one before it, and the letter in between; nothing for that after power-up."""
 
 
 @dataclass(frozen=True)
@@ -46,27 +42,12 @@ class Machine:
     @cached_property
     def pasts(self) -> tuple[frozenset[Past], ...]:
         """Each past that leads to each situation. A flipped bit may come at any time."""
-        return tuple(frozenset(found) for found in self._walk()[0])
+        return tuple(frozenset(past for number, past in self.roads if number == place) for place in range(len(self.labels)))
 
     @cached_property
-    def roads(self) -> Roads:
-        """For each situation with a past, the one before it on a shortest way from power-up, and the letter in between."""
-        return self._walk()[1]
-
-    def _walk(self) -> tuple[list[set[Past]], Roads]:
-        begin = (self.first, Past())
-        roads: Roads = {begin: None}
-        pasts: list[set[Past]] = [set() for _ in self.labels]
-        pasts[self.first].add(Past())
-        pending = deque([begin])
-        while pending:
-            here = pending.popleft()
-            for letter, there in self._list_moves(*here):
-                if there not in roads:
-                    roads[there] = (here, letter)
-                    pasts[there[0]].add(there[1])
-                    pending.append(there)
-        return pasts, roads
+    def roads(self) -> Mapping[tuple[int, Past], tuple[tuple[int, Past], tuple[int, ...]] | None]:
+        """For each situation with a past, the one before it on a shortest path from power-up, and the letter between them."""
+        return walk([(self.first, Past())], lambda here: self._list_moves(*here))
 
     def _list_moves(self, number: int, past: Past) -> Iterator[tuple[tuple[int, ...], tuple[int, Past]]]:
         """One letter for each next situation and past."""
@@ -103,18 +84,7 @@ def merge(relation: Relation) -> Machine:
     """Merges situations with equal labels whose answers to each letter are merged as well, and checks the result against the
     relation, letter by letter."""
     kinds = list(dict.fromkeys(relation.labels))
-    group = np.array([kinds.index(label) for label in relation.labels])
-    while True:
-        rows = np.concatenate([group[:, None], group[relation.next].reshape(len(group), -1)], axis=1)
-        _, first_seen, finer = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-        rank = np.argsort(np.argsort(first_seen))  # numbered in the order of the relation
-        finer = rank[finer.reshape(-1)]
-        if finer.max() == group.max():
-            break
-        group = finer
-    group = finer
-    count = int(group.max()) + 1
-    members = [int(np.flatnonzero(group == number)[0]) for number in range(count)]
+    group, members = merge_alike([np.array([kinds.index(label) for label in relation.labels])], relation.next)
     labels = tuple(relation.labels[member] for member in members)
     merged = group[relation.next[members]]
     if not (all(relation.labels[i] == labels[number] for i, number in enumerate(group))

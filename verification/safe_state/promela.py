@@ -177,13 +177,17 @@ def write_model(machine: Machine, properties: Sequence[Property]) -> str:
         views.append(f"  :: s == {number} -> next_state = {label.state}; next_torque = {int(label.get('torque_enable'))};"
                      f" limited = {is_limited}")  # fmt: skip
     first = machine.labels[machine.first]
-    return HEAD.format(
-        states="\n".join(f"#define {name} {number}" for number, name in enumerate(machine.states, start=1)),
-        ss2_within=BOUNDS["ss2_within"], ss1_within=BOUNDS["ss1_within"],
-        first=machine.first, first_state=first.state, first_torque=int(first.get("torque_enable")), corrupted=machine.corrupted,
+    return fill(
+        HEAD, machine, properties, first=machine.first, first_state=first.state, first_torque=int(first.get("torque_enable")), corrupted=machine.corrupted,
         views="\n".join(views), moves="\n".join(branches),
-        formulas="\n".join(f"ltl {name} {{ {formula} }}" for name, formula in list_formulas(properties)),
     )  # fmt: skip
+
+
+def fill(head: str, machine: Machine, properties: Sequence[Property], **parts: object) -> str:
+    """@return the text of a model: its head with the states, the bounds, the formulas and its own parts."""
+    states = "\n".join(f"#define {name} {number}" for number, name in enumerate(machine.states, start=1))
+    formulas = "\n".join(f"ltl {name} {{ {formula} }}" for name, formula in list_formulas(properties))
+    return head.format(states=states, formulas=formulas, **BOUNDS, **parts)
 
 
 def list_formulas(properties: Sequence[Property]) -> list[tuple[str, str]]:
@@ -197,13 +201,9 @@ def list_formulas(properties: Sequence[Property]) -> list[tuple[str, str]]:
     return formulas
 
 
-def check(machine: Machine, properties: Sequence[Property], folder: Path) -> dict[str, Run]:
-    """Lets spin judge each formula. @return by name what it found. @raise WorkError when spin or gcc is missing or fails."""
-    return judge_all(write_model(machine, properties), properties, folder, "machine.pml")
-
-
 def judge_all(text: str, properties: Sequence[Property], folder: Path, name: str) -> dict[str, Run]:
-    """Writes the model to the file `name` and lets spin judge each formula of it. @return and @raise like check."""
+    """Writes the model to the file `name` and has spin check each formula of it. @return by name what it found. @raise WorkError when spin or gcc
+    is missing or fails."""
     (folder / name).write_text(text, encoding="utf-8")
     _call(("spin", "-a", name), folder)
     _call(COMPILE, folder)

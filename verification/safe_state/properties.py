@@ -32,7 +32,7 @@ class Induction:
 @dataclass(frozen=True)
 class Property:
     """`step`: holds of each single step (z3). `induction`: for z3. `always`: a formula of linear temporal logic that each run
-    fulfils (spin). `possible`: conditions of which each is true in some run (spin)."""
+    fulfils (spin). `possible`: conditions of which each is true in some run (spin). `is_coupled`: of the brakes under the machine."""
 
     name: str
     requirement: str
@@ -41,6 +41,7 @@ class Property:
     induction: Induction | None = None
     always: str = ""
     possible: tuple[str, ...] = ()
+    is_coupled: bool = False
 
     @property
     def provers(self) -> tuple[str, ...]:

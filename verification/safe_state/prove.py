@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Proves the properties with z3 and spin, and tells a counterexample as steps that a person can follow.
+"""Proves the properties of a part with z3 and spin. Both parts, machine and brakes, take this route.
 
 @satisfies SWR-FSM-023      Design: docs/design/safe_state.md#proofs
 """
@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import builtins
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,11 +15,43 @@ from typing import Any
 
 from mamori_trace.base.errors import WorkError
 from verification.safe_state import promela, smt
-from verification.safe_state.machine import Machine, Past, describe_letter
-from verification.safe_state.properties import PROPERTIES, Property
+from verification.safe_state.properties import Property
+from verification.safe_state.smt import Query
 
 SCHEMA = "mamori.safe_state_proof/1"
 PROVED, REFUTED = "proved", "refuted"
+
+
+class Subject(ABC):
+    """A part to prove. `name`: of its model files. `constants`: of its SMT model, which describe a counterexample."""
+
+    name: str
+    properties: Sequence[Property]
+    constants: Sequence[str]
+
+    @abstractmethod
+    def write_smt(self) -> str:
+        """The definitions for z3."""
+
+    @abstractmethod
+    def list_history_queries(self) -> list[str]:
+        """What must be impossible for the pasts of the model to be closed under its steps."""
+
+    @abstractmethod
+    def list_queries(self, wanted: Property) -> list[str]:
+        """What must be impossible for the property to hold."""
+
+    @abstractmethod
+    def describe_values(self, query: Query, values: Mapping[str, int]) -> list[str]:
+        """The counterexample of z3 in words: a shortest path from power-up, and the step that violates the property."""
+
+    @abstractmethod
+    def write_promela(self, properties: Sequence[Property]) -> str:
+        """The model for spin with the formulas of `properties`."""
+
+    @abstractmethod
+    def describe_run(self, run: promela.Run) -> list[str]:
+        """The run of spin in words. @raise WorkError when the part does not step as the run says."""
 
 
 @dataclass(frozen=True)
@@ -34,86 +67,44 @@ class Result:
         return all(verdict == PROVED for verdict in self.verdicts.values())
 
 
-def prove(machine: Machine, folder: Path, properties: Sequence[Property] = PROPERTIES) -> list[Result]:
+def prove(subject: Subject, folder: Path) -> list[Result]:
     """Runs both provers; their models and working files stay in `folder`. @raise WorkError when a prover is missing or fails."""
-    steps: dict[str, dict[str, list[str]]] = {one.name: {} for one in properties}
-    _run_z3(machine, properties, folder, steps)
-    _run_spin(machine, properties, folder, steps)
+    told: dict[str, dict[str, list[str]]] = {one.name: {} for one in subject.properties}
+    _run_z3(subject, folder, told)
+    _run_spin(subject, folder, told)
     results = []
-    for one in properties:
-        told = steps[one.name]
-        verdicts = {prover: REFUTED if prover in told else PROVED for prover in one.provers}
+    for one in subject.properties:
+        verdicts = {prover: REFUTED if prover in told[one.name] else PROVED for prover in one.provers}
         # A run from power-up tells more than a single step that z3 could choose freely.
-        words = told.get("spin") or told.get("z3") or []
+        words = told[one.name].get("spin") or told[one.name].get("z3") or []
         results.append(Result(one, verdicts, tuple(words)))
     return results
 
 
-def _run_z3(machine: Machine, properties: Sequence[Property], folder: Path, steps: dict[str, dict[str, list[str]]]) -> None:
-    queries = smt.list_history_queries(machine)
-    for one in properties:
-        queries += smt.list_queries(machine, one)
-    for query, refutation in zip(queries, smt.check(machine, queries, folder), strict=True):
-        if refutation is None:
+def _run_z3(subject: Subject, folder: Path, told: dict[str, dict[str, list[str]]]) -> None:
+    queries = [Query("", text) for text in subject.list_history_queries()]
+    queries += [Query(one.name, text) for one in subject.properties for text in subject.list_queries(one)]
+    model = subject.write_smt()
+    for query, is_impossible in zip(queries, smt.ask_all(model, queries, folder / f"{subject.name}.smt2"), strict=True):
+        if is_impossible:
             continue
         if not query.owner:
-            raise WorkError("z3 does not find the past of the machine closed under its steps; the model is not that of the machine")
-        steps[query.owner].setdefault("z3", describe_refutation(machine, refutation))
+            raise WorkError(f"z3 does not find the past of the {subject.name} closed under its steps; the model is not that of the {subject.name}")
+        if "z3" not in told[query.owner]:
+            values = smt.ask_values(model, query, subject.constants, folder / "counterexample.smt2")
+            told[query.owner]["z3"] = subject.describe_values(query, values)
 
 
-def _run_spin(machine: Machine, properties: Sequence[Property], folder: Path, steps: dict[str, dict[str, list[str]]]) -> None:
-    runs = promela.check(machine, properties, folder)
-    for one in properties:
+def _run_spin(subject: Subject, folder: Path, told: dict[str, dict[str, list[str]]]) -> None:
+    text = subject.write_promela(subject.properties)
+    runs = promela.judge_all(text, subject.properties, folder, f"{subject.name}.pml")
+    for one in subject.properties:
         word = one.name.replace("-", "_")
         if one.always and (run := runs[word]).moves is not None:
-            steps[one.name]["spin"] = describe_run(machine, run)
+            told[one.name]["spin"] = subject.describe_run(run)
         missed = [condition for number, condition in enumerate(one.possible) if runs[f"{word}_{number}"].moves is None]
         if missed:
-            steps[one.name]["spin"] = [f"no run from power-up has: {condition}" for condition in missed]
-
-
-def describe_step(machine: Machine, source: int, past: Past, letter: tuple[int, ...], target: int) -> str:
-    """One step in words."""
-    before, after = machine.labels[source], machine.labels[target]
-    torque = f"torque {'on' if after.get('torque_enable') else 'off'}, brakes {'open' if after.get('brake_release') else 'closed'}"
-    name = before.state if before.is_consistent else f"{before.state} (corrupted)"
-    words = describe_letter(letter, past, before.limit)
-    return f"{name} -> {after.state}: {words}; {torque}"
-
-
-def describe_refutation(machine: Machine, found: smt.Refutation) -> list[str]:
-    """A shortest way from power-up to the situation, and the step that breaks the property."""
-    place = (found.situation, found.past)
-    lines: list[str] = []
-    road = machine.roads.get(place)
-    here = place
-    while road is not None:
-        before, letter = road
-        lines.insert(0, describe_step(machine, before[0], before[1], letter, here[0]))
-        here, road = before, machine.roads.get(before)
-    lines.append(describe_step(machine, *place, found.letter, int(machine.next[(found.situation, *found.letter)])))
-    if found.worse != found.letter:
-        target = int(machine.next[(found.situation, *found.worse)])
-        lines.append("but also " + describe_step(machine, *place, found.worse, target))
-    return lines
-
-
-def describe_run(machine: Machine, run: promela.Run) -> list[str]:
-    """The run in words. @raise WorkError when the machine does not step as the run says: the model would not be its model."""
-    lines = []
-    moves = promela.list_moves(machine)
-    here, past = machine.first, Past()
-    for place, number in enumerate(run.moves or ()):
-        move = moves[number]
-        target = int(machine.next[(here, *move.letter)]) if move.letter else machine.corrupted
-        if (move.source, move.target) != (here, target):
-            raise WorkError(f"spin steps from {move.source} to {move.target}, the machine from {here} to {target}")
-        if place == run.loop:
-            lines.append("from here on again and again:")
-        lines.append(describe_step(machine, here, past, move.letter, target))
-        past = machine.advance(past, here, target, move.letter) if move.letter else past
-        here = target
-    return lines
+            told[one.name]["spin"] = [f"no run from power-up has: {condition}" for condition in missed]
 
 
 def make_record(results: Sequence[Result], facts: Mapping[str, Any]) -> dict[str, Any]:

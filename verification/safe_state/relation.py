@@ -43,6 +43,10 @@ class Label:
     limit: str
     outputs: tuple[bool, ...]
 
+    @property
+    def name(self) -> str:
+        return self.state if self.is_consistent else f"{self.state} (corrupted)"
+
     def get(self, output: str) -> bool:
         return self.outputs[OUTPUTS.index(output)]
 
@@ -71,14 +75,20 @@ def run_program(program: Path) -> str:
     return done.stdout
 
 
+def read_node(text: str, path: Path, schema: str, program: str) -> JsonNode:
+    """What `program` printed. @param path where the text comes from, for messages. @raise InputError for another schema or no JSON."""
+    remedy = f"print it again with {program}"
+    try:
+        node = JsonNode(path, "the relation", json.loads(text), remedy)
+    except ValueError as error:
+        raise InputError(f"not valid JSON: {error}; {remedy}", path) from error
+    node.at("schema").text((schema,))
+    return node
+
+
 def read_relation(text: str, path: Path) -> Relation:
     """@param path where the text comes from, for messages. @raise InputError for a text that is no whole relation."""
-    mend = "print it again with mamori_safe_state_relation"
-    try:
-        node = JsonNode(path, "the relation", json.loads(text), mend)
-    except ValueError as error:
-        raise InputError(f"is no JSON: {error}; {mend}", path) from error
-    node.at("schema").text((SCHEMA,))
+    node = read_node(text, path, SCHEMA, "mamori_safe_state_relation")
     _check_inputs(node)
     states = tuple(item.text() for item in node.at("states").items())
     events = tuple(item.text() for item in node.at("events").items())

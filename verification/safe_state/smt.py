@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,16 +34,6 @@ class Query:
 
     owner: str
     text: str
-
-
-@dataclass(frozen=True)
-class Refutation:
-    """A step that breaks the property, as z3 found it. `worse`: the letter beside it, the same where only one is spoken about."""
-
-    situation: int
-    past: Past
-    letter: tuple[int, ...]
-    worse: tuple[int, ...]
 
 
 def write_model(machine: Machine) -> str:
@@ -160,20 +150,37 @@ def write_literal(name: str, level: bool) -> str:
 KNOWN = "(known s last_start last_reset has_run)"
 
 
-def list_history_queries(machine: Machine) -> list[Query]:
+def list_history_queries(machine: Machine) -> list[str]:
     """What the pasts rest on: power-up has a known one, and each step and each flipped bit leads from known ones to known ones."""
     return [
-        Query("", f"(assert (not (known {machine.first} true true false)))"),
-        Query("", f"(assert (and {KNOWN} (not (known t start_button reset_button has_run_t))))"),
-        Query("", f"(assert (and {KNOWN} (not (known {machine.corrupted} last_start last_reset has_run))))"),
+        f"(assert (not (known {machine.first} true true false)))",
+        f"(assert (and {KNOWN} (not (known t start_button reset_button has_run_t))))",
+        f"(assert (and {KNOWN} (not (known {machine.corrupted} last_start last_reset has_run))))",
     ]
 
 
-def list_queries(machine: Machine, wanted: Property) -> list[Query]:
+def list_queries(machine: Machine, wanted: Property) -> list[str]:
     """What must be impossible for the property to hold."""
     if wanted.induction is not None:
-        return [Query(wanted.name, text) for text in _write_induction(machine, wanted.induction)]
-    return [Query(wanted.name, f"(assert (and {KNOWN} (not {wanted.step})))")] if wanted.step else []
+        return _write_induction(machine, wanted.induction)
+    return [f"(assert (and {KNOWN} (not {wanted.step})))"] if wanted.step else []
+
+
+def write_induction(induction: Induction, head: Sequence[str], step: Sequence[str], base: str, situation: str,
+                    after: Mapping[str, str]) -> list[str]:  # fmt: skip
+    """Base, step and use of the invariant. `head`: definitions of all three, `step`: of the step. `after`: words of the invariant, as they
+    are spelt after the step."""
+    moved = re.sub(r"\b\w+\b", lambda word: after.get(word[0], word[0]), induction.invariant)
+    return [
+        "\n".join([*head, f"(assert {base})", f"(assert (not {induction.invariant}))"]),
+        "\n".join([*head, *step, f"(assert (and {situation} {induction.invariant} (not {moved})))"]),
+        "\n".join([*head, f"(assert (and {situation} {induction.invariant} (not {induction.claim})))"]),
+    ]
+
+
+def write_match(time: str, prefix: str, elapsed: str, bound: str) -> str:
+    """The time of the machine is where `elapsed` is relative to the bound."""
+    return f"(= {time} (ite (< {elapsed} {bound}) {prefix}Within (ite (= {elapsed} {bound}) {prefix}AtBound {prefix}Beyond)))"
 
 
 COUNTERS = {"age": "Int", "demanded": "Bool", "since_demand": "Int", "unconfirmed": "Bool", "since_stop": "Int"}
@@ -183,18 +190,13 @@ COUNTERS = {"age": "Int", "demanded": "Bool", "since_demand": "Int", "unconfirme
 def _write_induction(machine: Machine, induction: Induction) -> list[str]:
     """Base, step and use of the invariant. A cycle takes 1 to `cycle`; the clock may also jump to either side of the state's time."""
     ranges = "(and (> ss2_within 0) (> ss1_within 0) (> cycle 0) (<= 1 tick cycle))"
-    after = {name: f"{name}_t" for name in COUNTERS} | {"s": "t_all"}
-    moved = re.sub(r"\b\w+\b", lambda word: after.get(word[0], word[0]), induction.invariant)
     elapsed = "(+ age tick)"
-
-    def against(bound: str) -> str:
-        return f"(= time (ite (< {elapsed} {bound}) Time_Within (ite (= {elapsed} {bound}) Time_AtBound Time_Beyond)))"
-
+    within = {bound: write_match("time", "Time_", elapsed, bound) for bound in ("ss2_within", "ss1_within")}
     head = [f"(declare-const {name} {sort})" for name, sort in COUNTERS.items()]
     head += [f"(declare-const {name} Int)" for name in ("ss2_within", "ss1_within", "cycle", "tick")]
     head += ["(declare-const flips Bool)", f"(assert {ranges})"]
-    clock = (f"(or (= time Time_BeforeEntry) (= time Time_Beyond) (ite (limit_ss2 s) {against('ss2_within')}"
-             f" (=> (limit_ss1 s) {against('ss1_within')})))")  # fmt: skip
+    clock = (f"(or (= time Time_BeforeEntry) (= time Time_Beyond) (ite (limit_ss2 s) {within['ss2_within']}"
+             f" (=> (limit_ss1 s) {within['ss1_within']})))")  # fmt: skip
     step = [
         f"(define-fun t_all () Int (ite flips {machine.corrupted} t))",
         f"(assert {clock})",
@@ -205,28 +207,8 @@ def _write_induction(machine: Machine, induction: Induction) -> list[str]:
         " (and (not (is s ProtectiveStopSs2)) (is t_all ProtectiveStopSs2)))))",
         "(define-fun since_stop_t () Int (ite unconfirmed (+ since_stop tick) 0))",
     ]
-    base = [f"(assert (and (= s {machine.first}) (= age 0) (not demanded) (not unconfirmed)))"]
-    return [
-        "\n".join([*head, *base, f"(assert (not {induction.invariant}))"]),
-        "\n".join([*head, *step, f"(assert (and {KNOWN} {induction.invariant} (not {moved})))"]),
-        "\n".join([*head, f"(assert (and {KNOWN} {induction.invariant} (not {induction.claim})))"]),
-    ]
-
-
-def check(machine: Machine, queries: Sequence[Query], folder: Path) -> list[Refutation | None]:
-    """Asks z3. @return for each query nothing, when it is impossible, or how it is possible. @raise WorkError when z3 is missing or
-    does not answer."""
-    model = write_model(machine)
-    answers = ask_all(model, queries, folder / "machine.smt2")
-    return [None if is_impossible else _find(model, query, folder) for is_impossible, query in zip(answers, queries, strict=True)]
-
-
-def _find(model: str, query: Query, folder: Path) -> Refutation:
-    names = ("s", *PASTS, *INPUTS, *(f"worse_{name}" for name in WORSENED))
-    numbers = ask_values(model, query, names, folder / "counterexample.smt2")
-    letter = tuple(numbers[name] for name in INPUTS)
-    worse = tuple(numbers[f"worse_{name}" if name in WORSENED and "t_worse" in query.text else name] for name in INPUTS)
-    return Refutation(numbers["s"], Past(*(bool(numbers[name]) for name in PASTS)), letter, worse)
+    base = f"(and (= s {machine.first}) (= age 0) (not demanded) (not unconfirmed))"
+    return write_induction(induction, head, step, base, KNOWN, {name: f"{name}_t" for name in COUNTERS} | {"s": "t_all"})
 
 
 def ask_all(model: str, queries: Sequence[Query], path: Path) -> list[bool]:

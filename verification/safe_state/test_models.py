@@ -16,8 +16,8 @@ import pytest
 from mamori_trace.base.errors import InputError, WorkError
 from verification.safe_state import promela, smt
 from verification.safe_state.machine import Machine
-from verification.safe_state.properties import PROPERTIES
-from verification.safe_state.prove import describe_run
+from verification.safe_state.machine_subject import MachineSubject
+from verification.safe_state.prove import prove
 from verification.safe_state.relation import INPUTS, SHAPE, VALUES, Relation, read_relation, run_program
 
 LETTERS = 500
@@ -59,7 +59,8 @@ def test_diagram_of_z3_answers_like_the_machine(machine: Machine, tmp_path: Path
             values.append(f"(= {name} {digit})" if smt.SORTS[name] == "Int" else smt.write_literal(name, bool(digit)))
         rows.append(f"(and {' '.join(values)} (not (= t {machine.next[(here, *letter)]})))")
 
-    assert smt.check(machine, [smt.Query("", f"(assert (or {' '.join(rows)}))")], tmp_path) == [None]
+    query = smt.Query("", f"(assert (or {' '.join(rows)}))")
+    assert smt.ask_all(smt.write_model(machine), [query], tmp_path / "machine.smt2") == [True]
 
 
 @pytest.mark.verifies("SWR-FSM-022", technique="back_to_back")
@@ -84,13 +85,13 @@ def test_random_runs_of_spin_are_runs_of_the_machine(machine: Machine, tmp_path:
         moves = tuple(int(number) for number in re.findall(r"MOVE (\d+)", told.stdout))
 
         assert len(moves) > 50
-        assert len(describe_run(machine, promela.Run("random", moves))) == len(moves)
+        assert len(MachineSubject(machine).describe_run(promela.Run("random", moves))) == len(moves)
 
 
 @pytest.mark.verifies("SWR-FSM-022", technique="fault_injection", polarity="violation")
 def test_run_that_the_machine_does_not_take_is_refused(machine: Machine) -> None:
     with pytest.raises(WorkError, match="spin steps from"):
-        describe_run(machine, promela.Run("wrong", (len(promela.list_moves(machine)) - 1,)))
+        MachineSubject(machine).describe_run(promela.Run("wrong", (len(promela.list_moves(machine)) - 1,)))
 
 
 def drop(document: dict[str, Any], *place: str | int) -> None:
@@ -137,7 +138,7 @@ def test_program_that_is_missing_fails_or_prints_no_relation_is_refused(tmp_path
         run_program(tmp_path / "missing")
     with pytest.raises(InputError, match="ended with status 1: situation 3: no"):
         run_program(failing)
-    with pytest.raises(InputError, match="is no JSON"):
+    with pytest.raises(InputError, match="not valid JSON"):
         read_relation("", Path("relation.json"))
 
 
@@ -158,11 +159,5 @@ def test_prover_that_answers_nonsense_proves_nothing(machine: Machine, tmp_path:
     (fakes / tool).chmod(0o755)
     monkeypatch.setenv("PATH", str(fakes), prepend=":")
 
-    def check() -> None:
-        if tool == "z3":
-            smt.check(machine, smt.list_history_queries(machine), tmp_path)
-        else:
-            promela.check(machine, PROPERTIES, tmp_path)
-
     with pytest.raises(WorkError, match=complaint):
-        check()
+        prove(MachineSubject(machine), tmp_path)

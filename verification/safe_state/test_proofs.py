@@ -1,44 +1,62 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the compiled machine has each property, and a defect that takes one of them away is found, and only there.
-# Method: both provers on the models of the built program, and on those of machines with one seeded defect each.
+# Goal: the compiled machine and the compiled brakes have each property, and a defect that removes one property is found, and only there.
+# Method: both provers on the models of the built programs, and on those of parts with one seeded defect each.
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from mamori_tools.host.project import ROOT
-from verification.safe_state.defects import DEFECTS, Defect
-from verification.safe_state.machine import Machine
+from verification.safe_state.brakes.coupling import Pair
+from verification.safe_state.brakes.defects import BRAKE_DEFECTS
+from verification.safe_state.brakes.properties import BRAKE_PROPERTIES
+from verification.safe_state.brakes.subject import BrakeSubject
+from verification.safe_state.defects import DEFECTS
+from verification.safe_state.machine_subject import MachineSubject
 from verification.safe_state.properties import PROPERTIES, RANKS
 from verification.safe_state.prove import REFUTED, Result, prove
 from verification.safe_state.relation import Relation
 
+ALL_PROPERTIES = (*PROPERTIES, *BRAKE_PROPERTIES)
+ALL_DEFECTS = [defect.breaks for defect in DEFECTS] + [defect.breaks for defect in BRAKE_DEFECTS]
+
 
 @pytest.fixture(scope="module")
-def results(machine: Machine, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Result]:
-    return {result.property.name: result for result in prove(machine, tmp_path_factory.mktemp("proof"))}
+def results(pair: Pair, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Result]:
+    folder = tmp_path_factory.mktemp("proof")
+    return {result.property.name: result for subject in (MachineSubject(pair.machine), BrakeSubject(pair)) for result in prove(subject, folder)}
+
+
+def prove_faulty(name: str, pair: Pair, folder: Path) -> list[Result]:
+    """@return what is refuted of the part with the seeded defect of the property `name`."""
+    of_machine = {defect.breaks: defect for defect in DEFECTS}
+    of_brakes = {defect.breaks: defect for defect in BRAKE_DEFECTS}
+    subject = (MachineSubject(of_machine[name].seed(pair.machine)) if name in of_machine
+               else BrakeSubject(replace(pair, brakes=of_brakes[name].seed(pair.brakes))))  # fmt: skip
+    return [result for result in prove(subject, folder) if not result.is_proved]
 
 
 @pytest.mark.parametrize(
     "name",
     [pytest.param(one.name, marks=pytest.mark.verifies(one.requirement, technique="state_transition", polarity="violation"))
-     for one in PROPERTIES],
+     for one in ALL_PROPERTIES],
 )  # fmt: skip
-def test_property_of_the_compiled_machine_is_proved(results: Mapping[str, Result], name: str) -> None:
+def test_property_of_the_compiled_part_is_proved(results: Mapping[str, Result], name: str) -> None:
     assert results[name].is_proved, "\n".join(results[name].steps)
     assert results[name].verdicts
 
 
 @pytest.mark.verifies("SWR-FSM-024", technique="fault_injection", polarity="violation")
-@pytest.mark.parametrize("defect", DEFECTS, ids=lambda defect: defect.breaks)
-def test_seeded_defect_breaks_its_property_and_no_other(machine: Machine, tmp_path: Path, defect: Defect) -> None:
-    broken = [result for result in prove(defect.seed(machine), tmp_path) if not result.is_proved]
+@pytest.mark.parametrize("name", ALL_DEFECTS)
+def test_seeded_defect_breaks_its_property_and_no_other(pair: Pair, tmp_path: Path, name: str) -> None:
+    broken = prove_faulty(name, pair, tmp_path)
 
-    assert [result.property.name for result in broken] == [defect.breaks]
-    assert set(broken[0].verdicts.values()) == {REFUTED}, "each prover that judges it finds it"
+    assert [result.property.name for result in broken] == [name]
+    assert set(broken[0].verdicts.values()) == {REFUTED}, "each prover that checks it finds it"
     steps = broken[0].steps
     assert steps
     if not broken[0].property.possible:
@@ -50,9 +68,10 @@ def test_seeded_defect_breaks_its_property_and_no_other(machine: Machine, tmp_pa
 def test_each_property_has_one_defect_a_requirement_and_a_sentence() -> None:
     requirements = (ROOT / "requirements" / "software" / "safe_state.md").read_text(encoding="utf-8")
 
-    assert [defect.breaks for defect in DEFECTS] == [one.name for one in PROPERTIES]
-    assert len({one.name for one in PROPERTIES}) == len(PROPERTIES) >= 12
-    for one in PROPERTIES:
+    assert [one.name for one in ALL_PROPERTIES] == ALL_DEFECTS
+    assert len({one.name for one in ALL_PROPERTIES}) == len(ALL_PROPERTIES), "--defect distinguishes them"
+    assert len(PROPERTIES) >= 12
+    for one in ALL_PROPERTIES:
         assert f"## {one.requirement} " in requirements
         assert one.sentence.endswith(".")
         assert one.provers
@@ -64,11 +83,19 @@ def test_properties_know_each_state_of_the_machine(relation: Relation) -> None:
 
 
 @pytest.mark.verifies("SWR-FSM-023", technique="state_transition", polarity="violation")
-def test_breach_is_shown_from_power_up_on(machine: Machine, tmp_path: Path) -> None:
-    defect = next(one for one in DEFECTS if one.breaks == "corrupted-state-locks-out")
-
-    broken = [result for result in prove(defect.seed(machine), tmp_path) if not result.is_proved]
+def test_breach_is_shown_from_power_up_on(pair: Pair, tmp_path: Path) -> None:
+    broken = prove_faulty("corrupted-state-locks-out", pair, tmp_path)
 
     assert len(broken) == 1
     assert broken[0].steps[-2].endswith("a bit of the stored state flips; torque off, brakes closed")
     assert broken[0].steps[-1].startswith("LockedOut (corrupted) -> Safe: demand ")
+
+
+@pytest.mark.verifies("SWR-FSM-023", technique="state_transition", polarity="violation")
+def test_breach_under_the_machine_is_shown_with_the_inputs_of_both(pair: Pair, tmp_path: Path) -> None:
+    broken = prove_faulty("ss1-confirmed-by-its-brakes", pair, tmp_path)
+
+    last = broken[0].steps[-1]
+    assert last.startswith("ProtectiveStopSs1 -> Safe: demand ")
+    assert "stands, contacts silent" in last
+    assert last.endswith("standstill confirmed; torque off, brakes closed")

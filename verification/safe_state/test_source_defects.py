@@ -1,26 +1,54 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a slip in the source of the machine reaches the provers: from the C++ to the counterexample nothing is written by hand.
-# Method: a copy of the source with one slip is compiled, explored and judged; what is broken is known beforehand.
+# Goal: a slip in the source of machine or brakes reaches the provers: nothing between the C++ and the counterexample is written by hand.
+# Method: a copy of the source with one slip is compiled, explored and checked; what is broken is known beforehand.
 from __future__ import annotations
 
 import shutil
 import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 from mamori_tools.host.project import ROOT
-from verification.safe_state.machine import merge
-from verification.safe_state.prove import prove
+from verification.safe_state.brakes.coupling import Pair
+from verification.safe_state.brakes.relation import read_brakes
+from verification.safe_state.brakes.sequence import make_cycles
+from verification.safe_state.brakes.subject import BrakeSubject
+from verification.safe_state.machine import Machine, merge
+from verification.safe_state.machine_subject import MachineSubject
+from verification.safe_state.prove import Subject, prove
 from verification.safe_state.relation import read_relation, run_program
-from verification.safe_state.source_slip import Slip
 
 TABLE = "safety/include/mamori/safety/reaction/safe_state.hpp"
 EDGE = "safety/include/mamori/safety/base/rising_edge.hpp"
 MACHINE = "safety/src/reaction/safe_state_machine.cpp"
+BRAKE_HEADER = "safety/include/mamori/safety/reaction/brake_sequence.hpp"
+BRAKES = "safety/src/reaction/brake_sequence.cpp"
+GATE_SLIPS = ("cell of the table", "bound", "pushed brakes open", "late by one tick")  # the others are `long`
 
 
-GATE_SLIPS = ("cell of the table", "bound")  # the others are `long`
+@dataclass(frozen=True)
+class Slip:
+    """`right` is found once in `file` and becomes `wrong`; the properties `broken` are refuted then."""
+
+    file: str
+    right: str
+    wrong: str
+    broken: tuple[str, ...]
+
+    @property
+    def is_of_brakes(self) -> bool:
+        return self.file in (BRAKE_HEADER, BRAKES)
+
+    def put_into(self, folder: Path) -> None:
+        """@param folder copy of the sources, that has `file`."""
+        path = folder / self.file
+        text = path.read_text(encoding="utf-8")
+        assert text.count(self.right) == 1, "the source has changed; adapt the slip"
+        path.write_text(text.replace(self.right, self.wrong), encoding="utf-8")
+
+
 SLIPS = {
     "cell of the table": Slip(
         TABLE, "kHold, kHold, kHold,  kStby, kHold,  kHold,   kHold", "kHold, kHold, kHold,  kOper, kHold,  kHold,   kHold",
@@ -43,28 +71,53 @@ SLIPS = {
     "corrupted state": Slip(
         MACHINE, "        enter(SafeState::kLockedOut, inputs.now);\n        return SafeState::kLockedOut;",
         "        enter(SafeState::kSafe, inputs.now);\n        return SafeState::kSafe;", ("lost-trust-locks-out", "corrupted-state-locks-out")),
+    "an SS1 closes at once": Slip(
+        BRAKES, "state == SafeState::kProtectiveStopSs1 && is_told_", "state == SafeState::kProtectiveStopSs1",
+        ("brakes-close-under-torque-in-ss1-only",)),
+    "pushed brakes open": Slip(
+        BRAKES, "    return is_standing && have_bitten(now);", "    is_told_ = is_standing;\n    return is_standing && have_bitten(now);",
+        # Where the push comes with the end of the stop, the brakes stay closed, and their time counts anew: no claim about it holds.
+        ("brakes-open-by-a-start-only", "silent-brakes-are-overdue", "torque-outlives-the-hold-within-the-closing-time")),
+    "standstill alone confirms": Slip(
+        BRAKES, "return is_standing && have_bitten(now);", "return is_standing;", ("ss1-confirmed-by-its-brakes",)),
+    "torque outlives every stop": Slip(
+        BRAKES, "state == SafeState::kStandby && was_held", "was_held", ("torque-outlives-the-hold-only", "sto-waits-for-no-brakes")),
+    "late by one tick": Slip(
+        BRAKES, "elapsed < limits_.closes_within;", "elapsed <= limits_.closes_within;",
+        ("torque-outlives-the-hold-within-the-closing-time",)),
+    "nobody reports": Slip(
+        BRAKE_HEADER, "is_told_ && limits_.has_contacts && !are_closed_ &&", "limits_.has_contacts && are_closed_ &&",
+        ("silent-brakes-are-overdue",)),
 }  # fmt: skip
 
 
-def build_with(slip: Slip, folder: Path) -> Path:
-    """@return the relation program, made from a copy of the source with the slip."""
+def build_with(slip: Slip, folder: Path) -> str:
+    """@return the relation of the part with the slip: its program, made from a copy of the source, is run."""
     for name in ("include", "src"):
         shutil.copytree(ROOT / "safety" / name, folder / "safety" / name)
     slip.put_into(folder)
     program = folder / "relation"
-    sources = [ROOT / "verification/safe_state/src/main.cpp", ROOT / "kernel/src/base/assert.cpp", *(folder / "safety/src/reaction").glob("safe_state*.cpp")]
+    main = "brake_main.cpp" if slip.is_of_brakes else "main.cpp"
+    reaction = folder / "safety/src/reaction"
+    sources = [ROOT / "verification/safe_state/src" / main, ROOT / "kernel/src/base/assert.cpp", *reaction.glob("safe_state*.cpp"),
+               reaction / "brake_sequence.cpp"]  # fmt: skip
     subprocess.run(("g++", "-std=c++17", "-O1", f"-I{folder / 'safety/include'}", f"-I{ROOT / 'kernel/include'}",
                     *map(str, sources), "-o", str(program)), check=True)  # fmt: skip
-    return program
+    return run_program(program)
+
+
+def make_subject(slip: Slip, text: str, machine: Machine) -> Subject:
+    if slip.is_of_brakes:
+        return BrakeSubject(Pair(machine, make_cycles(read_brakes(text, Path("brakes.json")))))
+    return MachineSubject(merge(read_relation(text, Path("relation.json"))))
 
 
 @pytest.mark.verifies("SWR-FSM-023", technique="fault_injection", polarity="violation")
 @pytest.mark.parametrize("name", [pytest.param(name, marks=() if name in GATE_SLIPS else pytest.mark.long) for name in SLIPS])
-def test_slip_in_the_source_is_refuted(tmp_path: Path, name: str) -> None:
+def test_slip_in_the_source_is_refuted(machine: Machine, tmp_path: Path, name: str) -> None:
     slip = SLIPS[name]
-    machine = merge(read_relation(run_program(build_with(slip, tmp_path)), tmp_path))
 
-    broken = [result for result in prove(machine, tmp_path) if not result.is_proved]
+    broken = [result for result in prove(make_subject(slip, build_with(slip, tmp_path), machine), tmp_path) if not result.is_proved]
 
     assert {result.property.name for result in broken} == set(slip.broken)
     assert all(result.steps for result in broken)

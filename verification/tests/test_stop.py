@@ -9,6 +9,7 @@ import sys
 import time
 from pathlib import Path
 
+import psutil
 import pytest
 
 RUNNER = """
@@ -26,10 +27,7 @@ TIMEOUT_S = 20.0
 
 
 def is_running(pid: int) -> bool:
-    try:
-        return (Path("/proc") / str(pid) / "stat").read_text().rsplit(") ", 1)[1][0] != "Z"
-    except FileNotFoundError:
-        return False
+    return psutil.pid_exists(pid) and psutil.Process(pid).status() != psutil.STATUS_ZOMBIE
 
 
 def stop_while_running(folder: Path, text: str, number: signal.Signals) -> tuple[int, str, int]:

@@ -90,39 +90,23 @@ def raise_on_signals() -> None:
 
 def end_children() -> None:
     """Ends every descendant of this process: asks first, then, after GRACE_S, does not ask."""
+    import psutil  # here, so that no other command loads it
+
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     deadline = time.monotonic() + GRACE_S
-    asked: set[int] = set()
-    while children := _get_descendants(os.getpid()):
-        number = signal.SIGTERM if time.monotonic() < deadline else signal.SIGKILL
-        for pid in children:
-            if number is signal.SIGKILL or pid not in asked:
-                asked.add(pid)
-                _send(pid, number)
-        time.sleep(POLL_S)
-
-
-def _send(pid: int, number: signal.Signals) -> None:
-    with contextlib.suppress(ProcessLookupError):  # it ended by itself in the meantime
-        os.kill(pid, number)
-
-
-def _get_descendants(ancestor: int) -> set[int]:
-    """Living processes below `ancestor`; ended ones whose parent has not looked yet do not count."""
-    children: dict[int, list[int]] = {}
-    for stat in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            pid_text, rest = stat.read_text(encoding="utf-8", errors="replace").split(" (", 1)
-        except (OSError, ValueError):
-            continue  # ended while we looked
-        state, parent = rest.rsplit(") ", 1)[1].split()[:2]
-        if state != "Z":
-            children.setdefault(int(parent), []).append(int(pid_text))
-    found: set[int] = set()
-    pending = [ancestor]
-    while pending:
-        below = children.get(pending.pop(), [])
-        found.update(below)
-        pending.extend(below)
-    return found
+    asked: set[psutil.Process] = set()
+    is_any_left = True
+    while is_any_left:
+        is_any_left = False
+        is_late = time.monotonic() >= deadline
+        for child in psutil.Process().children(recursive=True):
+            with contextlib.suppress(psutil.NoSuchProcess):  # it ended by itself in the meantime
+                if child.status() == psutil.STATUS_ZOMBIE:  # its parent has not read its exit status yet
+                    continue
+                is_any_left = True
+                if is_late or child not in asked:
+                    asked.add(child)
+                    child.send_signal(signal.SIGKILL if is_late else signal.SIGTERM)
+        if is_any_left:
+            time.sleep(POLL_S)

@@ -7,7 +7,6 @@ the standstill that the step sees, apply() gets the state after it. Both halves 
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,6 +15,7 @@ from itertools import product
 import numpy as np
 
 from verification.safe_state.brakes.sequence import Answer, Brakes, Call, Memory, advance
+from verification.safe_state.graph import walk
 from verification.safe_state.machine import Machine
 from verification.safe_state.relation import INPUTS
 
@@ -51,15 +51,7 @@ class Pair:
     @cached_property
     def roads(self) -> Mapping[Node, tuple[Node, Cycle] | None]:
         """For each node the one before it on a shortest way from power-up, and the cycle in between."""
-        found: dict[Node, tuple[Node, Cycle] | None] = {Node(self.machine.first, first, Memory()): None for first in self.brakes.firsts}
-        pending = deque(found)
-        while pending:
-            here = pending.popleft()
-            for cycle, there in self._list_cycles(here):
-                if there not in found:
-                    found[there] = (here, cycle)
-                    pending.append(there)
-        return found
+        return walk([Node(self.machine.first, first, Memory()) for first in self.brakes.firsts], self._list_cycles)
 
     def step(self, node: Node, letter: Letter, standing: bool, contacts: bool, time: int) -> tuple[Node, Call, Answer]:
         """@param letter whose standstill is replaced by the confirmed one."""

@@ -13,15 +13,7 @@ import numpy as np
 
 from verification.safe_state.brakes.relation import AT_BOUND, BEYOND, WITHIN
 from verification.safe_state.brakes.sequence import HOLD, LOCKED_OUT, SS1, Brakes
-
-
-@dataclass(frozen=True)
-class BrakeDefect:
-    """`breaks`: name of the property. `sentence`: what the sequence does wrong."""
-
-    breaks: str
-    sentence: str
-    seed: Callable[[Brakes], Brakes]
+from verification.safe_state.defects import Defect
 
 
 @dataclass(frozen=True)
@@ -93,25 +85,25 @@ def notice_nothing_late(brakes: Brakes) -> Brakes:
     return replace(brakes, cycle={**brakes.cycle, "overdue": overdue})
 
 
-BRAKE_DEFECTS: tuple[BrakeDefect, ...] = (
-    BrakeDefect("brakes-closed-without-torque", "A moving machine that is locked out keeps its brakes open.",
+BRAKE_DEFECTS: tuple[Defect[Brakes], ...] = (
+    Defect("brakes-closed-without-torque", "A moving machine that is locked out keeps its brakes open.",
                 bend(Where((OPEN,), LOCKED_OUT), {"open": 1, "told_now": 0, "overdue": 0}, OPEN)),
-    BrakeDefect("brakes-close-under-torque-in-ss1-only", "An SS1 closes its brakes while the machine still moves.",
+    Defect("brakes-close-under-torque-in-ss1-only", "An SS1 closes its brakes while the machine still moves.",
                 bend(Where((OPEN, HELD), SS1), {"open": 0, "told_now": 1}, TOLD)),
-    BrakeDefect("ss1-holds-while-its-brakes-close", "An SS1 takes torque away once its brakes were told to close.",
+    Defect("ss1-holds-while-its-brakes-close", "An SS1 takes torque away once its brakes were told to close.",
                 bend(Where((TOLD,), SS1), {"torque": 0})),
-    BrakeDefect("ss1-confirmed-by-its-brakes", "Standstill alone confirms an SS1, whatever the contacts say.",
+    Defect("ss1-confirmed-by-its-brakes", "Standstill alone confirms an SS1, whatever the contacts say.",
                 confirm(1, (True,), standing=(1,), contacts=(0,))),
-    BrakeDefect("torque-outlives-the-hold-only", "A standby gets torque also after a self test.",
+    Defect("torque-outlives-the-hold-only", "A standby gets torque also after a self test.",
                 bend(Where((TOLD,), "Standby", before="SelfTest", times=(WITHIN,)), {"torque": 1}, HANDING_OVER)),
-    BrakeDefect("torque-outlives-the-hold-within-the-closing-time", "Torque outlives the hold up to and including the closing time.",
+    Defect("torque-outlives-the-hold-within-the-closing-time", "Torque outlives the hold up to and including the closing time.",
                 bend(Where((HANDING_OVER,), "Standby", contacts=(0,), times=(AT_BOUND,)), {"torque": 1}, HANDING_OVER)),
-    BrakeDefect("hold-is-handed-over-to-the-brakes", "Torque goes in the cycle in which the hold is left.",
+    Defect("hold-is-handed-over-to-the-brakes", "Torque goes in the cycle in which the hold is left.",
                 bend(Where((HELD,), "Standby"), {"torque": 0}, TOLD)),
-    BrakeDefect("sto-waits-for-no-brakes", "An SS1 that ends in STO keeps torque for its brakes.",
+    Defect("sto-waits-for-no-brakes", "An SS1 that ends in STO keeps torque for its brakes.",
                 bend(Where((TOLD,), "Safe", before=SS1, contacts=(0,), times=(WITHIN,)), {"torque": 1})),
-    BrakeDefect("brakes-open-by-a-start-only", "The brakes of an SS1 open again when the machine is pushed.",
+    Defect("brakes-open-by-a-start-only", "The brakes of an SS1 open again when the machine is pushed.",
                 bend(Where((TOLD,), SS1, before=SS1, standing=(0,)), {"open": 1, "told_now": 0, "overdue": 0}, OPEN)),
-    BrakeDefect("silent-brakes-are-overdue", "Only a clock that runs backwards makes brakes overdue.", notice_nothing_late),
-    BrakeDefect("brakes-end-stops", "No SS1 is ever confirmed.", confirm(0, (True, False), standing=(0, 1), contacts=(0, 1))),
+    Defect("silent-brakes-are-overdue", "Only a clock that runs backwards makes brakes overdue.", notice_nothing_late),
+    Defect("brakes-end-stops", "No SS1 is ever confirmed.", confirm(0, (True, False), standing=(0, 1), contacts=(0, 1))),
 )  # fmt: skip

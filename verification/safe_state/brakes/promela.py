@@ -11,18 +11,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 
 from verification.safe_state import promela
 from verification.safe_state.brakes.coupling import Letter, Node, Pair
 from verification.safe_state.brakes.sequence import SS1, Call, Memory
-from verification.safe_state.promela import BOUNDS, WITHIN, Run
+from verification.safe_state.promela import WITHIN
 from verification.safe_state.properties import Property
 from verification.safe_state.relation import VALUES
 
-MODEL = "brakes.pml"
 CLOSES_WITHIN = 2
 """In cycles; shorter than the bound of an SS1, as an application must have it."""
 STO = VALUES["demand"].index("Sto")
@@ -196,21 +194,10 @@ class Model:
         starts = [f"  :: situation = {numbers[view]}; fitted = {int(brakes.fitted[view.brakes])}" for view in firsts]
         views = [f"  :: n == {number} -> state = {view.state}; torque = {int(view.torque)}; open = {int(view.open)};"
                  f" fitted = {int(brakes.fitted[view.brakes])}" for view, number in numbers.items()]  # fmt: skip
-        return HEAD.format(
-            states="\n".join(f"#define {name} {number}" for number, name in enumerate(machine.states, start=1)),
-            ss2_within=BOUNDS["ss2_within"], ss1_within=BOUNDS["ss1_within"], closes_within=CLOSES_WITHIN,
-            firsts="\n".join(starts), views="\n".join(views), moves="\n".join(moves),
-            formulas="\n".join(f"ltl {name} {{ {formula} }}" for name, formula in promela.list_formulas(properties)),
-        )  # fmt: skip
+        return promela.fill(HEAD, machine, properties, closes_within=CLOSES_WITHIN, firsts="\n".join(starts), views="\n".join(views),
+                            moves="\n".join(moves))  # fmt: skip
 
 
 def look_at(node: Node) -> View:
     is_before_first_cycle = node.memory == Memory()
     return View(node.machine, node.brakes, node.memory.last, node.memory.torque, not node.memory.closed and not is_before_first_cycle)
-
-
-def check(pair: Pair, properties: Sequence[Property], folder: Path) -> tuple[Model, dict[str, Run]]:
-    """Lets spin judge each formula. @return the model, and by name what spin found. @raise WorkError when spin or gcc is missing or
-    fails."""
-    model = Model(pair)
-    return model, promela.judge_all(model.write(properties), properties, folder, MODEL)

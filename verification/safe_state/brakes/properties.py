@@ -12,17 +12,7 @@ Words of the forms for spin (promela.py): what an onlooker sees between two cycl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from verification.safe_state.properties import NOTHING_WRONG, Induction, Property
-
-
-@dataclass(frozen=True)
-class BrakeProperty(Property):
-    """`is_coupled`: judged under the machine. The claim of an induction may speak about the step."""
-
-    is_coupled: bool = False
-
 
 HAVE_BITTEN = "(ite fitted contacts (>= closing closes_within))"
 
@@ -32,26 +22,26 @@ def remember_command(condition: str) -> str:
     return f"(=> {condition} (and was_closed (<= 0 closed_age) (= told_age closed_age)))"
 
 
-BRAKE_PROPERTIES: tuple[BrakeProperty, ...] = (
-    BrakeProperty(
+BRAKE_PROPERTIES: tuple[Property, ...] = (
+    Property(
         "brakes-closed-without-torque", "SWR-FSM-034",
         "SBC follows STO: in each cycle in which torque is off the brakes are told to close, whatever the caller does.",
         step="(=> (not torque_out) (not open_out))",
         always="[] (torque || !open)",
     ),
-    BrakeProperty(
+    Property(
         "brakes-close-under-torque-in-ss1-only", "SWR-FSM-026",
         "In a state that has torque of its own the brakes are closed only in an SS1 in which the machine was measured standing.",
         step="(=> (and (own_torque r) (not open_out)) (and (= r ProtectiveStopSs1) stood_now))",
         is_coupled=True,
     ),
-    BrakeProperty(
+    Property(
         "ss1-holds-while-its-brakes-close", "SWR-FSM-026",
         "An SS1 has torque, and closes its brakes in the cycle in which the machine is measured standing.",
         step="(=> (= r ProtectiveStopSs1) (and torque_out (=> (and (= q ProtectiveStopSs1) standing) (not open_out))))",
         is_coupled=True,
     ),
-    BrakeProperty(
+    Property(
         "ss1-confirmed-by-its-brakes", "SWR-FSM-027",
         "An SS1 that is neither overdue nor overruled ends only when the machine stands and its brakes have bitten: by their contacts or,"
         " without, when the closing time has passed since the command.",
@@ -61,14 +51,14 @@ BRAKE_PROPERTIES: tuple[BrakeProperty, ...] = (
                   f" (and standing (or {HAVE_BITTEN} (and (not exact) (= brake_time Closing_Beyond)))))"),
         is_coupled=True,
     ),
-    BrakeProperty(
+    Property(
         "torque-outlives-the-hold-only", "SWR-FSM-028",
         "In a state without torque of its own that is neither safe nor locked out, torque is on only in a standby that a hold, or"
         " torque in standby, preceded.",
         step="(=> (and torque_out (not (own_torque r)) (not (= r Safe)) (not (= r LockedOut)))"
              " (and (= r Standby) (or (= last StandstillHold) (and (= last Standby) was_torque))))",
     ),
-    BrakeProperty(
+    Property(
         "torque-outlives-the-hold-within-the-closing-time", "SWR-FSM-028",
         "Torque outlives the hold for less than the closing time after the command to close.",
         induction=Induction(
@@ -76,19 +66,19 @@ BRAKE_PROPERTIES: tuple[BrakeProperty, ...] = (
             claim="(=> (and torque_out (= r Standby)) (< closing closes_within))"),
         always="[] (handover_cycles <= CLOSES_WITHIN)",
     ),
-    BrakeProperty(
+    Property(
         "hold-is-handed-over-to-the-brakes", "SWR-FSM-028",
         "The standby that follows a hold begins with torque unless the contacts say that the brakes are closed.",
         step="(=> (and (= last StandstillHold) (= q StandstillHold) (= r Standby) (not (and fitted contacts))) torque_out)",
     ),
-    BrakeProperty(
+    Property(
         "sto-waits-for-no-brakes", "SWR-FSM-028",
         "Torque is off in the cycle in which STO is demanded, and in each safe or locked-out one, however far the brakes are.",
         step="(=> (or (>= demand Demand_Sto) (= r Safe) (= r LockedOut)) (not torque_out))",
         always="[] ((state == Safe || state == LockedOut) -> !torque)",
         is_coupled=True,
     ),
-    BrakeProperty(
+    Property(
         "brakes-open-by-a-start-only", "SWR-FSM-035",
         "Closed brakes open only in the cycle of a start: pushed in standby, at standstill, bumpless, with nothing demanded or latched.",
         step="(=> (and was_closed open_out) (and (is s Standby) (is t Operational) start_button (not last_start) standing start_permitted"
@@ -96,7 +86,7 @@ BRAKE_PROPERTIES: tuple[BrakeProperty, ...] = (
         always="[] ((!open && [] !start) -> [] !open)",
         is_coupled=True,
     ),
-    BrakeProperty(
+    Property(
         "silent-brakes-are-overdue", "SWR-FSM-029",
         "Brakes with contacts that do not say closed are overdue from the first cycle beyond the closing time on, and not before; also"
         " when the clock runs to either side of it.",
@@ -106,7 +96,7 @@ BRAKE_PROPERTIES: tuple[BrakeProperty, ...] = (
                   " (=> (and fitted (not contacts) was_closed (not open_out)"
                   " (or (= brake_time Closing_BeforeCommand) (= brake_time Closing_Beyond))) overdue_out))"),
     ),
-    BrakeProperty(
+    Property(
         "brakes-end-stops", "SWR-FSM-027",
         "Brakes with contacts and brakes without end an SS1 before its bound: nothing is proved of brakes that do nothing.",
         possible=("fitted && by_brakes", "!fitted && by_brakes"),

@@ -6,15 +6,13 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from mamori_trace.base.errors import InputError
 from mamori_trace.base.json_node import JsonNode
-from verification.safe_state.relation import OUTPUTS, Array
+from verification.safe_state.relation import OUTPUTS, Array, read_node
 
 SCHEMA = "mamori.brake_sequence/1"
 TIMES = ("BeforeCommand", "Within", "AtBound", "Beyond")
@@ -25,7 +23,6 @@ CONFIRM_LETTER = ("state", "standstill", "closed", "time")
 CONFIRM_ANSWER = ("confirmed", "told_now", "next")
 APPLY_LETTER = ("state", "time")
 APPLY_ANSWER = (*OUTPUTS, "told_now", "next")
-MEND = "print it again with mamori_brake_sequence_relation"
 
 
 @dataclass(frozen=True)
@@ -45,11 +42,7 @@ class BrakeRelation:
 
 def read_brakes(text: str, path: Path) -> BrakeRelation:
     """@param path where the text comes from, for messages. @raise InputError for a text that is no whole relation."""
-    try:
-        node = JsonNode(path, "the relation", json.loads(text), MEND)
-    except ValueError as error:
-        raise InputError(f"is no JSON: {error}; {MEND}", path) from error
-    node.at("schema").text((SCHEMA,))
+    node = read_node(text, path, SCHEMA, "mamori_brake_sequence_relation")
     for name, wanted in (("times", TIMES), ("confirm_letter", CONFIRM_LETTER), ("confirm_answer", CONFIRM_ANSWER),
                          ("apply_letter", APPLY_LETTER), ("apply_answer", APPLY_ANSWER)):  # fmt: skip
         found = tuple(item.text() for item in node.at(name).items())

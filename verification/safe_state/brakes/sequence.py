@@ -7,7 +7,6 @@ apart, and with what an onlooker knows of the past in each of them.
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,6 +15,7 @@ from itertools import product
 import numpy as np
 
 from verification.safe_state.brakes.relation import WITHIN, BrakeRelation
+from verification.safe_state.graph import merge_alike, walk
 from verification.safe_state.relation import Array
 
 SS1 = "ProtectiveStopSs1"
@@ -78,17 +78,12 @@ class Brakes:
     @cached_property
     def roads(self) -> Mapping[tuple[int, Memory], tuple[tuple[int, Memory], Call] | None]:
         """For each situation with a past, the one before it on a shortest way from power-up, and the calls in between."""
-        found: dict[tuple[int, Memory], tuple[tuple[int, Memory], Call] | None] = {(first, Memory()): None for first in self.firsts}
-        pending = deque(found)
-        while pending:
-            here = pending.popleft()
-            for call in self.list_calls(here[1]):
-                answer = self.take(here[0], call)
-                there = (answer.next, advance(here[1], call, answer))
-                if there not in found:
-                    found[there] = (here, call)
-                    pending.append(there)
-        return found
+        return walk([(first, Memory()) for first in self.firsts], lambda here: self._list_moves(*here))
+
+    def _list_moves(self, number: int, memory: Memory) -> Iterator[tuple[Call, tuple[int, Memory]]]:
+        for call in self.list_calls(memory):
+            answer = self.take(number, call)
+            yield call, (answer.next, advance(memory, call, answer))
 
     def list_calls(self, memory: Memory) -> Iterator[Call]:
         """All that a caller who keeps to the contract can call: confirm() is given the state that apply() was given last, or
@@ -123,19 +118,9 @@ def make_cycles(relation: BrakeRelation) -> Brakes:
 
 
 def _merge(brakes: Brakes) -> Brakes:
-    count = len(brakes.fitted)
-    seen = [np.array(brakes.fitted, dtype=np.int64)[:, None], brakes.confirmed.reshape(count, -1)]
-    seen += [array.reshape(count, -1) for name, array in brakes.cycle.items() if name != "next"]
     following = brakes.cycle["next"]
-    group = np.zeros(count, dtype=np.int64)
-    while True:
-        rows = np.concatenate([group[:, None], *seen, group[following].reshape(count, -1)], axis=1)
-        _, first_seen, finer = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-        finer = np.argsort(np.argsort(first_seen))[finer.reshape(-1)]  # numbered in the order of the relation
-        if finer.max() == group.max():
-            break
-        group = finer
-    members = [int(np.flatnonzero(group == number)[0]) for number in range(int(group.max()) + 1)]
+    answers = [array for name, array in brakes.cycle.items() if name != "next"]
+    group, members = merge_alike([np.array(brakes.fitted, dtype=np.int64), brakes.confirmed, *answers], following)
     cycle = {name: array[members] for name, array in brakes.cycle.items()} | {"next": group[following[members]]}
     for name, array in brakes.cycle.items():
         if not np.array_equal(group[array] if name == "next" else array, cycle[name][group]):

@@ -6,31 +6,16 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Iterable
 
 from verification.safe_state import smt
-from verification.safe_state.brakes.coupling import Letter, Node, Pair
-from verification.safe_state.brakes.properties import BrakeProperty
+from verification.safe_state.brakes.coupling import Pair
 from verification.safe_state.brakes.relation import TIMES
-from verification.safe_state.brakes.sequence import Call, Memory
-from verification.safe_state.relation import INPUTS
-from verification.safe_state.smt import Query
+from verification.safe_state.brakes.sequence import Memory
+from verification.safe_state.properties import Induction, Property
 
-MODEL = "brakes.smt2"
 MEMORY = ("was_torque", "was_closed", "stood")
 CALL = ("q", "standing", "contacts", "r", "brake_time")
-
-
-@dataclass(frozen=True)
-class BrakeRefutation:
-    """A cycle that breaks the property, as z3 found it. `letter`: inputs of the machine, for a coupled one."""
-
-    node: Node
-    call: Call
-    letter: Letter
 
 
 def write_model(pair: Pair) -> str:
@@ -86,38 +71,35 @@ ALONE = (f"(and (known_alone {NOW}) (<= 1 r) (<= r Invalid)"
 COUPLED = f"(and (known_both s {NOW}) {smt.KNOWN} (= q (state s)) (= r (state t)) (= standstill confirmed))"
 
 
-def list_history_queries(pair: Pair) -> list[Query]:
+def list_history_queries(pair: Pair) -> list[str]:
     """What the pasts rest on: each cycle, and each flipped bit of the machine, leads from known ones to known ones."""
     powered = [f"(and (= b {first}) {_write_memory(Memory())})" for first in pair.brakes.firsts]
     powered_up = f"(assert (or {' '.join(powered)}))"
     flipped = f"(known_both {pair.machine.corrupted} {NOW})"
     return [
-        Query("", f"{powered_up}\n(assert (not (and (known_alone {NOW}) (known_both {pair.machine.first} {NOW}))))"),
-        Query("", f"(assert (and {ALONE} (not (known_alone {NEXT}))))"),
-        Query("", f"(assert (and {COUPLED} (not (known_both t {NEXT}))))"),
-        Query("", f"(assert (and {COUPLED} (not {flipped})))"),
+        f"{powered_up}\n(assert (not (and (known_alone {NOW}) (known_both {pair.machine.first} {NOW}))))",
+        f"(assert (and {ALONE} (not (known_alone {NEXT}))))",
+        f"(assert (and {COUPLED} (not (known_both t {NEXT}))))",
+        f"(assert (and {COUPLED} (not {flipped})))",
     ]
 
 
-def list_queries(wanted: BrakeProperty) -> list[Query]:
+def list_queries(wanted: Property) -> list[str]:
     """What must be impossible for the property to hold."""
     situation = COUPLED if wanted.is_coupled else ALONE
     if wanted.induction is not None:
-        return [Query(wanted.name, text) for text in _write_induction(wanted.induction.invariant, wanted.induction.claim, situation)]
-    return [Query(wanted.name, f"(assert (and {situation} (not {wanted.step})))")] if wanted.step else []
+        return _write_induction(wanted.induction, situation)
+    return [f"(assert (and {situation} (not {wanted.step})))"] if wanted.step else []
 
 
-def _write_induction(invariant: str, claim: str, situation: str) -> list[str]:
+def _write_induction(induction: Induction, situation: str) -> list[str]:
     """Base, step, and what each step of the invariant's situations must do. A cycle takes 1 to `cycle`; the clock of the sequence
     may also jump to either side of its closing time. Where no brakes were told, the time does not count."""
-    moved = re.sub(r"\b(last|was_closed|closed_age|told_age)\b", lambda word: f"{word[0]}_t", invariant)
     elapsed = "(+ told_age tick)"
-    match = (f"(= brake_time (ite (< {elapsed} closes_within) Closing_Within"
-             f" (ite (= {elapsed} closes_within) Closing_AtBound Closing_Beyond)))")  # fmt: skip
     head = [f"(declare-const {name} Int)" for name in ("closed_age", "told_age", "closes_within", "cycle", "tick")]
     head += [
         "(assert (and (> closes_within 0) (> cycle 0) (<= 1 tick cycle)))",
-        f"(define-fun exact () Bool (=> was_closed {match}))",
+        f"(define-fun exact () Bool (=> was_closed {smt.write_match('brake_time', 'Closing_', elapsed, 'closes_within')}))",
         "(assert (or exact (= brake_time Closing_BeforeCommand) (= brake_time Closing_Beyond)))",
         "(define-fun closing () Int (ite was_closed (+ closed_age tick) 0))",
         "(define-fun last_t () Int r)",
@@ -125,28 +107,5 @@ def _write_induction(invariant: str, claim: str, situation: str) -> list[str]:
         "(define-fun closed_age_t () Int closing)",
         f"(define-fun told_age_t () Int (ite told_now 0 {elapsed}))",
     ]
-    base = "(assert (not was_closed))"  # at power-up nothing was told
-    return [
-        "\n".join([*head, base, f"(assert (not {invariant}))"]),
-        "\n".join([*head, f"(assert (and {situation} {invariant} (not {moved})))"]),
-        "\n".join([*head, f"(assert (and {situation} {invariant} (not {claim})))"]),
-    ]
-
-
-def check(pair: Pair, queries: Sequence[Query], folder: Path) -> list[BrakeRefutation | None]:
-    """Asks z3. @return for each query nothing, when it is impossible, or how it is possible. @raise WorkError when z3 is missing or
-    does not answer."""
-    model = write_model(pair)
-    answers = smt.ask_all(model, queries, folder / MODEL)
-    return [None if is_impossible else _find(pair, model, query, folder)
-            for is_impossible, query in zip(answers, queries, strict=True)]  # fmt: skip
-
-
-def _find(pair: Pair, model: str, query: Query, folder: Path) -> BrakeRefutation:
-    names = ("s", "b", "last", *MEMORY, *CALL, *INPUTS)
-    found = smt.ask_values(model, query, names, folder / "brake_counterexample.smt2")
-    states = dict(enumerate(pair.brakes.states, start=1))
-    memory = Memory(states[found["last"]], *(bool(found[name]) for name in MEMORY))
-    # What the query leaves open may be any number.
-    call = Call(states[found["q"]], bool(found["standing"]), bool(found["contacts"]), states[found["r"]], found["brake_time"])
-    return BrakeRefutation(Node(found["s"], found["b"], memory), call, tuple(found[name] for name in INPUTS))
+    after = {name: f"{name}_t" for name in ("last", "was_closed", "closed_age", "told_age")}
+    return smt.write_induction(induction, head, (), "(not was_closed)", situation, after)  # at power-up nothing was told

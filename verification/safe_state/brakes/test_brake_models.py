@@ -17,10 +17,11 @@ from mamori_trace.base.errors import InputError, WorkError
 from verification.safe_state import smt as machine_smt
 from verification.safe_state.brakes import promela, smt
 from verification.safe_state.brakes.coupling import Pair
-from verification.safe_state.brakes.prove import describe_run
 from verification.safe_state.brakes.relation import TIMES, WITHIN, BrakeRelation, read_brakes
 from verification.safe_state.brakes.sequence import Brakes, Call
+from verification.safe_state.brakes.subject import BrakeSubject
 from verification.safe_state.promela import Run
+from verification.safe_state.test_models import drop
 
 QUERIES = 300
 
@@ -65,19 +66,20 @@ def test_diagrams_of_z3_answer_like_the_brakes(pair: Pair, tmp_path: Path) -> No
             ("overdue_out", answer.overdue)))]  # fmt: skip
         rows.append(f"(and {' '.join(given)} (not (and {' '.join(seen)})))")
 
-    assert smt.check(pair, [machine_smt.Query("", f"(assert (or {' '.join(rows)}))")], tmp_path) == [None]
+    query = machine_smt.Query("", f"(assert (or {' '.join(rows)}))")
+    assert machine_smt.ask_all(smt.write_model(pair), [query], tmp_path / "brakes.smt2") == [True]
 
 
 @pytest.mark.verifies("SWR-FSM-022", technique="back_to_back")
 def test_random_runs_of_spin_are_runs_of_machine_and_brakes(pair: Pair, tmp_path: Path) -> None:
-    model = promela.Model(pair)
-    (tmp_path / promela.MODEL).write_text(model.write(()), encoding="utf-8")
+    subject = BrakeSubject(pair)
+    (tmp_path / "brakes.pml").write_text(subject.write_promela(()), encoding="utf-8")
     for seed in range(1, 6):
-        told = subprocess.run(("spin", f"-n{seed}", "-u3000", promela.MODEL), cwd=tmp_path, capture_output=True, text=True, check=True)
+        told = subprocess.run(("spin", f"-n{seed}", "-u3000", "brakes.pml"), cwd=tmp_path, capture_output=True, text=True, check=True)
         moves = tuple(int(number) for number in re.findall(r"MOVE (\d+)", told.stdout))
 
         assert len(moves) > 50
-        assert len(describe_run(model, Run("random", moves))) == len(moves)
+        assert len(subject.describe_run(Run("random", moves))) == len(moves)
 
 
 @pytest.mark.verifies("SWR-FSM-022", technique="back_to_back")
@@ -95,24 +97,19 @@ def test_branches_of_spin_lead_wherever_machine_and_brakes_can_go(pair: Pair) ->
 
 @pytest.mark.verifies("SWR-FSM-022", technique="fault_injection", polarity="violation")
 def test_run_that_nobody_takes_is_refused(pair: Pair) -> None:
-    model = promela.Model(pair)
+    subject = BrakeSubject(pair)
+    model = subject.model
     last = len(model.moves) - 1
     broken = next(number for number, move in enumerate(model.moves) if move.source != model.moves[last].target)
 
     with pytest.raises(WorkError, match="without a cycle in between"):
-        describe_run(model, Run("wrong", (last, broken)))
+        subject.describe_run(Run("wrong", (last, broken)))
 
 
 def set_cell(document: dict[str, Any], value: object, *place: str | int) -> None:
     for step in place[:-1]:
         document = document[step]  # type: ignore[index]
     document[place[-1]] = value  # type: ignore[index]
-
-
-def drop(document: dict[str, Any], *place: str | int) -> None:
-    for step in place[:-1]:
-        document = document[step]  # type: ignore[index]
-    del document[place[-1]]  # type: ignore[arg-type]
 
 
 FAULTS = {
@@ -148,7 +145,7 @@ def test_brakes_whose_kinds_mix_and_text_that_is_none_are_refused(brake_text: st
 
     with pytest.raises(InputError, match="brakes with contacts turn into brakes without"):
         read_brakes(json.dumps(document), Path("brakes.json"))
-    with pytest.raises(InputError, match="is no JSON"):
+    with pytest.raises(InputError, match="not valid JSON"):
         read_brakes("", Path("brakes.json"))
 
 

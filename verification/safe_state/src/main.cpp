@@ -6,10 +6,9 @@
 ///     mamori_safe_state_relation
 ///
 /// @satisfies SWR-FSM-020, SWR-FSM-021      Design: docs/design/safe_state.md#step-relation
-#include <cstdio>
 #include <exception>
 #include <iostream>
-#include <string>
+#include <nlohmann/json.hpp>
 
 #include "explorer.hpp"
 #include "mamori/safety/reaction/stop_outputs.hpp"
@@ -17,40 +16,20 @@
 namespace mamori::verification {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using safety::SafeStateEvent;
 using safety::StopOutputs;
-
-std::string quote(const char* text) {
-    return '"' + std::string{text} + '"';  // names of enumerators: nothing to escape
-}
-
-/// "[a, b, ...]" of what `make(0)` .. `make(count - 1)` give.
-template <typename Make>
-std::string make_list(std::size_t count, Make make) {
-    std::string text = "[";
-    for (std::size_t i = 0U; i < count; ++i) {
-        text += (i == 0U ? "" : ", ") + make(i);
-    }
-    return text + "]";
-}
 
 SafeState get_state(std::size_t index) {
     return static_cast<SafeState>(index + 1U);
 }
 
-std::string write_outputs(SafeState state) {
+Json make_outputs(SafeState state) {
     const StopOutputs outputs = safety::calc_stop_outputs(state);
-    const auto write = [](bool level) { return std::string{level ? "true" : "false"}; };
-    return "{\"torque_enable\": " + write(outputs.torque_enable) +
-           ", \"brake_release\": " + write(outputs.brake_release) +
-           ", \"stop_requested\": " + write(outputs.stop_requested) +
-           ", \"hold_requested\": " + write(outputs.hold_requested) + "}";
-}
-
-std::string write_row(std::size_t state) {
-    return make_list(safety::kSafeStateEventCount, [state](std::size_t event) {
-        return quote(get_name(calc_next_state(get_state(state), static_cast<SafeStateEvent>(event))));
-    });
+    return {{"torque_enable", outputs.torque_enable},
+            {"brake_release", outputs.brake_release},
+            {"stop_requested", outputs.stop_requested},
+            {"hold_requested", outputs.hold_requested}};
 }
 
 const char* get_limit_name(Limit limit) {
@@ -65,36 +44,32 @@ const char* get_limit_name(Limit limit) {
     return "invalid";
 }
 
-std::string write_situation(const Situation& situation) {
-    return "{\"state\": " + quote(get_name(situation.state)) +
-           ", \"is_consistent\": " + (situation.is_consistent ? "true" : "false") +
-           ", \"limit\": " + quote(get_limit_name(situation.limit)) +
-           ", \"outputs\": " + write_outputs(situation.state) + ",\n  \"next\": " +
-           make_list(situation.next.size(),
-                     [&](std::size_t i) { return std::to_string(situation.next[i]); }) +
-           "}";
-}
-
-void write(const Relation& relation, std::ostream& out) {
-    const std::vector<InputKind> kinds = make_input_kinds();
-    out << "{\"schema\": \"mamori.safe_state/1\",\n\"states\": "
-        << make_list(safety::kSafeStateCount, [](std::size_t i) { return quote(get_name(get_state(i))); })
-        << ",\n\"events\": "
-        << make_list(safety::kSafeStateEventCount,
-                     [](std::size_t i) { return quote(get_name(static_cast<SafeStateEvent>(i))); })
-        << ",\n\"table\": " << make_list(safety::kSafeStateCount, write_row) << ",\n\"inputs\": "
-        << make_list(kinds.size(),
-                     [&](std::size_t i) {
-                         return "{\"name\": " + quote(kinds[i].name) + ", \"values\": " +
-                                make_list(kinds[i].values.size(),
-                                          [&](std::size_t k) { return quote(kinds[i].values[k]); }) +
-                                "}";
-                     })
-        << ",\n\"steps\": " << relation.steps << ", \"corrupted_objects\": " << relation.corrupted_objects
-        << ",\n\"situations\": "
-        << make_list(relation.situations.size(),
-                     [&](std::size_t i) { return "\n " + write_situation(relation.situations[i]); })
-        << "}\n";
+Json make_document(const Relation& relation) {
+    Json document{{"schema", "mamori.safe_state/1"}};
+    for (std::size_t event = 0U; event < safety::kSafeStateEventCount; ++event) {
+        document["events"].push_back(get_name(static_cast<SafeStateEvent>(event)));
+    }
+    for (std::size_t state = 0U; state < safety::kSafeStateCount; ++state) {
+        document["states"].push_back(get_name(get_state(state)));
+        Json row;
+        for (std::size_t event = 0U; event < safety::kSafeStateEventCount; ++event) {
+            row.push_back(get_name(calc_next_state(get_state(state), static_cast<SafeStateEvent>(event))));
+        }
+        document["table"].push_back(row);
+    }
+    for (const InputKind& kind : make_input_kinds()) {
+        document["inputs"].push_back({{"name", kind.name}, {"values", kind.values}});
+    }
+    document["steps"] = relation.steps;
+    document["corrupted_objects"] = relation.corrupted_objects;
+    for (const Situation& situation : relation.situations) {
+        document["situations"].push_back({{"state", get_name(situation.state)},
+                                          {"is_consistent", situation.is_consistent},
+                                          {"limit", get_limit_name(situation.limit)},
+                                          {"outputs", make_outputs(situation.state)},
+                                          {"next", situation.next}});
+    }
+    return document;
 }
 
 }  // namespace
@@ -103,7 +78,7 @@ void write(const Relation& relation, std::ostream& out) {
 int main() {
     try {
         const auto relation = mamori::verification::explore_all<mamori::safety::SafeStateMachine>();
-        mamori::verification::write(relation, std::cout);
+        std::cout << mamori::verification::make_document(relation) << '\n';
         return std::cout.flush() ? 0 : 1;
     } catch (const std::exception& error) {
         std::cerr << "mamori_safe_state_relation: " << error.what() << '\n';
