@@ -94,13 +94,12 @@ TEST(CompileFailTest, ADeclaredFaultWithoutAReactionIsRefused) {
 
 TEST(CompileFailTest, ADeclaredFaultWithTwoReactionsIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
-    expect_refused("reactions", "fault_with_two_reactions", "FaultHasReaction<Fault::kOverspeed>");
+    expect_refused("reactions", "fault_with_two_reactions", "FaultHasOneReaction<Fault::kOverspeed>");
 }
 
 TEST(CompileFailTest, AReactionWithoutTimeIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
-    expect_refused("reactions", "reaction_without_time",
-                   "ReactionAnswersADeclaredFault<mamori::rules::Row<0>");
+    expect_refused("reactions", "reaction_without_time", "ReactionHasATime<mamori::rules::Row<0>");
 }
 
 TEST(CompileFailTest, AConnectionOutOfItsCoreWithoutABufferIsRefused) {

@@ -239,16 +239,16 @@ TEST(SystemLimitsTest, TheCheckOfAConstantTableAnswersWhileRunningToo) {
     EXPECT_EQ(detail::calc_length(""), 0U);
 }
 
-TEST(SystemLimitsTest, EveryRuleHasANameOfItsOwn) {
-    verifies("SWR-KRN-025", Technique::kInterface);
+TEST(SystemLimitsTest, EveryRuleHasASentenceOfItsOwn) {
+    verifies("SWR-TAB-015", Technique::kInterface);
     const int rule_count = static_cast<int>(Rule::kSafeModeActivates) + 1;
-    std::set<std::string> names;
+    std::set<std::string> sentences;
 
     for (int rule = 0; rule <= rule_count; ++rule) {
-        names.insert(get_name(static_cast<Rule>(rule)));
+        sentences.insert(get_sentence(static_cast<Rule>(rule)));
     }
-    EXPECT_EQ(names.size(), static_cast<std::size_t>(rule_count) + 1U);
-    EXPECT_EQ(names.count("Invalid"), 1U) << "what is no rule";
+    EXPECT_EQ(sentences.size(), static_cast<std::size_t>(rule_count) + 1U);
+    EXPECT_EQ(sentences.count("invalid rule"), 1U) << "a number without a rule";
 }
 
 }  // namespace

@@ -6,56 +6,10 @@
 namespace mamori {
 namespace {
 
+#define MAMORI_SPELLING(name, Message, Faulty, sentence) #name,
 /// In the order of Rule.
-constexpr std::array<const char*, 45> kNames{{
-    "None",
-    "FrameNotPositive",
-    "WindowRowInvalid",
-    "ComponentRowInvalid",
-    "PortRowInvalid",
-    "ConnectionRowInvalid",
-    "WindowNamedTwice",
-    "TriggerUsedTwice",
-    "PeriodNotInFrame",
-    "WindowOutsideFrame",
-    "WindowsOverlap",
-    "BudgetExceedsWindow",
-    "WorstCasesExceedBudget",
-    "RateNotOccurrences",
-    "RateNotReachable",
-    "ComponentInTwoPlaces",
-    "PortOfUnknownComponent",
-    "InputNotConnected",
-    "InputHasTwoWriters",
-    "AgeLimitNotPositive",
-    "CrossingWithoutBuffer",
-    "CrossingUsedTwice",
-    "CrossingNotOrdered",
-    "FaultDeclaredTwice",
-    "FaultWithoutReaction",
-    "FaultWithTwoReactions",
-    "ReactionWithoutTime",
-    "ReactionToUnknownFault",
-    "ParameterRowInvalid",
-    "SetRowInvalid",
-    "ConfigurationRefused",
-    "ModeRowInvalid",
-    "ModeNamedTwice",
-    "ModeOfUnknownComponent",
-    "ModeOfUnknownSet",
-    "ComponentInNoMode",
-    "InputNotFedInMode",
-    "ConnectionOfUnknownMode",
-    "TransitionOfUnknownMode",
-    "TransitionAmbiguous",
-    "ModeUnreachable",
-    "NoSafeMode",
-    "TwoSafeModes",
-    "SafeModeIsLeft",
-    "SafeModeActivates",
-}};
-static_assert(kNames.size() == static_cast<std::size_t>(Rule::kSafeModeActivates) + 1U,
-              "each rule has a name");
+constexpr std::array kNames{"None", MAMORI_TABLE_RULES(MAMORI_SPELLING)};
+#undef MAMORI_SPELLING
 
 }  // namespace
 

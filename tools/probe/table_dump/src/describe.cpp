@@ -38,12 +38,10 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
     const WindowRow row = get_row(view.windows, finding.element);
     switch (finding.rule) {
         case Rule::kWindowRowInvalid:
-            return "row " + std::to_string(finding.element) +
-                   " needs a name, a partition, a positive period, a kind with what belongs to it, and the "
-                   "components, ports, connections and parameters that name it";
+            return "row " + std::to_string(finding.element) + " is invalid";
         case Rule::kWindowNamedTwice:
             return "row " + std::to_string(finding.element) + " has the name of row " +
-                   std::to_string(finding.other) + "; windows are told apart by their names";
+                   std::to_string(finding.other);
         case Rule::kTriggerUsedTwice:
             return "its trigger releases window " + quote(get_window_name(view, finding.other)) + " too";
         case Rule::kPeriodNotInFrame:
@@ -78,9 +76,7 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
     const ConnectionRow row = get_row(view.connections, finding.element);
     switch (finding.rule) {
         case Rule::kConnectionRowInvalid:
-            return connection + ": row " + std::to_string(finding.element) +
-                   " needs two ends, operations with the Crossing that they use, and the windows and "
-                   "components of its ends";
+            return connection + ": row " + std::to_string(finding.element) + " is invalid";
         case Rule::kPortOfUnknownComponent:
             return connection + ": one end belongs to no component that a window runs";
         case Rule::kInputNotConnected:
@@ -90,10 +86,9 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
             return "input " + quote(get_input_name(view, finding.element)) +
                    " is fed by more than one connection";
         case Rule::kAgeLimitNotPositive:
-            return connection + ": no value is fresh within " + format(row.age_max) +
-                   "; the limit must be positive";
+            return connection + ": no value is fresh within " + format(row.age_max);
         case Rule::kCrossingWithoutBuffer:
-            return connection + " leaves its core or partition without through(...) a Crossing or a queue";
+            return connection + " leaves its core or partition without a Crossing or a queue";
         case Rule::kCrossingUsedTwice:
             return connection + " uses the Crossing of " + quote(get_connection_name(view, finding.other));
         case Rule::kCrossingNotOrdered:
@@ -117,8 +112,7 @@ std::string describe_reactions(const Finding& finding, const SystemView& view) {
         case Rule::kFaultWithTwoReactions:
             return fault + " has more than one reaction";
         case Rule::kReactionWithoutTime:
-            return reaction + " has " + format(get_row(view.reactions, finding.element).within) +
-                   " and needs a positive time";
+            return reaction + " has " + format(get_row(view.reactions, finding.element).within);
         case Rule::kReactionToUnknownFault:
             return reaction + " answers a fault that is not declared";
         default:
@@ -126,12 +120,11 @@ std::string describe_reactions(const Finding& finding, const SystemView& view) {
     }
 }
 
-}  // namespace
-
-std::string describe(const Finding& finding, const SystemView& view) {
+/// The faulty element and its values.
+std::string describe_element(const Finding& finding, const SystemView& view) {
     switch (finding.rule) {
         case Rule::kNone:
-            return "the table keeps every rule";
+            break;
         case Rule::kFrameNotPositive:
             return "the frame of " + format(view.frame) + " is not positive";
         case Rule::kWindowRowInvalid:
@@ -148,13 +141,10 @@ std::string describe(const Finding& finding, const SystemView& view) {
                    describe_window(finding, view);
         case Rule::kComponentRowInvalid:
             return "component " + quote(get_component_name(view, finding.element)) + ": row " +
-                   std::to_string(finding.element) +
-                   " needs a component, a worst case that is not negative, a window that has it, and the "
-                   "ports and connections that name it";
+                   std::to_string(finding.element) + " is invalid";
         case Rule::kPortRowInvalid:
             return "port " + quote(get_input_name(view, finding.element)) + ": row " +
-                   std::to_string(finding.element) +
-                   " needs exactly one of input and output, and the component and the window that have it";
+                   std::to_string(finding.element) + " is invalid";
         case Rule::kComponentInTwoPlaces:
             return "component " + quote(get_component_name(view, finding.element)) + " runs in window " +
                    quote(get_window_name(view, get_row(view.component_rows, finding.other).window)) +
@@ -194,7 +184,18 @@ std::string describe(const Finding& finding, const SystemView& view) {
         case Rule::kSafeModeActivates:
             return describe_modes(finding, view);
     }
-    return "no rule has the number " + std::to_string(static_cast<int>(finding.rule));
+    return {};
+}
+
+}  // namespace
+
+std::string describe(const Finding& finding, const SystemView& view) {
+    if (finding.rule == Rule::kNone) {
+        return get_sentence(finding.rule);
+    }
+    const std::string element = describe_element(finding, view);
+    return element.empty() ? "no rule has the number " + std::to_string(static_cast<int>(finding.rule))
+                           : element + "; rule: " + get_sentence(finding.rule);
 }
 
 std::vector<std::string> describe_all(const SystemView& view) {

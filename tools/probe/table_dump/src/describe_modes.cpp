@@ -60,7 +60,7 @@ std::string describe_mode(const Finding& finding, const SystemView& view) {
         case Rule::kTwoSafeModes:
             return mode + " is a second safe mode";
         default:
-            return mode + ": row " + std::to_string(finding.element) + " needs a name and a place among 32";
+            return mode + ": row " + std::to_string(finding.element) + " is invalid";
     }
 }
 
@@ -72,12 +72,10 @@ std::string describe_modes(const Finding& finding, const SystemView& view) {
         case Rule::kParameterRowInvalid:
             return "parameter " +
                    quote(get_parameter_name(get_row(view.configuration.parameters, finding.element))) +
-                   ": row " + std::to_string(finding.element) +
-                   " needs a parameter, its component and the window of that";
+                   ": row " + std::to_string(finding.element) + " is invalid";
         case Rule::kSetRowInvalid:
             return get_set_name(view, finding.element) + ": row " + std::to_string(finding.element) +
-                   " needs a name and assignments of the table; assignment " + std::to_string(finding.other) +
-                   " needs a parameter and a value for each of its elements";
+                   " is invalid, with assignment " + std::to_string(finding.other);
         case Rule::kConfigurationRefused:
             return describe_set(finding, view);
         case Rule::kModeOfUnknownComponent:

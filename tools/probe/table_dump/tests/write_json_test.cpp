@@ -113,7 +113,8 @@ TEST(WriteJsonTest, FindingsArePartOfTheDocument) {
     const json document = dump(make_view(table));
     EXPECT_EQ(document["findings"].size(), 3U);
     EXPECT_EQ(document["findings"][0],
-              "window 'sense': its budget of 1 s is not in 1 ns .. its length of 200 us");
+              "window 'sense': its budget of 1 s is not in 1 ns .. its length of 200 us; rule: the budget of "
+              "a window is positive and not longer than the window");
     EXPECT_EQ(dump(make_view(kSystem))["findings"], json::array());
 }
 

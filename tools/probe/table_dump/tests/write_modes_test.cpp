@@ -202,7 +202,8 @@ TEST(WriteModesTest, AModeWithoutANameOrBeyondTheMaskIsWritten) {
     ASSERT_EQ(document["modes"].size(), kSystemModeMax + 1U);
     EXPECT_EQ(document["modes"][0]["name"], "?");
     EXPECT_EQ(document["modes"][kSystemModeMax]["components"], json::array());
-    EXPECT_NE(document["findings"].dump().find("needs a name and a place among 32"), std::string::npos);
+    EXPECT_NE(document["findings"].dump().find("row 32 is invalid; rule: a mode has a name"),
+              std::string::npos);
 }
 
 TEST(WriteModesTest, ParametersThatPointNowhereAreWritten) {
@@ -215,9 +216,8 @@ TEST(WriteModesTest, ParametersThatPointNowhereAreWritten) {
     EXPECT_EQ(document["parameters"][0], json::parse(R"({"owner": {"index": null, "name": "?"}, "name": "?",
         "type": null, "constraint": "", "values": null})"));
     EXPECT_EQ(document["parameters"][1]["owner"], json::parse(R"({"index": null, "name": "tuned"})"));
-    EXPECT_EQ(
-        document["findings"],
-        json::parse(R"(["parameter '?.?': row 0 needs a parameter, its component and the window of that"])"));
+    const std::string rule = get_sentence(Rule::kParameterRowInvalid);
+    EXPECT_EQ(document["findings"], json({"parameter '?.?': row 0 is invalid; rule: " + rule}));
 }
 
 TEST(WriteModesTest, SetsThatPointNowhereAreWrittenAndNamed) {
@@ -232,13 +232,13 @@ TEST(WriteModesTest, SetsThatPointNowhereAreWrittenAndNamed) {
     EXPECT_EQ(document["configuration_sets"][1]["assignments"],
               json::parse(R"([{"parameter": {"index": null, "name": "?"}, "values": [0.25]},
                               {"parameter": {"index": 1, "name": "gain"}, "values": null}])"));
-    const std::string needs = " needs a name and assignments of the table; assignment ";
-    const std::string of_assignment = " needs a parameter and a value for each of its elements";
-    EXPECT_EQ(document["findings"], (json{"configuration set '?': row 0" + needs + "0" + of_assignment,
-                                          "configuration set 'slow': row 1" + needs + "0" + of_assignment,
-                                          "configuration set 'slow': row 1" + needs + "1" + of_assignment}));
-    EXPECT_EQ(describe({Rule::kConfigurationRefused, 0U, 0U}, make_view(table)),
-              "configuration set '?' cannot be judged: a row of the configuration is invalid");
+    const std::string invalid = " is invalid, with assignment ";
+    const std::string rule = std::string("; rule: ") + get_sentence(Rule::kSetRowInvalid);
+    EXPECT_EQ(document["findings"], (json{"configuration set '?': row 0" + invalid + "0" + rule,
+                                          "configuration set 'slow': row 1" + invalid + "0" + rule,
+                                          "configuration set 'slow': row 1" + invalid + "1" + rule}));
+    EXPECT_EQ(describe({Rule::kConfigurationRefused, 0U, 0U}, make_view(table)).substr(0U, 38U),
+              "configuration set '?' cannot be judged");
 }
 
 TEST(WriteModesTest, RowsThatAreInvalidInThemselvesAreToldFirstAndAllAtOnce) {
