@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: what docs/manual/integrity.md shows compiles and does what the page says. Method: its blocks, run
-// with and without a fault each. verification/tests/test_integrity_page.py compares the two.
+// with and without a fault each. verification/checks/manual_samples.py compares the two.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

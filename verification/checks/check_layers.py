@@ -24,6 +24,7 @@ from verification.checks.component_folders import check_order, check_place
 from verification.checks.death_tests import check_death_tests
 from verification.checks.deviations import check_deviations
 from verification.checks.layer_table import LISTED_STD, TEST_INCLUDES, Layer, find_package, get_layer, get_module
+from verification.checks.manual_samples import check_samples
 from verification.checks.target_limits import MEASURED_HEADERS, check_headers, check_size, check_words
 from verification.checks.wording import WORDING, check_wording
 
@@ -65,9 +66,10 @@ def check_tree(root: Path) -> list[Finding]:
 
 
 def check_texts(root: Path) -> list[Finding]:
-    """Findings in the wording of all texts below `root`, by the list that is there."""
+    """Findings in the wording of all texts below `root`, by the list that is there, and in the samples of its manual."""
     file = root / WORDING
-    return [Finding(name, line, "wording", message) for name, line, message in check_wording(root, file)] if file.exists() else []
+    wording = [Finding(name, line, "wording", message) for name, line, message in check_wording(root, file)] if file.exists() else []
+    return wording + [Finding(name, line, "sample", message) for name, line, message in check_samples(root)]
 
 
 def _is_target_code(root: Path, path: Path) -> bool:

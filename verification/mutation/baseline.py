@@ -15,6 +15,7 @@ from pathlib import Path
 from mamori_trace.base.errors import WorkError
 from mamori_trace.base.text_file import write_text
 from verification.mutation.operators import iterate_words
+from verification.mutation.renamed import read_renamed, restore_names
 from verification.mutation.score import Counts, add_up_layers
 from verification.mutation.sources import LAYERS, Layer, get_layer
 
@@ -22,8 +23,8 @@ STORE = Path(__file__).resolve().with_name("baseline.toml")
 HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
 # Mutation score of kernel and safety, file by file, as `./mamori mutate --store` found it. Written by that command only.
-# `fingerprint` is that of the code in the mutated file, without comments and includes: the row of a file whose code has changed since
-# counts for nothing until its next run.
+# `fingerprint` is that of the code in the mutated file, without comments and includes, with the former names of renamed.toml. The row of a
+# file whose code has changed since is invalid until the next run of its mutants.
 
 """
 
@@ -91,9 +92,12 @@ class Standing:
         }
 
 
-def fingerprint(source: bytes) -> str:
-    """Of the code alone: its words in their order, whatever comments and spaces stand between them, and whichever folders it includes from."""
-    return hashlib.sha256(b"\0".join(iterate_words(source))).hexdigest()[:16]
+def fingerprint(source: bytes, former: Mapping[bytes, bytes] | None = None) -> str:
+    """Of the words of the code in their order, without comments, spaces and includes.
+
+    @param former names of renamed identifiers; None: those of renamed.toml."""
+    words = restore_names(iterate_words(source), read_renamed() if former is None else former)
+    return hashlib.sha256(b"\0".join(words)).hexdigest()[:16]
 
 
 def read_store(path: Path = STORE) -> dict[str, Entry]:

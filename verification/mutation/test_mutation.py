@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 from functools import partial
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from mamori_trace.base.errors import InputError, WorkError
 from verification.mutation import baseline
 from verification.mutation.command import Keeper, choose_files, describe, read_standing, run_layers
 from verification.mutation.equivalent import Row, read_list
+from verification.mutation.renamed import read_renamed
 from verification.mutation.run import Plan, Report, Selection, make_plan, make_table, write_json
 from verification.mutation.score import LISTED, Counts, calc_interval, is_met
 from verification.mutation.sources import LAYERS, Layer, Sources, list_files
@@ -165,6 +167,39 @@ def test_row_outlives_a_change_of_comments_spaces_and_includes(same: bytes) -> N
 def test_row_falls_with_any_change_of_the_code(old: bytes, new: bytes) -> None:
     assert old in CODE
     assert baseline.fingerprint(CODE.replace(old, new)) != baseline.fingerprint(CODE)
+
+
+@pytest.mark.verifies("SWR-VER-030")
+def test_row_stays_valid_when_an_identifier_is_renamed() -> None:
+    renamed = CODE.replace(b"f(int a)", b"f(int speed)").replace(b"a < 1", b"speed < 1")
+
+    assert baseline.fingerprint(renamed, {b"speed": b"a"}) == baseline.fingerprint(CODE, {})
+
+
+@pytest.mark.parametrize(
+    ("source", "former"),
+    [(CODE.replace(b"int a", b"int b"), {b"b": b"a"}), (CODE.replace(b"a < 1", b"c < 2"), {b"c": b"a"}), (CODE.replace(b"int f", b"int g"), {b"h": b"f"}),
+     (CODE.replace(b"a  b", b"text"), {b"text": b"a  b"})],
+    ids=["former name still present", "number changed as well", "name not in the list", "text"],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-VER-030", technique="equivalence_classes", polarity="violation")
+def test_row_is_invalid_after_any_other_change(source: bytes, former: dict[bytes, bytes]) -> None:
+    assert source != CODE
+    assert baseline.fingerprint(source, former) != baseline.fingerprint(CODE, {})
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [("a = 1\n", "'a': a row is new_name"), ('a = "b c"\n', "'a': a row is new_name"), ('"a b" = "c"\n', "'a b': a row is new_name"),
+     ('a = "c"\nb = "c"\n', "'b': 'c' occurs in two rows"), ('a = "b"\nb = "c"\n', "'a': 'b' occurs in two rows"), ("a =\n", "invalid TOML")],
+)  # fmt: skip
+@pytest.mark.verifies("SWR-VER-030", technique="error_guessing", polarity="violation")
+def test_list_of_renamed_identifiers_rejects_an_unusable_row(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "renamed.toml"
+    path.write_text(text, encoding="utf-8")
+
+    with pytest.raises(WorkError, match=re.escape(message)):
+        read_renamed(path)
 
 
 @pytest.mark.verifies("SWR-VER-009", technique="interface")

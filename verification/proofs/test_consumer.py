@@ -95,7 +95,7 @@ def build_page(project: Project, prefix: Path, folder: Path, name: str, library:
     configure(project, prefix, folder, "examples/minimal")
     source, lists = folder / "main.cpp", folder / "CMakeLists.txt"
     page = (project.root / "docs" / "manual" / name).read_text(encoding="utf-8")
-    (block,) = re.findall(r"^```cpp\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    (block,) = [text for text in re.findall(r"^```cpp\n(.*?)^```$", page, re.DOTALL | re.MULTILINE) if "int main(" in text]
     text = source.read_text(encoding="utf-8").replace('#include "mamori/ports/virtual_time/frame_runner.hpp"\n', "")
     source.write_text(text[: text.index("/// What surrounds the components")] + block, encoding="utf-8")
     lists.write_text(lists.read_text(encoding="utf-8").replace("mamori::virtual_time", library), encoding="utf-8")

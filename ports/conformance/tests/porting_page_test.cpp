@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: what docs/manual/porting.md shows compiles and accepts a clock. Method: its code blocks, word by
-// word; verification/tests/test_porting.py compares the two.
+// word; verification/checks/manual_samples.py compares the two.
 #include <gtest/gtest.h>
 
 #include <memory>

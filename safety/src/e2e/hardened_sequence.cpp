@@ -62,7 +62,7 @@ void HardenedSequence::extend_run(std::uint32_t counter) noexcept {
         run_ = 0U;
         absence_ = 0U;
         is_synchronised_ = true;
-        count_up(resync_count_);
+        saturating_increment(resync_count_);
     }
 }
 

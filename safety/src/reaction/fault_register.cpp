@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/safety/reaction/fault_register.hpp"
 
-#include "mamori/safety/base/count_up.hpp"
 #include "mamori/safety/base/elapsed.hpp"
+#include "mamori/safety/base/saturating_increment.hpp"
 
 namespace mamori::safety {
 
@@ -38,7 +38,7 @@ Status FaultRegister::set_healing(FaultIndex fault, Healing healing) noexcept {
 }
 
 void FaultRegister::latch(FaultRecord& record, Instant now) noexcept {
-    count_up(record.occurrences);
+    saturating_increment(record.occurrences);
     if (record.is_latched) {
         return;  // the instants of the first occurrence are kept
     }
@@ -68,7 +68,7 @@ void FaultRegister::note_presence(FaultRecord& record, Instant now) noexcept {
     }
     record.is_present = true;
     record.absent_cycles = 0U;
-    count_up(record.count);
+    saturating_increment(record.count);
     if (!record.is_confirmed && is_to_be_latched(record, now)) {
         record.is_confirmed = true;
         latch(record, now);
@@ -82,7 +82,7 @@ void FaultRegister::note_absence(FaultRecord& record, Instant now) noexcept {
         record.absent_cycles = 0U;
     }
     record.is_present = false;
-    count_up(record.absent_cycles);
+    saturating_increment(record.absent_cycles);
     // A presence that was confirmed is over: what comes next is judged anew.
     const bool is_all_forgotten = record.is_confirmed || record.confirmation.decay == 0U;
     const std::uint32_t decay = is_all_forgotten ? record.count : record.confirmation.decay;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/safety/supervision/execution_supervisor.hpp"
 
-#include "mamori/safety/base/count_up.hpp"
+#include "mamori/safety/base/saturating_increment.hpp"
 
 namespace mamori::safety {
 namespace {
@@ -165,7 +165,7 @@ void ExecutionSupervisor::on_late_release(std::size_t window, Duration lateness,
     if (late_release_.count == 0U) {
         late_release_ = LateRelease{0U, window, lateness, now};
     }
-    count_up(late_release_.count);
+    saturating_increment(late_release_.count);
 }
 
 }  // namespace mamori::safety

@@ -209,9 +209,9 @@ TEST(FrameCauseTest, CountsStopAtTheGreatestValue) {
     verifies("SWR-E2E-005", Technique::kBoundaryValues, Polarity::kViolation);
     std::uint32_t count = std::numeric_limits<std::uint32_t>::max() - 1U;
 
-    count_up(count);
+    saturating_increment(count);
     EXPECT_EQ(count, std::numeric_limits<std::uint32_t>::max());
-    count_up(count);
+    saturating_increment(count);
     EXPECT_EQ(count, std::numeric_limits<std::uint32_t>::max());
 }
 

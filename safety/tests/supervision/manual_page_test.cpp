@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: what docs/manual/supervision.md shows compiles and does what the page says. Method: its blocks, run
-// for some cycles, with and without a skipped checkpoint. verification/tests/test_supervision_page.py
+// for some cycles, with and without a skipped checkpoint. verification/checks/manual_samples.py
 // compares the two.
 #include <array>
 #include <cstdint>

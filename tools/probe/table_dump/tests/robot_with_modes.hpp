@@ -78,6 +78,19 @@ MAMORI_CHECK(kSystem);
 MAMORI_CONSTINIT static mamori::SystemModes modes{mamori::make_view(kSystem)};
 MAMORI_CONSTINIT static mamori::ExecutiveFor executive{kSystem, modes};
 
+/// @return kOk: "work" begins in seven major frames.
+inline mamori::Status begin_work() {
+    return modes.request(Command::kStart);
+}
+/// @return kOk: in effect from the next major frame.
+inline mamori::Status limit_speed() {
+    return modes.get_configuration().set_value(monitor.limit, 0.5);
+}
+/// @return kOk: "halt" begins, until reset() of the stopped system.
+inline mamori::Status halt() {
+    return modes.request_safe_mode();
+}
+
 inline std::string save_table(const std::string& path) {
     const mamori::table_dump::Names names{{}, {}, {"Start", "Teach", "Stop"}};
     return mamori::table_dump::save_json(path, mamori::make_view(kSystem), names);

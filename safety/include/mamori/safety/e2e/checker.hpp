@@ -83,7 +83,7 @@ class E2eChecker final {
     /// Finds the order anew, as after construction; counts go on. Only for a deliberate reset.
     constexpr void restart() noexcept {
         order_.restart();
-        count_up(restart_count_);
+        saturating_increment(restart_count_);
     }
 
     /// What became of the last check; kSilence before the first.
@@ -100,7 +100,7 @@ class E2eChecker final {
   private:
     constexpr void note(FrameCause cause) noexcept {
         cause_ = cause;
-        count_up(counts_[static_cast<std::size_t>(cause)]);
+        saturating_increment(counts_[static_cast<std::size_t>(cause)]);
     }
 
     Channel channel_;

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "mamori/kernel/base/span.hpp"
-#include "mamori/safety/base/count_up.hpp"
+#include "mamori/safety/base/saturating_increment.hpp"
 
 namespace mamori::safety {
 

@@ -19,7 +19,7 @@
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/dataflow/data_port.hpp"
 #include "mamori/kernel/payload/cdr.hpp"
-#include "mamori/safety/base/count_up.hpp"
+#include "mamori/safety/base/saturating_increment.hpp"
 #include "mamori/safety/e2e/check_status.hpp"
 #include "mamori/safety/e2e/checker.hpp"
 #include "mamori/safety/e2e/frame.hpp"
@@ -98,7 +98,7 @@ class E2eInPort final {
         if (outcome_ == E2eOutcome::kAccepted && !has_value_) {
             outcome_ = E2eOutcome::kUnproven;
         }
-        count_up(counts_[static_cast<std::size_t>(outcome_)]);
+        saturating_increment(counts_[static_cast<std::size_t>(outcome_)]);
         if (outcome_ == E2eOutcome::kAccepted) {
             value = value_;
             return E2eWorth::kNew;
