@@ -28,7 +28,7 @@ STATUS = {"passed": EXIT_OK, "failed": EXIT_FAILED, "inconclusive": EXIT_INCONCL
 
 
 def main(arguments: Sequence[str]) -> int:
-    uses = "; ".join(f"{campaign.name} {campaign.usage}" for campaign in CAMPAIGNS.values())
+    uses = "; ".join(campaign.usage for campaign in CAMPAIGNS.values())
     parser = argparse.ArgumentParser(prog="python -P -m verification.faults", description="Fault campaigns in real time.",
                                      epilog=f"Arguments: {uses}; evaluate FILE.")  # fmt: skip
     parser.add_argument("action", choices=[*CAMPAIGNS, "evaluate"])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import subprocess
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,35 +19,39 @@ from verification.faults.evaluation.evaluator import Result
 
 DEFECTS = ("late_release", "overrun", "wrong_name")
 REPEATS_MAX = 2
-SEED = "{seed}"
 SHORT_TIMEOUT_S = 120
 TAIL_CHARACTERS = 300
 
 
 @dataclass(frozen=True)
 class Campaign:
-    """A program that injects faults and records, and the evaluation of its course. `short`: the arguments of a run of some seconds."""
+    """A program that injects faults and records, and the evaluation of its course. `short`: the sizes of a run of some seconds."""
 
     name: str
     program: str
-    usage: str
-    short: tuple[str, ...]
+    sizes: tuple[str, ...]  # names of the arguments before the seed
+    short: tuple[int, ...]
     evaluate: Callable[[Course], Result]
     defects: tuple[str, ...] = DEFECTS
+    has_storm: bool = False  # another process may fault pages
 
     def get_program(self, build: Path) -> Path:
         return build / "verification" / "faults" / self.name / self.program
 
-    def make_short(self, seed: int) -> list[str]:
-        return [word.format(seed=seed) for word in self.short]
+    @property
+    def usage(self) -> str:
+        return " ".join((self.name, *self.sizes, "SEED", *(["[storm]"] if self.has_storm else [])))
+
+    def make_arguments(self, sizes: Sequence[int], seed: int, with_storm: bool) -> tuple[str, ...]:
+        return (*map(str, sizes), str(seed), *(["storm"] if with_storm else []))
 
 
 CAMPAIGNS: Mapping[str, Campaign] = {
     campaign.name: campaign
     for campaign in (
-        Campaign("time", "time_faults", "FRAMES FAULTS SEED [storm]", ("4000", "50", SEED, "storm"), time.evaluate),
-        Campaign("service", "lost_service", "TRIALS SEED", ("70", SEED), service.evaluate, defects=("late_release", "overrun")),
-        Campaign("partition", "partition_faults", "FAULTS SEED", ("8", SEED), partition.evaluate),
+        Campaign("time", "time_faults", ("FRAMES", "FAULTS"), (4000, 50), time.evaluate, has_storm=True),
+        Campaign("service", "lost_service", ("TRIALS",), (70,), service.evaluate, defects=("late_release", "overrun")),
+        Campaign("partition", "partition_faults", ("FAULTS",), (8,), partition.evaluate),
     )
 }
 
@@ -62,7 +66,7 @@ def evaluate_file(path: Path) -> Result:
 
 
 def run_campaign(
-    campaign: Campaign, build: Path, arguments: list[str], *, defect: str = "", course: Path | None = None, timeout_s: float | None = None
+    campaign: Campaign, build: Path, arguments: Sequence[str], *, defect: str = "", course: Path | None = None, timeout_s: float | None = None
 ) -> Result:
     """@param course file that keeps the course; None: it is removed after the evaluation. @raise MissingError, WorkError"""
     program = campaign.get_program(build)
@@ -84,7 +88,8 @@ def run_short(campaign: Campaign, build: Path, seed: int, defect: str = "") -> t
     """Repeats an inconclusive run at most twice, each time with another seed; a failed one never.
     @return the last result and the number of repetitions."""
     for repeats in range(REPEATS_MAX + 1):
-        result = run_campaign(campaign, build, campaign.make_short(seed + 1000 * repeats), defect=defect, timeout_s=SHORT_TIMEOUT_S)
+        arguments = campaign.make_arguments(campaign.short, seed + 1000 * repeats, campaign.has_storm)
+        result = run_campaign(campaign, build, arguments, defect=defect, timeout_s=SHORT_TIMEOUT_S)
         if result.finding.verdict != "inconclusive" or not result.has_priority:
             break
     return result, repeats

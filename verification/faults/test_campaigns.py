@@ -4,7 +4,6 @@ evaluator decides from its course. An inconclusive run is repeated. Longer runs:
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -13,6 +12,7 @@ import pytest
 
 from mamori_tools.host.project import Project
 from verification.faults.evaluation.evaluator import Result
+from verification.faults.reporting import record_finding
 from verification.faults.run import CAMPAIGNS, run_short
 
 SEED = 20261122
@@ -32,17 +32,8 @@ def report(project: Project, request: pytest.FixtureRequest) -> Report:
 
     def report_part(campaign: str, part: str) -> Result:
         result, repeats = get_result(campaign, project.build)
-        finding = result.parts[part]
-        properties = request.node.user_properties
-        properties += [("seed", SEED), ("repetitions", repeats)]
-        if not result.has_priority:
-            pytest.skip("verdict=no-privilege: without a fixed priority any thread of the host delays the windows")
-        properties += [("verdict", finding.verdict)]
-        if finding.verdict != "passed":
-            properties += [("figure", finding.reason)]
-        assert finding.verdict != "failed", f"{finding.reason}\n{json.dumps(result.to_json(), indent=1)}"
-        if finding.verdict == "inconclusive":
-            pytest.skip(f"verdict=inconclusive: {finding.reason}")
+        request.node.user_properties += [("seed", SEED), ("repetitions", repeats)]
+        record_finding(request.node.user_properties, result, part)
         return result
 
     return report_part

@@ -13,7 +13,7 @@ from enum import StrEnum
 from typing import Any
 
 from verification.faults.evaluation.host_causes import HostFigures
-from verification.faults.evaluation.run_verdict import Evidence, Finding, assess_run
+from verification.faults.evaluation.run_verdict import Evidence, Finding
 
 ROWS_SHOWN = 100
 
@@ -125,6 +125,3 @@ def summarize(times: Sequence[int], parts: Sequence[tuple[str, int]] = (("p50_ns
     """Number and quantiles (name and share of 10,000) of measured times."""
     ordered = sorted(times)
     return {"count": len(ordered), **{name: ordered[(len(ordered) - 1) * share // 10000] if ordered else 0 for name, share in parts}}
-
-
-__all__ = ["DETECTED", "Evaluation", "Finding", "Outcome", "Result", "Unexpected", "add_evidence", "assess_run", "expect", "summarize"]

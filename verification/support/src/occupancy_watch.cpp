@@ -18,7 +18,7 @@ namespace {
 /// [bytes] Two records of 32 bytes for each exchange: room for 65,536, a second's worth of a busy processor.
 /// It is emptied every few milliseconds.
 constexpr std::size_t kRingSize = std::size_t{4U} << 20U;
-/// Stretches for which there is room: more than a busy processor comes to in half an hour.
+/// Capacity for intervals: more than a busy processor has in half an hour.
 constexpr std::size_t kStretchMax = 4'000'000U;
 constexpr std::chrono::milliseconds kPause{5};
 
@@ -26,7 +26,7 @@ std::size_t get_page_size() noexcept {
     return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// @return a descriptor; -1: refused.
+/// @return a descriptor; -1: denied.
 int open_exchanges(int processor) noexcept {
     perf_event_attr what{};
     what.size = sizeof(what);
@@ -49,7 +49,7 @@ bool is_in_first_name_space() noexcept {
            std::strcmp(name.data(), "pid:[4026531836]") == 0;
 }
 
-/// @return true: the kernel wrote down all that it saw.
+/// @return true: the kernel lost no record.
 bool has_lost_nothing(int descriptor) noexcept {
     std::array<std::uint64_t, 2U> value_and_lost{};
     return ::read(descriptor, value_and_lost.data(), sizeof(value_and_lost)) == sizeof(value_and_lost) &&
@@ -125,7 +125,7 @@ void OccupancyWatch::take_what_came() {
     std::uint64_t tail = page.data_tail;
     while (tail < head) {
         Record record{};
-        // A record may begin at the end of the ring and go on at its beginning, in pieces of 8 bytes.
+        // A record may begin at the end of the ring and continue at its beginning, in pieces of 8 bytes.
         for (std::size_t at = 0U; at < sizeof(record); at += sizeof(std::uint64_t)) {
             std::memcpy(reinterpret_cast<std::byte*>(&record) + at, records + (tail + at) % kRingSize,
                         sizeof(std::uint64_t));

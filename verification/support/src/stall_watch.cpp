@@ -12,7 +12,7 @@
 namespace mamori::verification {
 namespace {
 
-/// More stalls than this in one run: the machine is of no use, and the last ones are not kept.
+/// Capacity for stalls of one run; later ones are not kept.
 constexpr std::size_t kRoom = 1'000'000U;
 
 /// The first stall that ends at `begin` or later.
@@ -51,9 +51,9 @@ std::uint64_t read_involuntary_switches() {
 
 }  // namespace
 
-Duration calc_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end) {
+Duration calc_loss(const std::vector<Stall>& late_polls, Instant begin, Instant end) {
     Duration loss{0};
-    for (auto look = find_first(late_looks, begin); look != late_looks.end() && look->begin < end; ++look) {
+    for (auto look = find_first(late_polls, begin); look != late_polls.end() && look->begin < end; ++look) {
         loss = loss + (std::min(look->end, end) - std::max(look->begin, begin));
     }
     return loss;
@@ -73,10 +73,10 @@ int find_processor() noexcept {
 }
 
 StallWatch::StallWatch(const ports::posix_rt::FrameClock& clock, Duration step,
-                       ports::posix_rt::ThreadPlace place, std::size_t late_look_max)
-    : clock_(clock), late_look_max_(late_look_max) {
+                       ports::posix_rt::ThreadPlace place, std::size_t late_poll_max)
+    : clock_(clock), late_poll_max_(late_poll_max) {
     stalls_.reserve(kRoom);
-    late_looks_.reserve(late_look_max);
+    late_polls_.reserve(late_poll_max);
     thread_ = std::thread{[this, step, place] { watch(step, place); }};
 }
 
@@ -106,8 +106,8 @@ void StallWatch::watch(Duration step, ports::posix_rt::ThreadPlace place) {
         if (now - planned >= half) {
             figures_.lost = figures_.lost + (now - planned);
             ++figures_.late_polls;
-            if (late_looks_.size() < late_look_max_) {
-                late_looks_.push_back({planned, now});
+            if (late_polls_.size() < late_poll_max_) {
+                late_polls_.push_back({planned, now});
             }
         }
         before = now;

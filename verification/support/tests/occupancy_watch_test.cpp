@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: whoever else has a processor is seen, and whoever belongs to this process is not. Method: a child
+// Goal: other processes on a processor are recorded, and threads of this process are not. Method: a child
 // computes on the processor of the test; then the test itself does, above all ordinary programs.
 #include "mamori/verification/occupancy_watch.hpp"
 

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,18 +10,15 @@ from pathlib import Path
 from mamori_tools.campaign.arm.fault import FaultSpec, read_fault, read_positive
 from mamori_tools.campaign.arm.vocabulary import DETECTED_FAULTS, NOTHING, REACTIONS, STATES, STOPS
 from mamori_tools.campaign.case import Plan, Scenario
+from mamori_tools.campaign.plan_parts import read_name, read_requirements, read_scenario_name, read_scenarios, read_seed
 from mamori_trace.base.marked_yaml import Node
-from mamori_trace.base.nearest_names import nearest_names
 
 SUBJECT_NAME = "arm"
-POLARITIES = ("nominal", "violation")
 
 _TOP_KEYS = frozenset({"schema", "subject", "seed", "instants", "motion_begins_at_s", "observe_s", "bounds", "scenarios"})
 _BOUND_KEYS = frozenset({"hold_drift_rad", "hold_observed_s", "tracking_error_rad"})
 _SCENARIO_KEYS = frozenset({"name", "title", "fault", "at", "at_s", "expected", "requirements"})
 _EXPECTED_KEYS = frozenset({"state", "reaction", "detected_fault", "within_s", "watchdog_bitten"})
-_NAME = re.compile(r"[a-z][a-z0-9_]*")
-_REQUIREMENT = re.compile(r"(SYS|SWR-[A-Z]+)-\d{3}")
 
 
 @dataclass(frozen=True)
@@ -87,20 +83,11 @@ def read_plan(root: Node, path: Path) -> ArmPlan:
     bounds = root.get("bounds")
     bounds.as_mapping(_BOUND_KEYS)
     instants = _read_fractions(root.get("instants"))
-    nodes = root.get("scenarios").as_list()
-    if not nodes:
-        raise root.get("scenarios").error("lists no scenario; add one")
-    scenarios: dict[str, ArmScenario] = {}
-    for node in nodes:
-        scenario = _read_scenario(node, instants)
-        if scenario.name in scenarios:
-            raise node.get("name").error(f"'{scenario.name}' stands twice; rename one")
-        scenarios[scenario.name] = scenario
     return ArmPlan(
         path,
         SUBJECT_NAME,
-        _read_seed(root.get("seed")),
-        tuple(scenarios.values()),
+        read_seed(root.get("seed")),
+        read_scenarios(root, lambda node: _read_scenario(node, instants)),
         _read_not_negative(root.get("motion_begins_at_s")),
         read_positive(root.get("observe_s")),
         Bounds(*(read_positive(bounds.get(key)) for key in ("hold_drift_rad", "hold_observed_s", "tracking_error_rad"))),
@@ -109,9 +96,7 @@ def read_plan(root: Node, path: Path) -> ArmPlan:
 
 def _read_scenario(node: Node, usual_instants: tuple[float, ...]) -> ArmScenario:
     entries = node.as_mapping(_SCENARIO_KEYS)
-    name = node.get("name").as_text()
-    if not _NAME.fullmatch(name):
-        raise node.get("name").error(f"'{name}'; use small letters, digits and _, it becomes a folder name")
+    name = read_scenario_name(node)
     fault = read_fault(node.get("fault"))
     times = [key for key in ("at", "at_s") if key in entries]
     if len(times) > 1 or (times and fault.kind == "none"):
@@ -126,14 +111,14 @@ def _read_scenario(node: Node, usual_instants: tuple[float, ...]) -> ArmScenario
     if fault.kind == "none" and expected.wants_reaction:
         raise node.get("expected").error(f"a reaction without a fault is a false trip; write reaction: [{NOTHING}]")
     return ArmScenario(
-        name, node.get("title").as_text(), _read_requirements(node.get("requirements")), node,
+        name, node.get("title").as_text(), read_requirements(node.get("requirements")), node,
         fault, instants, "at_s" in entries, expected,
     )  # fmt: skip
 
 
 def _read_expected(node: Node) -> Expected:
     entries = node.as_mapping(_EXPECTED_KEYS)
-    state = _read_name(node.get("state"), STATES)
+    state = read_name(node.get("state"), STATES)
     reactions = _read_names(node.get("reaction"), REACTIONS)
     faults = _read_names(node.get("detected_fault"), DETECTED_FAULTS)
     bitten = entries["watchdog_bitten"].as_bool() if "watchdog_bitten" in entries else None
@@ -143,32 +128,13 @@ def _read_expected(node: Node) -> Expected:
     return Expected(state, reactions, faults, within_s, bitten)
 
 
-def _read_name(node: Node, known: Sequence[str]) -> str:
-    name = node.as_text()
-    if name not in known:
-        raise node.error(f"unknown '{name}'; {nearest_names(name, known)}")
-    return name
-
-
 def _read_names(node: Node, known: Sequence[str]) -> tuple[str, ...]:
-    names = tuple(_read_name(item, known) for item in node.as_list())
+    names = tuple(read_name(item, known) for item in node.as_list())
     if not names:
         raise node.error(f"is empty; name at least one, or [{NOTHING}]")
     if NOTHING in names and len(names) > 1:
         raise node.error(f"'{NOTHING}' stands alone; a verdict that allows both says nothing")
     return names
-
-
-def _read_requirements(node: Node) -> dict[str, str]:
-    """Requirement -> polarity of this scenario as its evidence."""
-    found: dict[str, str] = {}
-    for requirement, polarity in node.as_mapping().items():
-        if not _REQUIREMENT.fullmatch(requirement):
-            raise polarity.error(f"'{requirement}' is no requirement id; write SYS-nnn or SWR-<AREA>-nnn")
-        found[requirement] = _read_name(polarity, POLARITIES)
-    if not found:
-        raise node.error("names none; name what the scenario verifies")
-    return found
 
 
 def _read_fractions(node: Node) -> tuple[float, ...]:
@@ -195,10 +161,3 @@ def _read_not_negative(node: Node) -> float:
     if number < 0.0:
         raise node.error(f"{number:g}; write 0 or more")
     return number
-
-
-def _read_seed(node: Node) -> int:
-    seed = node.as_int()
-    if not 0 <= seed < 2**64:
-        raise node.error(f"{seed}; write a whole number from 0 to 2^64 - 1")
-    return seed

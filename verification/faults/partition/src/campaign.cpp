@@ -23,22 +23,22 @@ using verification::find_processor;
 using verification::OccupancyWatch;
 using verification::StallWatch;
 
-/// Above what other programs use: what delays these threads is the machine, or what is under test.
+/// Above the priorities of other programs: only the host or the software under test delays these threads.
 constexpr int kWatchPriority = 98;
-constexpr std::size_t kLooksPerFrame = 20U;
+constexpr std::size_t kPollsPerFrame = 20U;
 constexpr int kRunnerPriority = 97;
 constexpr int kWindowPriority = 96;
 constexpr std::uint32_t kWellFrames{20U};
 constexpr Duration kStep = 1_ms;
 constexpr Duration kPatience = 20_s;
-/// A partition that has not done what it was told by then does not come to it.
+/// A partition that has not injected its fault by then does not do so.
 constexpr Duration kInjectionPatience = 2_s;
 constexpr int kStartTries{20};
-/// Frames for which there is room in the logs: some five times what a fault takes, and a slow start.
+/// Major frames for which the logs have capacity: about five times the need of a fault, and a slow start.
 constexpr std::size_t kFramesPerFault{1000U};
 constexpr std::size_t kFramesBeside{60'000U};
 
-/// Troubles that the host causes.
+/// Reasons to end that the host causes.
 constexpr const char* kTooSlow = "the machine is too slow: what is written down has no room";
 constexpr const char* kNoTime = "the machine gives the partition no time";
 
@@ -60,7 +60,7 @@ struct Link {
                answer_reader.open(answers.get_region(), kAnswerCapacity) == Status::kOk &&
                diary.open(notes.get_region(), kNoteCapacity) == Status::kOk;
     }
-    /// What the partition has noted last, since the last time. @return false: nothing.
+    /// The last note of the partition since the previous call. @return false: no note.
     bool take_note(Note& note, Instant& at) {
         std::array<std::byte, kNoteCapacity> content{};
         FrameFacts facts{};
@@ -108,10 +108,10 @@ class OpeningLog final : public OpeningObserver {
     Instant woke_{};
 };
 
-/// Carries the plan out, on an ordinary thread beside the windows, which never wait for it.
+/// Executes the plan on an ordinary thread next to the windows, which never wait for it.
 class Director final {
   public:
-    /// @param[in] last instant up to which there is room for what is written down.
+    /// @param[in] last instant up to which the logs have capacity.
     Director(const CampaignRequest& request, const FrameClock& clock, Link& link, Instant last)
         : request_(request), clock_(clock), link_(link), last_(last) {}
 
@@ -153,7 +153,7 @@ class Director final {
                 return "the partition did not become well";
             }
             clock_.wait_until(clock_.get_now() + fault.wait);
-            // One that the machine gave no time meanwhile has had its reaction, and is no place for a fault.
+            // A partition that got no processor time meanwhile has had its reaction: no fault is injected.
             is_well = !is_stopped.load(std::memory_order_acquire) &&
                       good_count.load(std::memory_order_relaxed) > 0U;
         }
@@ -173,14 +173,14 @@ class Director final {
         return "";
     }
 
-    /// The program, and its word that it listens.
+    /// Starts the program and waits until it reports that it runs.
     bool start(std::size_t number) {
         const std::string seed = std::to_string(request_.seed + number);
         const std::array<const char*, 1U> arguments{seed.c_str()};
         const std::array<int, 3U> descriptors{link_.requests.get_descriptor(), link_.answers.get_descriptor(),
                                               link_.notes.get_descriptor()};
         PartitionOrder order{request_.worker, arguments, descriptors, &clock_, {}};
-        order.limits.niceness = 0;  // as strong as one without rights can be
+        order.limits.niceness = 0;  // the highest without a privilege
         if (partition_.start(order) != Status::kOk) {
             return false;
         }
@@ -237,14 +237,14 @@ class Director final {
     std::vector<Injected> injections_{};
 };
 
-/// Nothing around the windows.
+/// No devices.
 class NoDevices final : public ports::virtual_time::FrameDevices {
   public:
     void begin_frame(std::uint64_t, Instant) noexcept override {}
     void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
 };
 
-/// The same table in virtual time, up to the last opening by the clock.
+/// The same table in virtual time, up to the last window in real time.
 std::vector<Opening> run_in_virtual_time(const std::vector<TimedOpening>& openings) {
     if (openings.empty() || executive.stop() != Status::kOk || executive.finalize() != Status::kOk ||
         executive.initialize() != Status::kOk || executive.start() != Status::kOk) {
@@ -285,7 +285,7 @@ std::vector<Fault> make_plan(const CampaignRequest& request) {
     std::array<Kind, kKindCount> kinds{Kind::kKill, Kind::kStop, Kind::kFlood, Kind::kCorrupt};
     for (std::uint64_t i = 0U; i < request.fault_count; ++i) {
         if (i % kKindCount == 0U) {
-            // By hand: the order in which the library shuffles is not the same everywhere.
+            // std::shuffle does not give the same order with each library.
             for (std::size_t k = kKindCount - 1U; k > 0U; --k) {
                 std::swap(kinds[k], kinds[random() % (k + 1U)]);
             }
@@ -299,7 +299,7 @@ std::vector<Fault> make_plan(const CampaignRequest& request) {
 }
 
 Course run(const CampaignRequest& request) {
-    // Work that hangs longer than the run may still look at these.
+    // Work that hangs longer than the run may still use these.
     static const FrameClock clock = FrameClock::starting_in(200_ms);
     static const int processor = find_processor();
     static GuardedHost host{window_threads, clock, {kWindowPriority, processor}};
@@ -325,16 +325,16 @@ Course run(const CampaignRequest& request) {
     const AwakeProcessor awake{processor};
     OccupancyWatch occupancy{clock, processor};
     StallWatch stalls{clock,
-                      Duration{kFrame.ns / std::int64_t{kLooksPerFrame}},
+                      Duration{kFrame.ns / std::int64_t{kPollsPerFrame}},
                       {kWatchPriority, processor},
-                      frames * kLooksPerFrame};  // none may be missing: they are host causes
+                      frames * kPollsPerFrame};  // none may be missing: they are host causes
     Right right{};
     std::thread thread{[&runner, &right] {
         right =
             combine(set_priority(pthread_self(), kRunnerPriority), set_processor(pthread_self(), processor));
         runner.run_until_stopped();
     }};
-    // What one fault takes at most, its starts included, still has to fit in behind.
+    // The longest fault, with its starts, must still fit into the logs after this instant.
     const Instant last{static_cast<std::int64_t>(frames) * kFrame.ns - 2 * kPatience.ns};
     Director director{request, clock, link, last};
     const char* const trouble = director.carry_out(make_plan(request));
@@ -350,7 +350,7 @@ Course run(const CampaignRequest& request) {
     course.reactions = std::move(log.reactions);
     course.injections = director.get_injections();
     course.stalls = stalls.get_stalls();
-    course.late_polls = stalls.get_late_looks();
+    course.late_polls = stalls.get_late_polls();
     course.knows_foreign = occupancy.knows();
     course.foreign = occupancy.get_foreign();
     course.expected = run_in_virtual_time(course.openings);

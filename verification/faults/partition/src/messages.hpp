@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the safety system and the process beside it tell each other, and what that one writes down of its own
+/// Messages between the safety system and the process next to it, and notes of that process about its own
 /// faults.
 #ifndef MAMORI_PARTITION_FAULTS_MESSAGES_HPP
 #define MAMORI_PARTITION_FAULTS_MESSAGES_HPP
@@ -37,7 +37,7 @@ constexpr std::uint32_t calc_check(const Answer& answer) noexcept {
     return crc.get_value();
 }
 
-/// Places among the descriptors that the partition is handed.
+/// Indices in the descriptors that the partition receives.
 inline constexpr int kRequestPlace{0};
 inline constexpr int kAnswerPlace{1};
 inline constexpr int kDiaryPlace{2};
@@ -46,7 +46,7 @@ inline constexpr int kDiaryPlace{2};
 enum class Note : std::uint8_t {
     kRuns,  ///< listens to the signals below
     kBegun,
-    kDone,  ///< of a flood: kFloodBurst frames; of a corruption: each word once; it goes on all the same
+    kDone,  ///< of a flood: kFloodBurst frames; of a corruption: each word once; it continues
 };
 inline constexpr std::size_t kNoteCapacity{1U};
 inline constexpr int kFloodSignal{SIGUSR1};

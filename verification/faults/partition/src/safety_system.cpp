@@ -31,7 +31,7 @@ using ports::posix_rt::FrameOutcome;
 using ports::posix_rt::PartitionNews;
 using safety::Reaction;
 
-/// Frames without a good answer that a busy machine is forgiven; what came before does not count any more.
+/// Major frames without a valid reply that a busy host may cause; earlier valid replies no longer count then.
 constexpr std::uint32_t kPauseFrames{10U};
 
 template <typename Row>
@@ -41,7 +41,7 @@ void add(std::vector<Row>& rows, const Row& row) noexcept {
     }
 }
 
-/// The first component of each window: writes down that it has opened.
+/// The first component of each window: records that the window has started.
 class Witness final : public Component {
   public:
     constexpr Witness(const char* name, std::size_t window) noexcept : Component(name), window_(window) {}
@@ -74,7 +74,7 @@ class Asker final : public Component {
     std::uint64_t sequence_{0U};
 };
 
-/// Supervises the partition by what arrives.
+/// Supervises the partition by its messages.
 class Guard final : public Component {
   public:
     constexpr Guard() noexcept : Component("guard") {}
@@ -115,7 +115,7 @@ class Guard final : public Component {
     void report(PartitionFault fault, bool is_present, Instant now) noexcept {
         faults_.report(static_cast<safety::FaultIndex>(fault), is_present, now);
     }
-    /// What is still present stays latched; whoever asked sees it at the drive.
+    /// Present faults remain latched; the drive shows them.
     void follow_reset() noexcept {
         if (is_reset_wanted.exchange(false, std::memory_order_relaxed)) {
             static_cast<void>(alive_.acknowledge(0U));
@@ -177,14 +177,14 @@ class Drive final : public Component {
 Witness ask_witness{"ask_witness", 0U};
 Asker asker;
 Witness protect_witness{"protect_witness", 1U};
-/// Its window may open late by its length, and then finds an answer of this frame.
+/// Its window may start late by its length; it then finds a reply of this major frame.
 ports::posix_rt::PartitionReceiver<Answer> receiver{"receiver", answer_reader, 240_us};
 Guard guard;
 Witness act_witness{"act_witness", 2U};
 Drive drive;
 Witness tell_witness{"tell_witness", 3U};
 ports::posix_rt::PartitionSender<Request> sender{"sender", request_writer};
-/// Budgets have room for the longest time that the machine may stand still without being told of.
+/// Budgets have slack for the longest stall of the host that is not recorded.
 constexpr auto kSystem =
     system(frame(kFrame), window("ask", 0_us, 240_us, budget(230_us), mamori::run(ask_witness, asker)),
            window("protect", 240_us, 240_us, budget(230_us), mamori::run(protect_witness, receiver, guard)),

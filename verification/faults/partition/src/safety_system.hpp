@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The safety system beside the partition: it asks, supervises what comes back, and stops its drive when that
-/// is silent, too much or wrong. What it does is recorded.
+/// The safety system next to the partition: it sends requests, supervises the replies, and stops its drive if
+/// they are missing, too many or wrong. It records what it does.
 #ifndef MAMORI_PARTITION_FAULTS_SAFETY_SYSTEM_HPP
 #define MAMORI_PARTITION_FAULTS_SAFETY_SYSTEM_HPP
 
@@ -27,41 +27,41 @@ inline constexpr std::size_t kWindowCount{4U};
 inline constexpr std::size_t kRequestCapacity = ports::posix_rt::PartitionSender<Request>::kCapacity;
 inline constexpr std::size_t kAnswerCapacity = ports::posix_rt::PartitionReceiver<Answer>::kCapacity;
 
-/// Silence and flood let the drive stop along its path; who corrupts is not waited for.
+/// After silence and a flood the drive stops along its path; after corruption it stops immediately.
 inline constexpr std::array<safety::ReactionRow, static_cast<std::size_t>(PartitionFault::kCount)> kReactions{
     safety::react(PartitionFault::kSilent, safety::Reaction::kSs1, kReactionTime),
     safety::react(PartitionFault::kFlooding, safety::Reaction::kSs1, kReactionTime),
     safety::react(PartitionFault::kCorrupt, safety::Reaction::kSto, kReactionTime)};
 static_assert(safety::covers_all<kReactions, PartitionFault::kCount>());
 
-/// What the components write down, in memory that was taken before the run; what does not fit is dropped.
+/// Records of the components, in memory that was taken before the run; rows beyond the capacity are dropped.
 struct SystemLog {
-    /// By place, since work that was cut off may come back beside that of another window.
+    /// By index, because aborted work may return while another window runs.
     std::vector<Opening> ran{};
     std::atomic<std::size_t> ran_count{0U};
     std::vector<Reception> receptions{};
     std::vector<ReactionBegin> reactions{};
-    /// The openings that were written down. To be called once, when nothing runs any more.
+    /// The recorded window instances. Call once, after the run.
     std::vector<Opening> take_ran() {
         ran.resize(std::min(ran.size(), ran_count.load(std::memory_order_relaxed)));
         return std::move(ran);
     }
 
-    const ports::posix_rt::FrameClock* clock{nullptr};  ///< nullptr: virtual time, where nobody reads it
+    const ports::posix_rt::FrameClock* clock{nullptr};         ///< nullptr: virtual time
     verification::Defect defect{verification::Defect::kNone};  ///< in real time only
 };
 
 /// Where the components write; set while none of them runs.
 extern SystemLog* system_log;
 
-/// @name What one who stands beside the system sees of it and may ask for, from any thread
+/// @name State and requests for other threads
 /// @{
 extern std::atomic<bool> is_stopped;           ///< a reaction holds at the drive
 extern std::atomic<std::uint32_t> good_count;  ///< good answers since the last pause
-extern std::atomic<bool> is_reset_wanted;      ///< a deliberate reset; taken back when it was tried
+extern std::atomic<bool> is_reset_wanted;      ///< a deliberate reset; false after the attempt
 /// @}
 
-/// To be opened before the executive is initialised.
+/// Open before the executive is initialised.
 extern ports::posix_rt::FrameReader answer_reader;
 extern ports::posix_rt::FrameWriter request_writer;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// partition_worker SEED: the process beside the safety system. It has a system table of its own and answers
-// each request, until a signal asks it to flood or to corrupt; then it does so until it is killed. To be
-// started by the campaign only.
+// partition_worker SEED: the process next to the safety system. It has its own system table and answers each
+// request. On a signal it floods or corrupts until it is killed. Only the campaign starts it.
 #include <pthread.h>
 #include <unistd.h>
 
@@ -26,7 +25,7 @@ namespace {
 
 using namespace ports::posix_rt;  // NOLINT: this program is made of them
 
-/// The program does something else than its work from here on.
+/// The program no longer does its work.
 std::atomic<bool> is_wild{false};
 
 class Worker final : public Component {
@@ -63,7 +62,7 @@ MAMORI_CHECK(kSystem);
 ExecutiveFor executive{kSystem};
 std::array<WindowThread, 2U> threads;
 
-/// Processes that do nothing but compute, and how long they do at most.
+/// Processes that only compute, and their maximum run time.
 constexpr int kHogs{2};
 constexpr unsigned kHogSeconds{2U};
 
@@ -80,7 +79,7 @@ class Diary final {
     const FrameClock& clock_;
 };
 
-/// Good answers, as fast as they can be written; and hogs.
+/// Valid replies, as fast as they can be written, and processes that compute.
 [[noreturn]] void flood(Span<std::byte> region, const FrameClock& clock, Diary& diary) {
     diary.write(Note::kBegun);
     for (int i = 0; i < kHogs; ++i) {
@@ -104,7 +103,7 @@ class Diary final {
     }
 }
 
-/// Random words all over the memory of the answers, again and again.
+/// Repeatedly writes random words to all memory of the replies.
 [[noreturn]] void corrupt(Span<std::byte> region, std::uint64_t seed, Diary& diary) {
     std::mt19937_64 random{seed};
     auto* const words = reinterpret_cast<std::uint64_t*>(region.data());

@@ -30,7 +30,7 @@ using verification::Defect;
 using verification::StallWatch;
 using namespace literals;  // NOLINT: units of the table below
 
-/// Above what other programs use, as far as possible.
+/// Above the priorities of other programs, as far as possible.
 constexpr int kStallPriority = 98;
 constexpr int kWatchdogPriority = 97;
 constexpr int kRunnerPriority = 96;
@@ -42,10 +42,10 @@ constexpr safety::WatchdogWindow kGateWindow{300_us, 4_ms};
 constexpr std::uint64_t kFramesBefore = 5U;
 constexpr std::uint64_t kFramesSpread = 40U;
 constexpr std::uint64_t kFramesAfter = 12U;
-/// A watchdog that has not acted by then never does; who hangs for its sake goes on.
+/// A watchdog that has not acted by then never does; work that hangs for the loss continues.
 constexpr Duration kPatience = 100_ms;
 
-/// One trial, as everybody in it sees it. The watchdog's thread tells of the closing, whoever runs the rest.
+/// State of one trial. The watchdog thread writes the closing, the other threads the rest.
 struct Stage {
     const FrameClock* clock{nullptr};
     SoftwareWatchdog* watchdog{nullptr};
@@ -137,7 +137,7 @@ MAMORI_CHECK(kSystem);
 ExecutiveFor executive{kSystem};
 std::array<WindowThread, 1U> threads;
 
-/// Hangs on the thread that opens the windows.
+/// Hangs on the thread that starts the windows.
 class Director final : public OpeningObserver {
   public:
     void begin() noexcept { frame_ = 0U; }
@@ -155,7 +155,7 @@ class Director final : public OpeningObserver {
     std::uint64_t frame_{0U};
 };
 
-/// What all trials share.
+/// Objects of all trials.
 struct Rig {
     const FrameClock& clock;
     GuardedHost& host;
@@ -165,7 +165,7 @@ struct Rig {
     ports::posix_rt::Right right;
 };
 
-/// @return frames. Afterwards `stage.trial` is what became of it.
+/// @return major frames. Afterwards `stage.trial` has the record.
 std::uint64_t run_trial(Rig& rig, Loss loss, std::uint64_t loss_frame) {
     SoftwareWatchdog watchdog{rig.clock, kWatchdogWindow, {&Stage::close_outputs, &stage, false}};
     WatchdogGate gate{watchdog, kGateWindow};
@@ -184,7 +184,7 @@ std::uint64_t run_trial(Rig& rig, Loss loss, std::uint64_t loss_frame) {
     rig.right = combine(rig.right, watchdog.get_priority_right());
     const std::uint64_t frames = loss_frame + kFramesAfter;
     rig.runner.run(frames);
-    // A clean trial ends while it is still served in time; work that hung has come back by now or soon does.
+    // A trial without a loss ends while it is still serviced; work that hung has returned or soon does.
     stage.trial.ended_at = rig.clock.get_now();
     MAMORI_ENSURE(1, watchdog.close() == Status::kOk);
     while (!rig.host.has_returned(0U)) {

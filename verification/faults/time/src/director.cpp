@@ -7,7 +7,7 @@ namespace mamori::time_faults {
 namespace {
 
 constexpr std::size_t kReportRoom = 1'000'000U;
-/// Until the runner has caught up and no work is out.
+/// Until the runner has caught up and all work has returned.
 constexpr Duration kAftermath{10'000'000};
 
 std::uint64_t calc_frame(const FrameSchedule::Opening& opening) noexcept {
@@ -66,7 +66,7 @@ void Director::after_opening(const FrameSchedule::Opening& opening, WindowOutcom
     }
 }
 
-/// The next injection, when its frame has come and nothing is under way that would hide it.
+/// The next injection, when its major frame has come and nothing hides it.
 const Injection* Director::find_due(const FrameSchedule::Opening& opening) noexcept {
     const std::uint64_t frame = calc_frame(opening);
     if (next_ == injections_.size() || frame < injections_[next_].frame || opening.release < quiet_until_ ||
@@ -92,7 +92,7 @@ void Director::begin(const Injection& injection, const FrameSchedule::Opening& o
         case Kind::kLockedOut:
             stage_.inversion.prepare();
             if (!stage_.inversion.is_prepared()) {
-                return;  // the low thread did not run yet
+                return;  // the thread without priority has not run yet
             }
             get_victim(injection.place).arm(Way::kLock, Cause::kLock, injection.size);
             stage_.inversion.attempt(stage_.clock.get_now() + injection.size);
@@ -128,7 +128,7 @@ void Director::begin(const Injection& injection, const FrameSchedule::Opening& o
     finish(kAftermath);
 }
 
-/// The window that the fault is about opens next.
+/// The window of the fault starts next.
 void Director::begin_after(const Injection& injection, const FrameSchedule::Opening& opening) noexcept {
     const FrameSchedule schedule{get_executive().get_view(), 0U, opening.release + Duration{1}};
     const FrameSchedule::Opening& next = schedule.get_next();
@@ -151,7 +151,7 @@ void Director::begin_after(const Injection& injection, const FrameSchedule::Open
 void Director::record_held_sleep(const FrameSchedule::Opening& opening) noexcept {
     is_sleep_held_ = false;
     if (stage_.time.is_sleep_to_be_held()) {
-        stage_.time.hold_sleep(Duration{0});  // it was late already and did not sleep: another time
+        stage_.time.hold_sleep(Duration{0});  // it was late and did not sleep: try again
         return;
     }
     course_.delays.push_back({opening.window, opening.release, woke_});

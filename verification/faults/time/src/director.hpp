@@ -19,7 +19,7 @@
 
 namespace mamori::time_faults {
 
-/// What faults are put into. All must outlive the director.
+/// What faults are injected into. All must outlive the director.
 struct Stage {
     const ports::posix_rt::FrameClock& clock;
     FaultyTime& time;
@@ -28,13 +28,13 @@ struct Stage {
     const std::atomic<bool>& is_reading;  ///< a reader of lower priority on the same processor
 };
 
-/// Calling context: the thread that runs the windows. A fault waits until those before it are over: no work
-/// is out, and the watch was reset.
+/// Calling context: the thread that runs the windows. A fault waits until those before it have ended: all
+/// work has returned, and the watch was reset.
 class Director final : public ports::posix_rt::OpeningObserver, public ExecutionObserver {
   public:
     Director(const Stage& stage, std::vector<Injection> injections);
 
-    /// Not watched: no finding is expected, and none is reset. @param[in] watch must outlive it.
+    /// nullptr: no finding is expected or reset. @param[in] watch must outlive it.
     void set_watch(ports::posix_rt::GridWatch* watch) noexcept { watch_ = watch; }
 
     void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override;

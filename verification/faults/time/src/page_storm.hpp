@@ -11,11 +11,11 @@
 
 namespace mamori::time_faults {
 
-/// Maps, touches and unmaps 64 MiB again and again, in a process of its own without any priority.
+/// Repeatedly maps, touches and unmaps 64 MiB, in its own process without a priority.
 class PageStorm final {
   public:
-    /// Starts the process, which ends with its parent or after `seconds` at the latest; 0: none. To be made
-    /// while the caller has one thread.
+    /// Starts the process, which ends with its parent or after `seconds` at the latest; 0: none. Create
+    /// it while the caller has one thread.
     explicit PageStorm(unsigned seconds) noexcept;
     PageStorm(const PageStorm&) = delete;
     PageStorm& operator=(const PageStorm&) = delete;
@@ -23,14 +23,14 @@ class PageStorm final {
     ~PageStorm() { stop(); }
 
     bool is_under_way() const noexcept { return process_ > 0; }
-    /// @return whether it blew until now.
+    /// @return whether it faulted pages until now.
     bool stop() noexcept;
 
   private:
     pid_t process_{-1};
 };
 
-/// @return whether memory of this process is locked in truth: the sanitizers let mlockall() do nothing.
+/// @return whether memory of this process is locked: with the sanitizers mlockall() does nothing.
 bool has_locked_pages();
 
 /// Page faults of the thread that calls look(), since its first call.

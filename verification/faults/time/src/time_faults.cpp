@@ -25,8 +25,8 @@ using verification::find_processor;
 using verification::StallWatch;
 
 constexpr Duration kLead{500'000'000};
-constexpr std::size_t kLooksPerFrame = 20U;
-/// Above what other programs use, as far as possible.
+constexpr std::size_t kPollsPerFrame = 20U;
+/// Above the priorities of other programs, as far as possible.
 constexpr int kStallPriority = 98;
 constexpr int kWatchPriority = 97;
 constexpr int kRunnerPriority = 96;
@@ -56,9 +56,9 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
     runner.set_observer(beats.data());
     director.set_watch(&watch);
     StallWatch stalls{clock,
-                      Duration{kTick.ns / std::int64_t{kLooksPerFrame}},
+                      Duration{kTick.ns / std::int64_t{kPollsPerFrame}},
                       {kStallPriority, processor},
-                      request.frame_count * kLooksPerFrame};  // none may be missing: they are host causes
+                      request.frame_count * kPollsPerFrame};  // none may be missing: they are host causes
     if (watch.open() == Status::kOk) {
         beats[0].expect(Instant{0});
         runner.run(request.frame_count);
@@ -69,7 +69,7 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
     stalls.stop();
     Course course = director.get_course();
     course.stalls = stalls.get_stalls();
-    course.late_polls = stalls.get_late_looks();
+    course.late_polls = stalls.get_late_polls();
     course.host = stalls.get_figures();
     return course;
 }
@@ -92,7 +92,7 @@ void add_component_delays(const ComponentDelays& delays, Course& course) {
 }
 
 void add_page_faults(Course& course) {
-    // Those of one window run on one thread: the first of them tells for all.
+    // Components of one window run on one thread: the first one has the count of all.
     for (const std::size_t component : {std::size_t{0U}, std::size_t{1U}, std::size_t{3U}}) {
         course.major_faults += get_victim(component).get_meter().get_major();
         course.minor_faults += get_victim(component).get_meter().get_minor();

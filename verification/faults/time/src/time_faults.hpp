@@ -26,18 +26,17 @@ using verification::kDefectEvery;
 /// Frames between two faults, at least: the longest fault, its aftermath, and the reset of the watch.
 inline constexpr std::uint64_t kDistance = 80U;
 
-/// What is declared to the watch: it finds what is overdue within a tick, and a clock that is off by 0.5 % or
-/// more.
+/// Limits of the watch: it finds what is overdue within a tick, and a clock that is off by 0.5 % or more.
 inline constexpr ports::posix_rt::GridLimits kWatchLimits{
     Duration{300'000}, Duration{200'000}, {Duration{10'000'000}, 5000}};
 
 enum class Kind : std::uint8_t {
     kLoop,         ///< a component computes for too long
     kSleep,        ///< a component waits for too long
-    kLockedOut,    ///< a component waits for a mutex of a thread that does not get to run
-    kLateRelease,  ///< the thread that opens the windows comes too late
+    kLockedOut,    ///< a component waits for a mutex of a thread that does not run
+    kLateRelease,  ///< the thread that starts the windows is too late
     kStuckGuard,   ///< a component computes for too long, and the deadline of the guard does not come
-    kStuckRunner,  ///< the thread that opens the windows hangs after a window
+    kStuckRunner,  ///< the thread that starts the windows hangs after a window
     kStuckTick,    ///< the sleep until a window does not end
     kFastClock,
     kSlowClock

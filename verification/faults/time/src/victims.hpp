@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The system that faults of time are put into: three windows in a frame of 1 kHz, four components that take
-/// too long when they are told to.
+/// The system that faults of time are injected into: three windows in a major frame of 1 ms, four components
+/// that take too long when they are armed.
 #ifndef MAMORI_TIME_FAULTS_VICTIMS_HPP
 #define MAMORI_TIME_FAULTS_VICTIMS_HPP
 
@@ -23,7 +23,7 @@
 
 namespace mamori::time_faults {
 
-/// What a component does too long.
+/// What a component does for too long.
 enum class Way : std::uint8_t { kCompute, kSleep, kLock };
 
 /// An injected overrun that has begun. Its thread may be released meanwhile; it returns nevertheless.
@@ -34,7 +34,7 @@ struct OpenOverrun {
     std::atomic<std::int64_t> end_ns{0};
 };
 
-/// What the components use; set before the run, for work that never has to look for it.
+/// Objects that the components use; set before the run.
 struct Surroundings {
     const ports::posix_rt::FrameClock* clock{nullptr};
     std::vector<OpenOverrun>* overruns{nullptr};  ///< room for all of the run

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Keeps a processor from sleeping while a run is measured. One that sleeps is given back, by a virtual
-/// machine to its host, and each wake-up then has to wait until it is there again: what is to be told apart
-/// from the run would be the greater part of it.
+/// Keeps a processor awake while a run is measured. A virtual machine releases a sleeping processor to its
+/// host. Each wake-up then waits for it, and these host causes would dominate the run.
 #ifndef MAMORI_VERIFICATION_AWAKE_PROCESSOR_HPP
 #define MAMORI_VERIFICATION_AWAKE_PROCESSOR_HPP
 
@@ -11,9 +10,8 @@
 
 namespace mamori::verification {
 
-/// A thread that computes on the processor, below all others there (SCHED_IDLE, which needs no right). When
-/// Linux refuses either, it ends at once: the run is the same, on a noisier machine. One whole processor is
-/// used up.
+/// A thread that computes on the processor, below all others there (SCHED_IDLE, which needs no privilege). If
+/// Linux denies priority or processor, the thread ends: the host is then noisier. Uses one processor.
 class AwakeProcessor final {
   public:
     /// @param[in] processor its number, 0, 1, ...

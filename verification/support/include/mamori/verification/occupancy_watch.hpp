@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tells when other programs had a processor: what they can have moved in a run is told apart from what they
-/// cannot. The kernel itself writes each exchange of threads down (perf_event_open).
+/// Records when other programs had a processor, and so which windows they cannot have moved. The Linux kernel
+/// writes each context switch (perf_event_open).
 #ifndef MAMORI_VERIFICATION_OCCUPANCY_WATCH_HPP
 #define MAMORI_VERIFICATION_OCCUPANCY_WATCH_HPP
 
@@ -19,26 +19,24 @@
 namespace mamori::verification {
 
 /// Thread safety: knows() from any thread, get_foreign() after stop(). Memory: heap, 64 MB of addresses taken
-/// in the constructor, so that nothing grows beside what is measured.
+/// in the constructor, so that nothing grows during a measurement.
 class OccupancyWatch final {
   public:
-    /// Begins at once. @param[in] clock of Linux's monotonic clock; must outlive this object.
+    /// Begins immediately. @param[in] clock of Linux's monotonic clock; must outlive this object.
     /// @param[in] processor its number, 0, 1, ...
     OccupancyWatch(const ports::posix_rt::FrameClock& clock, int processor);
     OccupancyWatch(const OccupancyWatch&) = delete;
     OccupancyWatch& operator=(const OccupancyWatch&) = delete;
     ~OccupancyWatch();
 
-    /// False when nothing is known: the kernel refuses (it has no such events, or this process no right to
-    /// those of a processor and to 4 MiB of locked memory: root has both), it lost some of what it wrote,
-    /// more came than there is room for, or this process is in a container, from where other programs look
-    /// like nobody.
+    /// False when nothing is known: the kernel denies the events (root has them, and the 4 MiB of locked
+    /// memory), it lost some, more came than the capacity, or this process is in a container and cannot see
+    /// other programs.
     bool knows() const noexcept { return knows_.load(std::memory_order_relaxed); }
-    /// Takes what is left and ends, within some milliseconds; once more does nothing.
+    /// Takes the remaining records and ends, within some milliseconds; a second call does nothing.
     void stop();
-    /// From each exchange that gave the processor to a thread of another process, one of the kernel included,
-    /// to the next exchange; in the order of their instants. Until the first exchange that is seen another
-    /// process counts as there.
+    /// From each context switch to a thread of another process or of the kernel, to the next switch; in the
+    /// order of their instants. Before the first recorded switch another process counts as running.
     const std::vector<Stall>& get_foreign() const noexcept { return foreign_; }
 
   private:

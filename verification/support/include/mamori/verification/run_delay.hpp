@@ -11,7 +11,7 @@
 namespace mamori::verification {
 
 /// Thread safety: for one thread, the first that calls take(). Memory: none. The file stays open to the end
-/// of the process, since a thread that was given up may still read it.
+/// of the process, since a released thread may still read it.
 class RunDelayMeter final {
   public:
     /// @return the delay since the call before; 0 at the first call and where the kernel does not count it.

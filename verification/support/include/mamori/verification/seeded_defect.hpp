@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Defects that a campaign program puts into the software under test, to show that its run fails for them.
+/// Defects that a campaign program seeds in the software under test, to show that its run fails for them.
 #ifndef MAMORI_VERIFICATION_SEEDED_DEFECT_HPP
 #define MAMORI_VERIFICATION_SEEDED_DEFECT_HPP
 
@@ -10,7 +10,7 @@ namespace mamori::verification {
 
 enum class Defect : std::uint8_t {
     kNone,
-    kLateRelease,  ///< a window is opened too late, or outputs are closed too late
+    kLateRelease,  ///< a window starts too late, or outputs are closed too late
     kOverrun,      ///< a component computes for longer than its budget
     kWrongName     ///< a report names another component or fault
 };

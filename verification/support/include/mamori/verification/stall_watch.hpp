@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tells when nobody ran on a processor: a thread above all others there that looks at the clock again and
-/// again. What the machine does to a run is told apart from what the run does to itself.
+/// Records when no thread ran on a processor: a thread above all others there polls the clock. Host causes
+/// are thus distinguished from the software under test.
 #ifndef MAMORI_VERIFICATION_STALL_WATCH_HPP
 #define MAMORI_VERIFICATION_STALL_WATCH_HPP
 
@@ -16,8 +16,8 @@
 
 namespace mamori::verification {
 
-/// From one look at the clock to the next, much later one; or, of a late look, from its planned instant to
-/// it.
+/// From one poll of the clock to the next, much later one; for a late poll, from its planned instant to its
+/// actual one.
 struct Stall {
     Instant begin{};
     Instant end{};
@@ -34,9 +34,9 @@ struct HostFigures {
     std::uint64_t involuntary_switches{0U};  ///< of all threads of the process (getrusage)
 };
 
-/// What is lost of the time within the two instants: those parts of the late looks that lie there, together.
-/// @param[in] late_looks in the order of their instants.
-Duration calc_loss(const std::vector<Stall>& late_looks, Instant begin, Instant end);
+/// Time lost between two instants: the sum of the parts of late polls within.
+/// @param[in] late_polls in the order of their instants.
+Duration calc_loss(const std::vector<Stall>& late_polls, Instant begin, Instant end);
 
 /// The first processor that this process may use: threads whose stalls are watched must be on that of the
 /// watch.
@@ -45,18 +45,19 @@ int find_processor() noexcept;
 /// Thread safety: every get_ function after stop(). Memory: heap, taken in the constructor.
 class StallWatch final {
   public:
-    /// Looks every `step`; a gap longer than two of them is a stall.
-    /// @param[in] late_look_max so many looks that came late by half a step or more are kept as well: several
-    ///                          of them in a row hold a window up like a stall, and none of them is one.
+    /// Polls every `step`; a gap longer than two steps is a stall.
+    /// @param[in] late_poll_max capacity for polls that are late by half a step or more: several in a row
+    /// delay
+    ///                          a window like a stall, and none of them is one.
     StallWatch(const ports::posix_rt::FrameClock& clock, Duration step, ports::posix_rt::ThreadPlace place,
-               std::size_t late_look_max = 0U);
+               std::size_t late_poll_max = 0U);
     StallWatch(const StallWatch&) = delete;
     StallWatch& operator=(const StallWatch&) = delete;
     ~StallWatch() { stop(); }
 
     void stop();
     const std::vector<Stall>& get_stalls() const noexcept { return stalls_; }
-    const std::vector<Stall>& get_late_looks() const noexcept { return late_looks_; }
+    const std::vector<Stall>& get_late_polls() const noexcept { return late_polls_; }
     /// Of the time from the constructor to stop().
     const HostFigures& get_figures() const noexcept { return figures_; }
 
@@ -65,8 +66,8 @@ class StallWatch final {
 
     const ports::posix_rt::FrameClock& clock_;
     std::vector<Stall> stalls_;
-    std::vector<Stall> late_looks_;
-    std::size_t late_look_max_;
+    std::vector<Stall> late_polls_;
+    std::size_t late_poll_max_;
     HostFigures figures_{};
     std::atomic<bool> is_ending_{false};
     std::thread thread_;

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Makes the finding of a run the result of a pytest test: an inconclusive run is skipped with the properties `verdict` and `figure`.
+
+@satisfies SWR-VER-023      Design: docs/design/test_strength.md#real-time-verdicts
+"""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from verification.faults.evaluation.evaluator import Result
+
+
+def record_finding(properties: list[tuple[str, object]], result: Result, part: str) -> None:
+    """@param[out] properties of the test in its JUnit file."""
+    finding = result.parts[part]
+    if not result.has_priority:
+        pytest.skip("verdict=no-privilege: without a fixed priority any thread of the host delays the windows")
+    properties.append(("verdict", finding.verdict))
+    if finding.verdict != "passed":
+        properties.append(("figure", finding.reason))
+    assert finding.verdict != "failed", f"{finding.reason}\n{json.dumps(result.to_json(), indent=1)}"
+    if finding.verdict == "inconclusive":
+        pytest.skip(f"verdict=inconclusive: {finding.reason}")
