@@ -64,7 +64,7 @@ def test_second_run_installs_nothing(box: Box) -> None:
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
      (("prove", "safe-state"), "spin", "cppcheck"), (("test",), "z3", "strace"), (("demo",), "cmake", "spin"),
      (("demo",), "cmake", "graphviz"), (("verify",), "graphviz", "cppcheck"), (("verify", "x"), "cmake", "graphviz"),
-     (("new", "x"), "python3-venv", "cmake"),
+     (("new", "x"), "python3-venv", "cmake"), (("campaign", "p.yaml"), "python3-venv", "cmake"),
      (("timing", "x", "--load"), "stress-ng", "valgrind"), (("timing", "x"), "cmake", "stress-ng"),
      (("timing", "x", "--", "--load"), "cmake", "stress-ng"),
      (("cost", "x"), "valgrind", "stress-ng"), (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev"),

@@ -143,3 +143,15 @@ def test_a_test_that_was_never_written_is_no_missing_result(sample: Sample, trac
     outcome = trace("check", "--root", sample.root, "--output", "json", "--allow-missing")
 
     assert (outcome.status, outcome.rules, outcome.get_verdict("SWR-SUP-002")) == (1, {"test-missing"}, "incomplete")
+
+
+@pytest.mark.verifies("SWR-TRC-101", technique="fault_injection", polarity="violation")
+def test_an_inconclusive_campaign_case_is_not_shown_here_and_no_finding(sample: Sample, trace: Callable) -> None:
+    path = sample.evidence / "campaign" / "campaign.json"
+    content = json.loads(path.read_text())
+    content["cases"][1].update(verdict="inconclusive", checks=[])
+    path.write_text(json.dumps(content))
+
+    outcome = trace("check", "--root", sample.root, "--output", "json")
+
+    assert (outcome.status, outcome.rules, outcome.get_verdict("SYS-002")) == (0, set(), "not shown here")

@@ -3,17 +3,17 @@
 
     plan = load_plan(Path("faults.yaml"))
     selection = select(plan, names=["encoder_freeze"], instants=1)      # all scenarios, all instants: select(plan)
-    result = run_campaign(selection, program=.., files={"model": .., "motion": ..}, evidence=..)
+    result = run_campaign(selection, Settings(program=.., files={"model": .., "motion": ..}, evidence=..))
     result.passed                                                       # campaign.json and campaign.xml are written
 
-@satisfies SWR-CMP-001, SWR-CMP-002, SWR-CMP-003, SWR-CMP-004, SWR-CMP-005, SWR-CMP-006, SWR-CMP-007
+@satisfies SWR-CMP-001, SWR-CMP-002
 Design: docs/design/simulation.md#campaign-plan
 """
 
 from mamori_tools.campaign.case import Case, Check, Evaluation, Plan, Scenario, Selection, Verdict, conclude, select
 from mamori_tools.campaign.result import CampaignResult, CaseResult
-from mamori_tools.campaign.runner import run_campaign
+from mamori_tools.campaign.runner import Settings, replay_case, run_campaign
 from mamori_tools.campaign.subject import Expansion, Subject, load_plan, load_subject
 
-__all__ = ["CampaignResult", "Case", "CaseResult", "Check", "Evaluation", "Expansion", "Plan", "Scenario", "Selection", "Subject", "Verdict",
-           "conclude", "load_plan", "load_subject", "run_campaign", "select"]  # fmt: skip
+__all__ = ["CampaignResult", "Case", "CaseResult", "Check", "Evaluation", "Expansion", "Plan", "Scenario", "Selection", "Settings", "Subject",
+           "Verdict", "conclude", "load_plan", "load_subject", "replay_case", "run_campaign", "select"]  # fmt: skip

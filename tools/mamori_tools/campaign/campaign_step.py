@@ -39,7 +39,7 @@ class CampaignRequest:
 
     def run(self, context: Context, tick: Tick, log: TextIO) -> None:
         """Runs the campaign as a step, with a line per case in `log`. @raise WorkError when a case failed."""
-        from mamori_tools.campaign import CaseResult, run_campaign
+        from mamori_tools.campaign import CaseResult, Settings, run_campaign
         from mamori_trace.base.errors import InputError
 
         def show(result: CaseResult, done: int, count: int) -> None:
@@ -49,8 +49,8 @@ class CampaignRequest:
 
         project = context.project
         try:
-            result = run_campaign(self._select(project), program=project.safe_arm, files=self._list_files(project),
-                                  evidence=project.evidence, jobs=context.jobs, progress=show)  # fmt: skip
+            settings = Settings(project.safe_arm, self._list_files(project), project.evidence, context.jobs, restart=True)
+            result = run_campaign(self._select(project), settings, show)
         except InputError as error:
             raise WorkError(str(error)) from error
         if not result.passed:

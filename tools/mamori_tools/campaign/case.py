@@ -80,7 +80,7 @@ class Case:
 class Evaluation:
     """What came of a case. `run` is the record that the program wrote, as JSON value; empty where there is none.
 
-    The record must not contain wall times or paths: equal cases give equal records, and so equal result hashes.
+    Equal cases give equal records, so a record has no path, and no wall time except the entry `wall_s`.
     """
 
     run: Mapping[str, Any]

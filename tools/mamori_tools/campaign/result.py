@@ -7,7 +7,7 @@ import json
 import shlex
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -21,13 +21,15 @@ VERDICT_WORDS: Mapping[Verdict, str] = {"passed": "pass", "failed": "fail", "inc
 
 @dataclass(frozen=True)
 class CaseResult:
-    """A judged case. `command` ran it in `wall_s` [s]; `description` is what the subject states of it."""
+    """An evaluated case. `command` ran it in `wall_s` [s]; `description` is what the subject states of it; `reproduction` says how to
+    run it again."""
 
     case: Case
     evaluation: Evaluation
     command: tuple[str, ...]
     wall_s: float
-    description: Mapping[str, Any] = field(default_factory=dict)
+    description: Mapping[str, Any]
+    reproduction: str
 
     @property
     def run(self) -> Mapping[str, Any]:
@@ -44,12 +46,6 @@ class CaseResult:
     @property
     def passed(self) -> bool:
         return self.verdict == "passed"
-
-    @property
-    def reproduction(self) -> str:
-        """The commit that was run, and the one command that runs the case again: program, configuration, fault plan, seed."""
-        commit = self.run.get("commit")
-        return f"at commit {commit if isinstance(commit, str) else 'unknown'}: {shlex.join(self.command)}"
 
     @property
     def failure(self) -> str:
@@ -76,10 +72,16 @@ class CaseResult:
 
 @dataclass(frozen=True)
 class CampaignResult:
-    """All judged cases, in the order of the plan."""
+    """All evaluated cases, in the order of the plan. `result_hash` covers what does not depend on place and time of the runs.
+
+    `kept`: number of cases that an earlier call ran. `notes`: what of the inputs is not used, in words.
+    """
 
     cases: tuple[CaseResult, ...]
     environment: Mapping[str, Any]
+    result_hash: str
+    kept: int
+    notes: tuple[str, ...]
 
     @property
     def failed_cases(self) -> tuple[CaseResult, ...]:
@@ -89,6 +91,9 @@ class CampaignResult:
     def passed(self) -> bool:
         """True where there is a case and none failed."""
         return bool(self.cases) and not self.failed_cases
+
+    def count(self, verdict: Verdict) -> int:
+        return sum(each.verdict == verdict for each in self.cases)
 
     def write(self, evidence: Path) -> None:
         """Writes `campaign/campaign.json` and `junit/campaign.xml` below `evidence`. Raises InputError."""

@@ -1,91 +1,218 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the cases of a campaign, several at a time, each in its own process and folder, and writes the evidence."""
+"""Runs the cases of a campaign, stores each result when its case has finished, and writes the evidence after the last one.
+
+@satisfies SWR-CMP-005, SWR-CMP-006, SWR-CMP-007, SWR-CMP-009      Design: docs/design/simulation.md#campaign-runs
+"""
 
 from __future__ import annotations
 
+import contextlib
 import datetime
+import hashlib
 import json
 import os
 import platform
 import re
+import shlex
 import shutil
-import signal
-import subprocess
-import time
-from collections.abc import Callable, Mapping, Sequence
+import tempfile
+from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mamori_tools.campaign.case import Case, Selection
+from mamori_tools.campaign.case import Case, Evaluation, Selection
 from mamori_tools.campaign.result import CampaignResult, CaseResult
-from mamori_tools.campaign.subject import Subject, load_subject
+from mamori_tools.campaign.store import SELECTION, Key, Store, calc_result_hash, write_durably
+from mamori_tools.campaign.subject import Expansion, Subject, load_subject
+from mamori_tools.campaign.work import Outcome, Program, Work, read_program, run_local
 from mamori_trace.base.errors import InputError
-from mamori_trace.base.text_file import write_text
+from mamori_trace.base.nearest_names import nearest_names
 
 DEFAULT_TIMEOUT_S = 120.0
 """Wall time after which a run is ended; a run takes about a second."""
 
-_POLL_S = 0.01
-_REASON_CHARACTERS_MAX = 300
 _CASE_FOLDER = re.compile(r"[a-z][a-z0-9_]*-\d+")
+_ATTEMPT = ".attempt-"
+_COMMIT = "MAMORI_COMMIT"
 
 Progress = Callable[[CaseResult, int, int], None]
-"""Told of each judged case: the result, how many are done, how many there are."""
+"""Told of each evaluated case: the result, how many are done, how many there are."""
 
 
-@dataclass
-class _Job:
-    """A case that is running."""
+@dataclass(frozen=True)
+class Settings:
+    """How a campaign is run. `jobs`: processes at a time, None: one per usable core. `dask`: `local` or an address; None: no cluster."""
 
-    index: int
-    case: Case
-    command: tuple[str, ...]
-    folder: Path
-    process: subprocess.Popen[bytes]
-    started_s: float
+    program: Path
+    files: Mapping[str, Path]
+    evidence: Path
+    jobs: int | None = None
+    timeout_s: float = DEFAULT_TIMEOUT_S
+    dask: str | None = None
+    restart: bool = False
+    environment: Mapping[str, Any] | None = None
 
 
-def run_campaign(
-    selection: Selection,
-    *,
-    program: Path,
-    files: Mapping[str, Path],
-    evidence: Path,
-    jobs: int | None = None,
-    timeout_s: float = DEFAULT_TIMEOUT_S,
-    environment: Mapping[str, Any] | None = None,
-    progress: Progress | None = None,
-) -> CampaignResult:
-    """Runs and judges all cases, writes `campaign/` and `junit/campaign.xml` below `evidence`.
+def run_campaign(selection: Selection, settings: Settings, progress: Progress | None = None) -> CampaignResult:
+    """Runs and evaluates all cases, writes `campaign/` and `junit/campaign.xml` below `settings.evidence`.
 
-    Evidence of an earlier campaign is removed first, so a campaign that does not end leaves none. `jobs`: processes at a
-    time, None for one per usable core. `environment`: None for evidence/environment.json, or what this process knows; its
-    commit is handed on to the program as MAMORI_COMMIT, so that each run names it.
-    A case whose program fails, hangs or writes no whole run.json is a failed case. On any exception, KeyboardInterrupt
+    Finished cases of an earlier call with the same plan, program, inputs and settings are kept. campaign.json of an earlier campaign is
+    removed first, so a campaign that does not end leaves none. `environment`: None for evidence/environment.json, or what this process
+    knows; its commit is handed on to the program as MAMORI_COMMIT, so that each run names it.
+    A case whose program fails, hangs or writes no complete record is a failed case. On any exception, KeyboardInterrupt
     among them, the running processes are ended.
-    Raises InputError: program or model missing, a bad number, an instant that the motion does not have, no room to write.
+    Raises InputError: program or model missing, a bad number, an instant that the motion does not have, no room to write, results of
+    another campaign; MissingError: no Dask; WorkError: the program changed, or the cluster was lost.
     """
-    _check_setting(program, jobs, timeout_s)
-    subject = load_subject(selection.plan.subject)
-    expansion = subject.expand(selection, files)
-    cases = expansion.cases
-    folder = evidence / "campaign"
-    _clear(evidence, cases)
-    for name, content in expansion.inputs.items():
-        write_text(folder / name, content.decode("utf-8"))
-    # A bare name would be searched in PATH, not here.
-    program = program.absolute()
-    commands = [subject.command(case, program, folder, folder / case.id) for case in cases]
-    known = find_environment(evidence) if environment is None else environment
-    variables = dict(os.environ)
-    if isinstance(known.get("commit"), str):
-        variables["MAMORI_COMMIT"] = known["commit"]
-    queue = _Queue(subject, cases, commands, folder, variables, timeout_s, progress)
-    results = queue.run(jobs or len(os.sched_getaffinity(0)))
-    result = CampaignResult(tuple(results), known)
-    result.write(evidence)
-    return result
+    campaign = _Campaign(selection, settings)
+    folder = settings.evidence / "campaign"
+    with contextlib.closing(Store(folder)) as store:
+        store.begin(campaign.key, settings.restart)
+        stored = store.read_results()
+        _clear(settings.evidence, set(stored))
+        campaign.write_inputs(folder)
+        results = {case.id: campaign.make_result(case, *stored[case.id]) for case in campaign.cases if case.id in stored}
+        for result in campaign.run({case.id for case in campaign.cases} - set(stored), folder):
+            store.add(result)
+            results[result.case.id] = result
+            if progress is not None:
+                progress(result, len(results), len(campaign.cases))
+        ordered = tuple(results[case.id] for case in campaign.cases)
+        store.merge(ordered)
+        result_hash = calc_result_hash([(each.case, each.evaluation) for each in ordered])
+        whole = CampaignResult(ordered, campaign.environment, result_hash, len(stored), campaign.notes)
+        whole.write(settings.evidence)
+    return whole
+
+
+@dataclass(frozen=True)
+class Replay:
+    """A case that was run again. `stored` is its earlier result; None where there is none of the same campaign."""
+
+    result: CaseResult
+    stored: Evaluation | None
+
+    @property
+    def is_equal(self) -> bool | None:
+        """Whether verdict, checks and record are those of the stored result; None where there is none."""
+        if self.stored is None:
+            return None
+        return calc_result_hash([(self.result.case, self.result.evaluation)]) == calc_result_hash([(self.result.case, self.stored)])
+
+
+def replay_case(selection: Selection, settings: Settings, name: str) -> Replay:
+    """Runs one case again in the new folder `campaign/replay/<case id>`. Raises as `run_campaign`; InputError for an unknown case."""
+    campaign = _Campaign(selection, settings)
+    campaign.find_case(name)
+    folder = settings.evidence / "campaign"
+    with contextlib.closing(Store(folder)) as store:
+        stored = store.find_result(campaign.key, name)
+        with _guard_folder(folder):
+            shutil.rmtree(folder / "replay", ignore_errors=True)
+            (folder / "replay").mkdir()
+        campaign.write_inputs(folder / "replay")
+        [result] = campaign.run({name}, folder / "replay")
+    return Replay(result, stored)
+
+
+class _Campaign:
+    """What one call runs: cases, program, inputs, and the key that its results are stored by."""
+
+    def __init__(self, selection: Selection, settings: Settings) -> None:
+        if settings.jobs is not None and settings.jobs < 1:
+            raise InputError(f"{settings.jobs} jobs; write 1 or more")
+        if not settings.timeout_s > 0.0:
+            raise InputError(f"time-out of {settings.timeout_s:g} s; write a number above 0")
+        self._settings = settings
+        self._selection = selection
+        self._subject: Subject = load_subject(selection.plan.subject)
+        self._program: Program = read_program(settings.program)
+        self._expansion: Expansion = self._subject.expand(selection, settings.files)
+        self.environment = find_environment(settings.evidence) if settings.environment is None else settings.environment
+        commit = self.environment.get("commit", os.environ.get(_COMMIT))
+        self._variables = {_COMMIT: commit} if isinstance(commit, str) else {}
+
+    @property
+    def cases(self) -> tuple[Case, ...]:
+        return self._expansion.cases
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return self._expansion.notes
+
+    @property
+    def key(self) -> Key:
+        """What decides the results."""
+        plan = self._selection.plan
+        inputs = {name: hashlib.sha256(content).hexdigest() for name, content in self._expansion.inputs.items()}
+        return {
+            "subject": plan.subject,
+            "plan": hashlib.sha256(plan.path.read_bytes()).hexdigest(),
+            "program": self._program.sha256,
+            **inputs,
+            SELECTION: " ".join(case.id for case in self.cases),
+            "seed": str(plan.seed),
+            "timeout": f"{self._settings.timeout_s:g} s",
+            "commit": self._variables.get(_COMMIT, ""),
+        }
+
+    def find_case(self, name: str) -> Case:
+        """Raises InputError for an unknown case."""
+        names = [case.id for case in self.cases]
+        if name not in names:
+            raise InputError(f"unknown case '{name}'; {nearest_names(name, names)}; --list shows the scenarios")
+        return self.cases[names.index(name)]
+
+    def write_inputs(self, folder: Path) -> None:
+        with _guard_folder(folder):
+            for name, content in self._expansion.inputs.items():
+                write_durably(folder / name, content)
+
+    def run(self, names: set[str], folder: Path) -> Iterator[CaseResult]:
+        """Runs the cases `names`; yields each with its files in the folder of its id."""
+        with _guard_folder(folder):
+            attempt = Path(tempfile.mkdtemp(prefix=_ATTEMPT, dir=folder))
+        try:
+            works = [self._make_work(case, Path(attempt.name, case.id)) for case in self.cases if case.id in names]
+            with contextlib.closing(self._start(works, folder)) as outcomes:
+                for outcome in outcomes:
+                    place = folder / outcome.case
+                    with _guard_folder(place):
+                        shutil.rmtree(place, ignore_errors=True)
+                        (attempt / outcome.case).rename(place)
+                    case = self.find_case(outcome.case)
+                    yield self.make_result(case, self._subject.evaluate(case, place, outcome.problem), outcome.wall_s)
+        finally:
+            shutil.rmtree(attempt, ignore_errors=True)
+
+    def make_result(self, case: Case, evaluation: Evaluation, wall_s: float) -> CaseResult:
+        folder = (self._settings.evidence / "campaign").absolute()
+        command = self._subject.command(case, self._program.path, folder, folder / case.id)
+        return CaseResult(case, evaluation, command, wall_s, self._subject.describe(case), self._make_reproduction(case, evaluation, command))
+
+    def _make_reproduction(self, case: Case, evaluation: Evaluation, command: tuple[str, ...]) -> str:
+        """The commit that was run, and the one command that runs the case again: program, configuration, fault plan, seed."""
+        plan = self._selection.plan
+        if all(scenario in plan.scenarios for scenario in self._selection.scenarios):
+            files = [word for option, path in self._settings.files.items() for word in (f"--{option}", str(path.absolute()))]
+            command = ("./mamori", "campaign", str(plan.path.absolute()), "--replay", case.id, "--program", str(self._program.path), *files,
+                       "--out", str(self._settings.evidence.absolute()), "--timeout", f"{self._settings.timeout_s:g}")  # fmt: skip
+        commit = evaluation.run.get("commit")
+        return f"at commit {commit if isinstance(commit, str) else 'unknown'}: {shlex.join(command)}"
+
+    def _make_work(self, case: Case, folder: Path) -> Work:
+        command = self._subject.command(case, self._program.path, Path(), folder)
+        return Work(case.id, self._program, command, folder, self._variables, self._settings.timeout_s)
+
+    def _start(self, works: list[Work], folder: Path) -> Generator[Outcome]:
+        jobs = self._settings.jobs or len(os.sched_getaffinity(0))
+        at_once_max = self._subject.jobs_max
+        if self._settings.dask is None or not works:
+            return run_local(works, folder, min(jobs, at_once_max or jobs))
+        from mamori_tools.campaign.dask_pool import run_on_dask
+
+        return run_on_dask(works, self._expansion.inputs, folder, self._settings.dask, min(jobs, len(works)), at_once_max)
 
 
 def find_environment(evidence: Path) -> dict[str, Any]:
@@ -105,106 +232,23 @@ def find_environment(evidence: Path) -> dict[str, Any]:
     }
 
 
-class _Queue:
-    """Keeps up to `jobs` processes busy until every case is judged."""
-
-    def __init__(self, subject: Subject, cases: Sequence[Case], commands: Sequence[tuple[str, ...]], folder: Path,
-                 variables: Mapping[str, str], timeout_s: float, progress: Progress | None) -> None:  # fmt: skip
-        self._subject = subject
-        self._waiting = list(enumerate(zip(cases, commands, strict=True)))[::-1]
-        self._folder = folder
-        self._variables = variables
-        self._timeout_s = timeout_s
-        self._progress = progress
-        self._running: list[_Job] = []
-        self._results: dict[int, CaseResult] = {}
-        self._total = len(cases)
-
-    def run(self, jobs: int) -> list[CaseResult]:
-        try:
-            while self._waiting or self._running:
-                while self._waiting and len(self._running) < jobs:
-                    index, (case, command) = self._waiting.pop()
-                    self._running.append(_start(index, case, command, self._folder / case.id, self._variables))
-                self._collect()
-                time.sleep(_POLL_S)
-        finally:
-            for job in self._running:
-                _end(job.process)
-        return [self._results[index] for index in sorted(self._results)]
-
-    def _collect(self) -> None:
-        for job in list(self._running):
-            late = time.monotonic() - job.started_s > self._timeout_s
-            if job.process.poll() is None and not late:
-                continue
-            problem = ""
-            if job.process.poll() is None:
-                _end(job.process)
-                problem = f"no end after {self._timeout_s:g} s; the process was ended"
-            self._running.remove(job)
-            self._results[job.index] = _conclude(self._subject, job, problem)
-            if self._progress is not None:
-                self._progress(self._results[job.index], len(self._results), self._total)
-
-
-def _check_setting(program: Path, jobs: int | None, timeout_s: float) -> None:
-    if not program.is_file() or not os.access(program, os.X_OK):
-        raise InputError("no program that can be run; build it first", program)
-    if jobs is not None and jobs < 1:
-        raise InputError(f"{jobs} jobs; write 1 or more")
-    if not timeout_s > 0.0:
-        raise InputError(f"time-out of {timeout_s:g} s; write a number above 0")
-
-
-def _clear(evidence: Path, cases: Sequence[Case]) -> None:
-    """Removes the evidence of an earlier campaign and makes the folders of this one."""
+def _clear(evidence: Path, finished: set[str]) -> None:
+    """Removes the evidence of an earlier campaign and what a killed one left, except the folders of the cases `finished`."""
     folder = evidence / "campaign"
-    try:
+    with _guard_folder(evidence):
         (evidence / "junit").mkdir(parents=True, exist_ok=True)
-        folder.mkdir(exist_ok=True)
-        (evidence / "junit" / "campaign.xml").unlink(missing_ok=True)
-        (folder / "campaign.json").unlink(missing_ok=True)
+        for path in (evidence / "junit" / "campaign.xml", folder / "campaign.json", folder / "campaign.parquet"):
+            path.unlink(missing_ok=True)
         for old in folder.iterdir():
-            if _CASE_FOLDER.fullmatch(old.name) and old.is_dir() and not old.is_symlink():
-                shutil.rmtree(old)
-        for case in cases:
-            (folder / case.id).mkdir()
-    except OSError as error:
-        raise InputError(f"evidence cannot be written: {error.strerror}; check the folder", evidence) from error
+            is_case = _CASE_FOLDER.fullmatch(old.name) and old.name not in finished
+            if (is_case or old.name.startswith(_ATTEMPT)) and old.is_dir() and not old.is_symlink():
+                # A program of a killed campaign may still write there.
+                shutil.rmtree(old, ignore_errors=not is_case)
 
 
-def _start(index: int, case: Case, command: tuple[str, ...], folder: Path, variables: Mapping[str, str]) -> _Job:
+@contextlib.contextmanager
+def _guard_folder(folder: Path) -> Iterator[None]:
     try:
-        with (folder / "program.log").open("wb") as log:
-            # A session of its own: what the program starts ends with it, and Ctrl-C reaches this process only.
-            process = subprocess.Popen(command, env=variables, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
-                                       start_new_session=True)  # fmt: skip
+        yield
     except OSError as error:
-        raise InputError(f"cannot be started: {error.strerror}; build it again", command[0]) from error
-    return _Job(index, case, command, folder, process, time.monotonic())
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    """Ends a process and what it started; does nothing to one that has ended."""
-    if process.poll() is None:
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-
-
-def _conclude(subject: Subject, job: _Job, problem: str) -> CaseResult:
-    status = job.process.returncode
-    if not problem and status != 0:
-        how = f"exit status {status}" if status > 0 else f"signal {-status}"
-        problem = f"program ended with {how}: {_last_words(job.folder / 'program.log')}"
-    evaluation = subject.evaluate(job.case, job.folder, problem)
-    return CaseResult(job.case, evaluation, job.command, time.monotonic() - job.started_s, subject.describe(job.case))
-
-
-def _last_words(log: Path) -> str:
-    """The last line that the program wrote, shortened."""
-    with log.open("rb") as file:
-        file.seek(max(0, log.stat().st_size - 4096))
-        lines = file.read().decode("utf-8", errors="replace").split("\n")
-    spoken = [line.strip() for line in lines if line.strip()]
-    return spoken[-1][:_REASON_CHARACTERS_MAX] if spoken else "it said nothing"
+        raise InputError(f"evidence cannot be written: {error.strerror}; check the folder", folder) from error

@@ -44,7 +44,7 @@ REJECTED_INPUT = 2
 
 def run_case(jobs: int, motion_file: Path | None, fault: str | None) -> int:
     """Builds the program, runs one case, shows it and writes its page. @return exit status. @raise InputError."""
-    from mamori_tools.campaign import load_plan, run_campaign
+    from mamori_tools.campaign import Settings, load_plan, run_campaign
     from mamori_tools.campaign.arm.selection import resolve
     from mamori_tools.motion import load_limits, read_motion
 
@@ -58,7 +58,7 @@ def run_case(jobs: int, motion_file: Path | None, fault: str | None) -> int:
         return EXIT_FAILED
     folder = project.root / "build" / "run" / case.scenario
     _make_empty(folder)
-    result = run_campaign(selection, program=project.safe_arm, files=files, evidence=folder, jobs=1).cases[0]
+    result = run_campaign(selection, Settings(project.safe_arm, files, folder, jobs=1, restart=True)).cases[0]
     log = folder / "campaign" / case.id / "program.log"
     if not result.run and f"exit status {REJECTED_INPUT}" in result.failure:
         raise InputError("run: " + log.read_text(encoding="utf-8").strip().splitlines()[-1].removeprefix("safe_arm: "))

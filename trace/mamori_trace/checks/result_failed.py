@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mamori_trace.base.finding import ERROR, Place, Rule
-from mamori_trace.model.evidence import CampaignCase
+from mamori_trace.model.evidence import FAILED, CampaignCase
 from mamori_trace.model.project import Project
 
 RULE = Rule("result-failed", ERROR, "Every executed test and campaign case passed.")
@@ -20,7 +20,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
             message = result.message.strip().partition("\n")[0]
             yield result.source or result.place, f"test {result.title}{about} {word}: {message}", result.requirement
     for case in project.evidence.cases:
-        if not case.passed:
+        if case.status == FAILED:
             yield case.place, f"campaign case {case.id} failed: {_describe(case)}", next(iter(case.requirements), "")
 
 

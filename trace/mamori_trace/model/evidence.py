@@ -121,7 +121,9 @@ class CampaignCase:
 
     @property
     def status(self) -> str:
-        """One of PASSED, FAILED and UNBOUND."""
+        """One of PASSED, FAILED, NOT_SHOWN and UNBOUND."""
+        if self.verdict == "inconclusive":
+            return NOT_SHOWN
         return FAILED if not self.passed else PASSED if self.bound else UNBOUND
 
 

@@ -79,8 +79,10 @@ def _list_bad_results(project: Project, item: Item) -> Iterable[_Objection]:
             word, what = _OF_STATUS[result.status]
             yield word, f"test {result.title} {what}"
     for case in project.cases_of.get(item.id, []):
-        if not case.passed:
+        if case.status == FAILED:
             yield FAILED, f"campaign case {case.id} failed"
+        elif case.status == NOT_SHOWN:
+            yield NOT_SHOWN, f"campaign case {case.id} was inconclusive"
         elif case.status == UNBOUND:
             yield UNBOUND, f"campaign case {case.id} has no evidence record"
     for test in project.unexecuted_of.get(item.id, []):
@@ -102,7 +104,8 @@ def judge_method(
 ) -> list[_Objection]:
     """Objections to the item by one method that it requires."""
     if method == "campaign":
-        passed = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, []) if case.passed}  # bound or not: reported above
+        # Unbound and inconclusive cases have an objection of their own.
+        passed = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, []) if case.status != FAILED}
         absent = NOT_RUN if project.allow_missing else INCOMPLETE
         return [(absent, f"no passed {polarity} campaign case") for polarity in item.polarity if polarity not in passed]
     if method == "test":

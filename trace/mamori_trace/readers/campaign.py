@@ -75,8 +75,8 @@ def make_case(row: dict[str, Any], shown: str = "campaign/campaign.json", lines:
     checks = row["checks"]
     if not isinstance(case_id, str) or not isinstance(run, dict) or not isinstance(checks, list):
         raise TypeError("'id', 'run' or 'checks' has the wrong kind of value")
-    if row["verdict"] not in ("pass", "fail"):
-        raise ValueError(f"verdict {row['verdict']!r} is neither 'pass' nor 'fail'")
+    if row["verdict"] not in ("pass", "fail", "inconclusive"):
+        raise ValueError(f"verdict {row['verdict']!r} is not 'pass', 'fail' or 'inconclusive'")
     if row["verdict"] == "pass" and not checks:
         raise ValueError("verdict 'pass' without a single check")
     return CampaignCase(

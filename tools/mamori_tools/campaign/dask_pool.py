@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the cases on the workers of a Dask cluster. Only the client stores results.
+
+A worker needs these tools and the program under test, at the same path and with the same content. Inputs go to the worker with the
+case. The files of the run return in the result, so no shared folder is needed.
+
+@satisfies SWR-CMP-010, SWR-CMP-011      Design: docs/design/simulation.md#campaign-on-dask
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import socket
+import tempfile
+import time
+import uuid
+from collections.abc import Generator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mamori_tools.campaign.work import Outcome, Work, check_program, run_local
+from mamori_trace.base.errors import InputError, MissingError, WorkError
+
+LOCAL = "local"
+CONNECT_S = 10.0
+"""Time within which a scheduler must answer [s]."""
+
+NO_WORKER_S = 30.0
+"""Time without any worker after which the campaign ends [s]; a worker that was ended is started again within seconds."""
+
+FILE_BYTES_MAX = 64_000_000
+"""Largest size of all files of one case that is sent back [bytes]; a case of the example arm has about 1,000,000."""
+
+_POLL_S = 0.5
+_TASKS_PER_WORKER = 2  # one that runs and one that waits
+
+Files = Mapping[str, bytes]
+"""Path relative to the folder of a case -> content."""
+
+
+def run_on_dask(works: Sequence[Work], inputs: Files, root: Path, address: str, workers: int, at_once_max: int | None) -> Generator[Outcome]:
+    """Yields each run when its files are in `root / work.folder`. `workers` belongs to the address `local`.
+
+    Raises MissingError without the package, InputError where the scheduler does not answer, WorkError where a worker cannot run the
+    program or the cluster is lost.
+    """
+    try:
+        import distributed
+    except ImportError:
+        raise MissingError("--dask needs the package dask[distributed]; install it by: .venv/bin/python -m pip install 'mamori[dask]'") from None
+    with contextlib.ExitStack() as stack:
+        # Each failure becomes one line of ours.
+        stack.callback(logging.disable, logging.root.manager.disable)
+        logging.disable(logging.CRITICAL)
+        client = _connect(distributed, stack, address, workers)
+        slots = sum(worker["nthreads"] for worker in _list_workers(client))
+        if not slots:
+            raise InputError(f"--dask {address}: the scheduler has no worker; start one by: dask worker {address}")
+        waiting = list(works)[::-1]
+        running: dict[Any, Work] = {}
+        at_once = min(at_once_max or len(works), _TASKS_PER_WORKER * slots)
+        while waiting or running:
+            while waiting and len(running) < at_once:
+                work = waiting.pop()
+                # A key of its own: the scheduler must not answer with the result of an earlier campaign.
+                running[client.submit(run_on_worker, work, dict(inputs), key=f"{work.case}-{uuid.uuid4().hex}", pure=False)] = work
+            for future in _take_finished(distributed, client, list(running), address):
+                outcome, files = _get_result(future, address)
+                work = running.pop(future)
+                future.release()
+                _write_files(root / work.folder, files)
+                yield outcome
+
+
+def run_on_worker(work: Work, inputs: Files) -> tuple[Outcome, Files]:
+    """Runs one case in a temporary folder of the worker. Raises WorkError that names the worker."""
+    try:
+        with tempfile.TemporaryDirectory(prefix="mamori-") as name:
+            root = Path(name)
+            for file, content in inputs.items():
+                (root / file).write_bytes(content)
+            check_program(work.program)
+            [outcome] = run_local([work], root, 1)
+            return outcome, _read_files(root / work.folder, work.case)
+    except (InputError, WorkError, OSError) as error:
+        raise WorkError(f"worker {_get_worker_name()}: {error}") from None
+
+
+def _read_files(folder: Path, case: str) -> dict[str, bytes]:
+    paths = [path for path in sorted(folder.rglob("*")) if path.is_file() and not path.is_symlink()]
+    size = sum(path.stat().st_size for path in paths)
+    if size > FILE_BYTES_MAX:
+        raise WorkError(f"{case}: the program wrote {size} bytes, at most {FILE_BYTES_MAX} are sent back; run the campaign without --dask")
+    return {str(path.relative_to(folder)): path.read_bytes() for path in paths}
+
+
+def _write_files(folder: Path, files: Files) -> None:
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+
+
+def _get_worker_name() -> str:
+    from distributed import get_worker
+
+    with contextlib.suppress(ValueError):  # not on a worker
+        return f"{get_worker().address} on {socket.gethostname()}"
+    return socket.gethostname()
+
+
+def _connect(distributed: Any, stack: contextlib.ExitStack, address: str, workers: int) -> Any:
+    if address == LOCAL:
+        cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None,
+                                           silence_logs=logging.CRITICAL)  # fmt: skip
+        stack.enter_context(cluster)
+        return stack.enter_context(distributed.Client(cluster))
+    try:
+        return stack.enter_context(distributed.Client(address, timeout=CONNECT_S))
+    except Exception as error:  # another server may answer anything
+        reason = " ".join(str(error).split())[:200] or type(error).__name__
+        raise InputError(f"--dask {address}: no Dask scheduler answers within {CONNECT_S:g} s ({reason}); "
+                         "check the address and start it by: dask scheduler") from error  # fmt: skip
+
+
+def _list_workers(client: Any) -> list[Any]:
+    return list(client.scheduler_info(n_workers=-1)["workers"].values())
+
+
+def _take_finished(distributed: Any, client: Any, futures: Sequence[Any], address: str) -> list[Any]:
+    """Waits until at least one future is done. Raises WorkError when the scheduler or the last worker is lost."""
+    seen_s = time.monotonic()
+    while True:
+        try:
+            distributed.wait(futures, timeout=_POLL_S, return_when="FIRST_COMPLETED")
+        except (distributed.TimeoutError, TimeoutError):
+            pass
+        except distributed.client.FuturesCancelledError as error:
+            raise _lost(address) from error
+        if client.status != "running":
+            raise _lost(address)
+        if done := [future for future in futures if future.done()]:
+            return done
+        if _list_workers(client):
+            seen_s = time.monotonic()
+        elif time.monotonic() - seen_s > NO_WORKER_S:
+            raise WorkError(f"--dask {address}: no worker for {NO_WORKER_S:g} s; start one by: dask worker {address}, "
+                            "the same command continues the campaign")  # fmt: skip
+
+
+def _get_result(future: Any, address: str) -> tuple[Outcome, Files]:
+    try:
+        outcome, files = future.result(timeout=CONNECT_S)
+    except WorkError:
+        raise
+    except Exception as error:
+        if future.cancelled():
+            raise _lost(address) from error
+        reason = " ".join(str(error).split())[:300]
+        raise WorkError(f"--dask {address}: a case could not be run on a worker: {type(error).__name__}: {reason}") from error
+    return outcome, files
+
+
+def _lost(address: str) -> WorkError:
+    return WorkError(f"--dask {address}: the connection to the scheduler was lost; start it again, the same command continues the campaign")
