@@ -132,7 +132,9 @@ TEST_F(ContextPlanTest, ARangeBeyondTheListOrOutsideACycleEndsInTheAssertion) {
     EXPECT_CHECK_FAILS(static_cast<void>(sut_.get_state_at(2U)), "span.hpp", 1);
     ASSERT_EQ(sut_.begin_cycle(now_), Status::kOk);
     EXPECT_CHECK_FAILS(sut_.execute_range(1U, 2U), "execution_cycle.cpp", 4);
-    EXPECT_CHECK_FAILS(sut_.update_range(2U, 1U), "span.hpp", 2);
+    EXPECT_CHECK_FAILS(sut_.execute_range(2U, std::numeric_limits<std::size_t>::max()), "execution_cycle.cpp",
+                       4);
+    EXPECT_CHECK_FAILS(sut_.update_range(2U, 1U), "execution_cycle.cpp", 4);
     sut_.execute_range(2U, 0U);
     sut_.end_cycle();
 

@@ -86,9 +86,9 @@ TEST_F(ExecutionContextTest, StepsOutsideACycleOrBeyondTheListEndInTheAssertion)
     EXPECT_CHECK_FAILS(sut_.update_state(0U), "execution_cycle.cpp", 1);
     ASSERT_EQ(sut_.begin_cycle(now_), Status::kOk);
     EXPECT_CHECK_FAILS(sut_.execute(2U), "execution_cycle.cpp", 4);
-    EXPECT_CHECK_FAILS(sut_.update_state(2U), "span.hpp", 2);
+    EXPECT_CHECK_FAILS(sut_.update_state(2U), "execution_cycle.cpp", 4);
     EXPECT_CHECK_FAILS(sut_.execute(3U), "execution_cycle.cpp", 4);
-    EXPECT_CHECK_FAILS(sut_.update_state(3U), "span.hpp", 2);
+    EXPECT_CHECK_FAILS(sut_.update_state(3U), "execution_cycle.cpp", 4);
 }
 
 }  // namespace

@@ -11,84 +11,84 @@ bool ExecutionContext::take_tick() noexcept {
     return plan_.trigger->take();
 }
 
-/// Whether a range may begin. Work that was abandoned before it began finds out here; outside of a cycle
-/// nobody else has any.
-bool ExecutionContext::admits_steps() const noexcept {
+/// Whether the steps `first` .. `end` - 1 may begin. Work that was abandoned before it began finds out here;
+/// outside of a cycle nobody else has any.
+bool ExecutionContext::admits_steps(std::size_t first, std::size_t end) const noexcept {
     const Phase phase = phase_.load(std::memory_order_acquire);
     MAMORI_REQUIRE(1, phase != Phase::kIdle);
+    MAMORI_REQUIRE(4, first <= end && end <= participants_.size());
     return phase == Phase::kInCycle;
 }
 
-/// The turns of a range. `after(position)` comes after each usual one that was not abandoned, in place of
-/// follow() and while the context still counts as acting.
-template <typename After>
-void ExecutionContext::run_turns(std::size_t first, std::size_t count, Follower* follower,
-                                 After after) noexcept {
-    Component* const* const participants = participants_.data();
-    const ContextHandle handle = make_handle(cycle_start_);
-    const ActionScope scope{*this, first};
-    // Eight places to call from: a processor foresees the callee by the place, and one place for all
-    // components is more than some can keep (docs/design/kernel.md#execution-context). Nothing changes for
-    // -Os.
+/// The loop is here, not in a function that a pass calls, so that on_execute is one call away from the host.
+/// One instance for each common observation, so that no step asks for what its pass does not need.
+template <ExecutionContext::StepObservation kObservation>
+void ExecutionContext::run_first_pass(void* argument, std::size_t first, std::size_t end) noexcept {
+    constexpr bool kIsObserved = kObservation != StepObservation::kNone;
+    StepObserver* const observer = kIsObserved ? static_cast<StepObserver*>(argument) : nullptr;
+    ExecutionContext& context = *(kIsObserved ? observer->context : static_cast<ExecutionContext*>(argument));
+    if (!context.admits_steps(first, end)) {
+        return;
+    }
+    Component* const* const participants = context.participants_.data();
+    ExecutionRecord* const records = kIsObserved ? observer->records : nullptr;
+    const ContextHandle handle = context.make_handle(context.cycle_start_);
+    const ActionScope scope{context, first};
+    // Eight call addresses: a branch predictor selects the target by the address of the call, and some
+    // predictors cannot keep all components for one address (docs/design/kernel.md#execution-context). The
+    // pragma has no effect with -Os.
 #pragma GCC unroll 8
-    for (std::size_t i = first; i < first + count; ++i) {
-        move_to(i);
+    for (std::size_t i = first; i < end; ++i) {
+        context.move_to(i);
         Component& component = *participants[i];
         if (component.turn_ != 0U) {
-            const bool was_active = execute_unusual(i);
-            if (!is_in_cycle()) {
-                return;  // abandoned: the cycle that this turn belonged to is over
+            const bool was_active = context.execute_unusual(i);
+            if (!context.is_in_cycle()) {
+                return;  // abandoned: the cycle of this step has ended
             }
-            follow(follower, i, was_active);
+            end_step(observer, i, was_active);
             continue;
         }
         const Status answer = component.on_execute(handle);
-        // One question for both, since each is 0 in all but a few turns.
+        // One comparison for both, since each is 0 in almost all steps.
         static_assert(Phase::kInCycle == Phase{} && Status::kOk == Status{});
-        const Phase phase = phase_.load(std::memory_order_relaxed);
+        const Phase phase = context.phase_.load(std::memory_order_relaxed);
         if ((static_cast<unsigned>(phase) | static_cast<unsigned>(answer)) != 0U) {
-            judge_execution(i, answer);
-            if (!is_in_cycle()) {
+            context.judge_execution(i, answer);
+            if (!context.is_in_cycle()) {
                 return;
             }
         }
-        after(i);
+        if constexpr (kObservation == StepObservation::kRecords) {
+            static_cast<void>(observer->measure(records[i]));
+        } else if constexpr (kIsObserved) {
+            end_step(observer, i, true);
+        }
     }
 }
 
-void ExecutionContext::execute_range(std::size_t first, std::size_t count, Follower* follower) noexcept {
-    if (!admits_steps()) {
-        return;
+ExecutionContext::Pass ExecutionContext::get_first_pass(StepObservation observation) noexcept {
+    if (observation == StepObservation::kNone) {
+        return &run_first_pass<StepObservation::kNone>;
     }
-    MAMORI_REQUIRE(4, first <= participants_.size() && count <= participants_.size() - first);
-    // One loop for each way that is common, so that no turn asks for what its range does not need.
-    if (follower == nullptr) {
-        run_turns(first, count, nullptr, [](std::size_t) noexcept {});
-    } else if (follower->after_step == nullptr) {
-        run_turns(first, count, follower,
-                  [follower, records = follower->records](std::size_t position) noexcept {
-                      static_cast<void>(follower->measure(records[position]));
-                  });
-    } else {
-        run_turns(first, count, follower,
-                  [follower](std::size_t position) noexcept { follow(follower, position, true); });
-    }
+    return observation == StepObservation::kRecords ? &run_first_pass<StepObservation::kRecords>
+                                                    : &run_first_pass<StepObservation::kAfterStep>;
 }
 
-/// All that may come after a turn.
-void ExecutionContext::follow(Follower* follower, std::size_t position, bool was_active) noexcept {
-    if (follower == nullptr) {
+/// All that an observer may need after a step.
+void ExecutionContext::end_step(StepObserver* observer, std::size_t position, bool was_active) noexcept {
+    if (observer == nullptr) {
         return;
     }
     Duration used{-1};
-    if (follower->records != nullptr && was_active) {
-        used = follower->measure(follower->records[position]);
-    } else if (follower->records != nullptr) {
-        // A turn in Error or Inactive does nothing for anybody: no sign of life.
-        follower->step_start = follower->host->get_step_end();
+    if (observer->records != nullptr && was_active) {
+        used = observer->measure(observer->records[position]);
+    } else if (observer->records != nullptr) {
+        // A step in Error or Inactive is no alive indication.
+        observer->step_start = observer->host->get_step_end();
     }
-    if (follower->after_step != nullptr) {
-        follower->after_step(follower->argument, position, used);
+    if (observer->after_step != nullptr) {
+        observer->after_step(observer->argument, position, used);
     }
 }
 
@@ -162,22 +162,22 @@ void ExecutionContext::judge(Component& component, ComponentAction action, Statu
     }
 }
 
-void ExecutionContext::update_range(std::size_t first, std::size_t count) noexcept {
-    if (!admits_steps() || plan_.kind == ExecutionKind::kEventDriven) {
+void ExecutionContext::run_second_pass(void* argument, std::size_t first, std::size_t end) noexcept {
+    ExecutionContext& context = *static_cast<ExecutionContext*>(argument);
+    if (!context.admits_steps(first, end) || context.plan_.kind == ExecutionKind::kEventDriven) {
         return;
     }
-    const Span<Component* const> range = participants_.subspan(first, count);
-    const ContextHandle handle = make_handle(cycle_start_);
-    const ActionScope scope{*this, first};
-    for (std::size_t i = 0U; i < count && is_in_cycle(); ++i) {
-        Component& component = *range.data()[i];
+    const ContextHandle handle = context.make_handle(context.cycle_start_);
+    const ActionScope scope{context, first};
+    for (std::size_t i = first; i < end && context.is_in_cycle(); ++i) {
+        Component& component = *context.participants_.data()[i];
         if (component.get_state() != LifecycleState::kActive) {
             continue;
         }
-        move_to(first + i);
+        context.move_to(i);
         const Status answer = component.on_state_update(handle);
         if (answer != Status::kOk) {
-            judge(component, ComponentAction::kStateUpdate, answer, handle);
+            context.judge(component, ComponentAction::kStateUpdate, answer, handle);
         }
     }
 }

@@ -1,36 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an executive shows to an introspection. What it does: executive.cpp.
+// What an executive shows to an introspection. How it executes windows: executive.cpp.
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/run/introspection.hpp"
-#include "mamori/kernel/table/system_check.hpp"
 
 namespace mamori {
 
 void Executive::set_introspection(Introspection* introspection) noexcept {
     MAMORI_REQUIRE(1, !is_busy_);
-    MAMORI_REQUIRE(2, introspection == nullptr || introspection->is_of(view_));
-    is_table_sound_ = is_table_sound_ || check(view_).rule == Rule::kNone;
-    introspection_ = introspection;
-    prepare_work();
+    detail::CoreState& core = life_.get_core();
+    MAMORI_REQUIRE(2, introspection == nullptr || introspection->is_of(core.view));
+    if (!life_.is_table_valid()) {
+        life_.check_table();
+    }
+    core.introspection = introspection;
+    life_.get_runner().prepare_work();
     show_windows();
 }
 
 void Executive::show_windows() noexcept {
-    // The rows of a table that breaks a rule may lead anywhere.
-    if (introspection_ == nullptr || !is_table_sound_) {
+    // Indices in the rows of a table that violates a rule may lead out of it.
+    const detail::CoreState& core = life_.get_core();
+    if (core.introspection == nullptr || !life_.is_table_valid()) {
         return;
     }
-    for (std::size_t w = 0U; w < view_.windows.size(); ++w) {
-        if (is_own(w)) {
-            introspection_->publish_window(w, windows_[w].context, last_release_, trace_hash_.get_value());
+    for (std::size_t w = 0U; w < core.view.windows.size(); ++w) {
+        if (core.is_own(w)) {
+            core.introspection->publish_window(w, core.windows[w].context, core.release, get_trace_hash());
         }
     }
 }
 
-void Executive::show_opening(std::size_t window, Instant release, Instant opened, WindowOutcome outcome,
-                             const WindowHost& host) noexcept {
-    introspection_->note_opening(window, opened - release, host.get_now() - opened, outcome);
-    introspection_->publish_window(window, windows_[window].context, release, trace_hash_.get_value());
+void Executive::show_window(std::size_t window, Instant release, Instant start, WindowOutcome outcome,
+                            const WindowHost& host) noexcept {
+    const detail::CoreState& core = life_.get_core();
+    core.introspection->note_opening(window, start - release, host.get_now() - start, outcome);
+    core.introspection->publish_window(window, core.windows[window].context, release, get_trace_hash());
 }
 
 }  // namespace mamori

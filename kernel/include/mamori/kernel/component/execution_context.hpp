@@ -172,18 +172,30 @@ class ExecutionContext final {
     /// on_execute when Active, on_error when in Error, nothing when Inactive. In a kEventDriven context an
     /// Active state machine serves its events instead, and only a machine in Error gets on_error here.
     void execute(std::size_t position) noexcept { execute_range(position, 1U); }
-    /// Whoever follows a range step by step, while the context still counts as acting.
-    struct Follower {
-        ExecutionRecord* records;  ///< of position 0 and on; null: nothing is measured
-        const WindowHost* host;    ///< tells when a step ends; needed with records
-        Instant deadline;          ///< of the range; a run that ends later leaves no trace in the records
-        Instant step_start;        ///< of the first step; moves on with each
-        /// After each step; may be null when there are records. @param[in] used what was noted in the record;
-        /// negative: nothing was.
+    /// execute() of `count` positions from `first` on.
+    void execute_range(std::size_t first, std::size_t count) noexcept {
+        get_first_pass(StepObservation::kNone)(this, first, first + count);
+    }
+    /// on_state_update when Active, so not when on_execute failed in this cycle; nothing when kEventDriven.
+    void update_state(std::size_t position) noexcept { update_range(position, 1U); }
+    /// update_state() of `count` positions from `first` on.
+    void update_range(std::size_t first, std::size_t count) noexcept {
+        run_second_pass(this, first, first + count);
+    }
+
+    /// Observes the steps of a first pass, while the context still counts as acting.
+    struct StepObserver {
+        ExecutionContext* context;  ///< whose steps they are
+        ExecutionRecord* records;   ///< of position 0 and on; null: no step is measured
+        const WindowHost* host;     ///< reports the end of a step; needed with records
+        Instant deadline;           ///< of the pass; a step that ends later is not recorded
+        Instant step_start;         ///< start of the first step, then of the current step
+        /// Called after each step, for StepObservation::kAfterStep. @param[in] used as it was recorded;
+        /// negative: the step was not recorded.
         void (*after_step)(void* argument, std::size_t position, Duration used) noexcept;
         void* argument;
 
-        /// Notes in `record` the run that ends now. @return how long it took; negative when it was too late.
+        /// Records in `record` the run that ends now. @return its duration; negative when it was too late.
         Duration measure(ExecutionRecord& record) noexcept {
             const Instant ended = host->get_step_end();
             Duration used{-1};
@@ -195,12 +207,18 @@ class ExecutionContext final {
             return used;
         }
     };
-    /// execute() of `count` positions from `first` on. @param[in,out] follower may be null.
-    void execute_range(std::size_t first, std::size_t count, Follower* follower = nullptr) noexcept;
-    /// on_state_update when Active, so not when on_execute failed in this cycle; nothing when kEventDriven.
-    void update_state(std::size_t position) noexcept { update_range(position, 1U); }
-    /// update_state() of `count` positions from `first` on.
-    void update_range(std::size_t first, std::size_t count) noexcept;
+    /// What a first pass does after each step.
+    enum class StepObservation : std::uint8_t {
+        kNone,       ///< nothing
+        kRecords,    ///< records the step
+        kAfterStep,  ///< records the step if there are records, then calls after_step
+    };
+    /// The passes as WindowHost::Work::run. The steps are the positions `first` .. `end` - 1.
+    using Pass = void (*)(void* argument, std::size_t first, std::size_t end) noexcept;
+    /// The first pass. Its argument is the context for kNone, else a StepObserver of the context.
+    static Pass get_first_pass(StepObservation observation) noexcept;
+    /// The second pass. @param[in] argument the context.
+    static void run_second_pass(void* argument, std::size_t first, std::size_t end) noexcept;
     /// Ends the cycle, whether all steps were made or not. Nobody may be within one.
     void end_cycle() noexcept { phase_.store(Phase::kIdle, std::memory_order_relaxed); }
     /// Ends the cycle, or a step outside of it, whose work the host has cut off: the context stays busy until
@@ -223,14 +241,14 @@ class ExecutionContext final {
     enum class Phase : std::uint8_t { kInCycle, kIdle, kAbandoned };
 
     bool is_in_cycle() const noexcept { return phase_.load(std::memory_order_relaxed) == Phase::kInCycle; }
-    bool admits_steps() const noexcept;
+    bool admits_steps(std::size_t first, std::size_t end) const noexcept;
     bool take_tick() noexcept;
     static void release_participants(Span<Component* const> participants) noexcept;
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
-    template <typename After>
-    void run_turns(std::size_t first, std::size_t count, Follower* follower, After after) noexcept;
-    static void follow(Follower* follower, std::size_t position, bool was_active) noexcept;
+    template <StepObservation kObservation>
+    static void run_first_pass(void* argument, std::size_t first, std::size_t end) noexcept;
+    static void end_step(StepObserver* observer, std::size_t position, bool was_active) noexcept;
     bool execute_unusual(std::size_t position) noexcept;
     void judge_execution(std::size_t position, Status answer) noexcept;
     void give_notices(Component& component, ContextHandle handle) noexcept;

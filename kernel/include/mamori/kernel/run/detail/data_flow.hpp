@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Part of an executive that moves the values of one core: from published outputs to inputs, forward within a
+/// window, and into publication. Not for users.
+///
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-026, SWR-KRN-039, SWR-MOD-009
+/// Design:   docs/design/kernel.md#parts-of-the-executive, docs/design/kernel.md#connections
+#ifndef MAMORI_KERNEL_DATA_FLOW_HPP
+#define MAMORI_KERNEL_DATA_FLOW_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/payload/trace_hash.hpp"
+#include "mamori/kernel/run/detail/core_state.hpp"
+
+namespace mamori::detail {
+
+/// Thread safety: as Executive.
+/// Time:          O(connections + ports) of the window or component; clear_ports() and attach_inputs() of the
+///                table. Nothing blocks.
+/// Memory:        the state of the core and the trace hash.
+class DataFlow final {
+  public:
+    constexpr DataFlow(const SystemView& view, Span<WindowState> windows, std::size_t core) noexcept
+        : core_{view, windows, core} {}
+    DataFlow(const DataFlow&) = delete;
+    DataFlow& operator=(const DataFlow&) = delete;
+
+    /// State that all parts of the executive use.
+    CoreState& get_core() noexcept { return core_; }
+    const CoreState& get_core() const noexcept { return core_; }
+
+    /// Gives the inputs of the core the age limits of their connections.
+    void attach_inputs() noexcept;
+    /// Removes each value that a port of the core holds or that waits for an input: it is of an earlier run.
+    void clear_ports() noexcept;
+
+    /// Copies the published values to the inputs of the window.
+    void latch_inputs(const WindowRow& row, ModeMask held) noexcept;
+    /// Forwards the values that `component` wrote to later components of its window. Static, because a step
+    /// calls it, also one whose work was aborted.
+    static void forward_outputs(const SystemView& view, std::size_t component, Instant release,
+                                ModeMask held) noexcept;
+    /// Marks the inputs of the first `finished_count` components as read, if these are Active or in Error.
+    void mark_inputs_read(const WindowRow& row, const ExecutionContext& context,
+                          std::size_t finished_count) noexcept;
+    /// Publishes and hashes the outputs of the window with its planned end.
+    void publish_outputs(const WindowRow& row, ModeMask held, Instant end) noexcept;
+    /// Discards what the components of the window, or one component, wrote and did not publish.
+    void discard_outputs(std::size_t window) noexcept;
+    void discard_outputs_of(std::size_t component) noexcept;
+
+    /// Makes the window serve the connections that hold in `modes`. An input whose connection ends or begins
+    /// has no value until one arrives that was published in the new mode.
+    void restart_inputs(WindowState& state, ModeMask modes) noexcept;
+
+    /// Hash of every publication so far: port row, sequence, instant and value.
+    std::uint64_t get_trace_hash() const noexcept { return trace_hash_.get_value(); }
+
+  private:
+    static bool is_held(const ConnectionRow& connection, ModeMask modes) noexcept {
+        return (connection.modes & modes) == modes;
+    }
+    void deliver(const PortRow& port, ModeMask held) noexcept;
+    void discard_ports(std::size_t first, std::size_t count) noexcept;
+
+    CoreState core_;
+    TraceHash trace_hash_{};
+};
+
+}  // namespace mamori::detail
+
+#endif  // MAMORI_KERNEL_DATA_FLOW_HPP

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/kernel/run/detail/data_flow.hpp"
+
+namespace mamori::detail {
+
+void DataFlow::attach_inputs() noexcept {
+    for (const ConnectionRow& connection : core_.view.connections) {
+        if (core_.is_own(connection.sink_window)) {
+            connection.sink->set_age_limits(connection.age_max, connection.lead_max);
+        }
+    }
+}
+
+void DataFlow::clear_ports() noexcept {
+    for (const PortRow& port : core_.view.ports) {
+        if (port.output != nullptr && core_.is_own(port.window)) {
+            port.output->begin_run();
+        }
+    }
+    for (const ConnectionRow& connection : core_.view.connections) {
+        if (core_.is_own(connection.sink_window)) {
+            connection.operations.clear(*connection.source, *connection.sink, connection.crossing);
+        }
+    }
+}
+
+void DataFlow::latch_inputs(const WindowRow& row, ModeMask held) noexcept {
+    for (const std::size_t i : core_.view.latch_order.subspan(row.first_latch, row.latch_count)) {
+        const ConnectionRow& connection = core_.view.connections[i];
+        if (is_held(connection, held)) {
+            connection.operations.latch(*connection.source, *connection.sink, connection.crossing,
+                                        core_.release);
+        }
+    }
+}
+
+void DataFlow::forward_outputs(const SystemView& view, std::size_t component, Instant release,
+                               ModeMask held) noexcept {
+    const ComponentRow& row = view.component_rows[component];
+    for (const std::size_t i : view.outgoing_order.subspan(row.first_outgoing, row.outgoing_count)) {
+        const ConnectionRow& connection = view.connections[i];
+        if (connection.is_forward_in_window && connection.operations.hand_on != nullptr &&
+            is_held(connection, held)) {
+            connection.operations.hand_on(*connection.source, *connection.sink, release);
+        }
+    }
+}
+
+void DataFlow::mark_inputs_read(const WindowRow& row, const ExecutionContext& context,
+                                std::size_t finished_count) noexcept {
+    for (const PortRow& port : core_.view.ports.subspan(row.first_port, row.port_count)) {
+        const std::size_t position = port.component - row.first_component;
+        if (port.input == nullptr || position >= finished_count) {
+            continue;
+        }
+        const LifecycleState state = context.get_state_at(position);
+        if (state == LifecycleState::kActive || state == LifecycleState::kError) {
+            port.input->mark_read();
+        }
+    }
+}
+
+void DataFlow::publish_outputs(const WindowRow& row, ModeMask held, Instant end) noexcept {
+    for (std::size_t p = row.first_port; p < row.first_port + row.port_count; ++p) {
+        const PortRow& port = core_.view.ports[p];
+        if (port.output == nullptr || !port.output->publish(end)) {
+            continue;
+        }
+        trace_hash_(static_cast<std::uint64_t>(p));
+        port.output->hash_into(trace_hash_);
+        deliver(port, held);
+    }
+}
+
+void DataFlow::deliver(const PortRow& port, ModeMask held) noexcept {
+    const ComponentRow& owner = core_.view.component_rows[port.component];
+    for (const std::size_t i :
+         core_.view.outgoing_order.subspan(owner.first_outgoing, owner.outgoing_count)) {
+        const ConnectionRow& connection = core_.view.connections[i];
+        if (connection.source == port.output && connection.operations.deliver != nullptr &&
+            is_held(connection, held)) {
+            connection.operations.deliver(*port.output, *connection.sink, connection.crossing);
+        }
+    }
+}
+
+void DataFlow::discard_outputs(std::size_t window) noexcept {
+    const WindowRow& row = core_.view.windows[window];
+    discard_ports(row.first_port, row.port_count);
+}
+
+void DataFlow::discard_outputs_of(std::size_t component) noexcept {
+    const ComponentRow& row = core_.view.component_rows[component];
+    discard_ports(row.first_port, row.port_count);
+}
+
+void DataFlow::discard_ports(std::size_t first, std::size_t count) noexcept {
+    for (const PortRow& port : core_.view.ports.subspan(first, count)) {
+        if (port.output != nullptr) {
+            port.output->discard();
+        }
+    }
+}
+
+void DataFlow::restart_inputs(WindowState& state, ModeMask modes) noexcept {
+    const WindowRow& row = core_.view.windows[state.get_window()];
+    const ModeMask before = state.held_modes;
+    state.held_modes = modes;
+    const Span<const std::size_t> latched = core_.view.latch_order.subspan(row.first_latch, row.latch_count);
+    // Connections that end come first: in a switch to the safe mode an input may change its source.
+    for (const bool begins : {false, true}) {
+        for (const std::size_t i : latched) {
+            const ConnectionRow& connection = core_.view.connections[i];
+            const bool was_held = is_held(connection, before);
+            if (was_held != is_held(connection, modes) && was_held != begins) {
+                connection.operations.restart(*connection.source, *connection.sink, core_.frame_start);
+            }
+        }
+    }
+}
+
+}  // namespace mamori::detail
