@@ -13,13 +13,15 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 from campaign_bench import Bench
 from dask_cluster import Cluster
 
-from mamori_tools.campaign import dask_pool
+from mamori_tools.campaign import Settings, dask_pool, load_plan, run_campaign, select
 from mamori_tools.campaign.work import Program, Work, read_program
+from mamori_tools.host.project import ROOT, Project
 from mamori_trace.base.errors import InputError, WorkError
 
 
@@ -48,6 +50,21 @@ def test_a_local_cluster_gives_the_result_and_the_files_of_one_process(bench: Be
     assert result.result_hash == one.result_hash
     assert bench.read_json()["cases"][0]["run"] == json.loads((bench.evidence / "campaign/none-1/run.json").read_text())
     assert (bench.evidence / "campaign/none-1/program.log").exists()
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not Project(ROOT).safe_arm.exists(), reason="the example arm is not built")
+@pytest.mark.verifies("SWR-CMP-010", technique="back_to_back")
+def test_the_example_arm_has_one_result_hash_on_one_process_two_processes_and_dask(tmp_path: Path) -> None:
+    project = Project(ROOT)
+    selection = select(load_plan(project.campaign_plan), instants=1)
+    files = {"model": project.model, "motion": project.motion}
+    ways: list[dict[str, Any]] = [{"jobs": 1}, {"jobs": 2}, {"jobs": 2, "dask": "local"}]
+    results = [run_campaign(selection, Settings(project.safe_arm, files, tmp_path / str(number), environment={}, **way))
+               for number, way in enumerate(ways)]  # fmt: skip
+
+    assert [result.count("passed") for result in results] == [15, 15, 15]
+    assert len({result.result_hash for result in results}) == 1
 
 
 def check_killed_workers(bench: Bench, kills: int, seed: int) -> None:
