@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import random
+import signal
 import socket
 import subprocess
 import sys
@@ -50,6 +51,19 @@ def test_a_local_cluster_gives_the_result_and_the_files_of_one_process(bench: Be
     assert result.result_hash == one.result_hash
     assert bench.read_json()["cases"][0]["run"] == json.loads((bench.evidence / "campaign/none-1/run.json").read_text())
     assert (bench.evidence / "campaign/none-1/program.log").exists()
+
+
+@pytest.mark.verifies("SWR-CMP-012", technique="fault_injection", polarity="violation")
+def test_ctrl_c_ends_a_local_cluster_with_one_line(bench: Bench) -> None:
+    bench.write_long_plan(60)
+    process = subprocess.Popen(bench.make_command("--dask", "local", "--jobs", "2"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               start_new_session=True)  # fmt: skip
+    wait_for_stored(bench, 2, process)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does it
+    output, errors = process.communicate(timeout=60.0)
+
+    assert (process.returncode, output) == (130, "")
+    assert [line for line in errors.splitlines() if line and not line.startswith("[")] == ["mamori: stopped; no report was written"]
 
 
 @pytest.mark.long
