@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
+from collections.abc import Generator, Sequence
 from pathlib import Path
 
 import pytest
@@ -12,6 +15,7 @@ from campaign_bench import Bench
 from mamori_tools.campaign import runner
 from mamori_tools.campaign.arm.subject import SUBJECT as ARM
 from mamori_tools.campaign.case import Case, Evaluation
+from mamori_tools.campaign.work import Outcome, Work, run_local
 from mamori_tools.command.main import main
 from mamori_tools.host.project import Project
 
@@ -122,6 +126,34 @@ def test_program_model_and_motion_of_the_checkout_are_the_default(bench: Bench, 
 
     assert main(["campaign", str(bench.plan)]) == 2
     assert capsys.readouterr().err.startswith(f"mamori: {Project(bench.folder).safe_arm}: no program that can be run; build it first (./mamori build)")
+
+
+@pytest.mark.verifies("SWR-CMP-012", technique="interface")
+def test_the_large_libraries_are_imported_only_when_a_campaign_runs() -> None:
+    code = "import sys; import mamori_tools.campaign.command; print({'pyarrow', 'distributed', 'numpy'} & set(sys.modules))"
+
+    assert subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, check=True).stdout == "set()\n"
+
+
+@pytest.mark.verifies("SWR-CMP-008")
+@pytest.mark.parametrize(("jobs_max", "at_once"), [(1, 1), (2, 2), (3, 3), (4, 3), (None, 3)])
+def test_a_subject_bounds_the_cases_that_run_at_the_same_time(bench: Bench, monkeypatch: pytest.MonkeyPatch, jobs_max: int | None,
+                                                             at_once: int) -> None:
+    class Bounded(type(ARM)):  # type: ignore[misc]
+        pass
+
+    seen: list[int] = []
+
+    def run_and_note(works: Sequence[Work], root: Path, jobs: int) -> Generator[Outcome]:
+        seen.append(jobs)
+        return run_local(works, root, jobs)
+
+    Bounded.jobs_max = jobs_max
+    monkeypatch.setattr(runner, "load_subject", lambda name: Bounded())
+    monkeypatch.setattr(runner, "run_local", run_and_note)
+
+    assert call(bench, "--jobs", "3") == 0
+    assert seen == [at_once]
 
 
 @pytest.mark.verifies("SWR-CMP-013")

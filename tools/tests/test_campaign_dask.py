@@ -7,19 +7,22 @@ import hashlib
 import json
 import os
 import random
+import signal
 import socket
 import subprocess
 import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 from campaign_bench import Bench
 from dask_cluster import Cluster
 
-from mamori_tools.campaign import dask_pool
+from mamori_tools.campaign import Settings, dask_pool, load_plan, run_campaign, select
 from mamori_tools.campaign.work import Program, Work, read_program
+from mamori_tools.host.project import ROOT, Project
 from mamori_trace.base.errors import InputError, WorkError
 
 
@@ -48,6 +51,34 @@ def test_a_local_cluster_gives_the_result_and_the_files_of_one_process(bench: Be
     assert result.result_hash == one.result_hash
     assert bench.read_json()["cases"][0]["run"] == json.loads((bench.evidence / "campaign/none-1/run.json").read_text())
     assert (bench.evidence / "campaign/none-1/program.log").exists()
+
+
+@pytest.mark.verifies("SWR-CMP-012", technique="fault_injection", polarity="violation")
+def test_ctrl_c_ends_a_local_cluster_with_one_line(bench: Bench) -> None:
+    bench.write_long_plan(60)
+    process = subprocess.Popen(bench.make_command("--dask", "local", "--jobs", "2"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               start_new_session=True)  # fmt: skip
+    wait_for_stored(bench, 2, process)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does it
+    output, errors = process.communicate(timeout=60.0)
+
+    assert (process.returncode, output) == (130, "")
+    assert [line for line in errors.splitlines() if line and not line.startswith("[")] == ["mamori: stopped; no report was written"]
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not Project(ROOT).safe_arm.exists(), reason="the example arm is not built")
+@pytest.mark.verifies("SWR-CMP-010", technique="back_to_back")
+def test_the_example_arm_has_one_result_hash_on_one_process_two_processes_and_dask(tmp_path: Path) -> None:
+    project = Project(ROOT)
+    selection = select(load_plan(project.campaign_plan), instants=1)
+    files = {"model": project.model, "motion": project.motion}
+    ways: list[dict[str, Any]] = [{"jobs": 1}, {"jobs": 2}, {"jobs": 2, "dask": "local"}]
+    results = [run_campaign(selection, Settings(project.safe_arm, files, tmp_path / str(number), environment={}, **way))
+               for number, way in enumerate(ways)]  # fmt: skip
+
+    assert [result.count("passed") for result in results] == [15, 15, 15]
+    assert len({result.result_hash for result in results}) == 1
 
 
 def check_killed_workers(bench: Bench, kills: int, seed: int) -> None:

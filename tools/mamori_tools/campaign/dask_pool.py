@@ -11,11 +11,13 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import signal
 import socket
 import tempfile
 import time
 import uuid
 from collections.abc import Generator, Mapping, Sequence
+from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import Any
 
@@ -112,10 +114,16 @@ def _get_worker_name() -> str:
 
 def _connect(distributed: Any, stack: contextlib.ExitStack, address: str, workers: int) -> Any:
     if address == LOCAL:
-        cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None,
-                                           silence_logs=logging.CRITICAL)  # fmt: skip
-        stack.enter_context(cluster)
-        return stack.enter_context(distributed.Client(cluster))
+        resource_tracker.ensure_running()  # its start would unblock the signal in the thread that starts the workers
+        # The threads of the cluster and its workers inherit the mask: Ctrl-C reaches the main thread of this process only.
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None,
+                                               silence_logs=logging.CRITICAL)  # fmt: skip
+            stack.enter_context(cluster)
+            return stack.enter_context(distributed.Client(cluster))
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
     try:
         return stack.enter_context(distributed.Client(address, timeout=CONNECT_S))
     except Exception as error:  # another server may answer anything

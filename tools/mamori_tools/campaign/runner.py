@@ -73,11 +73,12 @@ def run_campaign(selection: Selection, settings: Settings, progress: Progress | 
         _clear(settings.evidence, set(stored))
         campaign.write_inputs(folder)
         results = {case.id: campaign.make_result(case, *stored[case.id]) for case in campaign.cases if case.id in stored}
-        for result in campaign.run({case.id for case in campaign.cases} - set(stored), folder):
-            store.add(result)
-            results[result.case.id] = result
-            if progress is not None:
-                progress(result, len(results), len(campaign.cases))
+        with contextlib.closing(campaign.run({case.id for case in campaign.cases} - set(stored), folder)) as finished:
+            for result in finished:
+                store.add(result)
+                results[result.case.id] = result
+                if progress is not None:
+                    progress(result, len(results), len(campaign.cases))
         ordered = tuple(results[case.id] for case in campaign.cases)
         store.merge(ordered)
         result_hash = calc_result_hash([(each.case, each.evaluation) for each in ordered])
@@ -169,7 +170,7 @@ class _Campaign:
             for name, content in self._expansion.inputs.items():
                 write_durably(folder / name, content)
 
-    def run(self, names: set[str], folder: Path) -> Iterator[CaseResult]:
+    def run(self, names: set[str], folder: Path) -> Generator[CaseResult]:
         """Runs the cases `names`; yields each with its files in the folder of its id."""
         with _guard_folder(folder):
             attempt = Path(tempfile.mkdtemp(prefix=_ATTEMPT, dir=folder))
