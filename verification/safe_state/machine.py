@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The step relation with situations merged that nobody can tell apart, and what is known of the past in each of them.
+"""The step relation with situations merged that no inputs distinguish, and what is known of the past in each of them.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#models
 """
@@ -21,7 +21,7 @@ RUNNING = VALUES["self_test"].index("Running")
 @dataclass(frozen=True, order=True)
 class Past:
     """What an onlooker remembers: both button levels of the last cycle, and whether a self test was seen running since the
-    present state was entered. Nobody knows the buttons before power-up, so they are taken as held."""
+    present state was entered. The buttons before power-up are unknown, so they are treated as held."""
 
     start: bool = True
     reset: bool = True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The machine as a Promela model for spin, with one branch for each way in which a step can go as far as the formulas can tell.
+"""The machine as a Promela model for spin, with one branch for each step that the formulas distinguish.
 
 @satisfies SWR-FSM-022, SWR-FSM-023      Design: docs/design/safe_state.md#models
 """
@@ -125,7 +125,7 @@ class Run:
 
 
 def list_moves(machine: Machine) -> list[Move]:
-    """Each way that a step can go, as far as the formulas can tell."""
+    """Each step that the formulas distinguish."""
     moves = []
     for source in range(len(machine.labels)):
         moves += list(_list_moves_of(machine, source))
@@ -201,25 +201,25 @@ def list_formulas(properties: Sequence[Property]) -> list[tuple[str, str]]:
     return formulas
 
 
-def judge_all(text: str, properties: Sequence[Property], folder: Path, name: str) -> dict[str, Run]:
+def check_all(text: str, properties: Sequence[Property], folder: Path, name: str) -> dict[str, Run]:
     """Writes the model to the file `name` and has spin check each formula of it. @return by name what it found. @raise WorkError when spin or gcc
     is missing or fails."""
     (folder / name).write_text(text, encoding="utf-8")
     _call(("spin", "-a", name), folder)
     _call(COMPILE, folder)
-    return {formula: _judge(formula, folder) for formula, _ in list_formulas(properties)}
+    return {formula: _check_one(formula, folder) for formula, _ in list_formulas(properties)}
 
 
-def _judge(name: str, folder: Path) -> Run:
+def _check_one(name: str, folder: Path) -> Run:
     if not _is_broken(name, DEPTH_MAX, folder):
         return Run(name, None)
     # The trail is that of the last call: the shortest depth that shows the fault, or all.
     if not any(_is_broken(name, depth, folder) for depth in SHORT_DEPTHS):
         _is_broken(name, DEPTH_MAX, folder)
-    told = _call(("./pan", "-S", "-N", name), folder)
+    trail = _call(("./pan", "-S", "-N", name), folder)
     moves: list[int] = []
     loop = None
-    for line in told.splitlines():
+    for line in trail.splitlines():
         if match := re.search(r"MOVE (\d+)", line):
             moves.append(int(match[1]))
         elif "START OF CYCLE" in line:

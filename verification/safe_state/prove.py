@@ -97,7 +97,7 @@ def _run_z3(subject: Subject, folder: Path, told: dict[str, dict[str, list[str]]
 
 def _run_spin(subject: Subject, folder: Path, told: dict[str, dict[str, list[str]]]) -> None:
     text = subject.write_promela(subject.properties)
-    runs = promela.judge_all(text, subject.properties, folder, f"{subject.name}.pml")
+    runs = promela.check_all(text, subject.properties, folder, f"{subject.name}.pml")
     for one in subject.properties:
         word = one.name.replace("-", "_")
         if one.always and (run := runs[word]).moves is not None:

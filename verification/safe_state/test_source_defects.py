@@ -76,7 +76,7 @@ SLIPS = {
         ("brakes-close-under-torque-in-ss1-only",)),
     "pushed brakes open": Slip(
         BRAKES, "    return is_standing && have_bitten(now);", "    is_told_ = is_standing;\n    return is_standing && have_bitten(now);",
-        # Where the push comes with the end of the stop, the brakes stay closed, and their time counts anew: no claim about it holds.
+        # Where the push comes with the end of the stop, the brakes stay closed, and their time restarts: no claim about it holds.
         ("brakes-open-by-a-start-only", "silent-brakes-are-overdue", "torque-outlives-the-hold-within-the-closing-time")),
     "standstill alone confirms": Slip(
         BRAKES, "return is_standing && have_bitten(now);", "return is_standing;", ("ss1-confirmed-by-its-brakes",)),

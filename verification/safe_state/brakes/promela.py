@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The machine with its brakes as a Promela model for spin, with one branch for each way in which a cycle can go as far as the formulas
-can tell.
+"""The machine with its brakes as a Promela model for spin, with one branch for each cycle that the formulas distinguish.
 
 @satisfies SWR-FSM-022, SWR-FSM-023      Design: docs/design/safe_state.md#brakes-in-the-models
 """

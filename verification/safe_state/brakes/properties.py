@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The properties that brakes are proved to have: alone, for whatever a caller does, and under the safe-state machine.
+"""The properties that brakes are proved to have: alone, for any calls, and under the safe-state machine.
 
 Words of the forms for z3 (smt.py): `q` is the state given to confirm(), `r` that given to apply(), `standing` and `contacts` what is
 measured, `confirmed`, `torque_out`, `open_out` and `overdue_out` what is answered; `last`, `was_torque`, `was_closed` and `stood` are

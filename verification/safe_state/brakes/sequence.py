@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The brake sequence as a whole cycle: confirm(), the step of whatever machine, apply(); with situations merged that nobody can tell
-apart, and with what an onlooker knows of the past in each of them.
+"""The brake sequence as one cycle: confirm(), the step of any machine, apply(). Situations are merged that no calls distinguish; each keeps
+what an onlooker knows of the past.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#brakes-in-the-models
 """
