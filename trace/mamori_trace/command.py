@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`mamori trace ACTION`: hands over to the module of the action.
+"""`mamori trace ACTION`: calls the module of the action.
 
-Exit status: 0 clean, 1 findings of severity error, 2 wrong usage or input that could not be read, 3 another command writes there; of `record` that
-of its command.
+Exit status: 0 clean, 1 findings of severity error, 2 wrong usage or unreadable input, 3 another command writes there; for `record` the
+status of its command.
 
 @satisfies SWR-TRC-010, SWR-TRC-008      Design: docs/design/trace.md#command
 """
@@ -62,9 +62,9 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         with _without_collector(), _hold_lock(arguments):
             status = int(_load(arguments.trace_action).run(arguments))
-        sys.stdout.flush()  # what cannot be written is told here, and not when Python ends
+        sys.stdout.flush()  # reports an output error here, and not when Python ends
         return status
-    except BrokenPipeError:  # who read it has read enough, such as `head`
+    except BrokenPipeError:  # the reader, such as `head`, has read enough
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (Python closes it at its end)
         return _EXIT_PIPE
     except MissingError as error:
@@ -74,13 +74,13 @@ def run(arguments: argparse.Namespace) -> int:
         return _refuse(str(error))
     except OSError as error:
         return _refuse(describe(error))
-    except UnicodeEncodeError as error:  # half of a letter, from a word, a file name or a JSON escape; no file can hold it
+    except UnicodeEncodeError as error:  # half of a character, from an argument, a file name or a JSON escape; no file can hold it
         near = error.object[max(0, error.start - 20) : error.end]
         return _refuse(f"nothing was written: {near!a} ends with what is no letter, so UTF-8 cannot hold it")
 
 
 def _refuse(message: str) -> int:
-    if len(message) > 2 * _SHOWN_MAX:  # a word of the command line may have any length; the remedy stands at the end
+    if len(message) > 2 * _SHOWN_MAX:  # an argument may have any length; the remedy is at the end of the message
         message = f"{message[:_SHOWN_MAX]} ... {message[-_SHOWN_MAX:]}"
     print(f"mamori trace: {message}", file=sys.stderr)
     return _EXIT_INPUT
@@ -90,15 +90,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     """@return the exit status; argparse ends the process with 2 on wrong usage."""
     words = sys.argv[1:] if argv is None else argv
     parser = argparse.ArgumentParser(prog="mamori trace", description=_ABOUT, epilog=_EPILOG)
-    # The first word names the action; the modules of the others need not be loaded to understand the rest of the line.
+    # The first argument names the action; the other action modules need not be loaded to parse the rest of the line.
     _add_actions(parser, [words[0]] if words and words[0] in _ACTIONS else list(_ACTIONS))
     return run(parser.parse_args(argv))
 
 
 @contextmanager
 def _without_collector() -> Iterator[None]:
-    """Python's search for garbage in cycles rests: what a run reads is kept until its end, and looking through it again and again while it
-    grows finds nothing and takes a twentieth of the time."""
+    """Pauses Python's search for cyclic garbage: a run keeps its inputs until its end, so repeated searches while the data
+    grows find nothing and take a twentieth of the time."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:
@@ -110,7 +110,7 @@ def _without_collector() -> Iterator[None]:
 
 @contextmanager
 def _hold_lock(arguments: argparse.Namespace) -> Iterator[None]:
-    """The lock of the project while a writer works. Where its file cannot be made, the action itself reports what it cannot write."""
+    """The lock of the project during a writing action. If its file cannot be created, the action itself reports the error."""
     with ExitStack() as stack:
         if arguments.trace_action in _WRITERS and arguments.root.is_dir():
             with suppress(OSError):

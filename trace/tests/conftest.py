@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fixtures of the trace tests: a small clean project in a fresh folder, and a way to run the command on it."""
+"""Fixtures of the trace tests: a small clean project in a new folder, and a function that runs the command on it."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from mamori_trace.readers.evidence_records import list_recorded
 
 @pytest.fixture
 def sample(tmp_path: Path) -> trace_sample.Sample:
-    """A clean project: no rule finds anything."""
+    """A clean project without findings."""
     return trace_sample.make_sample(tmp_path / "project")
 
 
 @pytest.fixture
 def trace(capsys: pytest.CaptureFixture[str]) -> Callable[..., Outcome]:
-    """Runs `mamori trace ...` in this process, on evidence that is recorded as it is now, unless `recorded` is false."""
+    """Runs `mamori trace ...` in this process, with current records of the evidence unless `recorded` is false."""
 
     def run(*arguments: object, recorded: bool = True) -> Outcome:
         words = [str(argument) for argument in arguments]
@@ -38,7 +38,7 @@ def trace(capsys: pytest.CaptureFixture[str]) -> Callable[..., Outcome]:
 
 
 def _record_all(words: list[str]) -> None:
-    """What a run of the tests by `mamori trace record` would leave."""
+    """Records as `mamori trace record` would write them after a test run."""
     with contextlib.suppress(OSError, InputError):
         root = Path(words[words.index("--root") + 1]) if "--root" in words else Path(".")
         folders = [*root.glob("build/*/evidence"), *(Path(words[at + 1]) for at, word in enumerate(words) if word == "--evidence")]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: what static analysis found is told at its place, each once; what somebody suppressed is not; broken results are refused.
+# Goal: each finding of static analysis is reported once at its location; suppressed findings are not; invalid results are rejected.
 from __future__ import annotations
 
 import json

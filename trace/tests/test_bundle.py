@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a bundle has the same bytes for the same inputs, and whatever happens to it on its way is named; a hostile one harms nobody.
+# Goal: a bundle has the same bytes for the same inputs; each later change is named; a hostile bundle causes no damage.
 # Method: the sample project is bundled, then one thing is changed at a time.
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ needs_ssh = pytest.mark.skipif(shutil.which("ssh-keygen") is None, reason="the p
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """One bundle, made once: its report takes longer than all else here."""
+    """One bundle, created once, because its report takes most of the time."""
     folder = tmp_path_factory.mktemp("made")
     make_sample(folder / "project")
     assert main(["bundle", "--root", str(folder / "project"), "--out", str(folder / "bundle")]) == 0
@@ -32,12 +32,12 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def bundle(made: Path, tmp_path: Path) -> Path:
-    """A copy to damage."""
+    """A copy that tests damage."""
     return shutil.copytree(made, tmp_path / "bundle")
 
 
 def sign(bundle: Path, key: Path, namespace: str = "mamori-evidence") -> Path:
-    """Signs as anybody could, without the tool."""
+    """Signs with ssh-keygen only, without the tool."""
     subprocess.run(["ssh-keygen", "-q", "-Y", "sign", "-f", str(key), "-n", namespace, str(bundle / "manifest.json")], check=True)
     return bundle
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: an unchanged project is not read again, every change of any input is noticed, and what cannot be vouched for is not kept.
-# Method: the small clean project; each kind of input is changed alone, the outcome is compared with that of a run without the cache.
+# Goal: an unchanged project is not read again, every change of any input is detected, and an outcome with unknown inputs is not stored.
+# Method: the small clean project; each kind of input is changed alone, and the outcome is compared with that of a run without the cache.
 from __future__ import annotations
 
 import hashlib
@@ -22,7 +22,7 @@ EVIDENCE = "build/host-release/evidence"
 
 
 class Keeper:
-    """Runs the check through the cache and counts how often it was really made."""
+    """Runs the check through the cache and counts the real checks."""
 
     def __init__(self, sample: trace_sample.Sample, capsys: pytest.CaptureFixture[str]) -> None:
         self.sample = sample
@@ -63,7 +63,7 @@ def fresh(sample: trace_sample.Sample, capsys: pytest.CaptureFixture[str]) -> Ke
 
 @pytest.fixture
 def keeper(fresh: Keeper, monkeypatch: pytest.MonkeyPatch) -> Keeper:
-    """A project whose files count as written long ago."""
+    """A project whose files count as old."""
     monkeypatch.setattr(state, "RACY_NS", -(10**15))
     return fresh
 

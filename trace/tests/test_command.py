@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the command says one clear line on wrong usage, names near ids, and records reviews of links.
+# Goal: the command prints one clear line on wrong usage, names similar ids, and records reviews of links.
 from __future__ import annotations
 
 import argparse
@@ -131,7 +131,7 @@ JSON_ACTIONS = (("check",), ("check", "--allow-missing"), ("report",), ("show", 
 
 @pytest.mark.verifies("SWR-TRC-108", technique="interface", polarity="nominal")
 def test_json_stands_alone_on_standard_output(sample: Sample) -> None:
-    """As a new process each time, and twice: the first one may have something to tell."""
+    """In a new process each time, and twice, because the first run may print additional messages."""
     start_history(sample.root)
     for words in JSON_ACTIONS:
         for _ in range(2):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the page shows what was counted with every mark and finding, and a broken record costs nothing but itself.
+# Goal: the page shows the counts with every mark and finding, and an invalid record does not affect the rest.
 from __future__ import annotations
 
 import copy
@@ -16,7 +16,7 @@ from trace_sample import COMMIT, ENVIRONMENT, Sample
 
 @pytest.fixture
 def folder(sample: Sample) -> Path:
-    """The place of one count."""
+    """The location of one count."""
     path = sample.evidence / "cost" / "safe_arm"
     path.mkdir(parents=True)
     return path
@@ -24,7 +24,7 @@ def folder(sample: Sample) -> Path:
 
 @pytest.fixture
 def report(sample: Sample, trace: Callable, folder: Path) -> Callable[..., tuple[str, Any]]:
-    """Stores a record or a text, writes the report. Gives the section "Timing" and the outcome."""
+    """Stores a record or a text and writes the report. Returns the section "Timing" and the outcome."""
 
     def run(record: object = COST) -> tuple[str, Any]:
         (folder / "cost.json").write_text(record if isinstance(record, str) else json.dumps(record), encoding="utf-8")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: coverage of each format says the same of a function; what the tests of its requirements leave out is told; broken files are refused.
-# Method: the clean sample with one source file, and for it the files that llvm-cov 19, LCOV 2, Cobertura and the own gate write.
+# Goal: coverage of each format gives the same result for a function; code that its tests do not reach is reported; invalid files are rejected.
+# Method: the clean sample with one source file and its coverage files from llvm-cov 19, LCOV 2, Cobertura and the project's gate.
 from __future__ import annotations
 
 import json
@@ -106,7 +106,7 @@ WITH_MCDC = ("a.json", "a.info", "coverage.json")
 
 @pytest.fixture
 def covered(sample: Sample) -> Sample:
-    """The clean sample with a source file whose functions SWR-SUP-001 (SIL 3) owns, and SWR-SUP-002 one of them."""
+    """The clean sample with a source file whose functions SWR-SUP-001 (SIL 3) owns; SWR-SUP-002 owns one of them."""
     (sample.root / "safety/src").mkdir()
     (sample.root / "safety/src/alive.cpp").write_text(SOURCE, encoding="utf-8")
     (sample.root / "requirements/schema/code.toml").write_text('schema = "mamori.code/1"\ntraced = ["safety/src"]\n')

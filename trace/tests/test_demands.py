@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: what a SIL demands is asked there and nowhere else; weak words are whole words; an id that is given up stays so.
+# Goal: the rules of a SIL apply at that SIL only; weak words match as complete words; a retired id stays retired.
 from __future__ import annotations
 
 import subprocess
@@ -94,7 +94,7 @@ def test_drafts_and_needs_may_be_weak(sample: Sample) -> None:
 
 
 def find_weak(sample: Sample, statement: str) -> list[str]:
-    """The words that the rule finds in SWR-TLS-001 with that statement."""
+    """The words that the rule finds in this statement of SWR-TLS-001."""
     path = sample.root / SOFTWARE
     lines = path.read_text().splitlines(keepends=True)
     at = next(number for number, line in enumerate(lines) if line.startswith("## SWR-TLS-001")) + 2
@@ -104,7 +104,7 @@ def find_weak(sample: Sample, statement: str) -> list[str]:
 
 @pytest.fixture
 def shrunk(sample: Sample) -> Sample:
-    """SWR-SUP-002 was deleted with all that named it, and was committed before."""
+    """SWR-SUP-002 was committed and then deleted with all references."""
     commit(sample)
     text = (sample.root / SOFTWARE).read_text()
     start = text.index("## SWR-SUP-002")
@@ -162,7 +162,7 @@ def test_a_cut_line_of_the_ledger_is_told(sample: Sample, trace: Callable) -> No
 
 
 def run_check(sample: Sample, trace: Callable) -> list[dict]:
-    """Findings apart from those about the commit of the evidence."""
+    """Findings without those about the commit of the evidence."""
     findings = trace("check", "--root", sample.root, "--output", "json").content["findings"]
     return [finding for finding in findings if finding["rule"] != "evidence-stale"]
 

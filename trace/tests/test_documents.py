@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: safety documents name ids and tests that exist, and those of this project are all there and say what the items say.
+# Goal: safety documents name existing ids and tests; the documents of this project are complete and agree with the items.
 from __future__ import annotations
 
 from collections.abc import Callable

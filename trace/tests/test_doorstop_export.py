@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: what is exported as Doorstop is one tree of documents that loses nothing, or nothing is written at all.
-# Method: items go out and are read again by the reader of Doorstop; ids, texts and places that do not fit go out, too.
+# Goal: a Doorstop export is one tree of documents without loss, or nothing is written.
+# Method: items are exported and read by the Doorstop reader, including ids, texts and locations that do not fit.
 from __future__ import annotations
 
 import errno
@@ -59,7 +59,7 @@ def test_documents_are_one_tree_along_the_links(sample: Sample, trace: Callable,
         "HAZ": "", "STK": "HAZ", "SWR-SUP": "SYS", "SWR-TLS": "SYS", "SYS": "HAZ"}  # fmt: skip
     assert settings["SWR-SUP"] == {"digits": 3, "prefix": "SWR-SUP", "sep": "-", "parent": "SYS"}
     need = yaml.safe_load((tmp_path / "out" / "STK" / "STK-001.yml").read_text())
-    assert (need["derived"], need["links"], need["reviewed"]) == (True, [], None)  # nobody above is missed
+    assert (need["derived"], need["links"], need["reviewed"]) == (True, [], None)  # no missing parent is reported
 
 
 @pytest.mark.verifies("SWR-TRC-050", technique="error_guessing", polarity="nominal")

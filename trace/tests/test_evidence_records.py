@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: evidence of other sources and evidence that somebody changed is told; a commit of what was tested leaves it valid.
+# Goal: evidence from other sources and altered evidence are reported; committing the tested files leaves the evidence valid.
 from __future__ import annotations
 
 import json
@@ -26,7 +26,7 @@ def git(root: Path, *arguments: str) -> None:
 
 @pytest.fixture
 def clone(sample: Sample) -> Sample:
-    """The clean sample as a git repository, with evidence that tells its sources."""
+    """The clean sample as a git repository, with evidence that names its sources."""
     (sample.root / ".gitignore").write_text("/build/\n")
     (sample.root / "requirements/schema/code.toml").write_text(SCHEMA_OF_CODE)
     git(sample.root, "init", "-q")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: items leave and come back without a loss; what an import cannot keep is told with its place; nothing is written by halves.
-# Method: the sample project and generated ones go out, come into a fresh folder, and go out again; the files are compared.
+# Goal: export and import lose nothing; parts that cannot be imported are reported with location; no file is half-written.
+# Method: the sample project and generated ones are exported, imported into a new folder, and exported again; the files are compared.
 from __future__ import annotations
 
 import csv
@@ -32,7 +32,7 @@ def _make_empty(root: Path) -> Path:
 
 
 def _list_items(root: Path) -> list[object]:
-    """Every attribute of every item in order, and the reviews, as the readers see them."""
+    """Every attribute of every item in order, and the reviews, as the readers return them."""
     project = read_requirements(root)
     assert project.problems == []
     rows = []

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: what cannot be read as ReqIF or as a result is one finding that says what to do, and never a wait without an end.
-# Method: packed archives, pipes, unknown encodings and lost links, given to the command.
+# Goal: an input that is not readable as ReqIF or as a result is one finding with a remedy, and never an endless wait.
+# Method: packed archives, pipes, unknown encodings and broken links are given to the command.
 from __future__ import annotations
 
 import os

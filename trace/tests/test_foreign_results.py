@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: results of other writers are read as what they are and find their requirement; hostile files cost neither memory nor the rest.
+# Goal: results of other tools get their own outcome and find their requirement; hostile files need little memory and affect no other file.
 from __future__ import annotations
 
 import os

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: tags at tests of other languages find the results of these tests; a tag that no result answers is told, never passed over.
-# Method: a small OpenFastTrace project with one test file and one result, given to the command.
+# Goal: tags at tests of other languages find the results of these tests; a tag without a result is reported, never ignored.
+# Method: a small OpenFastTrace project with one test file and one result is given to the command.
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -88,7 +88,7 @@ _CASE = '<testsuite><testcase classname="tests.test_stop" name="test_stop">{}</t
 
 
 def write_linked(folder: Path, name: str) -> Path:
-    """A requirement that names its code and its test as files. @return the folder of the requirements."""
+    """A requirement that names its code and its test by files. @return the folder of the requirements."""
     docs = folder / "docs"
     texts = {"src/stop.c": "int stop(void) { return 0; }\n", "tests/test_stop.py": "def test_stop():\n    pass\n"}
     own = {"docs/a.sdoc": _SDOC} if name == "strictdoc" else {"docs/.doorstop.yml": "settings:\n  prefix: SWR\n", "docs/SWR1.yml": _DOORSTOP}

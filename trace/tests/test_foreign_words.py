@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: every spelling that another tool accepts for a demand, an item or a link is read as that tool reads it.
-# Method: small files as those tools write them, given to the command.
+# Goal: every notation that another tool accepts for a requirement, an item or a link has the same meaning here.
+# Method: small files in the form of those tools are given to the command.
 from __future__ import annotations
 
 import json
@@ -40,7 +40,7 @@ def test_an_openfasttrace_item_begins_where_a_line_begins_with_its_id(head: str,
 
 @pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="violation")
 def test_link_types_of_sphinx_needs_are_those_that_its_schema_names(trace: Callable, tmp_path: Path) -> None:
-    """Without default values a need has no empty list of links that lead back to it, which would tell the type."""
+    """Without default values a need has no empty list of back links, which would show the type."""
     fields = {"shows": {"field_type": "links"}, "shows_back": {"field_type": "backlinks"}, "tags": {"field_type": "core"}}
     needs = {"R_1": {"id": "R_1", "type": "req", "content": "It shall stop.", "tags": ["a"], "shows": ["R_9"]}}
     version = {"needs_defaults_removed": True, "needs_schema": {"properties": fields}, "needs": needs}

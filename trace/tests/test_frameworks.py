@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a tag is bound to the test below it, whatever the framework, under the name that its results have; never to the test above.
-# Method: each framework is run where it is installed; where it is not, and always, the results that it left once are read.
+# Goal: for each framework, a tag is bound to the test below it, under the name in its results; never to the test above.
+# Method: each framework is run if it is installed; in addition, its stored results are always read.
 from __future__ import annotations
 
 import shutil
@@ -36,7 +36,7 @@ def make_project(root: Path, framework: Framework) -> Sample:
 
 
 def demand_bound(sample: Sample, trace: Callable) -> None:
-    """The first tag has passed results only, the second one that failed, the third is dead."""
+    """The first tag has passed results only, the second a failed one, the third is in dead code."""
     content = trace("check", "--root", sample.root, "--output", "json").content
     statuses = {row["id"]: {one["status"] for one in row["results"]} for row in content["items"]}
     assert statuses["SWR-FW-001"] == {"passed"}, content["findings"]

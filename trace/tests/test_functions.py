@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: every function is known with its lines and owners, and one of a traced layer that no requirement owns is told.
+# Goal: every function is known with its lines and owners, and a function of a traced layer without an owner is reported.
 from __future__ import annotations
 
 from collections.abc import Callable

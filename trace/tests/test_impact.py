@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a change is followed from its lines to functions, requirements, hazards, tests, cases and reviews, on both sides of it.
-# Method: the sample project under git, changed in one way at a time.
+# Goal: a change is followed from its lines to functions, requirements, hazards, tests, cases and reviews, on both sides of the change.
+# Method: the sample project under git is changed in one way at a time.
 from __future__ import annotations
 
 import shutil

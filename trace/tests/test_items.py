@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: item blocks are read part by part with their lines; every departure from the format is told where it stands.
+# Goal: item blocks are read part by part with their lines; every deviation from the format is reported at its location.
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: kinds and links are a closed vocabulary; safety goals and architecture elements are levels that a project may use; techniques are
-# shown by what exists.
+# Goal: kinds and links are a closed vocabulary; safety goals and architecture elements are optional levels; evidence of techniques
+# must exist.
 from __future__ import annotations
 
 import shutil
@@ -26,7 +26,7 @@ KINDS = {"need", "hazard", "safety_goal", "requirement", "architecture", "assump
 
 @pytest.fixture
 def typed(sample: Sample) -> Sample:
-    """The clean project with the kinds of this one."""
+    """The clean project with the kinds of this project."""
     shutil.copy(ROOT / LINKS, sample.root / LINKS)
     return sample
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the page of the manual shows every action, and each line that it shows is one that the tool takes.
+# Goal: the manual page shows every action, and the tool accepts each command line in it.
 from __future__ import annotations
 
 import argparse

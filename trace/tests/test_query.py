@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a query selects what it says; a wrong one says where, and none can exhaust the machine.
+# Goal: a query selects the specified items; an error names its column; no query can exhaust the host.
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a test command is run once, its status is handed on, and only the results that it wrote are bound to what produced them.
+# Goal: a test command runs once, its status is returned, and only the results that it wrote are bound to their inputs.
 from __future__ import annotations
 
 import hashlib
@@ -42,7 +42,7 @@ def bare(tmp_path: Path) -> Path:
 
 @pytest.mark.verifies("SWR-TRC-103", technique="requirements_based", polarity="nominal")
 def test_results_of_a_command_are_bound_and_judged(sample: Sample, trace: Callable) -> None:
-    """A whole run of a project in git: the copied results stand for those of the command."""
+    """A complete run of a project in git: copied results replace those of the command."""
     junit = sample.evidence / "junit"
     for name in ("records.json", "environment.json"):
         (sample.evidence / name).unlink()
@@ -230,7 +230,7 @@ def test_git_still_answers(sample: Sample, trace: Callable) -> None:
 
 @pytest.mark.verifies("SWR-TRC-106", technique="error_guessing", polarity="violation")
 def test_the_marker_would_be_left(sample: Sample, tmp_path: Path) -> None:
-    """Plain git starts the program: the test above is able to fail."""
+    """Plain git starts the program, so the test above can fail."""
     start_history(sample.root)
     marker, program = tmp_path / "marker", tmp_path / "program"
     program.write_text(f"#!/bin/sh\ntouch {marker}\n")

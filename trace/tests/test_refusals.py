@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: what the system refuses is told in one line with its remedy, never passes for an absence, and leaves every file as it was.
-# Method: links, names and places that cannot be used; folders whose listing is refused, which a user who may do everything cannot make.
+# Goal: an error of the operating system is reported in one line with its remedy, never counts as an absence, and leaves every file unchanged.
+# Method: unusable links, names and paths; folders that cannot be listed, simulated because the superuser can list every folder.
 from __future__ import annotations
 
 import errno
@@ -28,7 +28,7 @@ def _move_behind_link(path: Path, target: Path) -> None:
 
 
 def _refuse_listing(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
-    """As for a user without rights to `folder`."""
+    """Acts as a user without permission for `folder`."""
     for name in ("scandir", "listdir"):
         real = getattr(os, name)
 

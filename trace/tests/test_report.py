@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: one offline file that leads from hazard to result and back, draws each case, and is the same for the same inputs.
+# Goal: one offline file leads from hazard to result and back, draws each case, and is equal for equal inputs.
 from __future__ import annotations
 
 import json
@@ -22,7 +22,7 @@ SIZE_BYTES_MAX = 5_000_000
 
 
 class Page(HTMLParser):
-    """Ids, links and anything that would be fetched."""
+    """Ids, links and all addresses that a browser would fetch."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -128,7 +128,7 @@ def test_a_fault_inside_the_run_is_drawn_again_with_the_100_ms_around_it(fault_s
     drawings = draw_case(series, Marks(fault_s, None, None, [1.0] * 7, 2), "p", "a case")
 
     assert [drawing.caption for drawing in drawings] == captions
-    # One time base: the axis of each drawing has the same words, and the ticks of the near one lie inside its 100 ms.
+    # One time base: the axes of both drawings have the same label, and the ticks of the near one are inside its 100 ms.
     assert all("time since the start of the run [s]" in drawing.svg for drawing in drawings)
     for drawing in drawings[1:]:
         assert fault_s is not None

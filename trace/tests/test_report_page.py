@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the data of the page is complete, safe and small; without a script everything is there as plain rows; git tells the history.
+# Goal: the data of the page is complete, safe and small; without a script all rows are plain HTML; git supplies the history.
 from __future__ import annotations
 
 import base64
@@ -93,7 +93,7 @@ def test_one_failure_among_thousands_is_seen_in_the_bar_of_the_v(tmp_path: Path,
 
 
 def list_answers(text: str) -> dict[str, tuple[str, str]]:
-    """Question -> (colour, all of its words)."""
+    """Question -> (colour, words of the answer)."""
     blocks = re.findall(r'<div class="answer ([\w-]+)">\s*<h2>(.*?)</h2>(.*?)</ul>', text, re.DOTALL)
     return {question: (css, " ".join(re.sub(r"<[^>]+>", " ", body).split())) for css, question, body in blocks}
 

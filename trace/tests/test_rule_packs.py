@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the SIL of an item decides how severe a finding is; a pack that cannot be understood is told in one line.
+# Goal: the SIL of an item determines the severity of a finding; an invalid pack is reported in one line.
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each fault, seeded alone into a clean project, is named with its id, file and line, and no other rule speaks up.
-# Method: the faults stand in seeds/, by what is broken.
+# Goal: each fault, seeded alone into a clean project, is reported with its id, file and line, and no other rule reports anything.
+# Method: the faults are in seeds/, sorted by the affected part.
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the SARIF output has every part that the format demands and that forges use, and nothing of the machine it was made on.
-# Method: a structural check by hand of what SARIF 2.1.0 requires of these objects (sections 3.13 to 3.58).
+# Goal: the SARIF output has every part that the format requires and that forges use, and nothing about the host that created it.
+# Method: a handwritten structural check of the rules of SARIF 2.1.0 for these objects (sections 3.13 to 3.58).
 from __future__ import annotations
 
 import json
@@ -27,7 +27,7 @@ def get_run(trace: Callable, sample: Sample, *more: str) -> dict[str, Any]:
 
 
 def check_log(log: dict[str, Any]) -> None:
-    """What the format demands of a log with one run."""
+    """The rules of the format for a log with one run."""
     assert log["version"] == "2.1.0" and log["$schema"].endswith("sarif-schema-2.1.0.json")
     assert set(log) == {"$schema", "version", "runs"} and len(log["runs"]) == 1
     run = log["runs"][0]

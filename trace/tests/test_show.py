@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: one item is shown with all that lies above and below it, and with what the history knows of it.
+# Goal: one item is shown with all items above and below it, and with its history.
 from __future__ import annotations
 
 from collections.abc import Callable

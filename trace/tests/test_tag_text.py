@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: tags in the words of other tools name the same ids in the same role, and what only looks like a tag names none.
+# Goal: tags in the notation of other tools name the same ids in the same role, and similar texts name none.
 from __future__ import annotations
 
 from pathlib import Path

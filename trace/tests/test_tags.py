@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a tag is bound to what it documents, and texts that only look like tags are none; tests are found with their suite.
+# Goal: a tag is bound to the code that it documents; texts that resemble tags are ignored; tests are found with their suite.
 from __future__ import annotations
 
 from pathlib import Path

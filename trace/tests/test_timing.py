@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the page shows what was measured by the clock with every mark, and a broken record or picture costs nothing but itself.
+# Goal: the page shows real-time measurements with every mark, and an invalid record or picture does not affect the rest.
 from __future__ import annotations
 
 import base64
@@ -23,7 +23,7 @@ SVG = b'<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg"><script>a
 
 @pytest.fixture
 def folder(sample: Sample) -> Path:
-    """The place of one measurement."""
+    """The location of one measurement."""
     path = sample.evidence / "timing" / "safe_arm"
     path.mkdir(parents=True)
     return path
@@ -31,7 +31,7 @@ def folder(sample: Sample) -> Path:
 
 @pytest.fixture
 def report(sample: Sample, trace: Callable, folder: Path) -> Callable[..., tuple[str, Any]]:
-    """Stores a record or a text, writes the report. Gives the section "Timing" and the outcome."""
+    """Stores a record or a text and writes the report. Returns the section "Timing" and the outcome."""
 
     def run(record: object = TIMING) -> tuple[str, Any]:
         (folder / "timing.json").write_text(record if isinstance(record, str) else json.dumps(record), encoding="utf-8")
@@ -110,7 +110,7 @@ def test_markup_in_names_is_shown_and_not_run(report: Callable) -> None:
 
     section, outcome = report(text)
 
-    assert outcome.rules == {"unreadable-input"}  # the outcome 'missed' is a name that the reader needs
+    assert outcome.rules == {"unreadable-input"}  # the reader needs the name of the outcome 'missed'
     text = text.replace(json.dumps(bad)[1:-1] + 'missed"', 'missed"')
     section, outcome = report(text)
     assert outcome.status == 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a waiver takes one stated finding out of the count, says so, and ends on its day; a broken one waives nothing.
+# Goal: a waiver removes one stated finding from the count, is listed, and ends on its day; an invalid one waives nothing.
 from __future__ import annotations
 
 from collections.abc import Callable

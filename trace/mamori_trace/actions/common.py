@@ -67,7 +67,7 @@ def read_input(arguments: argparse.Namespace) -> Project:
 
 
 def warn_of_gap(root: Path) -> None:
-    """Tells on standard error what the choice of a new id could not look at."""
+    """Reports on standard error which sources the choice of a new id could not read."""
     from mamori_trace.readers.history import describe_gap  # runs git, which most actions do not
 
     gap = describe_gap(root)
@@ -85,7 +85,7 @@ def find_item(project: Project, name: str) -> Item:
 
 
 def demand_readable(project: Project) -> None:
-    """Raises InputError where a file of it could not be read: ids and areas may stand in that file."""
+    """Raises InputError if a file of the project could not be read, because that file may contain ids and areas."""
     for problem in project.problems:
         if problem.rule == unreadable_input.RULE.id:
             raise InputError(f"{problem.place}: {problem.message}")
@@ -113,7 +113,7 @@ def _parse_date(text: str) -> str:
 
 
 def get_status(findings: list[Finding]) -> int:
-    """Exit status that the findings ask for."""
+    """Exit status that the findings require."""
     if any(finding.rule == unreadable_input.RULE.id for finding in findings):
         return EXIT_INPUT
     return EXIT_FINDINGS if any(finding.severity == ERROR for finding in findings) else EXIT_CLEAN

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def add_foreign(parser: argparse.ArgumentParser) -> None:
-    """What to read in place."""
+    """The external project to read."""
     words = parser.add_argument_group("a project kept in the format of another tool")
     words.add_argument("--format", nargs=2, metavar=("FORMAT", "PATH"), help=f"FORMAT is {', '.join(FORMATS)}; PATH a file or folder")
     words.add_argument("--results", nargs="+", action="extend", type=Path, metavar="FILE", help="JUnit files, or folders of them")
@@ -27,7 +27,7 @@ def add_foreign(parser: argparse.ArgumentParser) -> None:
 
 
 def get_foreign(arguments: argparse.Namespace) -> ForeignInput | None:
-    """What was chosen, or None for a project of Mamori's own format. Raises InputError."""
+    """The chosen external project, or None for a project in Mamori's own format. Raises InputError."""
     if not arguments.format:
         for name in ("results", "sources", "schema"):
             if getattr(arguments, name):
@@ -45,6 +45,6 @@ def get_foreign(arguments: argparse.Namespace) -> ForeignInput | None:
 
 
 def check_format(name: str) -> None:
-    """Raises InputError for a word that names no format."""
+    """Raises InputError for an unknown format name."""
     if name not in FORMATS:
         raise InputError(f"--format {name}: unknown; known are {', '.join(FORMATS)}")

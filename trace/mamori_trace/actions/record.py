@@ -72,13 +72,13 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _run(command: list[str]) -> int:
-    """@return the status as a shell has it."""
+    """@return the exit status as a shell reports it."""
     sys.stdout.flush()
     try:
         with subprocess.Popen(command) as child:
             try:
                 status = child.wait()
-            except KeyboardInterrupt:  # the terminal has told the child, too
+            except KeyboardInterrupt:  # the terminal has also sent the signal to the child
                 child.terminate()
                 child.wait()
                 return _EXIT_INTERRUPTED
@@ -88,7 +88,7 @@ def _run(command: list[str]) -> int:
 
 
 def _record(folder: Path, made: list[Path], inputs: dict[str, str], programs: list[Path], folders: list[str]) -> None:
-    """Adds the rows of the new files; rows of files that are gone are dropped, the others stay."""
+    """Adds the rows of the new files, drops the rows of removed files and keeps the others."""
     base = folder.resolve()
     outside = [path for path in made if not path.resolve().is_relative_to(base)]
     if outside:
@@ -107,7 +107,7 @@ def _record(folder: Path, made: list[Path], inputs: dict[str, str], programs: li
 
 
 def _collect_inputs(root: Path, folders: list[str], program: str, command: list[str]) -> dict[str, str]:
-    """Raises InputError where nothing tells the sources."""
+    """Raises InputError if the sources cannot be determined."""
     sources = calc_sources_of(root, folders) if folders else calc_sources(root, read_code_schema(root).no_evidence)
     if not sources:
         raise InputError(f"record: {root}: no git repository tells the sources; name their folders with --source")
@@ -116,7 +116,7 @@ def _collect_inputs(root: Path, folders: list[str], program: str, command: list[
 
 
 def _name_folders(root: Path, given: list[Path]) -> list[str]:
-    """Folders as seen from the root. Raises InputError for one that is not there or lies outside."""
+    """Folders relative to the root. Raises InputError for a folder that is missing or outside the root."""
     names = []
     for path in given:
         if not path.exists():
@@ -140,12 +140,12 @@ def _find(patterns: list[str]) -> list[Path]:
 
 
 def _find_folder(made: list[Path]) -> Path:
-    """The folder that holds all results; the one above where that is called `junit`."""
+    """The folder that contains all results; its parent if it is named `junit`."""
     folder = Path(os.path.commonpath([path.parent.resolve() for path in made]))
     return folder.parent if folder.name == _JUNIT else folder
 
 
 def _get_stamp(path: Path) -> Stamp:
-    """What changes when a file is written or replaced."""
+    """Values that change when a file is written or replaced."""
     status = path.stat()
     return status.st_ino, status.st_size, status.st_mtime_ns

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes `records.json`: the hash of each evidence file and of what it was made from (docs/design/trace.md#evidence-files).
+"""Writes `records.json`: the hash of each evidence file and of its inputs (docs/design/trace.md#evidence-files).
 
 @satisfies SWR-TRC-036, SWR-TRC-103      Design: docs/design/trace.md#records
 """
@@ -24,8 +24,8 @@ def hash_text(text: str) -> str:
 
 
 def read_rows(folder: Path) -> Rows:
-    """Rows of the records of an evidence folder; none where there is no whole file."""
-    if not (folder / NAME).is_file():  # a pipe would never end
+    """Rows of the records of an evidence folder; empty if there is no complete file."""
+    if not (folder / NAME).is_file():  # reading a pipe would never end
         return {}
     try:
         rows = json.loads((folder / NAME).read_text(encoding="utf-8"))["files"]
@@ -35,7 +35,7 @@ def read_rows(folder: Path) -> Rows:
 
 
 def make_rows(folder: Path, files: Iterable[Path], inputs: dict[str, str], find_program: Callable[[Path], Path | None]) -> Rows:
-    """One row for each file. `find_program` names the program that wrote a file, where it is known. Raises OSError."""
+    """One row for each file. `find_program` returns the program that wrote a file, if known. Raises OSError."""
     rows: Rows = {}
     for path in files:
         program = find_program(path)
@@ -45,7 +45,7 @@ def make_rows(folder: Path, files: Iterable[Path], inputs: dict[str, str], find_
 
 
 def write_rows(folder: Path, rows: Rows, source_folders: Sequence[str] = ()) -> None:
-    """Writes the file, whole or not at all. Raises InputError."""
+    """Writes the file atomically. Raises InputError."""
     content: dict[str, Any] = {"schema": SCHEMA, "files": {name: rows[name] for name in sorted(rows)}}
     if source_folders:
         content[FOLDERS] = list(source_folders)

@@ -60,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _read(arguments: argparse.Namespace) -> tuple[Project, Path | None]:
-    """The project, and where its record is kept if not at the usual place."""
+    """The project, and the path of its review lock if it is not the default."""
     if not arguments.format:
         return read_requirements(arguments.root), None
     name, path = arguments.format
@@ -80,16 +80,16 @@ def list_gone(project: Project) -> dict[str, str]:
 
 
 def give_up_ids(project: Project, gone: dict[str, str], date: str) -> None:
-    """Enters ids into the ledger. One that is in it already, and was taken again, keeps its first entry."""
+    """Enters retired ids into the ledger. An id that is already in it keeps its first entry."""
     for name, fingerprint in gone.items():
         former = FormerId(name, fingerprint, date, read_title(project.root, name), Place(IDS_PATH, 1))
         project.former_ids.setdefault(name, former)
 
 
 def review_links(project: Project, chosen: set[str], date: str, reviewer: str) -> int:
-    """Records a look at each suspect link with an end in `chosen`; forgets links that are no more.
+    """Records a review of each suspect link with an end in `chosen`; removes links that no longer exist.
 
-    A link that is as it was keeps its date and its reviewer. @return how many were recorded.
+    An unchanged link keeps its date and its reviewer. @return number of recorded links.
     """
     lock = project.lock = project.lock or ReviewLock()
     live = {

@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _describe(signed: bool, opinion: Opinion) -> str:
-    """What a reader may conclude from the signature."""
+    """What the signature shows."""
     if not signed:
         return "not signed"
     if opinion.fault:

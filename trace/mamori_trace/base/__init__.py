@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files, errors and processes: what every host tool of Mamori uses. Imports no other package of ours."""
+"""Files, errors and processes for all host tools of Mamori. Imports no other package of the project."""

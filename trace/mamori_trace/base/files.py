@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """File access shared by the readers: paths as findings show them, text that may be badly encoded, the source tree.
 
-What cannot be opened or listed is a problem and never an absence: a folder without rights would otherwise pass for an empty one.
+A path that cannot be opened or listed is a problem, not an absence: otherwise an unreadable folder would count as empty.
 
 @satisfies SWR-TRC-009      Design: docs/design/trace.md#input-errors
 """
@@ -21,9 +21,9 @@ _SKIPPED_FOLDERS = {"build", "report", "requirements", "docs", "node_modules", "
 
 
 def get_shown_path(path: Path, root: Path) -> str:
-    """`path` relative to the project root, or whole where it lies outside."""
+    """`path` relative to the project root; the full path if it is outside."""
     try:
-        lost = path.is_symlink() and not path.exists()  # the link can be mended, not what it leads to
+        lost = path.is_symlink() and not path.exists()  # the user can correct the link, not its target
         whole = path.parent.resolve() / path.name if lost else path.resolve()
         return whole.relative_to(root.resolve()).as_posix()
     except (OSError, RuntimeError):  # a loop of links, or a name that is too long
@@ -33,9 +33,9 @@ def get_shown_path(path: Path, root: Path) -> str:
 
 
 def read_text(path: Path, shown: str, problems: list[Problem]) -> str:
-    """Text of a UTF-8 file. Wrong bytes and an unreadable file become problems; wrong bytes are read as U+FFFD."""
+    """Text of a UTF-8 file. Invalid bytes and an unreadable file become problems; invalid bytes are read as U+FFFD."""
     try:
-        if not path.is_file() and path.exists():  # a pipe would never end
+        if not path.is_file() and path.exists():  # reading a pipe would never end
             raise OSError("it is no file; put one in its place")
         data = path.read_bytes()
     except OSError as error:
@@ -52,19 +52,19 @@ def read_text(path: Path, shown: str, problems: list[Problem]) -> str:
 
 
 def note_unreadable(error: OSError, shown: str, problems: list[Problem]) -> None:
-    """One problem for a file or folder, however often it is asked for."""
+    """One problem for a file or folder, however often it is read."""
     problem = Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {explain(error)}")
     if problem not in problems:
         problems.append(problem)
 
 
 def walk_folders(top: Path, root: Path, problems: list[Problem]) -> Iterator[tuple[str, list[str], list[str]]]:
-    """As os.walk, links to folders not followed; a folder that cannot be listed is a problem."""
+    """Like os.walk without following links to folders; a folder that cannot be listed is a problem."""
     return os.walk(top, onerror=lambda error: note_unreadable(error, get_shown_path(Path(error.filename), root), problems))
 
 
 def walk_whole(top: Path) -> Iterator[tuple[str, list[str], list[str]]]:
-    """The same where a part is worth nothing: raises OSError for a folder that cannot be listed."""
+    """Like `walk_folders` for callers that need the complete tree: raises OSError for a folder that cannot be listed."""
     return os.walk(top, onerror=_raise)
 
 
@@ -73,7 +73,7 @@ def _raise(error: OSError) -> None:
 
 
 def list_paths(folder: Path, pattern: str, root: Path, problems: list[Problem]) -> list[Path]:
-    """As Path.glob, in order, for names and stars between slashes. What is absent has no paths; what cannot be listed is a problem."""
+    """Like Path.glob, sorted, for names and stars between slashes. A missing folder has no paths; one that cannot be listed is a problem."""
     found = [folder]
     for part in pattern.split("/"):
         found = [each / name for each in found for name in _list_names(each, root, problems) if fnmatch.fnmatchcase(name, part)]
@@ -91,9 +91,9 @@ def _list_names(folder: Path, root: Path, problems: list[Problem]) -> list[str]:
 
 
 def walk_sources(root: Path, suffixes: tuple[str, ...], problems: list[Problem]) -> Iterator[tuple[Path, str]]:
-    """Source files below `root` with one of `suffixes`, and their shown paths, in order of their paths.
+    """Source files below `root` with one of `suffixes`, and their displayed paths, sorted by path.
 
-    Hidden folders, build trees, requirements, documents and reports are left out.
+    Excludes hidden folders, build trees, requirements, documents and reports.
     """
     for folder, folders, files in walk_folders(root, root, problems):
         kept = (name for name in folders if name not in _SKIPPED_FOLDERS and not name.startswith((".", "build")))
@@ -106,7 +106,7 @@ def walk_sources(root: Path, suffixes: tuple[str, ...], problems: list[Problem])
 
 
 def is_test_file(shown: str) -> bool:
-    """Whether a source file holds tests: it lies in a folder of tests or is named like a test."""
+    """Whether a source file contains tests: it is in a folder of tests or is named like a test."""
     *folders, name = shown.split("/")
     if "tests" in folders or "test" in folders or name.startswith("test_"):
         return True

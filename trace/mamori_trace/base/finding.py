@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Findings: what is wrong, where, how badly, and by which rule."""
+"""Findings: rule, severity, location and text of each violation."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ OFF = "off"
 
 
 class Place(NamedTuple):
-    """A line of a file. `file` is relative to the project root where it lies inside; `line` counts from 1.
+    """A line of a file. `file` is relative to the project root if it is inside; `line` counts from 1.
 
-    A tuple, like all that a large project has ten thousands of: made in half of the time that a frozen class takes, and compared in less.
+    A tuple, because a large project has tens of thousands: creation takes half the time of a frozen class, and comparison takes less.
     """
 
     file: str
@@ -26,7 +26,7 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """Something a reader stumbled over. `rule` names the rule under which it is reported."""
+    """A problem that a reader found. `rule` names the rule that reports it."""
 
     rule: str
     place: Place
@@ -36,10 +36,10 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A rule: `id` never changes its meaning; `about` says in one sentence what it demands.
+    """A rule: `id` never changes its meaning; `about` states its requirement in one sentence.
 
-    `severity` holds where no rule pack says another; OFF is a rule that only speaks where a pack demands it. `release` replaces the
-    severity of what is judged for a release.
+    `severity` applies unless a rule pack specifies another. A rule with severity OFF reports only if a rule pack requires it. `release`
+    replaces the severity in the check of a release.
     """
 
     id: str
@@ -50,7 +50,7 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One violation of one rule at one place; `item` is the id it is about, or empty."""
+    """One violation of one rule at one location; `item` is the id of the affected item, or empty."""
 
     rule: str
     severity: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The one place that calls git to read. The configuration of a repository that is judged starts no program.
+"""The only module that calls git for reading. The configuration of a checked repository starts no program.
 
 @satisfies SWR-TRC-106      Design: docs/design/trace.md#record
 """
@@ -28,12 +28,12 @@ _FILES_MAX = 32
 
 
 def get_git_environment() -> dict[str, str]:
-    """git then takes no lock beside a user who works in the same repository, speaks English, fetches nothing, and asks nothing."""
+    """With this environment, git takes no lock, prints English, fetches nothing and never prompts."""
     return {**os.environ, "GIT_OPTIONAL_LOCKS": "0", "LC_ALL": "C", "GIT_NO_LAZY_FETCH": "1", "GIT_TERMINAL_PROMPT": "0"}
 
 
 def make_git_command(root: Path | str, arguments: Sequence[str]) -> list[str]:
-    """The whole command line."""
+    """The complete command line."""
     harmless = [word for setting in (*_HARMLESS, *_list_filters(root)) for word in ("-c", setting)]
     words = list(arguments)
     index = _find_command(words)
@@ -43,7 +43,7 @@ def make_git_command(root: Path | str, arguments: Sequence[str]) -> list[str]:
 
 
 def run_git(root: Path | str, arguments: Sequence[str], timeout_s: float = TIMEOUT_S) -> bytes | None:
-    """What git prints; nothing where it is not there, fails, or takes longer than `timeout_s`."""
+    """The output of git; empty if git is missing, fails, or takes longer than `timeout_s`."""
     return _run(make_git_command(root, arguments), timeout_s)
 
 
@@ -56,7 +56,7 @@ def _run(command: list[str], timeout_s: float) -> bytes | None:
 
 
 def _find_command(words: list[str]) -> int:
-    """Place of git's own command, behind `-c SETTING`."""
+    """Index of git's own command, after `-c SETTING`."""
     index = 0
     while index < len(words) and words[index] == "-c":
         index += 2
@@ -64,7 +64,7 @@ def _find_command(words: list[str]) -> int:
 
 
 def _list_filters(root: Path | str) -> list[str]:
-    """Settings that switch off each content filter that the repository's configuration names. git has no word for all of them."""
+    """Settings that disable each content filter of the repository configuration. git has no option that disables all of them."""
     pending = _find_configurations(Path(root))
     names: set[str] = set()
     for _ in range(_FILES_MAX):
@@ -84,7 +84,7 @@ def _list_filters(root: Path | str) -> list[str]:
 
 
 def _find_configurations(root: Path) -> list[Path]:
-    """The configuration files of the repository around `root`, also of a linked worktree."""
+    """The configuration files of the repository that contains `root`, also for a linked worktree."""
     top = root.resolve()
     for folder in (top, *top.parents):
         git = folder / ".git"

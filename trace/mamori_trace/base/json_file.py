@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads one evidence file of JSON with a schema word (docs/design/trace.md#evidence-files), and checks what stands in it.
+"""Reads one JSON evidence file with a schema key (docs/design/trace.md#evidence-files), and checks its content.
 
 @satisfies SWR-TRC-009, SWR-TRC-016      Design: docs/design/trace.md#evidence-files
 """
@@ -29,13 +29,13 @@ class Maybe:
 
 @dataclass(frozen=True, slots=True)
 class Each:
-    """A table with any keys, whose values are all of `shape`."""
+    """A table with any keys, all of whose values have `shape`."""
 
     shape: Any
 
 
 def read_json(path: Path, schema: str, root: Path, problems: list[Problem]) -> tuple[dict[str, Any], str] | None:
-    """Content and text. @return None where the file gives nothing, which is a problem then."""
+    """Content and text. @return None if the file has no usable content; a problem then reports it."""
     shown = get_shown_path(path, root)
     text = read_text(path, shown, problems)
     if not text and any(problem.place.file == shown for problem in problems):
@@ -48,7 +48,7 @@ def read_json(path: Path, schema: str, root: Path, problems: list[Problem]) -> t
     except RecursionError:
         problems.append(Problem(UNREADABLE, Place(shown, 1), "is nested too deeply to be evidence; make it again"))
         return None
-    except ValueError:  # a number of thousands of digits
+    except ValueError:  # an integer of thousands of digits
         problems.append(Problem(UNREADABLE, Place(shown, 1), "holds a number that is too long to be evidence; make it again"))
         return None
     if not isinstance(content, dict) or content.get("schema") != schema:
@@ -61,7 +61,7 @@ def read_json(path: Path, schema: str, root: Path, problems: list[Problem]) -> t
 def read_records(
     files: Iterable[Path], schema: str, shape: object, remedy: str, root: Path, problems: list[Problem]
 ) -> Iterator[tuple[Path, dict[str, Any], Place]]:
-    """Each file that keeps to its contract, with its content and place; one that does not is a problem. @param remedy what mends it."""
+    """Each valid file with its content and location; an invalid file becomes a problem. @param remedy the correction to report."""
     for path in files:
         table = read_json(path, schema, root, problems)
         if table is None:
@@ -75,10 +75,10 @@ def read_records(
 
 
 def find_misfit(value: Any, shape: Any, name: str) -> str:
-    """What does not fit, in words with its place in the file (`windows[2].budget_ns is no whole number`); nothing when all fits.
+    """Describes the first mismatch with its location in the file (`windows[2].budget_ns is no whole number`); empty if all values match.
 
-    `shape`: `int`, `float` (any finite number), `str`, `bool`; `[shape]`: a list of such; a table from keys to shapes: these keys
-    at least; `Maybe`, `Each`. It is as deep as the shape, whatever `value` is.
+    `shape`: `int`, `float` (any finite number), `str`, `bool`; `[shape]`: a list of such values; a table from keys to shapes: the
+    required keys; `Maybe`, `Each`. The recursion depth is that of the shape, for any `value`.
     """
     if isinstance(shape, Maybe):
         return "" if value is None else find_misfit(value, shape.shape, name)
@@ -114,7 +114,7 @@ def _is_whole(value: object) -> bool:
 
 
 def _is_text(value: object) -> bool:
-    """Half of a surrogate pair cannot be written into any file."""
+    """Half of a surrogate pair cannot be encoded."""
     return isinstance(value, str) and not any("\ud800" <= letter <= "\udfff" for letter in value)
 
 

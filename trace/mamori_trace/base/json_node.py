@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One value of a JSON document that says where it stands when it is not what was expected.
+"""One value of a JSON document; its errors name its location in the document.
 
 @satisfies SWR-TAB-008      Design: docs/design/cost.md#schema
 """
@@ -15,7 +15,7 @@ HOW_TO_MEND = "write it again with mamori::table_dump"
 
 
 class JsonNode:
-    """One JSON value with its place, which every complaint names."""
+    """One JSON value with its location, which every error message names."""
 
     def __init__(self, path: Path, place: str, value: object, mend: str = HOW_TO_MEND) -> None:
         self._path = path
@@ -84,7 +84,7 @@ class JsonNode:
             raise self.complain("is greater than any number of 64 bits") from error
 
     def number_or_none(self) -> float | int | None:
-        """A whole number keeps all its digits."""
+        """An integer keeps all its digits."""
         is_whole = isinstance(self._value, int) and not isinstance(self._value, bool)
         return self.whole() if is_whole else self.real_or_none()
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""YAML in which every value knows its line, so that a wrong one can be shown.
+"""YAML in which every value has its line, so that messages can name the location of an invalid value.
 
-Only text, lists and mappings are built, from parser events: no tag constructs an object. An alias may stand for one
-scalar, as model files use it for a source; aliases of lists and mappings are refused, so a small file cannot grow
-without bound.
+Only text, lists and mappings are built, from parser events: no tag constructs an object. An alias may replace one
+scalar, as model files use it for a source. Aliases of lists and mappings are rejected, so that a small file cannot
+grow without limit.
 """
 
 from __future__ import annotations
@@ -54,14 +54,14 @@ def parse_events(source: SourceText) -> Iterator[yaml.Event]:
 
 
 def line_of(event: yaml.Event) -> int:
-    """Line of the event's beginning, counted from 1."""
-    assert event.start_mark is not None  # the parser gives each event its place
+    """Line of the beginning of the event, counted from 1."""
+    assert event.start_mark is not None  # the parser gives each event its location
     return event.start_mark.line + 1
 
 
 @dataclass(frozen=True)
 class Node:
-    """One YAML value with its place. `value` is text, a list of nodes, or a mapping from text to nodes."""
+    """One YAML value with its location. `value` is text, a list of nodes, or a mapping from text to nodes."""
 
     path: Path
     line: int
@@ -71,14 +71,14 @@ class Node:
     key_lines: dict[str, int] = field(default_factory=dict)
 
     def error(self, text: str) -> InputError:
-        """An error at this value, naming it."""
+        """An error that names the location of this value."""
         return InputError(f"{self.name}: {text}", self.path, self.line)
 
     def is_null(self) -> bool:
         return self.plain and isinstance(self.value, str) and self.value in _NULL
 
     def as_mapping(self, allowed: frozenset[str] | None = None) -> dict[str, Node]:
-        """The entries. Raises InputError where this is no mapping or holds a key that is not in `allowed`."""
+        """The entries. Raises InputError if this is not a mapping or has a key that is not in `allowed`."""
         if not isinstance(self.value, dict):
             raise self.error("write a mapping (key: value) here")
         if allowed is None:
@@ -124,7 +124,7 @@ class Node:
         return text in _TRUE
 
     def get(self, key: str) -> Node:
-        """The entry `key`. Raises InputError where it is missing."""
+        """The entry `key`. Raises InputError if it is missing."""
         entries = self.as_mapping()
         if key not in entries:
             raise self.error(f"'{key}' is missing; add it")
@@ -135,15 +135,15 @@ def load(path: Path | str, what: str) -> Node:
     """Reads a small YAML file; `what` names its kind in messages. Raises InputError; see `parse_events`, `read_text`."""
     source = read_text(path, what, MAX_BYTES)
     events = parse_events(source)
-    next(events)  # the document's start
+    next(events)  # the start of the document
     root = _Builder(events, source.path).build(next(events), what, 0)
-    for _ in events:  # a second document is found here
+    for _ in events:  # detects a second document
         pass
     return root
 
 
 class _Builder:
-    """Makes nodes from events; knows the scalars that carry an anchor."""
+    """Creates nodes from events and stores the scalars with an anchor."""
 
     def __init__(self, events: Iterator[yaml.Event], path: Path) -> None:
         self._events = events
@@ -183,5 +183,5 @@ class _Builder:
 
 
 def _offset(text: str, mark: yaml.Mark) -> int:
-    """Place of `mark` in `text`. The C parser counts its index in characters, the one in Python likewise."""
+    """Location of `mark` in `text`. The C parser and the Python parser count the index in characters."""
     return min(mark.index, len(text))

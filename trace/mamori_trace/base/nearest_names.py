@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The one error for bad input: which file, which line, what is wrong and how to mend it, in one line of text."""
+"""Suggests the nearest known names for an unknown name in an error message."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from collections.abc import Iterable
 
 
 def nearest_names(wrong: str, known: Iterable[str], hint: str | None = None) -> str:
-    """A closing sentence for an unknown name: the names most like it. Where none is alike, `hint`, which says how to see
-    names that are too many for one line, or else all known names."""
+    """A closing sentence for an unknown name: the most similar known names. If none is similar, `hint`, which states how to
+    list names that are too many for one line, or else all known names."""
     names = list(known)
     alike = difflib.get_close_matches(wrong, names, n=3, cutoff=0.5)
     if alike:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """One writing command at a time in a project folder: an exclusive `flock` on `build/mamori.lock`, which names its holder.
 
-The kernel releases the lock when its holder ends, in whatever way. A file that is left behind is therefore no lock.
-Child processes do not inherit the descriptor. They inherit the key of the lock in the environment and pass.
+The kernel releases the lock when its holder ends for any reason. A remaining file is therefore not a lock.
+Child processes do not inherit the descriptor. They inherit the key of the lock in the environment, which admits them.
 
 @satisfies SWR-CLI-040, SWR-CLI-041      Design: docs/design/launcher.md#lock
 """
@@ -31,9 +31,9 @@ _READ_PAUSE_S = 0.02
 
 @contextlib.contextmanager
 def hold_lock(folder: Path, command: str) -> Iterator[None]:
-    """Holds the lock of `folder` for `command`; does nothing where a caller of this process holds it.
+    """Holds the lock of `folder` for `command`; does nothing if a caller of this process holds it.
 
-    Raises MissingError at once when another command holds it, OSError when the file cannot be made.
+    Raises MissingError immediately when another command holds it, OSError when the file cannot be created.
     """
     path = folder.resolve() / LOCK
     is_made = not path.parent.exists()
@@ -54,20 +54,20 @@ def hold_lock(folder: Path, command: str) -> Iterator[None]:
         else:
             os.environ[KEYS] = keys
         with contextlib.suppress(OSError):
-            path.unlink()  # while it is held: who opened it meanwhile sees that the name is gone, and opens it again
+            path.unlink()  # while it is held: a process that opened it meanwhile detects the removed name and opens it again
             if is_made:
                 path.parent.rmdir()
         os.close(descriptor)
 
 
 def _acquire(path: Path) -> int | None:
-    """A descriptor that holds the lock; None where a caller of this process holds it. Raises MissingError and OSError."""
+    """A descriptor that holds the lock; None if a caller of this process holds it. Raises MissingError and OSError."""
     tries = 0
     while True:
         try:
             path.parent.mkdir(exist_ok=True)
             descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
-        except (FileExistsError, FileNotFoundError):  # between two steps the previous holder removed the folder that it had made
+        except (FileExistsError, FileNotFoundError):  # the previous holder removed its folder between two steps
             if not path.parents[1].is_dir() or _is_in_the_way(path.parent):
                 raise
             continue
@@ -83,14 +83,14 @@ def _acquire(path: Path) -> int | None:
             tries += 1
             if _is_running(holder) or tries >= _READ_TRIES:
                 raise MissingError(_describe(holder, path)) from None
-            time.sleep(_READ_PAUSE_S)  # its holder has not written its name yet
+            time.sleep(_READ_PAUSE_S)  # the holder has not written its name yet
         finally:
             if descriptor >= 0:
                 os.close(descriptor)
 
 
 def _is_in_the_way(folder: Path) -> bool:
-    """True where something else than a folder, or a link to one, has its name."""
+    """True if the name belongs to something other than a folder or a link to a folder."""
     try:
         mode = folder.lstat().st_mode
     except FileNotFoundError:
@@ -99,7 +99,7 @@ def _is_in_the_way(folder: Path) -> bool:
 
 
 def _is_same_file(descriptor: int, path: Path) -> bool:
-    """False where the previous holder removed the file between our opening and our lock."""
+    """False if the previous holder removed the file between opening and locking."""
     try:
         named = path.stat()
     except FileNotFoundError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Signs and verifies by `ssh-keygen -Y`: keys that engineers have already, and no cryptography of our own.
+"""Signs and verifies by `ssh-keygen -Y`: engineers already have such keys, and the project needs no cryptography of its own.
 
 @satisfies SWR-TRC-077      Design: docs/design/trace.md#signature
 """
@@ -21,14 +21,14 @@ _SIGNER_WORDS_MIN = 3
 
 @dataclass(frozen=True, slots=True)
 class Opinion:
-    """What is known of a signature. `signer` is empty where it is not known; `fault` says what is wrong."""
+    """Result of verifying a signature. `signer` is empty if unknown; `fault` states what is wrong."""
 
     signer: str = ""
     fault: str = ""
 
 
 def demand_key(key: Path) -> None:
-    """Raises InputError when nobody could sign with `key`, before any work is done."""
+    """Raises InputError if signing with `key` is impossible, before any work is done."""
     _demand_tool()
     if not key.is_file():
         raise InputError(f"{key}: no such key; make one with `ssh-keygen -t ed25519 -f FILE`")
@@ -43,7 +43,7 @@ def sign(data: bytes, key: Path) -> bytes:
 
 
 def check_signature(data: bytes, signature: bytes, signers: Path | None) -> Opinion:
-    """Whether `signature` belongs to `data`, and to whom of the file `signers`, when that is given. Raises InputError."""
+    """Checks whether `signature` belongs to `data` and, if the file `signers` is given, to which signer. Raises InputError."""
     _demand_tool()
     if signers is not None:
         _check_signers(signers)
@@ -66,7 +66,7 @@ def check_signature(data: bytes, signature: bytes, signers: Path | None) -> Opin
 
 
 def _check_signers(signers: Path) -> None:
-    """ssh-keygen takes a file that it cannot read for one in which nobody stands. Raises InputError."""
+    """Raises InputError for an unreadable file, because ssh-keygen treats it as a file without signers."""
     form = "write lines of the form `NAME ssh-ed25519 KEY`"
     if not signers.is_file():
         raise InputError(f"{signers}: no such file of allowed signers")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Says in words what the system refused and how to correct it; its own text has a number in it and no remedy.
+"""Describes in words an error of the operating system and its correction; the system's own text has a number and no remedy.
 
 @satisfies SWR-TRC-009      Design: docs/design/trace.md#input-errors
 """
@@ -28,8 +28,8 @@ _REASONS = {
 
 
 def explain(error: OSError) -> str:
-    """What was refused, and the remedy; without the path."""
-    if error.errno is None:  # one of our own, which is in words already
+    """The error and the remedy, without the path."""
+    if error.errno is None:  # an error of the project, which already has a text
         return str(error)
     is_telling = error.filename is not None or error.errno in (errno.ENOSPC, errno.EDQUOT)
     known = _REASONS.get(error.errno) if is_telling else None
@@ -37,6 +37,6 @@ def explain(error: OSError) -> str:
 
 
 def describe(error: OSError) -> str:
-    """The same after the path, where there is one."""
+    """The same after the path, if there is one."""
     path = error.filename2 or error.filename
     return explain(error) if path is None or error.errno is None else f"{path}: {explain(error)}"

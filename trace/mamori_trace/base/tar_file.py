@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A strict reader of the plain tar archives that `mamori trace bundle` writes: regular files with short headers, nothing else.
 
-The reader of the standard library loads extended headers of any size into memory and knows links, devices and sparse files; an archive
-from elsewhere must be able to use none of these. Nothing is written to disk here.
+The reader of the standard library loads extended headers of any size into memory and accepts links, devices and sparse files. An external
+archive must not be able to use any of these. This reader writes nothing to disk.
 
 @satisfies SWR-TRC-076      Design: docs/design/trace.md#verify
 """
@@ -21,7 +21,7 @@ _KINDS = {b"1": "a hard link", b"2": "a symbolic link", b"3": "a device", b"4": 
 
 
 def read_members(file: BinaryIO) -> Iterator[tuple[str, int, Iterator[bytes]]]:
-    """(name, size, chunks) of each member in turn. The chunks have to be taken before the next member. Raises FormatError."""
+    """(name, size, chunks) of each member in order. The caller consumes the chunks before the next member. Raises FormatError."""
     seen: set[str] = set()
     while True:
         head = _read_block(file)

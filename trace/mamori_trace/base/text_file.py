@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads a text file that may be anything, and writes one so that nobody ever sees half of it."""
+"""Reads a text file with any content, and writes one atomically."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MAX_BYTES = 200_000_000
 
 @dataclass(frozen=True)
 class SourceText:
-    """A text and where it came from. `sha256` is that of the file's bytes."""
+    """A text and its file. `sha256` is the hash of the bytes of the file."""
 
     path: Path
     text: str
@@ -26,7 +26,7 @@ class SourceText:
 def read_text(path: Path | str, what: str, max_bytes: int = MAX_BYTES) -> SourceText:
     """Reads `path` as UTF-8 text; `what` names the kind of file in messages, for example "motion file".
 
-    Raises InputError: missing, no regular file, empty, larger than `max_bytes`, unreadable, binary, not UTF-8.
+    Raises InputError: missing, not a regular file, empty, larger than `max_bytes`, unreadable, binary, not UTF-8.
     """
     path = Path(path)
     try:
@@ -58,9 +58,9 @@ def read_text(path: Path | str, what: str, max_bytes: int = MAX_BYTES) -> Source
 
 
 def write_text(path: Path | str, text: str) -> None:
-    """Writes `text` to a temporary name beside `path` and renames it when whole.
+    """Writes `text` under a temporary name in the folder of `path` and renames the complete file.
 
-    Raises InputError where the folder is missing or does not take the file; nothing is left behind then.
+    Raises InputError if the folder is missing or not writable; no file remains then.
     """
     try:
         with whole_file(Path(path)) as part:
@@ -70,7 +70,7 @@ def write_text(path: Path | str, text: str) -> None:
 
 
 def refuse_output(path: Path | str, error: OSError) -> InputError:
-    """What to raise when `path` cannot be written."""
+    """The error for a `path` that cannot be written."""
     if isinstance(error, TargetError):
         return InputError(f"cannot be written: {error}", path)
     return InputError(f"cannot be written: {error.strerror}; check the folder, its permissions and the room on its disk", path)

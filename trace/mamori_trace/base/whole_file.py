@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The one way in which the host tools write a file: complete, or not at all. `profiles` and `verification` use it as well.
+"""The only function by which host tools write files: atomically.
 
-A link stays what it is; the file that it leads to is replaced and keeps its mode. Devices and folders are rejected.
+A symbolic link remains; its target is replaced and keeps its mode. Devices and folders are rejected.
 
 @satisfies SWR-CLI-043      Design: docs/design/launcher.md#files-that-are-written
 """
@@ -16,14 +16,14 @@ from pathlib import Path
 
 
 class TargetError(OSError):
-    """The path cannot be a file. `str()` is the reason and the remedy, without the path."""
+    """The path cannot be a regular file. `str()` is the reason and the remedy, without the path."""
 
 
 @contextlib.contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """A temporary name in the folder of the file that `path` leads to; it takes the place of that file when the block ends without an exception.
+    """A temporary name in the folder of the target of `path`; it replaces the target when the block ends without an exception.
 
-    Raises OSError. After any exception, KeyboardInterrupt included, the old file is untouched and the temporary one is gone.
+    Raises OSError. After any exception, including KeyboardInterrupt, the old file is unchanged and the temporary file is removed.
     """
     target = find_target(path)
     part = name_part(target)
@@ -38,13 +38,13 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 def find_target(path: Path) -> Path:
-    """The file that is to be written, links followed. Raises TargetError, and OSError."""
+    """The file to write, after following links. Raises TargetError and OSError."""
     if not path.name:
         raise TargetError(f"'{path}' names no file")
     target = Path(os.path.realpath(path))
     if target.is_symlink():
         raise TargetError("is a loop of links; mend the link")
-    if target.exists() and not target.is_file():  # the rename would put a file in the place of a device, such as /dev/stdout
+    if target.exists() and not target.is_file():  # the rename would replace a device, such as /dev/stdout, by a file
         raise TargetError("is a folder or a device; name a file")
     if path.is_symlink() and not target.parent.is_dir():
         raise TargetError(f"leads to {target}, and there is no such folder; mend the link")
@@ -52,5 +52,5 @@ def find_target(path: Path) -> Path:
 
 
 def name_part(target: Path) -> Path:
-    """A name beside `target` for what is not whole yet."""
+    """A temporary name in the folder of `target` for an incomplete file."""
     return target.with_name(f".{target.name}.{os.getpid()}.part")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes files of a project in whole, with the messages of the trace tool.
+"""Writes files of a project atomically, with the messages of the trace tool.
 
 @satisfies SWR-TRC-095      Design: docs/design/trace.md#files-that-are-written
 """
@@ -17,12 +17,12 @@ from mamori_trace.base.whole_file import find_target as find_file
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Writes `text` beside the file that `path` leads to, and renames it. Raises InputError; then the old file is untouched."""
+    """Writes `text` under a temporary name and renames it to the target of `path`. Raises InputError; the old file then stays unchanged."""
     write_whole_bytes(path, text.encode("utf-8"))
 
 
 def write_whole_bytes(path: Path, data: bytes) -> None:
-    """The same for bytes."""
+    """Like `write_whole`, for bytes."""
     try:
         find_target(path)
         with whole_file(path) as part:
@@ -32,7 +32,7 @@ def write_whole_bytes(path: Path, data: bytes) -> None:
 
 
 def write_folder(path: Path, files: dict[str, str]) -> None:
-    """Writes `files` beside `path`, which must not be there yet, and renames the folder. Raises InputError; then nothing is there."""
+    """Writes `files` to a temporary folder and renames it to `path`, which must not exist. Raises InputError; then no folder remains."""
     if os.path.lexists(path):
         raise InputError(f"{path}: is there already, and a folder is never overwritten; remove it, or name another")
     part = name_part(path)
@@ -49,7 +49,7 @@ def write_folder(path: Path, files: dict[str, str]) -> None:
 
 
 def find_target(path: Path) -> Path:
-    """The file that is to be written, links followed, in a folder that is there. Raises InputError, and OSError."""
+    """The file to write, after following links, in an existing folder. Raises InputError and OSError."""
     try:
         target = find_file(path)
     except TargetError as error:

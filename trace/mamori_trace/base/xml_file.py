@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Feeds an XML file to expat piece by piece, so that its size does not matter, and refuses what could fill the memory.
+"""Feeds an XML file to expat in pieces, so that files of any size fit, and rejects content that could fill the memory.
 
 @satisfies SWR-TRC-009, SWR-TRC-042      Design: docs/design/trace.md#input-errors
 """
@@ -28,7 +28,7 @@ End = Callable[[str], None]
 
 
 def make_parser(start: Start, end: End, text: Callable[[str], None], doctype: bool = False) -> Parser:
-    """A parser that calls these. @param doctype whether a plain document type is let through; it is never loaded, and may define nothing."""
+    """A parser with these handlers. @param doctype whether a plain document type is accepted; it is never loaded and may define nothing."""
     parser = xml.parsers.expat.ParserCreate()
     depth = 0
 
@@ -56,7 +56,7 @@ def make_parser(start: Start, end: End, text: Callable[[str], None], doctype: bo
 
 
 def feed_file(parser: Parser, path: Path, shown: str, remedy: str, problems: list[Problem]) -> bool:
-    """@return whether all of the file was read; if not, that is a problem, one, which ends with `remedy`."""
+    """@return whether the complete file was read; if not, one problem is reported, which ends with `remedy`."""
     try:
         if not path.is_file() and path.exists():
             raise OSError("it is no file; put one in its place")
@@ -68,7 +68,7 @@ def feed_file(parser: Parser, path: Path, shown: str, remedy: str, problems: lis
 
 
 def feed(parser: Parser, file: BinaryIO, shown: str, remedy: str, problems: list[Problem]) -> bool:
-    """The same for an open file. Raises OSError."""
+    """Like `feed_file`, for an open file. Raises OSError."""
     try:
         given = 0
         while chunk := file.read(CHUNK_BYTES):
@@ -83,6 +83,6 @@ def feed(parser: Parser, file: BinaryIO, shown: str, remedy: str, problems: list
     except xml.parsers.expat.ExpatError as error:
         reason = xml.parsers.expat.ErrorString(error.code)
         problems.append(Problem(UNREADABLE, Place(shown, error.lineno), f"is not whole XML ({reason}); {remedy}"))
-    except (ValueError, LookupError) as error:  # an encoding that Python does not have
+    except (ValueError, LookupError) as error:  # an encoding that Python does not support
         problems.append(Problem(UNREADABLE, Place(shown, 1), f"is not whole XML ({error}); {remedy}"))
     return False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Refuses YAML that is nested so deeply that the parser, which calls itself for each level, would end the process.
+"""Rejects deeply nested YAML. The parser calls itself for each level and would otherwise end the process.
 
 @satisfies SWR-TRC-009, SWR-TRC-048      Design: docs/design/trace_formats.md#bad-input
 """
@@ -13,8 +13,8 @@ DEPTH_MAX = 200
 
 
 def demand_shallow(text: str, loader: Any) -> None:
-    """Raises ValueError for deeper nesting, and yaml.YAMLError for what is no YAML. The events are read one by one, so depth costs nothing."""
-    import yaml  # loads slowly, and hardly any project has such a file
+    """Raises ValueError for deeper nesting, and yaml.YAMLError for invalid YAML. Events are read singly, so depth needs no memory."""
+    import yaml  # slow to load, and few projects have such a file
 
     depth = 0
     for event in yaml.parse(text, Loader=loader):

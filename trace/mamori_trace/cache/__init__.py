@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Leaves out work whose outcome is known: the outcome of a whole check (docs/design/trace.md#cache).
+"""Repeats the stored outcome of a complete check instead of running it again (docs/design/trace.md#cache).
 
-Nothing here imports readers or rules: an unchanged project must be told as such before they are loaded.
+This package imports no readers or rules: an unchanged project must be recognised before they are loaded.
 """

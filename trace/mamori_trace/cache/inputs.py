@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Watches what a run takes in: every file it opens, every folder it lists, every question to git, whichever module does so.
+"""Watches the inputs of a run: every opened file, every listed folder and every git query, in all modules.
 
-Python tells of each through its audit events, so a new reader needs no word about the cache, and cannot forget one. What the watch cannot
-vouch for (another process, a connection, something written) makes the outcome one that is not kept.
+Python reports each input through its audit events, so a new reader needs no code for the cache. An input that the watch cannot check
+(another process, a connection, a written file) prevents the outcome from being stored.
 
 @satisfies SWR-TRC-091      Design: docs/design/trace.md#cache
 """
@@ -22,7 +22,7 @@ _LIVING = ("/proc/", "/sys/", "/dev/")
 
 
 class InputWatch:
-    """What was taken in between `start` and `stop`, each in the state that it had just before."""
+    """The inputs read between `start` and `stop`, each in its state just before."""
 
     def __init__(self) -> None:
         self.files: dict[str, FileState] = {}
@@ -33,7 +33,7 @@ class InputWatch:
 
     @property
     def is_sure(self) -> bool:
-        """Whether all that was taken in is known."""
+        """Whether all inputs are known."""
         return not self.doubt and self._process_count == len(self.questions)
 
     def take(self, event: str, arguments: tuple[Any, ...]) -> None:
@@ -48,7 +48,7 @@ class InputWatch:
 
     def _take_open(self, path: Any, _mode: str | None, flags: int) -> None:
         if isinstance(path, int) or _is_byte_code((path,)):
-            return  # a descriptor that someone opened before, or Python's own store of compiled modules
+            return  # a descriptor that was opened earlier, or Python's own store of compiled modules
         name = os.path.abspath(os.fsdecode(path))
         if flags & _WRITING or name.startswith(_LIVING):
             self.doubt = self.doubt or ("" if name == os.devnull else f"open {name}")
@@ -61,7 +61,7 @@ class InputWatch:
             return
         name = os.path.abspath(os.fsdecode(path or "."))
         if name not in self.folders and os.path.basename(name) != FOLDER_NAME:
-            self.folders[name] = ""  # what follows lists the folder, too, and must find it known
+            self.folders[name] = ""  # the following code also lists the folder and must find it recorded
             self.folders[name] = read_listing(name)
 
 
@@ -70,7 +70,7 @@ _is_hooked = False
 
 
 def start() -> InputWatch:
-    """A watch that takes in from now on; a running one is left."""
+    """Starts a new watch; a running watch is abandoned."""
     global _active, _is_hooked
     if not _is_hooked:
         sys.addaudithook(_hook)  # stays for the life of the process; does nothing between watches
@@ -85,7 +85,7 @@ def stop() -> None:
 
 
 def note_question(root: str, arguments: tuple[str, ...], answer: str) -> None:
-    """A question to git whose process the watch has seen: it may be asked again, and answers the same where nothing changed."""
+    """A git query whose process the watch has seen. It can be repeated and returns the same output if nothing changed."""
     if _active is not None:
         _active.questions.append((os.path.abspath(root), arguments, answer))
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Repeats what the last check of an unchanged project said, without reading it again.
+"""Repeats the outcome of the last check of an unchanged project without reading it again.
 
-An outcome is kept only when every input is known and none was written shortly before the run; it is repeated only when every input,
-every question to git, the tool, its arguments, the environment and the date are the same. What is broken or foreign is no outcome.
+An outcome is stored only if every input is known and none was written shortly before the run. It is repeated only if every input,
+git query, tool file, argument, environment variable and the date are equal. Damaged or unexpected content is not an outcome.
 
 @satisfies SWR-TRC-091, SWR-TRC-092      Design: docs/design/trace.md#cache
 """
@@ -33,7 +33,7 @@ _HARMLESS = {"_", "SHLVL", "OLDPWD", "PYTEST_CURRENT_TEST", "MAMORI_LOCK_KEYS"}
 
 
 def run_kept(words: Sequence[str], run: Callable[[], int]) -> int:
-    """The outcome of `run`, which is `mamori trace WORDS`: repeated when nothing changed since it was kept, else made and kept."""
+    """The outcome of `run`, which is `mamori trace WORDS`: repeated if nothing changed since it was stored, otherwise computed and stored."""
     root = _find_root(words)
     if root is None:
         return run()
@@ -49,7 +49,7 @@ def run_kept(words: Sequence[str], run: Callable[[], int]) -> int:
 
 
 def _find_root(words: Sequence[str]) -> str | None:
-    """Folder of the project whose outcome may be kept; None where none may: another action, told not to, no folder `build`."""
+    """Folder of the project whose outcome may be stored; None if none may: another action, an option that forbids it, no folder `build`."""
     if list(words[:1]) != [_ACTION]:
         return None
     root = "."
@@ -58,25 +58,25 @@ def _find_root(words: Sequence[str]) -> str | None:
         if name == "--root":
             root = value if mark else "".join(words[index + 1 : index + 2])
         elif len(name) > 2 and ("--root".startswith(name) or OFF.startswith(name)):
-            return None  # also a shortened word: argparse takes it, and so it must not be overlooked
+            return None  # also a shortened option, because argparse accepts it
     return root if os.path.isdir(os.path.join(root, "build")) else None
 
 
 def _make_key(words: Sequence[str]) -> list[Any]:
-    """All that decides the outcome beside the inputs; the tool comes last, as it does not choose the file."""
+    """All values that determine the outcome, besides the inputs. The tool comes last, because it does not select the file."""
     environment = sorted((name, value) for name, value in os.environ.items() if name not in _HARMLESS)
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     libraries = [path for path in sys.path if path.endswith("site-packages")]
     tool = [sys.version, state.read_tool_state([package]), [state.read_listing(path) for path in libraries]]
     now = time.time()
     dates = [time.strftime("%Y-%m-%d", time.gmtime(now)), time.strftime("%Y-%m-%d", time.localtime(now))]
-    secret = hashlib.sha256(json.dumps(environment).encode()).hexdigest()  # an environment may hold what no file should
+    secret = hashlib.sha256(json.dumps(environment).encode()).hexdigest()  # an environment may contain values that no file should contain
     key = [SCHEMA, list(words), os.getcwd(), sys.stdout.isatty(), sys.stderr.isatty(), secret, dates, tool]
     return json.loads(json.dumps(key))
 
 
 def _load(path: str) -> dict[str, Any] | None:
-    """A kept outcome that is whole, or None."""
+    """A complete stored outcome, or None."""
     try:
         with open(path, "rb") as file:
             digest, _, body = file.read().partition(b"\n")
@@ -95,7 +95,7 @@ def _is_unchanged(kept: dict[str, Any]) -> bool:
         return False
     if any(state.read_listing(path) != was for path, was in kept["folders"].items()):
         return False
-    from mamori_trace.cache.questions import ask  # it loads the module for processes, which takes as long as all the rest here
+    from mamori_trace.cache.questions import ask  # this module loads the process module, which takes as long as the rest of this function
 
     return all(ask(root, *words) == answer for root, words, answer in kept["questions"])
 
@@ -105,7 +105,7 @@ def _run_and_keep(words: Sequence[str], root: str, key: list[Any], path: str, ru
         os.makedirs(os.path.dirname(path), exist_ok=True)
         started_ns = state.read_clock_ns(os.path.dirname(path))
     except OSError:
-        return run()  # a project that may not be written to is judged all the same
+        return run()  # a read-only project is checked too
     named = _list_named(words, root)
     out, err = _Copy(sys.stdout), _Copy(sys.stderr)
     watch = inputs.start()
@@ -126,7 +126,7 @@ def _run_and_keep(words: Sequence[str], root: str, key: list[Any], path: str, ru
 
 
 def _list_named(words: Sequence[str], root: str) -> dict[str, str | None]:
-    """Folders in which a reader may look for a name without listing them: of the project, of its evidence, of each path among the words."""
+    """Folders in which a reader may search a name without listing them: of the project, of its evidence, of each path among the arguments."""
     folders = state.list_folders(root)
     build = os.path.join(root, "build")
     for name in (state.read_listing(build) or "").split("\0"):
@@ -139,10 +139,10 @@ def _list_named(words: Sequence[str], root: str) -> dict[str, str | None]:
 
 
 def _store(path: str, kept: dict[str, Any]) -> None:
-    """Writes it whole or not at all; a full disk is no reason to fail a check that is done."""
+    """Writes it atomically; a full disk must not fail a completed check."""
     body = json.dumps(kept, ensure_ascii=True).encode()
     folder = os.path.dirname(path)
-    from mamori_trace.base.whole_file import whole_file  # not needed where an outcome is repeated
+    from mamori_trace.base.whole_file import whole_file  # not needed when an outcome is repeated
 
     with contextlib.suppress(OSError):
         with whole_file(Path(path)) as part:
@@ -153,7 +153,7 @@ def _store(path: str, kept: dict[str, Any]) -> None:
 
 
 class _Copy(io.TextIOBase):
-    """Passes on to a stream and keeps a copy of the text."""
+    """Forwards to a stream and keeps a copy of the text."""
 
     def __init__(self, stream: Any) -> None:
         self.stream = stream
@@ -161,7 +161,7 @@ class _Copy(io.TextIOBase):
         self._parts: list[str] = []
 
     def __getattr__(self, name: str) -> Any:
-        """`buffer` and the like: a way around the copy."""
+        """`buffer` and similar attributes, which bypass the copy."""
         self.is_whole = False
         return getattr(self.stream, name)
 

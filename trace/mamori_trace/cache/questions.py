@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Questions to git whose answers count as inputs of a run, so that they can be put again when the next run asks whether all is as it was.
+"""Git queries whose output counts as an input of a run. The next run repeats them to detect changes.
 
 @satisfies SWR-TRC-091      Design: docs/design/trace.md#cache
 """
@@ -16,7 +16,7 @@ _TIMEOUT_S = 60
 
 
 def ask(root: Path | str, *arguments: str) -> str:
-    """What git answers, or an empty text where it does not."""
+    """The output of git, or an empty text if it fails."""
     answer = run_git(root, arguments, _TIMEOUT_S)
     text = "" if answer is None else os.fsdecode(answer).strip()
     note_question(str(root), arguments, text)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The state of files and folders as git's index sees it: what must be equal for their content to count as unchanged.
+"""The state of files and folders as in git's index: these values must be equal for the content to count as unchanged.
 
 @satisfies SWR-TRC-091      Design: docs/design/trace.md#cache
 """
@@ -21,9 +21,9 @@ FileState = list[int] | None
 
 
 def read_file_state(path: str) -> FileState:
-    """Device, inode, mode, size, times of change of content and of anything at all; None where there is no such file.
+    """Device, inode, mode, size, modification time and change time; None if there is no such file.
 
-    The last one cannot be set by a program, so a file that was put back with its old time is noticed.
+    A program cannot set the change time, so a restored file with its old modification time is detected.
     """
     try:
         found = os.stat(path)
@@ -33,12 +33,12 @@ def read_file_state(path: str) -> FileState:
 
 
 def is_racy(state: FileState, started_ns: int) -> bool:
-    """Whether the file may change once more without a sign."""
+    """Whether the file can change again without a change of its state."""
     return state is not None and max(state[4], state[5]) > started_ns - RACY_NS
 
 
 def read_listing(path: str) -> str | None:
-    """Names in a folder, each with its kind; None where it cannot be listed. A name that is a folder now and was a file then differs."""
+    """Names in a folder, each with its kind; None if it cannot be listed. A name that changed from file to folder differs."""
     try:
         with os.scandir(path) as entries:
             names = sorted(_get_kind(entry) + entry.name for entry in entries if entry.name != FOLDER_NAME)
@@ -48,13 +48,13 @@ def read_listing(path: str) -> str | None:
 
 
 def _get_kind(entry: os.DirEntry[str]) -> str:
-    """One letter: folder, file, link to a folder, link to anything else."""
+    """One character: folder, file, link to a folder, link to anything else."""
     letters = "LD" if entry.is_dir() else "lf"
     return letters[not entry.is_symlink()]
 
 
 def list_folders(root: str) -> dict[str, str | None]:
-    """Listing of each folder below `root` in which a reader may look for a name: without hidden folders and build trees."""
+    """Listing of each folder below `root` in which a reader may search a name, without hidden folders and build trees."""
     found: dict[str, str | None] = {}
     waiting = [os.path.abspath(root)]
     while waiting:
@@ -67,7 +67,7 @@ def list_folders(root: str) -> dict[str, str | None]:
 
 
 def read_clock_ns(folder: str) -> int:
-    """Now, by the clock of the file system that holds `folder` or by ours, whichever is behind. Raises OSError."""
+    """The earlier of two times: the clock of the file system of `folder` and the system clock. Raises OSError."""
     path = os.path.join(folder, f".clock.{os.getpid()}")
     descriptor = os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600)
     try:
@@ -78,7 +78,7 @@ def read_clock_ns(folder: str) -> int:
 
 
 def read_tool_state(folders: Iterable[str]) -> dict[str, FileState]:
-    """State of each file of the tool itself, so another version of it never repeats what this one said."""
+    """State of each file of the tool itself, so that a new version never repeats the outcome of this one."""
     found: dict[str, FileState] = {}
     for top in folders:
         for folder, names, files in os.walk(top):

@@ -111,10 +111,10 @@ RULES = (
     evidence_altered,
 )
 
-# It tells what the other rules leave untold.
+# It reports what the other rules do not report.
 REST_RULES = (not_verified,)
 
-# They judge the waivers by what these waived, so they run when everything else has spoken.
+# They check the waivers against the waived findings, so they run after all other rules.
 LATE_RULES = (waiver_without_reason, waiver_expired, waiver_unused)
 
 
@@ -124,17 +124,17 @@ def list_rules() -> list[Rule]:
 
 
 def list_rule_ids() -> list[str]:
-    """What waivers and rule packs may name."""
+    """Names that waivers and rule packs may use."""
     return [rule.id for rule in list_rules()]
 
 
 def describe_rules() -> dict[str, str]:
-    """What each rule is after, in the first sentence of its module."""
+    """The purpose of each rule: the first sentence of its module."""
     return {module.RULE.id: (module.__doc__ or "").strip().partition("\n")[0] for module in RULES + REST_RULES + LATE_RULES}
 
 
 def run_checks(project: Project) -> list[Finding]:
-    """All findings of all rules that count, in order of file and line; those that are waived go to `project.waived`."""
+    """All counted findings of all rules, in order of file and line; waived findings are added to `project.waived`."""
     found = _run(RULES, project)
     project.told = frozenset((finding.rule, finding.item) for finding in found)
     findings, waived = split_waived(found + _run(REST_RULES, project), project.waivers, project.date)

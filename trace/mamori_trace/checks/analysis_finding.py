@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What static analysis found and nobody suppressed.
+"""Unsuppressed findings of static analysis.
 
 @satisfies SWR-TRC-043      Design: docs/design/trace.md#static-analysis
 """

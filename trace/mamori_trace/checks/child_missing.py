@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Needs and hazards that nothing answers."""
+"""Needs and hazards that no requirement refines."""
 
 from __future__ import annotations
 

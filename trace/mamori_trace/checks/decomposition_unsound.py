@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decomposition records whose argument does not hold."""
+"""Decomposition records with an invalid argument."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decomposition records that nothing needs."""
+"""Decomposition records that no item needs."""
 
 from __future__ import annotations
 

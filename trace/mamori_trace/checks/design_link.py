@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Design links that lead nowhere."""
+"""Design links without an existing target."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Safety documents that name ids or tests which do not exist (any more).
+"""Safety documents that name missing ids or tests.
 
 @satisfies SWR-TRC-082      Design: docs/design/trace.md#documents
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Evidence files that are not what was recorded when they were made.
+"""Evidence files that differ from their record.
 
 @satisfies SWR-TRC-036      Design: docs/design/trace.md#records
 """

@@ -29,8 +29,8 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def _judge(project: Project, function: Function) -> str:
-    """What is missing. A header's function without any counter is a template that nobody used, or one that only the compiler
-    called: no tool could count that."""
+    """What is missing. A header function without a counter is an unused template, or one that only the compiler
+    evaluated: no tool could count it."""
     coverage = project.find_coverage(function.requirements)
     reached = coverage.measure(function)
     if reached.executed or reached.accepted:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ids that once meant something else."""
+"""Ids that previously named another item."""
 
 from __future__ import annotations
 

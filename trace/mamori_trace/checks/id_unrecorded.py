@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ids that were given up without a record."""
+"""Ids that were retired without a record."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ RULE = Rule("id-unrecorded", ERROR, "An id that is given up is recorded, so that
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
-    """Reviewed links tell which ids there were. One that something still names is told as unknown, and not here."""
+    """Reviewed links show which ids existed. An id that is still named is reported as unknown by another rule."""
     if project.lock is None:
         return
     named = {parent for item in project.live_items for parent in item.parents}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reviews by who wrote what was reviewed."""
+"""Reviews that the author of the reviewed item made."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Links that skip a level or run the wrong way."""
+"""Links that skip a level or point down."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ RULE = Rule("level-order", ERROR, "An item names a parent of the level above it,
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
-    circling = {item for cycle in project.cycles for item in cycle}  # told by the rule on cycles
+    circling = {item for cycle in project.cycles for item in cycle}  # reported by the rule on cycles
     for item in project.live_items:
         level = project.schema.levels[item.level]
         if item.id in circling or not item.parents:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Links between kinds that the schema does not join."""
+"""Links between kinds for which the schema allows no link."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def _list_links(project: Project) -> Iterator[tuple[Place, str, str, str]]:
-    """(place, kind of the source, link, id) of the links that code, tests and campaign cases say. Parents are told by level-order."""
+    """(place, kind of the source, link, id) of the links of code, tests and campaign cases. The rule level-order reports parents."""
     for tag in project.tags:
         yield tag.place, "code", "satisfies", tag.requirement
     for test in project.tests:
@@ -36,7 +36,7 @@ def _list_links(project: Project) -> Iterator[tuple[Place, str, str, str]]:
 
 
 def _check_required(project: Project, kind_of: dict) -> Iterator[tuple[Place, str, str]]:
-    """Attributes that are there, and say nothing (`-`)."""
+    """Attributes that are present without a value (`-`)."""
     for item in project.live_items:
         kind = kind_of[item.level]
         if not item.whole or not item.approved or kind is None:

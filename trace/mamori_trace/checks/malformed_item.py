@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Item blocks that do not keep to the format."""
+"""Item blocks that violate the format."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conditions in functions of the highest level that no test has shown to decide alone.
+"""Conditions in functions of the highest level whose independent effect no test shows.
 
 @satisfies SWR-TRC-034      Design: docs/design/trace.md#coverage
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Approved items without a passed result of the kind that they demand, where no other rule says why.
+"""Approved items without a passed result of a required kind, if no other rule reports the cause.
 
 @satisfies SWR-TRC-100      Design: docs/design/trace.md#approved-items
 """
@@ -24,7 +24,7 @@ _TELLING = {"malformed-item", "code-missing", "test-missing", "polarity-missing"
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
-    """Runs after the other rules; `project.told` holds what they found."""
+    """Runs after the other rules; `project.told` holds their findings."""
     if project.allow_missing:
         return
     told = {item for rule, item in project.told if rule in _TELLING}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Requirements that nobody asked for."""
+"""Requirements without a parent."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Requirements that are tested from one side only."""
+"""Requirements that are tested with one polarity only."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
         if not item.approved or "test" not in item.verify or level.from_children:
             continue
         children = project.children_of.get(item.id, []) if level.through_children else []
-        if children or _is_named(project, item):  # an item that no test names at all is told by another rule
+        if children or _is_named(project, item):  # another rule reports an item that no test names
             for polarity in list_uncovered_polarities(project, item, children):
                 yield item.find_place("Polarity"), f"{item.id} demands a {polarity} test and has none", item.id
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests that passed only when they were run again.
+"""Tests that passed only after a repetition.
 
 @satisfies SWR-TRC-041      Design: docs/design/trace_formats.md#results-of-other-tools
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests that left no result."""
+"""Tests without a result."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ RULE = Rule("result-unbound", ERROR, "An evidence record tells what produced eac
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
-    """One finding for each file that no other rule speaks of."""
+    """One finding for each file that no other rule reports."""
     told = {problem.place.file for problem in project.problems}
     if project.allow_missing or any(file.endswith(_RECORDS) for file in told):
         return

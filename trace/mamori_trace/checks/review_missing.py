@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Items that are to be shown by review or analysis, and of which none is recorded."""
+"""Items that require a review or analysis without a record of one."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Review records that belong to no item that demands them."""
+"""Review records that belong to no item that requires them."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Statements that demand nothing, or several things at once."""
+"""Statements with no "shall" or several."""
 
 from __future__ import annotations
 

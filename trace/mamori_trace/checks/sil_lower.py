@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Safety levels that get lost on the way down."""
+"""Items with a lower safety level than a parent."""
 
 from __future__ import annotations
 

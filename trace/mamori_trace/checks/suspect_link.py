@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Links whose ends changed since a person last looked at them."""
+"""Links whose ends changed since the last review."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LOCK = "requirements/trace.lock"
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
-    for problem in project.problems:  # revisions that stand in the ids of a foreign format
+    for problem in project.problems:  # revisions in the ids of an external format
         if problem.rule == RULE.id:
             yield problem.place, problem.message, problem.item
     links = [

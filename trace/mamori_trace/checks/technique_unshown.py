@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Techniques that are claimed and that nothing shows."""
+"""Claimed techniques without evidence."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests that verify nothing."""
+"""Tests that name no requirement."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NAMES_MAX = 3
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
-    """One finding per suite, with the count: such tests may be useful, yet prove no requirement."""
+    """One finding per suite, with the count: such tests may be useful but show no requirement."""
     suites: dict[tuple[str, str], list[TestResult]] = defaultdict(list)
     for result in project.results:
         if not result.requirement:

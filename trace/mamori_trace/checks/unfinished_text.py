@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Words that say that a text is not finished."""
+"""Words that mark an unfinished text."""
 
 from __future__ import annotations
 

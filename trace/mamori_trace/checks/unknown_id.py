@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ids that nothing defines, wherever they are named."""
+"""Named ids without a definition."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def list_references(project: Project) -> Iterator[tuple[Place, str, str]]:
-    """(place, who, id) for every id that is named anywhere. A result is told at its test, when that names the same id."""
+    """(place, who, id) for every named id. A result is reported at its test if the test names the same id."""
     for item in project.all_items:
         for parent in item.parents:
             yield item.find_place("Parents"), item.id, parent

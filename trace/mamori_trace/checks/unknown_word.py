@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Techniques and polarities that the schema does not know."""
+"""Techniques and polarities that the schema does not define."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def _list_words(project: Project) -> Iterator[tuple[Place, str, str, str, str]]:
-    """(place, who, technique, polarity, item) of tests, results and cases; what a source test said is not said again."""
+    """(place, who, technique, polarity, item) of tests, results and cases, without those that the source test already reported."""
     told = set()
     for test in project.tests:
         told.add((test.technique, test.polarity))

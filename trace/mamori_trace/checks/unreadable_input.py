@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Inputs that could not be read; nothing can be said about what they hold."""
+"""Inputs that could not be read."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions that no requirement asked for.
+"""Functions without a requirement.
 
 @satisfies SWR-TRC-031      Design: docs/design/trace.md#traced-layers
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Protective items that are content with good cases."""
+"""Protective items that require no violation test."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Waivers whose time is over."""
+"""Waivers after their expiry date."""
 
 from __future__ import annotations
 

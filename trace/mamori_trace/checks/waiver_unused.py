@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Waivers that waive nothing."""
+"""Waivers that cover no finding."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Waivers that do not say why."""
+"""Waivers without a reason."""
 
 from __future__ import annotations
 

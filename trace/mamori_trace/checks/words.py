@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What rules that look for words share.
+"""Functions that several word rules use.
 
 @satisfies SWR-TRC-093      Design: docs/design/trace.md#cache
 """
@@ -10,12 +10,12 @@ from collections.abc import Iterable
 
 
 def may_hold(texts: Iterable[str], words: Iterable[str]) -> bool:
-    """Whether the letters of any word stand in any text, in whatever case: False is sure, True is not.
+    """Whether the characters of any word occur in any text, ignoring case: False is certain, True is not.
 
-    Looking for plain letters in all texts at once takes a tenth of what a pattern takes, which a project without such words then never needs.
+    A search of plain characters in all texts takes a tenth of the time of a pattern. A project without such words then needs no pattern.
     """
     text, looked_for = "\n".join(texts), list(words)
-    if not text.isascii() or not "".join(looked_for).isascii():  # letters that are equal to others for a pattern alone
+    if not text.isascii() or not "".join(looked_for).isascii():  # only a pattern matches characters that are equal to others
         return True
     lower = text.lower()
     return any(word.lower() in lower for word in looked_for)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads and writes CSV: a head line with the names of the columns, one item per row.
+"""Reads and writes CSV: a head line with the names of the columns, then one item per row.
 
 @satisfies SWR-TRC-045, SWR-TRC-048, SWR-TRC-050, SWR-TRC-107      Design: docs/design/trace_formats.md#formats
 """
@@ -35,12 +35,12 @@ _SPLIT = re.compile(r"[,;\s]+")
 
 
 def escape_cell(cell: str) -> str:
-    """An apostrophe in front of what a spreadsheet would run as a formula, and of what looks escaped: nothing is lost."""
+    """Puts an apostrophe before a cell that a spreadsheet would run as a formula, and before one that looks escaped: nothing is lost."""
     return f"'{cell}" if _FORMULA.match(cell) else cell
 
 
 def unescape_cell(cell: str) -> str:
-    """The cell as it was before `escape_cell`; what stands around a cell that is not escaped does not count."""
+    """The cell before `escape_cell`; blanks around an unescaped cell do not count."""
     return cell[1:] if _ESCAPED.match(cell) else cell.strip()
 
 
@@ -50,7 +50,7 @@ def looks_alike(name: str, text: str) -> bool:
 
 
 def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
-    """Rows of all files. Cells are separated by what the head line has most of: comma, semicolon or tabulator."""
+    """Rows of all files. The separator is the most frequent one in the head line: comma, semicolon or tabulator."""
     project = ForeignProject(NAME)
     for shown, text in read_texts(path, SUFFIXES, root, problems):
         head = text.partition("\n")[0]
@@ -106,6 +106,6 @@ def format_csv(project: ForeignProject) -> str:
 
 
 def _format_cell(cell: str) -> str:
-    """Quoted where it must be; Python's writer leaves a carriage return bare, and its reader refuses that."""
+    """Quoted if necessary; Python's writer leaves a carriage return unquoted, and its reader rejects that."""
     cell = escape_cell(cell)
     return '"' + cell.replace('"', '""') + '"' if any(sign in cell for sign in ',"\r\n') else cell

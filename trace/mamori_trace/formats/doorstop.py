@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads Doorstop: one YAML file, or one Markdown file with a YAML head, per item; a folder with `.doorstop.yml` is a document.
 
-YAML is taken as a tree of nodes, so each key has its line, and aliases are never multiplied.
+YAML is read as a tree of nodes, so each key has its line, and aliases are never multiplied.
 
 @satisfies SWR-TRC-045, SWR-TRC-048      Design: docs/design/trace_formats.md#formats
 """
@@ -53,7 +53,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 def _read_prefix(folder: Path, root: Path, problems: list[Problem]) -> str | None:
-    """The prefix of the document in `folder`, or None where it is none."""
+    """The prefix of the document in `folder`, or None if the folder is not a document."""
     file = folder / _SETTINGS
     if not file.is_file():
         return None
@@ -65,7 +65,7 @@ def _read_prefix(folder: Path, root: Path, problems: list[Problem]) -> str | Non
 
 
 def _compose(text: str, shown: str, offset: int, problems: list[Problem]) -> dict[str, yaml.Node]:
-    """Members of the one mapping in `text`, or nothing and one problem."""
+    """Members of the one mapping in `text`, or none and one problem."""
     try:
         demand_shallow(text, _LOADER)
         node = yaml.compose(text, Loader=_LOADER)
@@ -87,7 +87,7 @@ def _get_members(node: yaml.Node) -> dict[str, yaml.Node]:
 
 
 def _get_text(node: yaml.Node, depth: int = 0) -> str:
-    """A value in words; what is nested deeper than people write is cut."""
+    """A value as text; values that are nested deeper than people write are truncated."""
     if isinstance(node, yaml.ScalarNode):
         return "" if node.tag.endswith(":null") else node.value.strip()
     if depth >= 2:
@@ -130,7 +130,7 @@ def _read_item(text: str, uid: str, prefix: str, shown: str, markdown: bool, pro
 
 
 def _take_texts(item: ForeignItem, members: dict[str, yaml.Node], body: str, head: str) -> None:
-    """In Markdown items the body is the text, and its first heading the header."""
+    """In a Markdown item the body is the text, and its first heading is the header."""
     item.title = _get_text(members["header"]) if "header" in members else ""
     item.statement = _get_text(members["text"]) if "text" in members else ""
     item.statement_line = item.lines.get("text", 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Takes links from items to files as what they claim: all the code of the file realises the item, or all its tests verify it.
+"""Reads links from items to files: all the code of the file realises the item, or all its tests verify it.
 
 @satisfies SWR-TRC-047      Design: docs/design/trace_formats.md#tags-of-other-tools
 """
@@ -22,9 +22,9 @@ from mamori_trace.readers.test_heads import list_heads
 def add_file_links(
     items: Sequence[ForeignItem], folders: Sequence[Path], tags: list[CodeTag], tests: list[SourceTest], problems: list[Problem]
 ) -> None:
-    """Tags and tests for the files that items name, below the first of `folders` that has them; paths are shown from there.
+    """Tags and tests for the files that items name, below the first of `folders` that contains them; paths are relative to that folder.
 
-    A file that is neither code nor test needs only to be there. A test that names the item itself is not counted twice.
+    A file that is neither code nor test only has to exist. A test that names the item itself is not counted twice.
     """
     known = {(test.requirement, test.suite, test.name) for test in tests}
     for item in items:
@@ -47,7 +47,7 @@ def _find(link: Relation, folders: Sequence[Path]) -> Path | None:
 
 
 def _list_tests(item: ForeignItem, file: Path, shown: str, place: Place, problems: list[Problem]) -> list[SourceTest]:
-    """All tests of the file; where none is known there, one without a name, which only a result that names the item can answer."""
+    """All tests of the file; if none is known, one without a name, which only a result that names the item can satisfy."""
     heads = list_heads(read_whole(file, shown, problems) or "", shown)
     if not heads:
         return [SourceTest(item.id, shown, "", "requirements_based", "nominal", place)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds and reads the files of a foreign project: each file once, whatever links lead to it, and nothing that is not UTF-8.
+"""Finds and reads the files of an external project: each file once, although several links may lead to it, and only UTF-8.
 
 @satisfies SWR-TRC-048      Design: docs/design/trace_formats.md#bad-input
 """
@@ -28,7 +28,7 @@ def list_files(path: Path, suffixes: tuple[str, ...], root: Path, problems: list
 
 
 def read_texts(path: Path, suffixes: tuple[str, ...], root: Path, problems: list[Problem]) -> Iterator[tuple[str, str]]:
-    """(shown path, text) of each file that could be read whole."""
+    """(shown path, text) of each file that could be read completely."""
     for file in list_files(path, suffixes, root, problems):
         shown = get_shown_path(file, root)
         text = read_whole(file, shown, problems)
@@ -37,7 +37,7 @@ def read_texts(path: Path, suffixes: tuple[str, ...], root: Path, problems: list
 
 
 def read_whole(file: Path, shown: str, problems: list[Problem]) -> str | None:
-    """Text of a file, or None and one problem where a byte of it is no text."""
+    """Text of a file, or None and one problem if it is not UTF-8 text."""
     before = len(problems)
     text = read_text(file, shown, problems)
     if len(problems) > before:

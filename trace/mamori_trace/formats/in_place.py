@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads a project that is kept in another tool's format into the model of the rules, without moving it.
+"""Reads a project in the format of another tool into the model of the rules, without importing it.
 
 @satisfies SWR-TRC-045, SWR-TRC-046, SWR-TRC-047      Design: docs/design/trace_formats.md#in-place
 """
@@ -39,7 +39,7 @@ _REVISION = re.compile(r"~\d+$")
 
 @dataclass(slots=True)
 class ForeignInput:
-    """What to read. `sources` None: the folder of `path`. `results` are JUnit files or folders of them."""
+    """The inputs. `sources` None: the folder of `path`. `results` are JUnit files or folders of them."""
 
     format: str
     path: Path
@@ -53,12 +53,12 @@ class ForeignInput:
 
     @property
     def folder(self) -> Path:
-        """The folder of `path`, or `path` where it is one."""
+        """The folder of `path`, or `path` if it is a folder."""
         return self.path if self.path.is_dir() else self.path.parent
 
 
 def read_in_place(given: ForeignInput, rules: Sequence[str]) -> Project:
-    """The project with all its evidence. `rules` are the ids of those that are known. Raises InputError where nothing can be judged."""
+    """The project with all its evidence. `rules` are the known rule ids. Raises InputError if no check is possible."""
     mapping = read_mapping(given.format, given.schema)
     if not given.root.is_dir():
         raise InputError(f"{given.root}: no such folder; --root names the folder of the project")
@@ -87,7 +87,7 @@ def read_in_place(given: ForeignInput, rules: Sequence[str]) -> Project:
     attach_sources(project)
     _follow_polarity(project, converted)
     read_judgement(project, rules, given.date)
-    project.pack.grades["design-missing"] = Grades()  # the rule keeps its own severity, which is none: no format has such links
+    project.pack.grades["design-missing"] = Grades()  # the rule keeps its own severity, which is off, because no format has design links
     return project
 
 
@@ -96,7 +96,7 @@ def _resolve_all(named: tuple[str, ...], converted: Converted) -> tuple[str, ...
 
 
 def _resolve(named: str, place: Place, converted: Converted, problems: list[Problem]) -> Iterable[str]:
-    """The requirements that an id stands for: itself, those of a test or code item, or the current revision of an outdated one."""
+    """The requirements of an id: itself, those of a test or code item, or the current revision of an outdated one."""
     if named in converted.stands_for:
         return converted.stands_for[named]
     current = converted.revisions.get(_REVISION.sub("", named), named)
@@ -107,7 +107,7 @@ def _resolve(named: str, place: Place, converted: Converted, problems: list[Prob
 
 
 def _read_evidence(given: ForeignInput, project: Project) -> Evidence:
-    """Results of the files that were named, and a whole evidence folder where there is one."""
+    """Results of the named files, and of a complete evidence folder if there is one."""
     if given.evidence is not None and not given.evidence.is_dir():
         raise InputError(f"{given.evidence}: no such evidence folder; run the tests first")
     evidence = read_evidence(given.evidence, project) if given.evidence else Evidence()
@@ -132,7 +132,7 @@ def _read_evidence(given: ForeignInput, project: Project) -> Evidence:
 
 
 def _link_results(results: list[TestResult], tests: list[SourceTest], converted: Converted, problems: list[Problem]) -> list[TestResult]:
-    """One result for each requirement that it names, or that its test in the sources names."""
+    """One result for each requirement that it, or its test in the sources, names."""
     known: dict[tuple[str, str], list[SourceTest]] = {}
     for test in tests:
         known.setdefault((test.suite, test.name), []).append(test)
@@ -149,7 +149,7 @@ def _link_results(results: list[TestResult], tests: list[SourceTest], converted:
 
 
 def _follow_polarity(project: Project, converted: Converted) -> None:
-    """An item that cannot state a polarity demands the one that its tests show."""
+    """An item that cannot specify a polarity requires the polarity that its tests show."""
     for item in project.all_items:
         shown = {test.polarity for test in project.tests_of.get(item.id, [])} | {
             result.polarity or "nominal" for result in project.results_of.get(item.id, [])

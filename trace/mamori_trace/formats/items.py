@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes items and a schema of a foreign project, so that every rule applies to it.
+"""Creates items and a schema of an external project, so that every rule applies to it.
 
-An attribute that the format cannot state is neutral: it demands nothing and no rule speaks of it.
+An attribute that the format does not have is neutral: it requires nothing and no rule reports it.
 
 @satisfies SWR-TRC-046      Design: docs/design/trace_formats.md#levels-from-data
 """
@@ -30,7 +30,7 @@ _TECHNIQUES = ("requirements_based", "boundary_values", "equivalence_classes", "
 
 @dataclass(slots=True)
 class Converted:
-    """Items and schema; `stands_for` gives the requirements of each test or code item; `polar` the items that state a polarity."""
+    """Items and schema; `stands_for` gives the requirements of each test or code item; `polar` the items with a polarity."""
 
     schema: Schema
     items: list[Item]
@@ -41,7 +41,7 @@ class Converted:
 
 
 def convert(project: ForeignProject, mapping: Mapping, problems: list[Problem]) -> Converted:
-    """Items in file order. What an item lacks is a problem at its place."""
+    """Items in file order. A missing part of an item is a problem at its location."""
     all_groups = group_items(project.items, mapping)
     aside = {*mapping.lists["test_groups"], *mapping.lists["code_groups"]}
     grouped = list(zip(project.items, all_groups, strict=True))
@@ -89,7 +89,7 @@ def _assign(items: list[ForeignItem], groups: list[str], mapping: Mapping, probl
 def _link(
     items: list[ForeignItem], mapping: Mapping, revisions: dict[str, str], helpers: set[str], project: ForeignProject, problems: list[Problem]
 ) -> list[list[tuple[str, int]]]:
-    """(parent, line) of each item; links that lead down are turned round, outdated revisions told and mended."""
+    """(parent, line) of each item; reverses links that lead down; reports and corrects outdated revisions."""
     positions = {item.id: position for position, item in reversed(list(enumerate(items)))}
     parents: list[list[tuple[str, int]]] = [[] for _ in items]
     for position, item in enumerate(items):
@@ -167,7 +167,7 @@ def _choose_sil(item: ForeignItem, mapping: Mapping, schema: Schema, problems: l
 
 
 def _demand_statements(items: list[ForeignItem], groups: list[str], outcome: Converted, mapping: Mapping, problems: list[Problem]) -> None:
-    """An empty statement is a problem where the group has statements."""
+    """An empty statement is a problem if the group has statements."""
     for group in set(groups):
         members = [item for item, own in zip(items, groups, strict=True) if own == group]
         filled = sum(bool((item.statement or "").strip()) for item in members)

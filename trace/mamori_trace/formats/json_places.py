@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""JSON whose keys keep their places: a key that stands twice is seen, and each member has its line."""
+"""JSON whose keys have locations: duplicate keys are detected, and each member has its line."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mamori_trace.base.finding import Place, Problem
 
 
 class Table(dict):
-    """A JSON object that also keeps its members as they stood, doubles included."""
+    """A JSON object that also keeps its members in file order, including duplicates."""
 
     def __init__(self, pairs: list[tuple[str, Any]]) -> None:
         super().__init__(pairs)
@@ -42,7 +42,7 @@ class Lines:
         return bisect_right(self._starts, offset)
 
     def find_key(self, key: str, start: int, end: int | None = None, opens: str = "") -> int:
-        """Offset of the next member `key` from `start` on, or -1. `opens`: what its value begins with."""
+        """Offset of the next member `key` from `start` on, or -1. `opens`: the beginning of its value."""
         spellings = {re.escape(json.dumps(key)), re.escape(json.dumps(key, ensure_ascii=False))}
         pattern = re.compile(rf"(?<!\\)(?:{'|'.join(sorted(spellings))})\s*:\s*{re.escape(opens)}")
         match = pattern.search(self._text, start, len(self._text) if end is None else end)

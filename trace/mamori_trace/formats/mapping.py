@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the words of a format mean: the shipped table of the format, and the user's on top.
+"""Meaning of the words of a format: the shipped table of the format, and the entries of the user, which take precedence.
 
 @satisfies SWR-TRC-046      Design: docs/design/trace_formats.md#levels-from-data
 """
@@ -24,7 +24,7 @@ _FLAGS = ("shall", "needs_child", "needs_code", "from_children", "through_childr
 
 @dataclass(frozen=True, slots=True)
 class Mapping:
-    """`lists`, `shares` and `words` as schemas/common.toml explains them; `levels` is empty where the data decides."""
+    """`lists`, `shares` and `words` as schemas/common.toml explains them; `levels` is empty if the data decides."""
 
     group_by: str
     lists: dict[str, tuple[str, ...]]
@@ -44,7 +44,7 @@ class Mapping:
 
 
 def read_mapping(name: str, own: Path | None) -> Mapping:
-    """The table of the format `name`. Raises InputError for a file of the user that cannot be used."""
+    """The table of the format `name`. Raises InputError for an unusable file of the user."""
     table: dict[str, Any] = {"share": {}, "words": {}, "level": {}}
     paths = [_FOLDER / "common.toml", _FOLDER / f"{name}.toml", *([own] if own else [])]
     for path in paths:
@@ -89,7 +89,7 @@ def _make_mapping(table: dict[str, Any], source: str) -> Mapping:
 
 
 def _make_level(key: str, row: dict[str, Any]) -> Level:
-    """A level of the user's table; `id` is the pattern of the ids, or the name of the group serves."""
+    """A level of the user's table. `id` is the pattern of the ids; without it, the name of the group applies."""
     return Level(
         key=key,
         name=str(row.get("name", key)),

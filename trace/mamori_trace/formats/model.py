@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The neutral model: what a requirement is in any of the formats, with the place of every part."""
+"""The neutral model: a requirement of any format, with the location of every part."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from mamori_trace.base.finding import Place
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """A link to `target`. `role` is the word of the format; `line` is where the link stands.
+    """A link to `target`. `role` is the word of the format; `line` is the line of the link.
 
-    `name` is what people called the relation beside its role; `review` is the last look at the link, as trace.lock words it.
+    `name` is the name of the relation in addition to its role; `review` is the last review of the link, as in trace.lock.
     """
 
     role: str
@@ -24,11 +24,11 @@ class Relation:
 
 @dataclass(slots=True)
 class ForeignItem:
-    """One requirement as its own tool keeps it.
+    """One requirement as its own tool stores it.
 
-    `statement` is None where the format gives no place for one. `kind` and `document` group items into levels; `attributes` are all
+    `statement` is None if the format has no field for one. `kind` and `document` group items into levels; `attributes` are all
     others, under their own names. `files` are links to files of code and tests. `needs` are the kinds of coverage that the item itself
-    asks for, None where it cannot say. `heading`: it only names what stands below it, so no rule judges it.
+    requires, None if the format cannot specify them. `heading`: the item is only the title of the following items, so no rule checks it.
     """
 
     id: str
@@ -49,7 +49,7 @@ class ForeignItem:
 
 @dataclass(frozen=True, slots=True)
 class Loss:
-    """Something in a file that is no part of any item, or that has no room in the model."""
+    """A part of a file that belongs to no item, or that the model cannot hold."""
 
     place: Place
     what: str
@@ -57,7 +57,7 @@ class Loss:
 
 @dataclass(slots=True)
 class ForeignProject:
-    """All items of a project in file order. Two definitions of one id are both kept. `headers`: text at the head of each document."""
+    """All items of a project in file order, including two definitions of one id. `headers`: text at the head of each document."""
 
     format: str
     items: list[ForeignItem] = field(default_factory=list)

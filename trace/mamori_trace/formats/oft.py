@@ -44,7 +44,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 class _File:
-    """One file under way; `_section` is the keyword whose text or list goes on."""
+    """One file that is being read; `_section` is the keyword whose text or list continues."""
 
     def __init__(self, shown: str, project: ForeignProject, problems: list[Problem]) -> None:
         self._shown = shown
@@ -110,7 +110,7 @@ class _File:
             self._project.losses.append(Loss(Place(self._shown, number), f"text after the keywords of {item.id}"))
 
     def _take_listed(self, item: ForeignItem, entry: str) -> None:
-        """One word of `Needs` or `Tags` where each has a line of its own."""
+        """One word of `Needs` or `Tags` if each word has its own line."""
         words = _WORD.findall(entry) if self._section == "Needs" else [entry]
         if words:
             item.needs = (*(item.needs or ()), words[-1]) if self._section == "Needs" else item.needs

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mamori's own items as the neutral model, and back as Markdown blocks.
+"""Converts Mamori's own items to the neutral model and back to Markdown blocks.
 
 @satisfies SWR-TRC-050      Design: docs/design/trace_formats.md#export
 """
@@ -20,7 +20,7 @@ _FOLDER = "requirements/"
 
 
 def make_neutral(project: Project) -> ForeignProject:
-    """All items with every attribute, in order of files and lines, and the last look at each link."""
+    """All items with every attribute, in order of files and lines, and the last review of each link."""
     neutral = ForeignProject(NAME)
     for item in project.all_items:
         document = item.place.file.removeprefix(_FOLDER)
@@ -31,7 +31,7 @@ def make_neutral(project: Project) -> ForeignProject:
 
 
 def _read_header(root: Path, file: str) -> str:
-    """What stands above the first item."""
+    """The text before the first item."""
     return read_text(root / file, file, []).partition("\n## ")[0].strip()
 
 

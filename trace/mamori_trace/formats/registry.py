@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The formats by name, and which of them a file looks like."""
+"""The formats by name, and the detection of the format of a file."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def load_format(name: str) -> ModuleType:
 
 
 def read_format(name: str, path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
-    """All items. Raises InputError where there is nothing to judge: no such path, no file of the format, no item in them."""
+    """All items. Raises InputError if there is nothing to check: no such path, no file of the format, or no item."""
     module = load_format(name)
     if not path.exists():
         raise InputError(f"{path}: no such file or folder")
@@ -46,10 +46,10 @@ def _describe_nothing(name: str, module: ModuleType, path: Path) -> str:
 
 
 def _guess_others(name: str, path: Path) -> list[str]:
-    """Formats other than `name` that files below `path` look like, the most frequent first."""
+    """Formats other than `name` that files below `path` resemble, the most frequent first."""
     counts: dict[str, int] = {}
     for file in islice(list_files(path, ("",), path, []), _PEEK_FILES):
-        if not file.is_file():  # a pipe would never end
+        if not file.is_file():  # reading a pipe would never end
             continue
         try:
             with file.open("rb") as stream:

@@ -45,7 +45,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 def _demand_uids(nameless: list[tuple[str, Place]], named: Counter[str]) -> Iterator[Problem]:
-    """A node without a UID could be missed by all rules. Where most nodes of its kind have one, it was forgotten."""
+    """Rules cannot see a node without a UID. If most nodes of its kind have one, the missing UID is a mistake."""
     counts = Counter(tag for tag, _ in nameless)
     for tag, place in nameless:
         if named[tag] >= counts[tag]:
@@ -53,7 +53,7 @@ def _demand_uids(nameless: list[tuple[str, Place]], named: Counter[str]) -> Iter
 
 
 class _Document:
-    """One file under way: a node holds fields, the last of which may be a list of relations or text over many lines."""
+    """One file that is being read: a node holds fields, the last of which may be a list of relations or text over many lines."""
 
     def __init__(self, shown: str, project: ForeignProject, problems: list[Problem]) -> None:
         self._shown = shown
@@ -85,7 +85,7 @@ class _Document:
         self._problems.append(Problem(UNREADABLE, Place(self._shown, number), message))
 
     def _take(self, number: int, line: str) -> bool:
-        """@return False where the rest of the file cannot be understood."""
+        """@return False if the rest of the file cannot be parsed."""
         if self._text is not None:
             self._take_text(line)
             return True

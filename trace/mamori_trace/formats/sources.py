@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads tags of code and tests of a foreign project, whatever the shape of its ids, and binds them to functions and tests.
+"""Reads tags of code and tests of an external project, with ids of any shape, and binds them to functions and tests.
 
 @satisfies SWR-TRC-047      Design: docs/design/trace_formats.md#tags-of-other-tools
 """
@@ -80,7 +80,7 @@ def _list_comment_lines(text: str) -> dict[int, str]:
 
 
 def _name_python_lines(text: str) -> dict[int, str]:
-    """The symbol of each line that is a comment or docstring: the definition around it, or the one right below."""
+    """The symbol of each comment or docstring line: the enclosing definition, or the next one."""
     try:
         tree = ast.parse(text)
         tokens = list(tokenize.generate_tokens(io.StringIO(text).readline))
@@ -106,7 +106,7 @@ def _name_python_lines(text: str) -> dict[int, str]:
 
 
 def _read_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest]:
-    """A tag belongs to the test whose head stands below its comment, or around it. Without a test it keeps an empty name."""
+    """A tag belongs to the test below its comment or around it. Without a test it has an empty name."""
     if shown.endswith(_CPP):
         return _read_cpp_tests(text, shown, words)
     heads = list_heads(text, shown)
@@ -125,7 +125,7 @@ def _read_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest
 
 
 def _read_cpp_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest]:
-    """The same for C and C++: the test around the tag or the call, or the declaration below the tag."""
+    """Like `_read_tests`, for C and C++: the test around the tag or the call, or the declaration below the tag."""
     plain = Plain(text)
     heads = list_cpp_heads(plain, shown)
     ends = {}

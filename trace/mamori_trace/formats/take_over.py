@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Takes a foreign project over as Markdown items: new ids where the old ones do not fit, and a list of all that has no place here.
+"""Imports an external project as Markdown items: new ids if the old ones do not fit, and a list of all parts that were not imported.
 
 @satisfies SWR-TRC-049, SWR-TRC-051      Design: docs/design/trace_formats.md#import
 """
@@ -34,7 +34,7 @@ _LEVELS = {1: ("SWR",), 2: ("SYS", "SWR"), 3: ("STK", "SYS", "SWR")}
 
 @dataclass(slots=True)
 class Takeover:
-    """`files` by path below the target folder; `ids` from old to new; `reviews` of links that came along."""
+    """`files` by path below the target folder; `ids` from old to new; `reviews` of the imported links."""
 
     files: dict[str, str] = field(default_factory=dict)
     ids: dict[str, str] = field(default_factory=dict)
@@ -46,9 +46,9 @@ class Takeover:
 def take_over(
     foreign: ForeignProject, mapping: Mapping, schema: Schema, area: str, used: Sequence[str], problems: list[Problem]
 ) -> Takeover:
-    """What is to be written. New ids come after all that stand anywhere in the texts `used`.
+    """The files to write. New ids follow all ids in the texts `used`.
 
-    Raises InputError where ids cannot be given; `problems` are what the checks would say.
+    Raises InputError if ids cannot be assigned; `problems` are the findings that the checks would report.
     """
     converted = convert(foreign, mapping, problems)
     judged = {item.id: item for item in reversed(converted.items)}
@@ -73,7 +73,7 @@ def take_over(
 
 
 def _name_file(item: ForeignItem, foreign: ForeignProject) -> str:
-    """Documents of an export from here keep their files; others are named after their document, or the file that they stood in."""
+    """Documents exported by Mamori keep their files; others are named after their document or their source file."""
     if item.document in foreign.headers and re.fullmatch(r"(?:[\w-]+/)*[\w.-]+\.md", item.document) and ".." not in item.document:
         return item.document
     source = item.document or item.place.file.rpartition("/")[2].partition(".")[0]
@@ -128,7 +128,7 @@ def _format(item: ForeignItem, judged: Item, outcome: Takeover, mapping: Mapping
 def _choose(
     item: ForeignItem, key: str, judged: str, known: tuple[str, ...], default: str, mapping: Mapping, lost: list[tuple[str, str]]
 ) -> str:
-    """The word of the item where it is one of ours; else what the rules took it for, and last the default, which is told."""
+    """The word of the item if the schema knows it; otherwise the word that the rules used, or the reported default."""
     name = next((each for each in mapping.lists[key] if item.attributes.get(each, "").strip()), "")
     given = item.attributes.get(name, "").strip()
     if given and all(word.strip() in known for word in given.split(",")):
@@ -142,7 +142,7 @@ def _choose(
 
 
 def _list_parents(item: ForeignItem, judged: Item, outcome: Takeover) -> list[str]:
-    """Parents under their new ids. What has no place among them is told."""
+    """Parents under their new ids. Parents that cannot be imported are reported."""
     for each in item.relations:
         place = Place(item.place.file, each.line)
         if each.target not in outcome.ids or outcome.ids[each.target] == outcome.ids[item.id]:
@@ -156,7 +156,7 @@ def _list_parents(item: ForeignItem, judged: Item, outcome: Takeover) -> list[st
 
 
 def format_map(outcome: Takeover) -> str:
-    """Old id, new id and place, as CSV."""
+    """Old id, new id and location, as CSV."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["old", "new", "file", "line"])
@@ -166,7 +166,7 @@ def format_map(outcome: Takeover) -> str:
 
 
 def find_earlier(outcome: Takeover, maps: dict[str, str]) -> str:
-    """Tells of an item of the same file that is in one of `maps`, texts of earlier imports by their names. @return "" for none."""
+    """Reports an item of the same file that is in one of `maps`, the texts of earlier imports by name. @return "" for none."""
     for name, text in sorted(maps.items()):
         for line, cells in enumerate(csv.reader(io.StringIO(text)), start=1):
             row = [unescape_cell(cell) for cell in cells]
@@ -176,7 +176,7 @@ def find_earlier(outcome: Takeover, maps: dict[str, str]) -> str:
 
 
 def write_takeover(outcome: Takeover, folder: Path, map_name: str) -> list[Path]:
-    """Writes all files or none. Raises InputError where one exists already, or cannot be written."""
+    """Writes all files or none. Raises InputError if one exists already or cannot be written."""
     files = {folder / name: text for name, text in outcome.files.items()} | {folder / map_name: format_map(outcome)}
     present = sorted(path for path in files if os.path.lexists(path))
     if present:
@@ -191,13 +191,13 @@ def write_takeover(outcome: Takeover, folder: Path, map_name: str) -> list[Path]
     except OSError as error:
         take_back(written)
         raise InputError(f"{path}: cannot be written: {explain(error)}; nothing was taken over") from None
-    except BaseException:  # half of a letter, or Ctrl-C
+    except BaseException:  # half of a character, or Ctrl-C
         take_back(written)
         raise
     return written
 
 
 def take_back(written: list[Path]) -> None:
-    """Removes what was written, where something after it failed."""
+    """Removes the written files after a later failure."""
     for path in written:
         path.unlink(missing_ok=True)

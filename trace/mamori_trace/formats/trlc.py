@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads TRLC: the record objects of .trlc files. Of .rsl files only the names of enumerations are needed.
 
-Everything that is not understood ends the file with its line: a record that was half understood could hide a link.
+Unknown syntax ends the file with its line, because a partly understood record could hide a link.
 
 @satisfies SWR-TRC-045, SWR-TRC-048      Design: docs/design/trace_formats.md#formats
 """
@@ -33,7 +33,7 @@ _DEPTH_MAX = 30
 
 
 class _NotUnderstood(Exception):
-    """What was found; the line is that of the token."""
+    """The found token and its line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 def _finish(record: _Record, enums: set[str]) -> ForeignItem:
-    """A name is a word of an enumeration, perhaps behind its package, or else a reference; without a package it is one of the record's own."""
+    """A name is an enumeration word, with or without its package, or else a reference; without a package it is in that of the record."""
     item = record.item
     for attribute, name, line in record.names:
         head, dot, word = name.rpartition(".")

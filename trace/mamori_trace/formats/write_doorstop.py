@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the neutral model as Doorstop documents: one folder for each prefix of ids, in it one YAML file for each item.
+"""Writes the neutral model as Doorstop documents: one folder for each prefix of ids, with one YAML file for each item.
 
 @satisfies SWR-TRC-050      Design: docs/design/trace_formats.md#export
 """
@@ -24,7 +24,7 @@ _LINE_LENGTH = 120
 
 
 class _Text(str):
-    """A text that people read; it stands as a block of lines, as Doorstop itself writes it."""
+    """A text for readers; it is written as a block of lines, as Doorstop itself does."""
 
 
 class _Dumper(yaml.SafeDumper):
@@ -40,7 +40,7 @@ _Dumper.add_representer(_Text, _represent_text)
 
 @dataclass(slots=True)
 class _Document:
-    """Items of one prefix in order. `parent` is the prefix of the document above; empty for the one on top."""
+    """Items of one prefix in order. `parent` is the prefix of the document above; empty for the top document."""
 
     prefix: str
     sep: str
@@ -50,7 +50,7 @@ class _Document:
 
 
 def make_doorstop(project: ForeignProject) -> dict[str, str]:
-    """Texts by their paths. Raises InputError for an id that Doorstop could not read."""
+    """Texts by their paths. Raises InputError for an id that Doorstop cannot read."""
     documents: dict[str, _Document] = {}
     homes: dict[str, str] = {}
     for item in project.items:
@@ -81,7 +81,7 @@ def _demand_uid(name: str, item: ForeignItem) -> re.Match[str]:
 
 
 def _build_tree(documents: list[_Document], homes: dict[str, str]) -> None:
-    """Each document below that to which most of its links lead; Doorstop wants one tree, so what has none lies below the largest."""
+    """Puts each document below the target of most of its links. Doorstop needs one tree, so documents without links are below the largest."""
     known = {document.prefix: document for document in documents}
     for document in documents:
         targets = Counter(homes[each.target] for item in document.items for each in item.relations if each.target in homes)
@@ -96,7 +96,7 @@ def _build_tree(documents: list[_Document], homes: dict[str, str]) -> None:
 
 
 def _list_above(prefix: str, known: dict[str, _Document]) -> list[str]:
-    """The document and all above it, up to the top; there is no ring, as none is ever closed."""
+    """The document and its ancestors; there is no cycle, because links that would close one are left out."""
     above = [prefix]
     while known[above[-1]].parent:
         above.append(known[above[-1]].parent)
@@ -111,7 +111,7 @@ def _format_settings(document: _Document) -> str:
 
 
 def _format_item(item: ForeignItem, document: _Document, position: int) -> str:
-    """Links and item have no stamps: a review in Doorstop is Doorstop's own."""
+    """Links and items have no stamps, because a stamp records a review in Doorstop."""
     others = {f"attribute-{name}" if name in _OWN else name: value for name, value in item.attributes.items()}
     words = {value.lower() for name, value in item.attributes.items() if name.lower() == "status"}
     rows = {

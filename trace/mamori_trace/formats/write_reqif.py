@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes ReqIF: one object per item, one relation per link, one specification per document.
 
-Every value is a string attribute, so nothing is rounded or reworded. The time of creation is fixed, as the same items give the same bytes.
+Every value is a string attribute, so nothing is rounded or changed. The creation time is fixed, so that equal items give equal bytes.
 
 @satisfies SWR-TRC-050, SWR-TRC-051      Design: docs/design/trace_formats.md#export
 """
@@ -26,12 +26,12 @@ _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
 def format_reqif(project: ForeignProject) -> str:
-    """The whole file. Raises InputError for a text that no XML can hold."""
+    """The complete file. Raises InputError for a text that XML cannot represent."""
     return "\n".join(_Page(project).lines) + "\n"
 
 
 class _Page:
-    """Lines in the making. Identifiers are made of what they stand for, so they do not depend on the order of anything else."""
+    """Builds the lines. Identifiers depend only on the object that they identify, not on the order of other objects."""
 
     def __init__(self, project: ForeignProject) -> None:
         self.lines = ['<?xml version="1.0" encoding="UTF-8"?>', '<REQ-IF xmlns="http://www.omg.org/spec/ReqIF/20110401/reqif.xsd">']
@@ -135,6 +135,6 @@ def _quote(value: str) -> str:
 
 
 def _make_id(kind: str, name: str) -> str:
-    """An identifier that XML takes as an ID: readable where the name allows, and a hash of it always."""
+    """A valid XML ID: readable if the name permits, and always with a hash of the name."""
     plain = re.sub(r"[^A-Za-z0-9.\-]", "_", name)[:60]
     return f"{kind}.{plain}.{hashlib.sha256(name.encode()).hexdigest()[:8]}"

@@ -20,7 +20,7 @@ _PROJECT = "Requirements"
 
 
 def format_json(project: ForeignProject) -> str:
-    """Everything, links with their last review."""
+    """All data, and links with their last review."""
     items = [
         {"id": item.id, "title": item.title, "statement": item.statement, "rationale": item.rationale, "kind": item.kind,
          "document": item.document, "attributes": item.attributes, "file": item.place.file, "line": item.place.line,
@@ -31,7 +31,7 @@ def format_json(project: ForeignProject) -> str:
 
 
 def format_needs(project: ForeignProject) -> str:
-    """needs.json; attributes get the lower-case names that sphinx-needs asks for."""
+    """needs.json; attributes get the lower-case names that sphinx-needs requires."""
     needs = {
         item.id: {
             "id": item.id, "title": item.title, "type": item.kind.lower() or "req", "docname": item.document.removesuffix(".md"),
@@ -45,7 +45,7 @@ def format_needs(project: ForeignProject) -> str:
 
 
 def format_oft(project: ForeignProject) -> str:
-    """Specification items of revision 1. Its own keywords stay what they were; what it has none for becomes a comment."""
+    """Specification items of revision 1. OpenFastTrace keywords stay unchanged; other attributes become comments."""
     names = {item.id: _make_oft_id(item) for item in project.items}
     blocks = [f"# {_PROJECT}\n"]
     for item in project.items:

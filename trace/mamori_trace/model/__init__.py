@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the trace tool knows: items, evidence, findings, and the project that joins them."""
+"""The data model of the trace tool: items, evidence, findings, and the project that joins them."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The manifest of an evidence bundle, and how a bundle is held against it.
+"""The manifest of an evidence bundle, and the comparison of a bundle with it.
 
 @satisfies SWR-TRC-074, SWR-TRC-075      Design: docs/design/trace.md#bundle
 """
@@ -29,7 +29,7 @@ class Entry:
 
 @dataclass(slots=True)
 class Manifest:
-    """What a bundle holds and where it comes from. `faults` are entries that no bundle may have."""
+    """Content and origin of a bundle. `faults` are entries that a bundle must not have."""
 
     commit: str = ""
     worktree: str = "unknown"
@@ -41,7 +41,7 @@ class Manifest:
 
 @dataclass(slots=True)
 class Content:
-    """What was found. `irregular` names what is no regular file; `manifest` and `signature` are bytes, or None."""
+    """The files found. `irregular` names entries that are not regular files; `manifest` and `signature` are bytes, or None."""
 
     files: dict[str, Entry] = field(default_factory=dict)
     irregular: dict[str, str] = field(default_factory=dict)
@@ -64,7 +64,7 @@ def format_manifest(manifest: Manifest) -> str:
 
 
 def parse_manifest(data: bytes) -> Manifest:
-    """Raises FormatError when it is no manifest; single entries that are wrong become faults."""
+    """Raises FormatError if `text` is not a manifest; single invalid entries become faults."""
     try:
         table = json.loads(data.decode("utf-8"), object_pairs_hook=_refuse_repeated)
     except (ValueError, RecursionError) as error:
@@ -102,7 +102,7 @@ def _take_row(manifest: Manifest, index: int, row: object) -> None:
 
 
 def describe_path(path: str) -> str:
-    """Why a path may not stand in a bundle, or an empty text."""
+    """The reason why a path is not allowed in a bundle, or an empty text."""
     if path.startswith("/") or "\\" in path or re.match(r"[A-Za-z]:", path):
         return "is no relative path"
     parts = path.split("/")
@@ -116,7 +116,7 @@ def describe_path(path: str) -> str:
 
 
 def compare(manifest: Manifest, content: Content) -> list[str]:
-    """Every difference, in order of the paths."""
+    """Every difference, sorted by path."""
     rows = [(path, f"{path} {why}") for path, why in content.irregular.items()]
     for path in manifest.files.keys() | content.files.keys():
         listed, found = manifest.files.get(path), content.files.get(path)

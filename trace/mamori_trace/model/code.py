@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The code that was read: which functions there are, and which requirements own each by its tags.
+"""The code that was read: its functions, and the requirements that own each function by tags.
 
 @satisfies SWR-TRC-030      Design: docs/design/trace.md#functions
 """
@@ -16,7 +16,7 @@ from mamori_trace.base.finding import Place
 
 @dataclass(frozen=True, slots=True)
 class CodeSchema:
-    """What requirements/schema/code.toml says: `traced` are the folders and files whose functions need an owner; `no_evidence` those
+    """Content of requirements/schema/code.toml: `traced` are the folders and files whose functions need an owner; `no_evidence` those
     whose change leaves the evidence valid; `integration` those whose tests are integration tests."""
 
     traced: tuple[str, ...] = ()
@@ -35,9 +35,9 @@ def _is_below(file: str, places: tuple[str, ...]) -> bool:
 
 
 class Function(NamedTuple):
-    """A function with a body. Lines count from 1, `last` included; `body` is the line from which on a call leaves a trace.
+    """A function with a body. Lines count from 1, `last` included; `body` is the first line that a call executes.
 
-    `name` holds the classes around it, but no namespace. `requirements` are the ids of all tags that own it, the nearest first.
+    `name` includes the enclosing classes, but no namespace. `requirements` are the ids of all tags that own it, the nearest first.
     """
 
     file: str
@@ -53,7 +53,7 @@ class Function(NamedTuple):
 
 
 class Scope(NamedTuple):
-    """What a tag speaks for: the lines of a declaration, also where it is defined elsewhere, or (without a name) the whole file."""
+    """The scope of a tag: the lines of a declaration, also for a separate definition, or (without a name) the complete file."""
 
     file: str
     name: str
@@ -64,7 +64,7 @@ class Scope(NamedTuple):
 
 @dataclass(slots=True)
 class CodeBase:
-    """Filled by the readers. `classes` are those that a C++ file defines; `own_headers` names the headers that declare what it defines."""
+    """Filled by the readers. `classes` are defined in a C++ file; `own_headers` names the headers that declare them."""
 
     functions: list[Function] = field(default_factory=list)
     scopes: list[Scope] = field(default_factory=list)
@@ -95,5 +95,5 @@ class CodeBase:
 
 
 def _declares(scope: Scope, function: Function) -> bool:
-    """Whether the declaration is that of the function, or of a class around it. Overloads share their tags."""
+    """Whether the declaration is that of the function, or of an enclosing class. Overloads share their tags."""
     return f"::{scope.name}::" in f"::{function.name}::"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Coverage: what executed tests reached of each source file, of each function, and of the functions that a requirement owns.
+"""Coverage that executed tests reached: of each source file, of each function, and of the functions of a requirement.
 
 @satisfies SWR-TRC-032, SWR-TRC-033      Design: docs/design/trace.md#coverage
 """
@@ -16,7 +16,7 @@ from mamori_trace.model.code import Function
 
 @dataclass(slots=True)
 class Condition:
-    """One condition of a decision. `reason` says why it is accepted that it was not shown."""
+    """One condition of a decision. `reason` states why a missing proof is accepted."""
 
     text: str
     shown: bool
@@ -26,7 +26,7 @@ class Condition:
 @dataclass(slots=True)
 class FileCoverage:
     """Counters of one file, by line. `calls` counts entries into the function that begins there; `accepted` gives the reason why
-    that one need not be called; `branches` holds reached and all; the key of a condition begins with its line."""
+    that function need not be called; `branches` holds reached and all branches; the key of a condition begins with its line."""
 
     lines: dict[int, int] = field(default_factory=dict)
     calls: dict[int, int] = field(default_factory=dict)
@@ -35,7 +35,7 @@ class FileCoverage:
     conditions: dict[tuple[int, ...], Condition] = field(default_factory=dict)
 
     def add(self, other: FileCoverage) -> None:
-        """Takes in what another run reached. A reason holds as soon as one run gives it."""
+        """Adds the coverage of another run. A reason applies if one run gives it."""
         for mine, others in ((self.lines, other.lines), (self.calls, other.calls)):
             for line, count in others.items():
                 mine[line] = mine.get(line, 0) + count
@@ -51,7 +51,7 @@ class FileCoverage:
 
 @dataclass(slots=True)
 class CoverageRun:
-    """One coverage file. `test` is the title of the one test that was run for it, or empty: all tests that there were."""
+    """One coverage file. `test` is the title of the single test that it covers; empty: all tests."""
 
     place: Place
     test: str = ""
@@ -63,7 +63,7 @@ class CoverageRun:
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """A condition that no test has shown to decide alone. `reason` says why that is accepted."""
+    """A condition whose independent effect no test has shown. `reason` states why that is accepted."""
 
     place: Place
     text: str
@@ -72,7 +72,7 @@ class Gap:
 
 @dataclass(slots=True)
 class Reached:
-    """What was reached of one function, or of all functions of one requirement. `functions_measured` have counters at all."""
+    """Coverage of one function, or of all functions of one requirement. `functions_measured` are the functions with counters."""
 
     functions: int = 0
     functions_measured: int = 0
@@ -102,7 +102,7 @@ _NUMBERS = ("functions", "functions_measured", "functions_executed", "lines", "l
 
 @dataclass(slots=True)
 class _Index:
-    """One file with the lines of each kind in order, so that the part of a function is found at once."""
+    """One file with sorted lines of each kind, so that the part of a function is found quickly."""
 
     coverage: FileCoverage
     lines: list[int]
@@ -112,7 +112,7 @@ class _Index:
 
 
 class Coverage:
-    """Several runs as one."""
+    """The merged coverage of several runs."""
 
     def __init__(self, runs: Iterable[CoverageRun]) -> None:
         merged: dict[str, FileCoverage] = {}
@@ -128,7 +128,7 @@ class Coverage:
         return name in self._files
 
     def measure(self, function: Function) -> Reached:
-        """What was reached of the function."""
+        """The coverage of the function."""
         result = Reached(functions=1)
         index = self._files.get(function.file)
         if index is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decomposition records: why a child may have a lower SIL than its parent, and who carries the parent's.
+"""Decomposition records: why a child may have a lower SIL than its parent, and which items carry the SIL of the parent.
 
 @satisfies SWR-TRC-022      Design: docs/design/trace.md#decomposition
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Evidence: tags in code, tests in sources, executed results, campaign cases, and the environment they ran in."""
+"""Evidence: tags in code, tests in sources, executed results, campaign cases, and their environment."""
 
 from __future__ import annotations
 
@@ -39,8 +39,8 @@ class CodeTag(NamedTuple):
 
 
 class SourceTest(NamedTuple):
-    """A test as its source states it; `suite` and `name` find its results. `by_comment`: the running test knows nothing of its
-    requirement, so its results cannot tell it."""
+    """A test as its source states it; `suite` and `name` find its results. `by_comment`: the tag is a comment, so the results do not name
+    the requirement."""
 
     requirement: str
     suite: str
@@ -57,10 +57,10 @@ class SourceTest(NamedTuple):
 
 @dataclass(slots=True)
 class TestResult:
-    """One executed test case. `requirement` is empty when the test names none; `flaky`: it passed, but not at the first try; `bound_to`: suite and name
-    of its test in the sources."""
+    """One executed test case. `requirement` is empty if the test names none; `flaky`: it passed, but not at the first attempt; `bound_to`: suite and
+    name of its test in the sources."""
 
-    __test__: ClassVar[bool] = False  # pytest would take the class for a group of tests
+    __test__: ClassVar[bool] = False  # pytest would treat the class as a group of tests
 
     suite: str
     name: str
@@ -75,7 +75,7 @@ class TestResult:
     kind: str = UNIT
     flaky: bool = False
     bound_to: tuple[str, str] | None = None
-    is_first: bool = True  # False for the same case again, under another requirement that it names
+    is_first: bool = True  # False for the same case under a further requirement that it names
 
     @property
     def title(self) -> str:
@@ -88,9 +88,9 @@ class TestResult:
 
 @dataclass(slots=True)
 class CampaignCase:
-    """One fault-injection case. `passed` needs the written verdict and every single check.
+    """One fault-injection case. `passed` requires the written verdict and every single check.
 
-    `requirement_polarity` says which side of each requirement the case shows, where that is not `polarity` for all.
+    `requirement_polarity` gives the polarity of a requirement if it differs from `polarity`.
     """
 
     id: str
@@ -108,7 +108,7 @@ class CampaignCase:
     bound: bool = True
 
     def get_polarity(self, requirement: str) -> str:
-        """Which side of `requirement` the case shows."""
+        """The polarity that the case shows for `requirement`."""
         return self.requirement_polarity.get(requirement, self.polarity)
 
     @property
@@ -127,7 +127,7 @@ class CampaignCase:
 
 @dataclass(slots=True)
 class TimingRun:
-    """One system by the clock, as `mamori timing` wrote it; its reader has checked `record`. `folder` holds the pictures."""
+    """One system measured in real time by `mamori timing`; its reader has checked `record`. `folder` contains the pictures."""
 
     folder: str
     record: dict[str, Any]
@@ -136,7 +136,7 @@ class TimingRun:
 
 @dataclass(slots=True)
 class CostRun:
-    """One system whose steps were counted, as `mamori cost` wrote it; its reader has checked `record`."""
+    """One system whose steps `mamori cost` counted; its reader has checked `record`."""
 
     folder: str
     record: dict[str, Any]
@@ -145,7 +145,7 @@ class CostRun:
 
 @dataclass(frozen=True, slots=True, order=True)
 class AnalysisFinding:
-    """Something that a static analysis found; `rule` is the name that its tool gives it."""
+    """A finding of a static analysis; `rule` is the name that its tool uses."""
 
     place: Place
     rule: str
@@ -154,9 +154,9 @@ class AnalysisFinding:
 
 @dataclass(frozen=True, slots=True)
 class FileRecord:
-    """What `records.json` says of one evidence file. `sources` is the hash of the sources that it was made from, or empty.
+    """The row of one evidence file in `records.json`. `sources` is the hash of its sources, or empty.
 
-    `now` is that hash as it is now, where the record covers chosen folders only; `intact`: the file is as it was recorded.
+    `now` is the current hash if the record covers chosen folders only; `intact`: the file matches its record.
     """
 
     shown: str
@@ -167,9 +167,9 @@ class FileRecord:
 
 @dataclass(slots=True)
 class Evidence:
-    """Everything below one evidence folder. `folder` is its path as given, `shown` as findings name it.
+    """All files below one evidence folder. `folder` is its path as given, `shown` the path in findings.
 
-    `results_shown` names result files that were given one by one.
+    `results_shown` names result files that the user gave singly.
     """
 
     folder: str = ""
@@ -193,7 +193,7 @@ class Evidence:
         return bool(self.folder)
 
     def unbind(self) -> None:
-        """Takes the word `passed` from every result and case whose file has no intact record."""
+        """Changes `passed` to unbound for every result and case whose file has no intact record."""
         bound = {record.shown for record in self.records.values() if record.intact}
         for result in self.results:
             if result.status == PASSED and result.place.file not in bound:
@@ -203,7 +203,7 @@ class Evidence:
 
     @property
     def tells_sources(self) -> bool:
-        """Whether the sources that it was made from are known by their hash, not by their commit alone."""
+        """Whether the hash of the sources is known, and not only their commit."""
         environments = (self.environment, self.campaign_environment)
         return any(get_sources(one) for one in environments) or any(one.sources for one in self.records.values())
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ledger of ids that were given up, so that none of them comes to mean something else.
+"""The ledger of retired ids, so that none of them is used for another item.
 
 @satisfies SWR-TRC-025      Design: docs/design/trace.md#ids
 """
@@ -13,7 +13,7 @@ from mamori_trace.base.finding import Place
 
 @dataclass(frozen=True, slots=True)
 class FormerId:
-    """An id without an item. `fingerprint` is that of its last review; `title` is the last one known, or empty."""
+    """An id without an item. `fingerprint` is from its last review; `title` is the last known title, or empty."""
 
     id: str
     fingerprint: str

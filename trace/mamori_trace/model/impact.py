@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a change touches: from functions, items, tests and headings to requirements, hazards, tests, cases and reviews.
+"""Effects of a change: from functions, items, tests and headings to requirements, hazards, tests, cases and reviews.
 
-The rule for doubt: too much rather than too little. What nothing can be said about is told as such.
+In doubt, the report includes too much rather than too little. It names changed files that it cannot assign.
 
 @satisfies SWR-TRC-071, SWR-TRC-072      Design: docs/design/trace.md#impact
 """
@@ -25,7 +25,7 @@ _COMPARED = ("title", "statement", "rationale", "parents", "sil", "verify", "pol
 
 @dataclass(frozen=True, slots=True, order=True)
 class Part:
-    """A named part of a changed file, or the file outside of its parts. `requirements` own it."""
+    """A named part of a changed file, or the file outside its parts. `requirements` own it."""
 
     file: str
     name: str
@@ -36,7 +36,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True, order=True)
 class ItemChange:
-    """An item that was added, removed or changed; `fields` says in what."""
+    """An item that was added, removed or changed; `fields` names the changed fields."""
 
     id: str
     state: str
@@ -45,7 +45,7 @@ class ItemChange:
 
 @dataclass(frozen=True, slots=True, order=True)
 class Redo:
-    """A link to look at again. `recorded` says that the newer side holds that look already."""
+    """A link to review again. `recorded`: the newer side already contains that review."""
 
     child: str
     parent: str
@@ -55,7 +55,7 @@ class Redo:
 
 @dataclass(slots=True)
 class Impact:
-    """Everything that a change touches. `causes` gives for each touched requirement why; `above` what lies over them."""
+    """All effects of a change. `causes` gives the reason for each affected requirement; `above` the items above them."""
 
     parts: list[Part] = field(default_factory=list)
     items: list[ItemChange] = field(default_factory=list)
@@ -70,7 +70,7 @@ class Impact:
 
 
 class Owners:
-    """Which requirements own a part of a file, by the tags of both sides of the change."""
+    """The requirements that own a part of a file, by the tags of both sides of the change."""
 
     def __init__(self, tags: Iterable[CodeTag]) -> None:
         self._by_file: dict[str, set[CodeTag]] = {}
@@ -80,7 +80,7 @@ class Owners:
             self._by_stem.setdefault(_get_stem(tag.place.file), set()).add(tag.place.file)
 
     def find(self, file: str, name: str) -> tuple[str, ...]:
-        """Requirements of the part, of what it lies in, and of the file; a header speaks for the source of its name."""
+        """Requirements of the part, of its enclosing parts, and of the file; the tags of a header also apply to the source file of its name."""
         files = {file}
         if file.endswith(_CPP):
             files |= {other for other in self._by_stem.get(_get_stem(file), ()) if other.endswith(_CPP)}
@@ -98,7 +98,7 @@ def _get_stem(file: str) -> tuple[str, str]:
 
 
 def compare_items(old: dict[str, Item], new: dict[str, Item]) -> list[ItemChange]:
-    """Items that were added, removed, or differ in what they say; a move inside the files is no change."""
+    """Items that were added, removed, or whose content differs; a move inside the files is not a change."""
     changes = [ItemChange(key, ADDED) for key in new.keys() - old.keys()]
     changes += [ItemChange(key, REMOVED) for key in old.keys() - new.keys()]
     for key in old.keys() & new.keys():
@@ -109,7 +109,7 @@ def compare_items(old: dict[str, Item], new: dict[str, Item]) -> list[ItemChange
 
 
 def list_reviews(old: Project, new: Project) -> list[Redo]:
-    """Links whose ends are not as they were, and links that were not there."""
+    """Links with changed ends, and new links."""
     before = {(item.id, parent) for item in old.live_items for parent in item.parents}
     reviews = []
     for child in new.live_items:
@@ -134,7 +134,7 @@ def _is_other(old: Item | None, new: Item) -> bool:
 
 
 def calc_impact(old: Project, new: Project, parts: list[Part], headings: list[Part], unattributed: list[str]) -> Impact:
-    """Joins what the readers found. `parts` come with their owners."""
+    """Joins the results of the readers. `parts` have their owners."""
     impact = Impact(sorted(parts), compare_items(old.items, new.items), sorted(headings), sorted(unattributed))
     changed_tests = {(part.file, part.name) for part in parts if part.is_test and part.state != REMOVED}
     removed = {(part.file, part.name) for part in parts if part.is_test and part.state == REMOVED}
@@ -152,7 +152,7 @@ def calc_impact(old: Project, new: Project, parts: list[Part], headings: list[Pa
 
 
 def _get_key(test: SourceTest) -> tuple[str, str]:
-    """File and name as the finder of parts spells them: `Suite.Name` in C++, `Class.name` or `name` in Python."""
+    """File and name in the spelling of the part finder: `Suite.Name` in C++, `Class.name` or `name` in Python."""
     if test.place.file.endswith(".py"):
         inner = test.suite.partition(".")[2]
         return test.place.file, f"{inner}.{test.name}" if inner else test.name

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Requirement items and the schema that says which words and links they may have."""
+"""Requirement items, and the schema of their permitted words and links."""
 
 from __future__ import annotations
 
@@ -85,13 +85,13 @@ class Item:
         return self.status == RETIRED
 
     def find_place(self, attribute: str) -> Place:
-        """Place of an attribute, or of the heading where the attribute is missing."""
+        """Location of an attribute, or of the heading if the attribute is missing."""
         return Place(self.place.file, self.lines.get(attribute, self.place.line))
 
     def calc_fingerprint(self) -> str:
-        """Fingerprint of what a reviewer of a link has to look at: what is demanded, how hard, and how it is shown.
+        """Fingerprint of the parts that a reviewer of a link has to compare: the obligation, its level, and its verification.
 
-        Rationale, design link and status may be mended without a new review of the links.
+        Rationale, design link and status may be corrected without a new review of the links.
         """
         parts = (self.id, self.title, self.statement, self.sil, ",".join(self.verify), ",".join(self.polarity))
         text = "\n".join([" ".join(part.split()) for part in parts])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Kinds of what is traced, and the links that may join them.
+"""Kinds of traced things, and the permitted links between them.
 
 @satisfies SWR-TRC-028      Design: docs/design/trace.md#kinds-and-links
 """
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """`levels`: levels of items.toml that are of this kind; none for what is no item. `required`: attributes that say something."""
+    """`levels`: levels of items.toml that are of this kind; none for things that are not items. `required`: attributes that need a value."""
 
     key: str
     name: str
@@ -21,7 +21,7 @@ class Kind:
 
 @dataclass(frozen=True, slots=True)
 class LinkKind:
-    """A link from each kind of `sources` to each kind of `targets`; `written` says where it stands."""
+    """A link from each kind of `sources` to each kind of `targets`; `written` names its location."""
 
     key: str
     sources: tuple[str, ...]
@@ -41,6 +41,6 @@ class KindSchema:
         return next((kind for kind in self.kinds.values() if level in kind.levels), None)
 
     def list_targets(self, source: str, link: str) -> tuple[str, ...] | None:
-        """Kinds that `link` may lead to from the kind `source`; None where the schema does not speak of that."""
+        """Kinds that `link` may lead to from the kind `source`; None if the schema does not define that."""
         row = self.links.get(link)
         return row.targets if row is not None and source in row.sources else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The review lock: for each parent link the fingerprints of both ends when a person last looked at it.
+"""The review lock: for each parent link the fingerprints of both ends at the last review.
 
 @satisfies SWR-TRC-008      Design: docs/design/trace.md#suspect-links
 """
@@ -14,7 +14,7 @@ from mamori_trace.model.item import Item
 
 
 class Review(NamedTuple):
-    """What one line of the lock says. `date` is ISO 8601; `reviewer` is a name."""
+    """Content of one line of the lock. `date` is ISO 8601; `reviewer` is a name."""
 
     child: str
     parent: str
@@ -26,16 +26,16 @@ class Review(NamedTuple):
 
 @dataclass(slots=True)
 class ReviewLock:
-    """Reviews by (child, parent). `lines` gives the line of each in `file`, which it was read from."""
+    """Reviews by (child, parent). `lines` gives the line of each review in `file`."""
 
     reviews: dict[tuple[str, str], Review] = field(default_factory=dict)
     lines: dict[tuple[str, str], int] = field(default_factory=dict)
     file: str = "requirements/trace.lock"
 
     def describe_suspicion(self, child: str, parent: str, fingerprints: Mapping[str, str]) -> str:
-        """Why the link is suspect, or an empty text when both ends are as they were at the last review.
+        """Why the link is suspect, or an empty text if both ends are unchanged since the last review.
 
-        @param fingerprints of all items as they are now, by id: an item has many links and one fingerprint.
+        @param fingerprints current fingerprints of all items, by id: an item has many links and one fingerprint.
         """
         review = self.reviews.get((child, parent))
         if review is None:
@@ -50,7 +50,7 @@ class ReviewLock:
         return f"{' and '.join(changed)} changed since the link {child} -> {parent} was reviewed on {review.date}"
 
     def record(self, child: Item, parent: Item, date: str, reviewer: str) -> None:
-        """Records a new look at one link."""
+        """Records a new review of one link."""
         self.reviews[(child.id, parent.id)] = Review(
             child.id, parent.id, child.calc_fingerprint(), parent.calc_fingerprint(), date, reviewer
         )

@@ -21,7 +21,7 @@ _LAST = 999
 
 @dataclass(frozen=True, slots=True)
 class Wish:
-    """What the user asked for; empty words are filled in."""
+    """The request of the user; empty fields are filled in."""
 
     kind: str
     area: str = ""
@@ -37,7 +37,7 @@ class Wish:
 
 
 def find_prefix(project: Project, wish: Wish) -> tuple[Level, str]:
-    """The level and what the id begins with, such as `SWR-SUP-`. Raises FormatError."""
+    """The level and the beginning of the id, such as `SWR-SUP-`. Raises FormatError."""
     level = project.schema.levels.get(wish.kind.upper())
     if level is None:
         raise FormatError(f"there is no kind '{wish.kind}'" + _hint(wish.kind.upper(), project.schema.levels))
@@ -57,7 +57,7 @@ def find_prefix(project: Project, wish: Wish) -> tuple[Level, str]:
 
 
 def allocate(prefix: str, texts: Iterable[str]) -> str:
-    """The id above all that occur anywhere in `texts`. Raises FormatError when no number is left."""
+    """The id above all ids in `texts`. Raises FormatError if no number is left."""
     highest = find_highest(prefix, texts)
     if highest >= _LAST:
         raise FormatError(f"no number is left above {prefix}{highest}; begin another area")
@@ -65,7 +65,7 @@ def allocate(prefix: str, texts: Iterable[str]) -> str:
 
 
 def find_highest(prefix: str, texts: Iterable[str]) -> int:
-    """The greatest number that stands behind `prefix` anywhere in `texts`; 0 without one."""
+    """The maximum number after `prefix` in `texts`; 0 without one."""
     highest = 0
     for text in texts:
         position = text.find(prefix)
@@ -78,7 +78,7 @@ def find_highest(prefix: str, texts: Iterable[str]) -> int:
 
 
 def format_draft(project: Project, level: Level, item_id: str, wish: Wish) -> str:
-    """The item block. Raises FormatError when a parent is not there or not of a level that may be one."""
+    """The item block. Raises FormatError if a parent is missing or its level may not be a parent."""
     for name in wish.parents:
         _demand_parent(project, level, name)
     if level.parents and not any(name.partition("-")[0] in level.parents for name in wish.parents):

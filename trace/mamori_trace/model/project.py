@@ -38,10 +38,10 @@ _CPP_FILES = (".cpp", ".cc", ".cxx", ".hpp", ".h")
 
 @dataclass
 class Project:
-    """All that was read. `all_items` keeps every definition in file order; `items` the first one of each id.
+    """All inputs. `all_items` keeps every definition in file order; `items` the first one of each id.
 
-    `sources` is the hash of the sources where the evidence tells one, too. `date` is the day of the state that is judged (ISO 8601),
-    or empty where nothing needs or tells it. `run_checks` sets `waived`, and `told`: (rule, item) of all findings.
+    `sources` is the hash of the sources if the evidence also has one. `date` is the day of the checked state (ISO 8601),
+    or empty if it is unknown or not needed. `run_checks` sets `waived`, and `told`: (rule, item) of all findings.
     """
 
     root: Path
@@ -80,12 +80,12 @@ class Project:
 
     @cached_property
     def live_items(self) -> list[Item]:
-        """Items that are not retired, in order of their ids."""
+        """Items that are not retired, sorted by id."""
         return [self.items[key] for key in sorted(self.items) if not self.items[key].retired]
 
     @cached_property
     def fingerprints(self) -> dict[str, str]:
-        """Of each item, by its id."""
+        """Fingerprint of each item, by id."""
         return {key: item.calc_fingerprint() for key, item in self.items.items()}
 
     @cached_property
@@ -107,11 +107,11 @@ class Project:
 
     @cached_property
     def coverage(self) -> Coverage:
-        """What all tests together reached."""
+        """The coverage of all tests together."""
         return Coverage(self.evidence.coverage_runs)
 
     def find_coverage(self, requirements: Iterable[str]) -> Coverage:
-        """What the tests that verify these reached, where the evidence holds that test by test; else what all tests did."""
+        """The coverage of the tests that verify these requirements if the evidence has it test by test; otherwise that of all tests."""
         titles = {one.title for name in requirements for one in (*self.results_of.get(name, ()), *self.tests_of.get(name, ()))}
         chosen = frozenset(titles & self._runs_by_test.keys())
         if not chosen:
@@ -121,7 +121,7 @@ class Project:
         return self._coverage_by_tests[chosen]
 
     def measure(self, requirement: str) -> Reached:
-        """What was reached of all functions that the requirement owns."""
+        """The coverage of all functions that the requirement owns."""
         total = Reached()
         coverage = self.find_coverage([requirement])
         for function in self.functions_of.get(requirement, ()):
@@ -154,7 +154,7 @@ class Project:
 
     @cached_property
     def results(self) -> list[TestResult]:
-        """Results that count. A campaign case told again by campaign.xml counts once, unless the two disagree."""
+        """Counted results. A campaign case that campaign.xml repeats counts once, unless the two disagree."""
         told = {case.id: case.passed for case in self.evidence.cases}
         return [
             result
@@ -176,7 +176,7 @@ class Project:
 
     @cached_property
     def tests_without_result(self) -> list[SourceTest]:
-        """Tests that the sources hold and no result tells about. A tag in a comment that is at no test has none either."""
+        """Source tests without a result, including tags in comments that belong to no test."""
         executed = {(*result.bound_to, result.requirement, result.source.file) for result in self.results if result.bound_to and result.source}
         return [
             test
@@ -190,27 +190,27 @@ class Project:
 
     @cached_property
     def cycles(self) -> list[list[str]]:
-        """Parent cycles, each from its smallest id on, in order."""
+        """Parent cycles, each beginning with its smallest id, sorted."""
         return _find_cycles({item.id: item.parents for item in self.live_items})
 
     def find_level_key(self, item_id: str) -> str:
-        """The level of an item, or the one that the shape of an unknown id tells, or an empty text."""
+        """The level of an item, or the level that the shape of an unknown id indicates, or an empty text."""
         item = self.items.get(item_id)
         level = None if item else self.schema.find_level(item_id)
         return item.level if item else level.key if level else ""
 
     def suggest(self, unknown: str, count: int = 3) -> list[str]:
-        """The nearest known ids, best first. Ids of the same area come first, so typing half an id helps."""
+        """The nearest known ids, best first. Ids of the same area come first, so half an id is sufficient."""
         close = difflib.get_close_matches(unknown.upper(), self.items, n=count, cutoff=0.75)
         prefixed = sorted(key for key in self.items if key.startswith(unknown.upper()))
         return list(dict.fromkeys(close + prefixed))[:count]
 
 
 def attach_sources(project: Project) -> None:
-    """Gives each result the place of its test in the sources, which also tells unit tests from integration tests.
+    """Gives each result the location of its test in the sources, which also distinguishes unit tests from integration tests.
 
-    A result that did not pass counts for each requirement that its source names, also where the test ended before it could name it. What the
-    source says in a comment, which no running test knows, holds for each result. The failure of a whole suite counts for each of its tests.
+    A result that did not pass counts for each requirement that its source names, also if the test ended before it could name it. A tag in a
+    comment, which the running test does not know, applies to each result. The failure of a suite counts for each of its tests.
     """
     tests: dict[tuple[str, str], list[SourceTest]] = defaultdict(list)
     for test in project.tests:
@@ -228,7 +228,7 @@ def attach_sources(project: Project) -> None:
 
 
 def _narrow(result: TestResult, tests: list[SourceTest]) -> list[SourceTest]:
-    """Of tests with one name in several files, those of the file that the result tells, where it tells one."""
+    """Selects, among tests with one name in several files, those of the file that the result names, if it names one."""
     if len({test.place.file for test in tests}) < 2:
         return tests
     own = [test for test in tests if result.source is not None and test.place.file == result.source.file]
@@ -248,7 +248,7 @@ def _holds(parts: list[str], inner: list[str]) -> bool:
 
 
 def _name_requirements(result: TestResult, tests: list[SourceTest]) -> list[TestResult]:
-    """Fills in the first requirement, where there is none. @return a copy of the result for each other one."""
+    """Fills in the first requirement if there is none. @return a copy of the result for each other one."""
     wanted: dict[str, SourceTest] = {}
     for test in tests:
         if test.by_comment or result.status not in (PASSED, UNBOUND):
@@ -267,7 +267,7 @@ def _name_requirements(result: TestResult, tests: list[SourceTest]) -> list[Test
 
 
 def _spread_failures(results: list[TestResult]) -> list[TestResult]:
-    """A copy of each failure that is of no single test, for each requirement of its suite; without a suite, of its file."""
+    """A copy of each failure without a single test, for each requirement of its suite; without a suite, of its file."""
     copies = []
     for bad in results:
         if bad.failing and not bad.requirement and bad.name in ("", WHOLE_SUITE):
@@ -290,7 +290,7 @@ def _get_case_id(name: str) -> str:
 
 
 def list_result_keys(result: TestResult) -> list[tuple[str, str]]:
-    """Suites and names under which a source test may look for this result, the most exact first.
+    """Suites and names that a source test of this result may have, the most exact first.
 
     GoogleTest adds instance names and numbers (`Instance/Suite/0`, `Name/3`), pytest adds packages (`a.b.test_c.TestD`) and parameters
     (`name[value]`), JUnit 5 a list of types (`name(int)[1]`), Catch2 and doctest sections (`name/section`) and types (`name - int`,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a query means: the fields of items and their values. A word that no item can have is an error, not an empty answer.
+"""Meaning of a query: the fields of items and their values. A word that no item can have is an error, not an empty result.
 
 @satisfies SWR-TRC-079, SWR-TRC-080      Design: docs/design/trace.md#query
 """
@@ -26,7 +26,7 @@ class Query:
     """An expression, checked against the project. Raises FormatError."""
 
     def __init__(self, text: str, project: Project, verdicts: dict[str, Verdict], rules_of: Callable[[], dict[str, set[str]]]) -> None:
-        """@param rules_of gives the rules that found something against each item; called only when a query asks for it."""
+        """@param rules_of gives the rules with a finding for each item; called only if a query needs it."""
         self._project = project
         self._verdicts = verdicts
         self._rules_of = lru_cache(maxsize=1)(rules_of)
@@ -41,7 +41,7 @@ class Query:
         return list(self._fields)
 
     def select(self) -> list[Item]:
-        """The items for which the expression holds, in order of their ids."""
+        """The items for which the expression is true, sorted by id."""
         items = self._project.items
         return [items[key] for key in sorted(items) if self._holds(items[key])]
 
@@ -75,7 +75,7 @@ class Query:
         return {"<": left < right, "<=": left <= right, ">": left > right, ">=": left >= right}[step.operator]
 
     def _rank(self, field: str, value: str) -> int:
-        """Place of a SIL in the order of the schema, or the number itself; -1 for neither."""
+        """Index of a SIL in the order of the schema, or the number itself; -1 for neither."""
         if field == "sil":
             order = [word.casefold() for word in self._project.schema.sil]
             return order.index(value.casefold()) if value.casefold() in order else -1
@@ -127,7 +127,7 @@ class Query:
         }
 
     def _make_words(self) -> dict[str, Iterable[str]]:
-        """Fields whose values are a closed list."""
+        """Fields with a closed list of values."""
         schema = self._project.schema
         words: dict[str, Iterable[str]] = dict.fromkeys(_LINKS, self._project.items)
         words["level"] = schema.levels
@@ -142,12 +142,12 @@ class Query:
 
 
 def list_ancestors(project: Project, item: Item) -> set[str]:
-    """All items above; a cycle ends where it began."""
+    """All ancestors; a cycle ends at its beginning."""
     return _walk(item.parents, lambda key: project.items[key].parents if key in project.items else ())
 
 
 def list_descendants(project: Project, item: Item) -> set[str]:
-    """All items below."""
+    """All descendants."""
     children = project.children_of
     return _walk((child.id for child in children.get(item.id, [])), lambda key: (child.id for child in children.get(key, [])))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The query language: words with their columns, and an expression in postfix order. Nothing here calls itself, whatever the depth.
+"""The query language: tokens with their columns, and an expression in postfix order. No function is recursive, for any depth.
 
     expression = comparison | has(NAME) | not expression | expression and expression | expression or expression | (expression)
     comparison = FIELD (= | != | ~ | !~ | < | <= | > | >=) (WORD | "TEXT")
@@ -24,7 +24,7 @@ _RANK = {OR: 1, AND: 2, NOT: 3}
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """A word, a sign or a quoted text; `column` is where it begins."""
+    """A word, a sign or a quoted text; `column` is its first column."""
 
     kind: str
     text: str
@@ -33,7 +33,7 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step of the postfix order: a comparison or has() pushes a truth, the others combine the last ones."""
+    """One step of the postfix order: a comparison or has() pushes a truth value, the others combine the last ones."""
 
     action: str
     field: str = ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Records that a person reviewed or analysed an item: what `Verify: review` and `Verify: analysis` are shown by.
+"""Records that a person reviewed or analysed an item: the evidence for `Verify: review` and `Verify: analysis`.
 
 @satisfies SWR-TRC-023      Design: docs/design/trace.md#reviews
 """
@@ -13,7 +13,7 @@ from mamori_trace.base.finding import Place
 
 @dataclass(frozen=True, slots=True)
 class ReviewRecord:
-    """One row of requirements/reviews.toml. `looked_at` says what was held against the item, `author` who wrote that."""
+    """One row of requirements/reviews.toml. `looked_at` names what was compared with the item, `author` its author."""
 
     item: str
     method: str

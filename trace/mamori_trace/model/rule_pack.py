@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rule packs: how severe each rule is for an item of a given SIL and status.
+"""Rule packs: the severity of each rule for an item of a given SIL and status.
 
 @satisfies SWR-TRC-020      Design: docs/design/trace.md#rule-packs
 """
@@ -24,13 +24,13 @@ class Grades:
 
 @dataclass(frozen=True, slots=True)
 class RulePack:
-    """Grades by rule id. A rule, or a SIL of a rule, that is not listed keeps the severity that the rule has of itself."""
+    """Grades by rule id. An unlisted rule, or an unlisted SIL of a rule, keeps the severity of the rule itself."""
 
     grades: dict[str, Grades] = field(default_factory=dict)
     sil: tuple[str, ...] = ()
 
     def get_severity(self, rule: Rule, item: Item | None) -> str:
-        """Severity of a finding about `item`. Without an item, or with one whose SIL cannot be read, the strictest of all."""
+        """Severity of a finding about `item`. Without an item or a readable SIL, the strictest severity."""
         grades = self.grades.get(rule.id)
         if grades is None:
             return rule.severity

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Techniques that a project uses, in which phase of the V, and what shows each.
+"""Techniques that a project uses, with the phase of the V and the evidence of each.
 
 @satisfies SWR-TRC-027      Design: docs/design/trace.md#techniques
 """
@@ -19,7 +19,7 @@ PHASES = ("planning", "requirements", "architecture", "design", "code", "unit te
 class Technique:
     """One row of requirements/schema/techniques.toml.
 
-    `clause` names where a standard speaks of it. It is shown by `items` that demand it, executed `tests` (words of the schema) and
+    `clause` names the clause of a standard. The evidence is `items` that require it, executed `tests` (words of the schema) and
     `documents` (file, or file#heading).
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Judges each item by executed results, the worst first.
+"""Derives the verdict of each item from executed results, the worst first.
 
 @satisfies SWR-TRC-006, SWR-TRC-007, SWR-TRC-014, SWR-TRC-101, SWR-TRC-102      Design: docs/design/trace.md#verdict
 """
@@ -18,7 +18,7 @@ FAILED = "failed"
 INCOMPLETE = "incomplete"
 NOT_RUN = "not run"
 
-# Worst first: the verdict of an item is the worst of what speaks against it.
+# Worst first: the verdict of an item is its worst objection.
 WORST_FIRST = (FAILED, INCOMPLETE, UNBOUND, NOT_RUN, NOT_SHOWN, DRAFT, VERIFIED)
 
 _OF_STATUS = {SKIPPED: (INCOMPLETE, "was skipped"), UNBOUND: (UNBOUND, "has no evidence record"),
@@ -27,7 +27,7 @@ _OF_STATUS = {SKIPPED: (INCOMPLETE, "was skipped"), UNBOUND: (UNBOUND, "has no e
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """`word` is one of WORST_FIRST; `reasons` say what is against 'verified', the worst first, empty when nothing is."""
+    """`word` is one of WORST_FIRST; `reasons` are the objections to 'verified', the worst first, empty if there are none."""
 
     word: str
     reasons: tuple[str, ...] = ()
@@ -37,7 +37,7 @@ _Objection = tuple[str, str]  # (word, reason)
 
 
 def calc_verdicts(project: Project) -> dict[str, Verdict]:
-    """Verdict of each live item. Levels are judged from the bottom of the V up, so a cycle cannot trap the walk."""
+    """Verdict of each live item. Levels are evaluated from the bottom of the V up, so that a cycle cannot block the evaluation."""
     verdicts: dict[str, Verdict] = {}
     for level in reversed(project.schema.levels):
         for item in project.live_items:
@@ -70,7 +70,7 @@ def _judge(project: Project, item: Item, verdicts: dict[str, Verdict]) -> Verdic
 
 
 def _list_bad_results(project: Project, item: Item) -> Iterable[_Objection]:
-    """Results that name the item and did not pass, and tests that left no result."""
+    """Results that name the item and did not pass, and tests without a result."""
     absent = NOT_RUN if project.allow_missing else INCOMPLETE
     for result in project.results_of.get(item.id, []):
         if result.failing:
@@ -100,9 +100,9 @@ def _judge_children(children: list[Item], verdicts: dict[str, Verdict]) -> list[
 def judge_method(
     project: Project, item: Item, method: str, children: list[Item], verdicts: dict[str, Verdict]
 ) -> list[_Objection]:
-    """What is against the item by one method that it demands."""
+    """Objections to the item by one method that it requires."""
     if method == "campaign":
-        passed = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, []) if case.passed}  # bound or not: told above
+        passed = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, []) if case.passed}  # bound or not: reported above
         absent = NOT_RUN if project.allow_missing else INCOMPLETE
         return [(absent, f"no passed {polarity} campaign case") for polarity in item.polarity if polarity not in passed]
     if method == "test":
@@ -114,7 +114,7 @@ def judge_method(
 
 
 def _judge_own_tests(project: Project, item: Item) -> list[_Objection]:
-    executed = (PASSED, UNBOUND, NOT_SHOWN)  # of the last two `_list_bad_results` has told, with a word of their own
+    executed = (PASSED, UNBOUND, NOT_SHOWN)  # `_list_bad_results` has reported the last two under their own verdicts
     passed = {
         result.polarity or "nominal"
         for result in project.results_of.get(item.id, [])
@@ -131,7 +131,7 @@ def _judge_own_tests(project: Project, item: Item) -> list[_Objection]:
 def _judge_through_children(
     project: Project, item: Item, children: list[Item], verdicts: dict[str, Verdict]
 ) -> list[_Objection]:
-    """Verified children stand for own tests, provided that each demanded polarity is demanded of one of them, too."""
+    """Verified children replace own tests if one of them requires each polarity that the item requires."""
     objections = _judge_children(children, verdicts)
     for polarity in list_uncovered_polarities(project, item, children):
         objections.append((INCOMPLETE, f"no {polarity} test, neither its own nor of a child"))
@@ -139,7 +139,7 @@ def _judge_through_children(
 
 
 def list_uncovered_polarities(project: Project, item: Item, children: list[Item]) -> list[str]:
-    """Polarities that neither a test of the item shows nor a child of it demands."""
+    """Polarities that neither a test of the item shows nor a child of it requires."""
     covered = {polarity for child in children for polarity in child.polarity}
     covered |= {test.polarity for test in project.tests_of.get(item.id, [])}
     covered |= {result.polarity or "nominal" for result in project.results_of.get(item.id, [])}
@@ -147,7 +147,7 @@ def list_uncovered_polarities(project: Project, item: Item, children: list[Item]
 
 
 def is_reviewed(project: Project, item: Item) -> bool:
-    """Whether a person has looked at each parent link of the item as it stands now."""
+    """Whether a person has reviewed each parent link of the item in its current form."""
     parents = [parent for parent in item.parents if parent in project.items]
     lock, now = project.lock, project.fingerprints
     return bool(parents) and lock is not None and not any(lock.describe_suspicion(item.id, parent, now) for parent in parents)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Waivers: findings that the project accepts for a stated reason, for a time.
+"""Waivers: findings that the project accepts for a stated reason and a limited time.
 
 @satisfies SWR-TRC-021      Design: docs/design/trace.md#waivers
 """
@@ -14,7 +14,7 @@ from mamori_trace.base.finding import Finding, Place
 
 @dataclass(frozen=True, slots=True)
 class Waiver:
-    """One row of requirements/waivers.toml. `expires` is the last day on which it holds, or empty."""
+    """One row of requirements/waivers.toml. `expires` is its last valid day, or empty."""
 
     rule: str
     item: str
@@ -25,25 +25,25 @@ class Waiver:
     place: Place
 
     def is_expired(self, date: str) -> bool:
-        """Whether it holds no more on `date`. On an unknown day, nothing with an end holds."""
+        """Whether it has expired on `date`. On an unknown day, a waiver with an end is expired."""
         return bool(self.expires) and (not date or date > self.expires)
 
     def covers(self, finding: Finding) -> bool:
-        """Whether the finding is the one, or among those, that it is about."""
+        """Whether it covers the finding."""
         same_rule = finding.rule == self.rule
         return same_rule and self.item in ("", finding.item) and self.file in ("", finding.place.file)
 
 
 @dataclass(frozen=True, slots=True)
 class Waived:
-    """A finding that does not count, and why."""
+    """A finding that does not count, and the reason."""
 
     finding: Finding
     waiver: Waiver
 
 
 def split_waived(findings: list[Finding], waivers: list[Waiver], date: str) -> tuple[list[Finding], list[Waived]]:
-    """(findings that count, findings that are waived). A waiver that is expired or has no reason waives nothing."""
+    """(counted findings, waived findings). A waiver that is expired or has no reason waives nothing."""
     of_rule: dict[str, list[Waiver]] = defaultdict(list)
     for waiver in waivers:
         if waiver.reason and not waiver.is_expired(date):

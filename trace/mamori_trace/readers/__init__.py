@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Readers: each turns one kind of file into parts of the model, and tells what it could not read instead of stopping."""
+"""Readers: each converts one kind of file to parts of the model, and reports unreadable parts instead of stopping."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what static analysis found from the folder `static` of the evidence: SARIF, cppcheck's XML, clang-tidy's text and YAML.
+"""Reads findings of static analysis from the folder `static` of the evidence: SARIF, cppcheck's XML, clang-tidy's text and YAML.
 
 @satisfies SWR-TRC-043      Design: docs/design/trace.md#static-analysis
 """
@@ -29,7 +29,7 @@ Row = tuple[str, str, str, int]  # rule, message, file as the tool names it, lin
 
 
 def read_analysis(folder: Path, names: SourceNames, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the findings, each once, in order of their places. A file that is not whole is one problem and gives nothing."""
+    """Fills in the findings, each once, sorted by location. An incomplete file is one problem and gives no finding."""
     found: set[AnalysisFinding] = set()
     for path in list_paths(folder, "static/*", root, problems):
         reader = _READERS.get(path.suffix)
@@ -48,7 +48,7 @@ def read_analysis(folder: Path, names: SourceNames, root: Path, evidence: Eviden
 
 
 def _make_finding(row: Row, shown: str, names: SourceNames) -> AnalysisFinding:
-    """A place outside of the project is told at the file that tells of it."""
+    """A finding outside the project is reported at the file that contains it."""
     rule, message, file, line = row
     name = names.find_any(file)
     if name:
@@ -64,7 +64,7 @@ def _read_sarif(path: Path, shown: str, problems: list[Problem]) -> list[Row]:
 
 
 def _is_open(result: dict[str, Any]) -> bool:
-    """Whether somebody has to look at it: it is no note, nobody suppressed it, and it was there in this run."""
+    """Whether the finding counts: it is not a note, not suppressed, and present in this run."""
     accepted = any(one.get("status", "accepted") == "accepted" for one in result.get("suppressions") or ())
     is_fault = result.get("kind", "fail") in ("fail", "open", "review") and result.get("level", "warning") not in _QUIET
     return is_fault and not accepted and result.get("baselineState") != "absent"
@@ -110,7 +110,7 @@ def _read_tidy_text(path: Path, shown: str, problems: list[Problem]) -> list[Row
 
 
 def _read_tidy_yaml(path: Path, shown: str, problems: list[Problem]) -> list[Row]:
-    import yaml  # loads slowly, and hardly any project has such a file
+    import yaml  # slow to load, and few projects have such a file
 
     try:
         text, loader = read_text(path, shown, problems), getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -130,7 +130,7 @@ def _take_diagnostics(content: dict[str, Any]) -> Iterator[Row]:
 
 
 def _count_line(path: Path, offset: int) -> int:
-    """clang-tidy's YAML counts bytes. @return 1 for a file that is not here."""
+    """clang-tidy's YAML counts bytes. @return 1 for a missing file."""
     try:
         return path.read_bytes().count(b"\n", 0, offset) + 1 if path.is_file() else 1
     except OSError:

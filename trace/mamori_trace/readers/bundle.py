@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what a bundle holds, folder or archive, in bounded memory; links and special files are named and never opened.
+"""Reads the content of a bundle, folder or archive, in bounded memory; links and special files are named and never opened.
 
 @satisfies SWR-TRC-075, SWR-TRC-076      Design: docs/design/trace.md#verify
 """
@@ -24,7 +24,7 @@ _KEPT = {MANIFEST: _MAX_MANIFEST, SIGNATURE: _MAX_SIGNATURE}
 
 
 def read_bundle(path: Path) -> Content:
-    """Raises InputError when there is nothing to read, or the archive is refused."""
+    """Raises InputError if there is nothing to read, or the archive is rejected."""
     if path.is_dir():
         return _read_folder(path)
     if not path.is_file():
@@ -42,7 +42,7 @@ def read_bundle(path: Path) -> Content:
 def _read_folder(root: Path) -> Content:
     content = Content()
     if not os.path.lexists(root / MANIFEST):
-        return content  # no bundle, and perhaps a whole disk
+        return content  # not a bundle, and perhaps a complete disk
     for count, (name, entry) in enumerate(_walk(root)):
         if count >= MAX_MEMBERS:
             raise InputError(f"{root}: refused: more than {MAX_MEMBERS} files")
@@ -56,7 +56,7 @@ def _read_folder(root: Path) -> Content:
 
 
 def _walk(root: Path) -> Iterator[tuple[str, os.DirEntry]]:
-    """Everything but folders, which are entered; links are not followed."""
+    """Everything except folders, which are entered; links are not followed."""
     folders = [(root, "")]
     while folders:
         folder, prefix = folders.pop()

@@ -22,7 +22,7 @@ _CASE_ID = re.compile(r'"id"\s*:\s*("(?:\\.|[^"\\])*")')
 
 
 def read_environment(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the environment; an absent file leaves it empty, which a rule reports."""
+    """Fills in the environment; a missing file leaves it empty, which a rule reports."""
     path = folder / "environment.json"
     evidence.environment_place = Place(get_shown_path(path, root), 1)
     if path.exists():
@@ -31,7 +31,7 @@ def read_environment(folder: Path, root: Path, evidence: Evidence, problems: lis
 
 
 def read_campaign(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the campaign cases; an absent file means that no campaign was run."""
+    """Fills in the campaign cases; a missing file means that no campaign was run."""
     path = folder / "campaign" / "campaign.json"
     evidence.campaign_place = Place(get_shown_path(path, root), 1)
     if not path.exists():
@@ -69,7 +69,7 @@ def _find_id_lines(text: str) -> dict[str, int]:
 def make_case(row: dict[str, Any], shown: str = "campaign/campaign.json", lines: Mapping[str, int] = MappingProxyType({})) -> CampaignCase:
     """One row of campaign.json. `shown` names its file, `lines` the line of each id.
 
-    Raises KeyError, TypeError or ValueError when the row does not keep to the contract."""
+    Raises KeyError, TypeError or ValueError if the row violates the format."""
     case_id = row["id"]
     run = row["run"]
     checks = row["checks"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which functions, classes and tests a range of lines belongs to, in C++ (tree-sitter) and Python (ast).
+"""Finds the functions, classes and tests that contain a range of lines, in C++ (tree-sitter) and Python (ast).
 
 @satisfies SWR-TRC-070      Design: docs/design/trace.md#impact
 """
@@ -34,7 +34,7 @@ _DECLARED = tree_sitter.Query(_LANGUAGE, "(field_declaration) @function (enum_sp
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A named part of a source with its first and last line, its comment included. A test is named `Suite.Name`."""
+    """A named part of a source with its first and last line, including its comment. A test is named `Suite.Name`."""
 
     name: str
     first: int
@@ -52,7 +52,7 @@ def list_spans(text: str, file: str) -> list[Span]:
 
 
 def find_touched(spans: list[Span], ranges: list[tuple[int, int]]) -> tuple[list[Span], bool]:
-    """The innermost spans that hold a line of `ranges`, and whether a line lies in none."""
+    """The innermost spans that contain a line of `ranges`, and whether a line is in none."""
     touched: dict[Span, None] = {}
     outside = False
     for first, last in ranges:
@@ -88,7 +88,7 @@ def _list_cpp(text: str) -> list[Span]:
     starts = [node.start_byte for node, _ in definitions]
 
     def is_inside(node: tree_sitter.Node) -> bool:
-        """Whether it stands in a function, and is a part of that."""
+        """Whether it is inside a function, and therefore a part of that function."""
         index = bisect_right(starts, node.start_byte) - 1
         return index >= 0 and node.start_byte < definitions[index][0].end_byte
 
@@ -110,7 +110,7 @@ def _make_cpp_span(node: tree_sitter.Node, name: str) -> Span:
 
 
 def _find_start(node: tree_sitter.Node) -> int:
-    """First line of a definition with its template head and the comment right above it."""
+    """First line of a definition, including its template head and the comment directly above."""
     while node.parent is not None and node.parent.type in ("template_declaration", "declaration") and node.parent.parent is not None:
         node = node.parent
     row = node.start_point.row
@@ -125,7 +125,7 @@ def _list_python(text: str) -> list[Span]:
     try:
         definitions = list_definitions(ast.parse(text))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return []  # the whole file counts then
+        return []  # the complete file counts then
     return [Span(one.name.replace("::", "."), one.first, one.last, _is_python_test(one)) for one in definitions]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads Cobertura XML: lines and branches. Its document type names a file on the net, which is not loaded.
+"""Reads Cobertura XML: lines and branches. Its document type names an external file, which is not loaded.
 
 @satisfies SWR-TRC-032      Design: docs/design/trace.md#coverage
 """
@@ -19,7 +19,7 @@ _SHARE = re.compile(r"\((\d+)/(\d+)\)")
 
 
 class _Collector:
-    """Gathers lines while expat walks through the file. A method repeats lines of its class, so the higher count is kept."""
+    """Collects lines while expat parses the file. A method repeats lines of its class, so the higher count is used."""
 
     def __init__(self, names: SourceNames, run: CoverageRun) -> None:
         self._names = names
@@ -69,7 +69,7 @@ class _Collector:
 
 
 def take_cobertura(path: Path, names: SourceNames, run: CoverageRun, problems: list[Problem]) -> bool:
-    """Fills `run`. @return whether the file is whole; else there is one problem more."""
+    """Fills `run`. @return whether the file is complete; if not, one more problem is reported."""
     collector = _Collector(names, run)
     parser = make_parser(collector.start, collector.end, collector.text, doctype=True)
     return feed_file(parser, path, run.place.file, "measure again", problems)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads requirements/schema/code.toml: what a project demands of its code.
+"""Reads requirements/schema/code.toml: the rules of a project for its code.
 
 @satisfies SWR-TRC-031      Design: docs/design/trace.md#traced-layers
 """
@@ -16,7 +16,7 @@ _LISTS = ("traced", "no_evidence", "integration")
 
 
 def read_code_schema(root: Path) -> CodeSchema:
-    """The file's demands; none without the file. Raises InputError for a file that says something else."""
+    """The rules of the file; none without the file. Raises InputError for an invalid file."""
     path = root / "requirements" / "schema" / "code.toml"
     try:
         table = load_toml(path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what `mamori cost` counted: `cost/NAME/cost.json` (docs/design/cost.md#results).
+"""Reads the counts of `mamori cost`: `cost/NAME/cost.json` (docs/design/cost.md#results).
 
 @satisfies SWR-TIM-034      Design: docs/design/cost.md#results
 """
@@ -33,7 +33,7 @@ _SHAPE = {
 
 
 def read_cost(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the counted systems in order of their folders. A record that does not keep to its contract is a problem, one each."""
+    """Fills in the counted systems, sorted by folder. Each record that violates the format is one problem."""
     files = list_paths(folder, "cost/*/cost.json", root, problems)
     for path, table, place in read_records(files, SCHEMA, _SHAPE, "count again", root, problems):
         evidence.cost_runs.append(CostRun(path.parent.as_posix(), table, place))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what stands in the folder `coverage` of the evidence, and in `coverage/by_test` for single tests.
+"""Reads the folder `coverage` of the evidence, and `coverage/by_test` for single tests.
 
 @satisfies SWR-TRC-032, SWR-TRC-033      Design: docs/design/trace.md#coverage
 """
@@ -31,7 +31,7 @@ _FITTING_ERRORS = (KeyError, TypeError, ValueError, IndexError, AttributeError, 
 
 
 def read_coverage(folder: Path, root: Path, names: SourceNames, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the runs in order of their files. A file that does not keep to its format is one problem, and gives nothing."""
+    """Fills in the runs, sorted by file. A file that violates its format is one problem and gives no coverage."""
     for path in sorted(each for pattern in ("coverage/*", "coverage/by_test/*") for each in list_paths(folder, pattern, root, problems)):
         if path.suffix in SUFFIXES and path.is_file():
             test = urllib.parse.unquote(path.stem) if path.parent.name == "by_test" else ""
@@ -78,7 +78,7 @@ def _take_json(text: str, names: SourceNames, run: CoverageRun) -> None:
 
 
 def _take_record(content: dict[str, Any], names: SourceNames, run: CoverageRun) -> None:
-    """What the coverage gate of this project writes: figures of each function, and its gaps with their reasons."""
+    """Output of the coverage gate of this project: figures of each function, and its gaps with their reasons."""
     misfit = find_misfit(content, {"functions": [_FUNCTION], "gaps": [_GAP]}, "")
     if misfit:
         raise FormatError(f"{misfit}; measure again")
@@ -96,7 +96,7 @@ def _take_record(content: dict[str, Any], names: SourceNames, run: CoverageRun) 
 
 
 def _take_function(row: dict[str, Any], name: str, run: CoverageRun) -> None:
-    """Conditions that were shown are counted at the function's line, as the record gives places to gaps alone."""
+    """Covered conditions are counted at the line of the function, because the record has locations of gaps only."""
     file = run.get_file(name)
     line = row["line"]
     file.calls[line] = file.calls.get(line, 0) + row["count"]
@@ -105,6 +105,6 @@ def _take_function(row: dict[str, Any], name: str, run: CoverageRun) -> None:
     if row["outcomes"]:
         reached, known = file.branches.get(line, (0, 0))
         file.branches[line] = (reached + row["outcomes_reached"], known + row["outcomes"])
-    unlisted = row["conditions"] if row["count"] == 0 else row["conditions_shown"]  # of what was never called no condition is a gap of its own
+    unlisted = row["conditions"] if row["count"] == 0 else row["conditions_shown"]  # the conditions of a function that was never called are not listed singly
     for number in range(unlisted):
         file.conditions[line, 0, len(file.conditions), number] = Condition("a condition of what was never called", row["count"] > 0)

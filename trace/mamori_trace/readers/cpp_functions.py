@@ -39,7 +39,7 @@ _DEPTH_MAX = 16
 
 @dataclass(frozen=True, slots=True)
 class Class:
-    """A class with its lines; one without a name has an empty one."""
+    """A class with its lines; an unnamed class has an empty name."""
 
     name: str
     first: int
@@ -48,20 +48,20 @@ class Class:
 
 @dataclass(slots=True)
 class FileFunctions:
-    """Functions and classes of one file, both in order of their first lines. A function in a function is part of that."""
+    """Functions and classes of one file, both in order of their first lines. A function inside a function is part of the outer one."""
 
     functions: list[Function]
     classes: list[Class]
     starts: list[int]
 
     def find_around(self, line: int) -> Function | None:
-        """The function whose lines hold `line`."""
+        """The function whose lines contain `line`."""
         index = bisect_right(self.starts, line) - 1
         function = self.functions[index] if index >= 0 else None
         return function if function is not None and line <= function.last else None
 
     def qualify(self, name: str, line: int) -> str:
-        """`name` as the definition elsewhere spells it: with the classes around `line`."""
+        """`name` in the spelling of a separate definition: with the classes around `line`."""
         plain = _strip_arguments(name)
         around = [one.name for one in self.classes if one.first < line <= one.last and one.name != plain]
         return "::".join([*around, plain])
@@ -71,12 +71,12 @@ Captures = dict[str, list[tree_sitter.Node]]
 
 
 def capture(root: tree_sitter.Node) -> Captures:
-    """Comments, functions and classes of a tree, found in one walk; walking is what takes the time."""
+    """Comments, functions and classes of a tree, found in one traversal, because the traversal takes most of the time."""
     return tree_sitter.QueryCursor(_QUERY).captures(root)
 
 
 def list_functions(captures: Captures, shown: str) -> FileFunctions:
-    """All functions with a body, by the lines that they fill."""
+    """All functions with a body, by their lines."""
     classes = list_classes(captures)
     functions = []
     for node, name in find_definitions(captures, classes, _BODIES):
@@ -86,8 +86,8 @@ def list_functions(captures: Captures, shown: str) -> FileFunctions:
 
 
 def list_classes(captures: Captures) -> list[Class]:
-    """Classes with a body, by the lines that they fill."""
-    # What has no body is sorted out here: a query that asks for it takes twice as long to compile, in each run.
+    """Classes with a body, by their lines."""
+    # Declarations without a body are removed here: a query that does so takes twice as long to compile, in each run.
     nodes = sorted(filter(has_body, captures.get("class", ())), key=lambda node: node.start_byte)
     return [Class(find_class_name(node), node.start_point.row + 1, node.end_point.row + 1) for node in nodes]
 
@@ -97,21 +97,21 @@ def has_body(node: tree_sitter.Node) -> bool:
 
 
 def get_text(node: tree_sitter.Node) -> str:
-    """What stands in the source."""
+    """The source text of the node."""
     assert node.text is not None  # a tree that was parsed from bytes has all its texts
     return node.text.decode(errors="replace")
 
 
 def find_class_name(node: tree_sitter.Node) -> str:
-    """Name of a class or enumeration; empty where it has none."""
+    """Name of a class or enumeration; empty if it has none."""
     name = node.child_by_field_name("name")
     return _strip_arguments(get_text(name)) if name is not None else ""
 
 
 def find_definitions(captures: Captures, classes: list[Class], bodies: tuple[str, ...] = ()) -> Iterator[tuple[tree_sitter.Node, str]]:
-    """Functions that are in no other one, each with its name and the classes around it.
+    """Functions that are in no other function, each with its name and the classes around it.
 
-    @param bodies kinds of body that count; without them also what is deleted, defaulted, or only looks like a function.
+    @param bodies kinds of body that count; without them also deleted and defaulted functions, and text that only resembles a function.
     """
     end = -1
     for node in sorted(captures.get("function", ()), key=lambda node: node.start_byte):
@@ -125,7 +125,7 @@ def find_definitions(captures: Captures, classes: list[Class], bodies: tuple[str
 
 
 def qualify(node: tree_sitter.Node, name: str, classes: list[Class]) -> str:
-    """`name` with the classes that hold the lines of `node`."""
+    """`name` with the classes that contain the lines of `node`."""
     first, last = node.start_point.row + 1, node.end_point.row + 1
     own = (name, first, last) if node.type in _CLASS_TYPES else None
     around = [one.name for one in classes if one.name and one.first <= first and last <= one.last and (one.name, one.first, one.last) != own]
@@ -133,7 +133,7 @@ def qualify(node: tree_sitter.Node, name: str, classes: list[Class]) -> str:
 
 
 def find_function_name(node: tree_sitter.Node) -> str:
-    """Name in the declarator of a definition, with the classes that it spells itself."""
+    """Name in the declarator of a definition, with the classes in its spelling."""
     inner = node.child_by_field_name("declarator")
     for _ in range(_DEPTH_MAX):
         if inner is None:
@@ -148,7 +148,7 @@ def find_function_name(node: tree_sitter.Node) -> str:
 
 
 def _strip_arguments(name: str) -> str:
-    """`Ring<T, N>::push` -> `Ring::push`. What follows `operator` stays."""
+    """`Ring<T, N>::push` -> `Ring::push`. The text after `operator` stays."""
     head, word, operator = name.partition("operator")
     while "<" in head:
         shorter = re.sub(r"<[^<>]*>", "", head)
@@ -176,9 +176,9 @@ def find_name(node: tree_sitter.Node) -> str:
 
 
 def add_own_headers(texts: dict[str, str], code: CodeBase) -> None:
-    """Finds for each file the included headers that declare what it defines.
+    """Finds for each file the included headers that declare its definitions.
 
-    These are the header of its name (`arm.hpp` for `arm.cpp`), and those that hold the class of a function defined outside of it.
+    These are the header of its name (`arm.hpp` for `arm.cpp`), and those with the class of a function that is defined outside it.
     """
     by_name: dict[str, list[str]] = defaultdict(list)
     for shown in texts:
@@ -201,7 +201,7 @@ def _get_stem(shown: str) -> str:
 
 
 def _find_header(shown: str, included: str, by_name: dict[str, list[str]]) -> str:
-    """The file of the tree that the include means; of several the one nearest to the source."""
+    """The file of the tree that the include names; of several the one nearest to the source."""
     tail = included.lstrip("./")
     known = [path for path in by_name.get(tail.rpartition("/")[2], ()) if f"/{path}".endswith(f"/{tail}")]
     return min(known, key=lambda path: (-len(commonprefix((path, shown))), path), default="")  # noqa: RUF071 (a likeness, no path)

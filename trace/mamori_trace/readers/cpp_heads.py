@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the tests of C++ frameworks by their macros, under the names that their results have (docs/manual/trace.md, Frameworks).
+"""Finds the tests of C++ frameworks by their macros, under the names in their results (docs/manual/trace.md, Frameworks).
 
 @satisfies SWR-TRC-104      Design: docs/design/trace.md#tests-and-results
 """
@@ -36,7 +36,7 @@ _ARGUMENTS_MAX = 3
 
 
 class Head(NamedTuple):
-    """One test: where its macro begins, its block in braces (empty where it has none), and the name of its results."""
+    """One test: the beginning of its macro, its block in braces (empty if it has none), and its name in the results."""
 
     start: int
     begin: int
@@ -54,13 +54,13 @@ class CppHeads:
     heads: list[Head]
 
     def find_around(self, offset: int) -> Head | None:
-        """The test whose block holds `offset`."""
+        """The test whose block contains `offset`."""
         index = bisect_right([head.start for head in self.heads], offset) - 1
         head = self.heads[index] if index >= 0 else None
         return head if head is not None and (head.start <= offset < max(head.end, head.begin + 1)) else None
 
     def find_below(self, offset: int) -> Head | None:
-        """The test that the next declaration behind `offset` is, whether its macro is known or not; None for anything else."""
+        """The test that the next declaration after `offset` is, for known and unknown macros; None for anything else."""
         rest = _CODE.search(self.plain.shape, offset)
         if rest is None:
             return None
@@ -79,7 +79,7 @@ class CppHeads:
 
 
 def list_cpp_heads(plain: Plain, shown: str) -> CppHeads:
-    """All tests whose macros are known. What stands in a dead branch is none."""
+    """All tests with known macros, except those in dead branches."""
     heads: list[Head] = []
     suites: list[str] = []
     for macro in _MACRO.finditer(plain.shape):
@@ -106,7 +106,7 @@ def _make_head(plain: Plain, macro: re.Match[str], shown: str, suites: list[str]
 
 
 def _name(word: str, plain_word: str, arguments: list[str], plain: Plain, shown: str, suites: list[str]) -> tuple[str, str]:
-    """Suite and name; a star stands for the types of a test that has several."""
+    """Suite and name; a star replaces the types of a test with several types."""
     if not arguments or (plain_word in _FREE_FIXTURE and len(arguments) < 2):
         return "", ""
     if _BOOST.fullmatch(word):
@@ -129,7 +129,7 @@ def _name(word: str, plain_word: str, arguments: list[str], plain: Plain, shown:
 
 
 def _read_text(argument: str) -> str:
-    """The literal that an argument begins with, pieces joined."""
+    """The string literal at the beginning of an argument; adjacent literals are joined."""
     pieces, at = [], 0
     while (match := _TEXT.match(argument, at)) is not None:
         pieces.append(_ESCAPE.sub(r"\1", match[1]))
@@ -139,7 +139,7 @@ def _read_text(argument: str) -> str:
 
 
 def _read_arguments(plain: Plain, begin: int) -> list[str]:
-    """The first arguments of a call whose bracket opens right before `begin`."""
+    """The first arguments of a call whose bracket opens directly before `begin`."""
     found: list[str] = []
     depth, last = 0, begin
     for match in re.compile(r"[()<>{},;]").finditer(plain.shape, begin):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""C++ text without what the compiler does not see: comments, and the dead branches of the preprocessor. Offsets stay what they are.
+"""C++ text without the parts that the compiler ignores: comments and dead preprocessor branches. Offsets stay unchanged.
 
 @satisfies SWR-TRC-105      Design: docs/design/trace.md#dead-code
 """
@@ -19,12 +19,12 @@ _CONDITION_MAX = 200
 
 
 def blank(text: str) -> str:
-    """Spaces in the place of all letters; lines stay."""
+    """Replaces all characters by spaces; line ends stay."""
     return _WORD.sub(" ", text)
 
 
 class Plain:
-    """Views of one text, all of its length: `code` without comments and dead branches, `shape` also without the content of literals."""
+    """Views of one text with equal lengths: `code` without comments and dead branches, `shape` also without the content of literals."""
 
     def __init__(self, text: str) -> None:
         self.comments: list[re.Match[str]] = []
@@ -37,7 +37,7 @@ class Plain:
         self._starts = [first for first, _ in self._dead]
 
     def is_dead(self, offset: int) -> bool:
-        """Whether the preprocessor leaves out what stands at `offset`."""
+        """Whether the preprocessor removes the text at `offset`."""
         index = bisect_right(self._starts, offset) - 1
         return index >= 0 and offset < self._dead[index][1]
 
@@ -61,8 +61,8 @@ def find_dead_lines(text: str) -> frozenset[int]:
 
 
 def _list_dead(shape: str) -> Iterator[tuple[int, int]]:
-    """(begin, end) of each outermost dead branch. A condition that is not constant may hold, and leaves its branches alive."""
-    stack: list[tuple[bool, bool]] = []  # of each open #if: whether its branch is dead, and whether an earlier branch surely holds
+    """(begin, end) of each outermost dead branch. A condition that is not constant may be true, so its branches count as live."""
+    stack: list[tuple[bool, bool]] = []  # of each open #if: whether its branch is dead, and whether an earlier branch is certainly true
     begin = -1
     for match in _DIRECTIVE.finditer(shape):
         word, condition = match[1], match[2]
@@ -86,7 +86,7 @@ def _list_dead(shape: str) -> Iterator[tuple[int, int]]:
 
 
 def _evaluate(condition: str) -> bool | None:
-    """True or False where the condition is constant, None where it depends on a macro."""
+    """True or False for a constant condition, None if it depends on a macro."""
     text = condition.strip()
     if len(text) > _CONDITION_MAX:
         return None
@@ -117,7 +117,7 @@ def _split(text: str, operator: str) -> list[str]:
 
 
 def _find_close(text: str, at: int) -> int:
-    """Offset of the bracket that closes the one at `at`; -1 where none does."""
+    """Offset of the bracket that closes the one at `at`; -1 if there is none."""
     depth = 0
     for offset in range(at, len(text)):
         depth += {"(": 1, ")": -1}.get(text[offset], 0)
@@ -127,7 +127,7 @@ def _find_close(text: str, at: int) -> int:
 
 
 def find_body(shape: str, at: int) -> tuple[int, int]:
-    """(begin, end) of the first block in braces behind `at`; empty where a semicolon or the end comes first."""
+    """(begin, end) of the first block in braces after `at`; empty if a semicolon or the end comes first."""
     brackets = 0
     for match in _SIGN.finditer(shape, at):
         sign, offset = match[0], match.start()

@@ -41,7 +41,7 @@ class _Block:
 
 @dataclass(frozen=True, slots=True)
 class _Target:
-    """What the tags of one comment block speak for."""
+    """The scope of the tags of one comment block."""
 
     symbol: str
     first: int
@@ -54,7 +54,7 @@ _WHOLE_FILE = _Target(FILE_SYMBOL, 0, 0)
 def read_cpp_tags(
     root: Path, problems: list[Problem], code: CodeBase | None = None, id_pattern: str = ID_PATTERN
 ) -> list[CodeTag]:
-    """Tags of all C++ files below `root` that are no tests. @param code takes in the functions of these files, too."""
+    """Tags of all C++ files below `root` that are not tests. @param code receives the functions of these files, too."""
     parser = tree_sitter.Parser(_LANGUAGE)
     tags: list[CodeTag] = []
     texts: dict[str, str] = {}
@@ -74,7 +74,7 @@ def parse_cpp_tags(
     text: str, shown: str, parser: tree_sitter.Parser, problems: list[Problem],
     code: CodeBase | None = None, id_pattern: str = ID_PATTERN,
 ) -> list[CodeTag]:  # fmt: skip
-    """Tags of one file, and its functions into `code`."""
+    """Tags of one file; its functions are added to `code`."""
     tree = parser.parse(text.encode())
     captures = capture(tree.root_node)
     found = list_functions(captures, shown)
@@ -97,7 +97,7 @@ def parse_cpp_tags(
 
 
 def _make_scopes(tags: list[CodeTag], target: _Target, shown: str, found: FileFunctions) -> list[Scope]:
-    """One scope for the tags that speak for the file, one for those that speak for the declaration."""
+    """One scope for the tags of the file, and one for those of the declaration."""
     scopes = []
     for chosen in (_WHOLE_FILE, target) if target != _WHOLE_FILE else (_WHOLE_FILE,):
         words = tuple(tag.requirement for tag in tags if tag.symbol == chosen.symbol)
@@ -108,7 +108,7 @@ def _make_scopes(tags: list[CodeTag], target: _Target, shown: str, found: FileFu
 
 
 def _list_blocks(captures: Captures) -> list[_Block]:
-    """Blocks of comments (those on neighbouring lines form one) in which a tag may stand."""
+    """Blocks of comments (adjacent lines form one block) that may contain a tag."""
     blocks: list[_Block] = []
     end = -2
     for node in sorted(captures.get("comment", ()), key=lambda node: node.start_byte):
@@ -124,7 +124,7 @@ def _list_blocks(captures: Captures) -> list[_Block]:
 
 
 def _find_target(block: _Block, found: FileFunctions) -> _Target:
-    """The function around the block, or the declaration below it; the file when the block is the file's own or nothing follows."""
+    """The function around the block, or the declaration below it; the file if the block is a file comment or nothing follows."""
     if "@file" in block.text:
         return _WHOLE_FILE
     around = found.find_around(block.rows[0] + 1)

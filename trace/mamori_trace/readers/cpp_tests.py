@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds `verifies("ID", ...)` in C++ tests and the test that each call stands in, and tags in the comments of tests.
+"""Finds `verifies("ID", ...)` in C++ tests with the test of each call, and tags in the comments of tests.
 
 @satisfies SWR-TRC-003, SWR-TRC-040, SWR-TRC-104, SWR-TRC-105      Design: docs/design/trace.md#tests-and-results
 """
@@ -37,14 +37,14 @@ def read_cpp_tests(root: Path, problems: list[Problem], id_pattern: str = ID_PAT
 
 
 def parse_cpp_tests(text: str, shown: str, id_pattern: str = ID_PATTERN) -> list[SourceTest]:
-    """Tests of one file. What stands outside of any test keeps an empty name: its id is checked, no result is expected."""
+    """Tests of one file. A call outside any test has an empty test name: its id is checked, no result is expected."""
     plain = Plain(text)
     heads = list_cpp_heads(plain, shown)
     tests: list[SourceTest] = []
     line, counted = 1, 0
     for call in _CALL.finditer(plain.code):
         if not plain.shape.startswith("verifies", call.start()):
-            continue  # in a text
+            continue  # in a string literal
         line += text.count("\n", counted, call.start())
         counted = call.start()
         head = heads.find_around(call.start())
@@ -61,7 +61,7 @@ def _name(head: Head | None, shown: str) -> tuple[str, str]:
 
 
 def _find_tagged(text: str, plain: Plain, heads: CppHeads, shown: str, id_pattern: str) -> Iterator[SourceTest]:
-    """Tests that a comment names an id for: the one around the comment, or the declaration below it. Never the one above."""
+    """Tests for which a comment names an id: the test around the comment, or the declaration below it. Never the test above."""
     for comment in plain.comments:
         if not has_mark(comment[0]) or plain.is_dead(comment.start()):
             continue
@@ -73,7 +73,7 @@ def _find_tagged(text: str, plain: Plain, heads: CppHeads, shown: str, id_patter
 
 
 def _speaks_for_file(comment: str, start: int, plain: Plain) -> bool:
-    """A comment that says so, or that stands above all code."""
+    """A comment with `@file`, or above all code."""
     return "@file" in comment or not plain.shape[:start].strip()
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads `records.json` and holds each evidence file against what it says (docs/design/trace.md#evidence-files).
+"""Reads `records.json` and compares each evidence file with it (docs/design/trace.md#evidence-files).
 
 @satisfies SWR-TRC-036      Design: docs/design/trace.md#records
 """
@@ -33,13 +33,13 @@ def list_recorded(folder: Path) -> list[Path]:
 
 
 def hash_file(path: Path) -> str:
-    """SHA-256 of a file's bytes. Raises OSError."""
+    """SHA-256 of the bytes of a file. Raises OSError."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def read_evidence_records(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the records; where there are any, each file that differs, that is gone or that has none is a problem."""
+    """Fills in the records; if there are any, each changed, missing or unrecorded file is a problem."""
     path = folder / NAME
     if not path.exists():
         return
@@ -63,7 +63,7 @@ def read_evidence_records(folder: Path, root: Path, evidence: Evidence, problems
 
 
 def _compare(folder: Path, root: Path, recorded: dict[str, str], place: Place, problems: list[Problem]) -> set[str]:
-    """@return names of the files that are as they were recorded."""
+    """@return names of the files that match their records."""
     intact: set[str] = set()
     present = {path.relative_to(folder).as_posix(): path for path in list_recorded(folder)}
     present |= {name: folder / name for name in recorded if (folder / name).is_file()}

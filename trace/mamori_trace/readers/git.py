@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Asks git which commit is checked out, whether the files are as it has them, and who reviews."""
+"""Queries git for the checked-out commit, for uncommitted changes, and for the name of the reviewer."""
 
 from __future__ import annotations
 
@@ -10,27 +10,27 @@ from mamori_trace.cache.questions import ask
 
 
 def read_head(root: Path) -> str:
-    """Hash of the checked-out commit, or an empty text where there is no git repository."""
+    """Hash of the checked-out commit, or an empty text without a git repository."""
     return ask(root, "rev-parse", "HEAD")
 
 
 def read_commit_date(root: Path) -> str:
-    """Day of the checked-out commit as its committer wrote it (ISO 8601), or an empty text where there is no git repository."""
+    """Day of the checked-out commit as its committer wrote it (ISO 8601), or an empty text without a git repository."""
     return ask(root, "show", "--no-patch", "--format=%cs", "HEAD")
 
 
 def read_title(root: Path, item_id: str) -> str:
-    """Title of an item as it stands in the checked-out commit, or an empty text where it is not there."""
+    """Title of an item in the checked-out commit, or an empty text if it is not there."""
     line = ask(root, "grep", "-h", "--fixed-strings", "--max-count=1", f"## {item_id} ", "HEAD", "--", "requirements")
     return line.partition("\n")[0].removeprefix(f"## {item_id}").strip() if line.startswith(f"## {item_id} ") else ""
 
 
 def read_user(root: Path) -> str:
-    """Name of the person at work as git knows it, or an empty text."""
+    """Name of the user in the git configuration, or an empty text."""
     return ask(root, "config", "user.name")
 
 
 def read_worktree(root: Path) -> str:
-    """`clean` or `changed` since the commit; `unknown` where there is no git repository."""
+    """`clean` or `changed` since the commit; `unknown` without a git repository."""
     answer = run_git(root, ["status", "--porcelain"])
     return "unknown" if answer is None else "changed" if answer else "clean"

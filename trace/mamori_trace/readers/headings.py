@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Anchors of the headings of a Markdown file, spelled as the common forges do.
+"""Anchors of the headings of a Markdown file, in the spelling of the common forges.
 
 @satisfies SWR-TRC-001      Design: docs/design/trace.md#items
 """
@@ -18,7 +18,7 @@ _DROPPED = re.compile(r"[^\w\- ]")
 
 
 def read_anchors(root: Path, file: str) -> list[str] | None:
-    """Anchors in order, or None when `file` is no file inside the project."""
+    """Anchors in order, or None if `file` is not a file inside the project."""
     path = root / file
     if not file or not path.is_file() or not path.resolve().is_relative_to(root.resolve()):
         return None
@@ -31,7 +31,7 @@ def list_anchors(text: str) -> list[str]:
 
 
 def list_headings(text: str) -> list[tuple[str, int, int]]:
-    """(anchor, depth, line) of each heading; depth counts its hash signs, lines count from 1."""
+    """(anchor, depth, line) of each heading; depth is the number of its hash signs, lines count from 1."""
     headings: list[tuple[str, int, int]] = []
     counts: dict[str, int] = {}
     fence = ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the history of git tells about items: every text that ever stood in requirements/, and the commits that changed one item.
+"""Reads from the history of git every version of the texts in requirements/, and the commits that changed one item.
 
 @satisfies SWR-TRC-078, SWR-TRC-081      Design: docs/design/trace.md#new-items
 """
@@ -34,16 +34,16 @@ class Event:
 
 
 def describe_gap(root: Path) -> str:
-    """Why the history is not whole, or an empty text."""
+    """Why the history is incomplete, or an empty text."""
     if run_git(root, ["rev-parse", "--git-dir"]) is None:
         return "there is no history of git at hand"
     return "the clone is shallow, older history is not at hand" if is_shallow(root) else ""
 
 
 def read_texts(root: Path) -> Iterator[str]:
-    """Every version of each text below requirements/: of all branches at hand, and as the files are now.
+    """Every version of each text below requirements/: of all available branches, and of the current files.
 
-    Raises OSError: what cannot be read may hold an id.
+    Raises OSError, because an unreadable file may contain an id.
     """
     for folder, _, files in walk_whole(root / _FOLDER):
         for path in (Path(folder, name) for name in files):
@@ -60,7 +60,7 @@ def read_texts(root: Path) -> Iterator[str]:
 
 
 def read_events(root: Path, schema: Schema, item_id: str) -> list[Event]:
-    """Commits on the way to the one that is checked out which changed the item, newest first."""
+    """Ancestors of the checked-out commit that changed the item, newest first."""
     form = "--format=%x01%H%x1f%as%x1f%an%x1f%s"
     options = ["--first-parent", "--diff-merges=first-parent", "--raw", "-z", "--no-renames", "--abbrev=40", "--reverse", "--relative"]
     steps = _parse_log(run_git(root, ["log", *options, form, "--", _FOLDER]) or b"")
@@ -81,7 +81,7 @@ def read_events(root: Path, schema: Schema, item_id: str) -> list[Event]:
 
 
 def _parse_log(data: bytes) -> list[tuple[tuple[str, str, str, str], list[tuple[str, str]]]]:
-    """For each commit its words, and (path, blob) of each Markdown file that it changed; a removed file has no blob."""
+    """For each commit its text, and (path, blob) of each Markdown file that it changed; a removed file has no blob."""
     steps: list[tuple[tuple[str, str, str, str], list[tuple[str, str]]]] = []
     words = iter(data.split(b"\0"))
     for word in words:
@@ -98,7 +98,7 @@ def _parse_log(data: bytes) -> list[tuple[tuple[str, str, str, str], list[tuple[
 
 
 def _read_versions(root: Path, schema: Schema, item_id: str, names: set[str]) -> dict[str, Item]:
-    """Blob -> the item as it stands there."""
+    """The item in each blob."""
     versions: dict[str, Item] = {}
     head = f"## {item_id} ".encode()
     for name, data in read_blobs(root, [(name, name.encode()) for name in sorted(names)]):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads and writes requirements/ids.lock: one line per id that was given up, sorted, so that it merges and diffs well.
+"""Reads and writes requirements/ids.lock: one line per retired id, sorted, so that it merges and diffs well.
 
 @satisfies SWR-TRC-025      Design: docs/design/trace.md#ids
 """
@@ -20,7 +20,7 @@ _NONE = "-"
 
 
 def read_ids(root: Path, problems: list[Problem]) -> dict[str, FormerId]:
-    """Former ids; none where the project has no ledger. A broken line is a problem."""
+    """Retired ids; none without a ledger. An invalid line is a problem."""
     path = root / IDS_PATH
     if not path.exists():
         return {}
@@ -40,7 +40,7 @@ def read_ids(root: Path, problems: list[Problem]) -> dict[str, FormerId]:
 
 
 def write_ids(root: Path, former: dict[str, FormerId]) -> None:
-    """Writes the ledger whole or not at all, to where a link at its place leads; none where no id was ever given up."""
+    """Writes the ledger atomically and follows a link at its path; writes none if no id was ever retired."""
     if former or (root / IDS_PATH).exists():
         rows = [f"{each.id} {each.fingerprint} {each.date} {each.title or _NONE}\n" for _, each in sorted(former.items())]
         write_whole(root / IDS_PATH, _HEAD + "".join(rows))

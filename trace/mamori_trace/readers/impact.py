@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Gathers both sides of a change for `mamori trace impact`: the project as it was, as it is, and the parts between that changed.
+"""Reads both sides of a change for `mamori trace impact`: the old project, the new project, and the changed parts.
 
 @satisfies SWR-TRC-070, SWR-TRC-073      Design: docs/design/trace.md#impact
 """
@@ -46,7 +46,7 @@ def read_impact(root: Path, revision: str, to: str, evidence: Path | None) -> tu
 
 
 def _read_side(root: Path, name: str) -> Project:
-    """Items, lock, tags and tests. Problems of the texts are the business of `mamori trace check`."""
+    """Items, lock, tags and tests. `mamori trace check` reports problems of the texts."""
     if not (root / "requirements" / "schema" / "items.toml").is_file():
         raise InputError(f"revision '{name}' holds no requirements/schema/items.toml; choose one at which the project had requirements")
     try:
@@ -62,7 +62,7 @@ def _read_side(root: Path, name: str) -> Project:
 
 
 def _read_cases(project: Project, root: Path, evidence: Path | None) -> None:
-    """Campaign cases of the evidence at hand; without any there are none, and the report says so."""
+    """Campaign cases of the available evidence; without evidence there are none, and the report states that."""
     if evidence is not None and not evidence.is_dir():
         raise InputError(f"{evidence}: no such evidence folder; run the campaign first, or leave the option out")
     try:
@@ -74,7 +74,7 @@ def _read_cases(project: Project, root: Path, evidence: Path | None) -> None:
 
 
 def _list_parts(changes: list[FileChange], old: Project, new: Project) -> tuple[list[Part], list[Part], list[str]]:
-    """Parts of sources and tests, design headings, and files about which nothing is known."""
+    """Parts of sources and tests, design headings, and files that belong to no item."""
     owners = Owners([*old.tags, *new.tags])
     tagged = {tag.place.file for tag in (*old.tags, *new.tags)}
     parts: list[Part] = []
@@ -106,7 +106,7 @@ def _read_spans(project: Project, path: str) -> list[Span]:
 
 
 def _list_states(change: FileChange, old: Project, new: Project) -> tuple[dict[str, tuple[str, bool]], bool]:
-    """Name -> (state, whether it is a test) of the touched spans of both sides; and whether a line outside of all was touched."""
+    """Name -> (state, whether it is a test) of the touched spans of both sides; and whether a line outside all spans changed."""
     before, after = _read_spans(old, change.old_path), _read_spans(new, change.new_path)
     old_touched, old_outside = find_touched(before, change.old_ranges)
     new_touched, new_outside = find_touched(after, change.new_ranges)
@@ -134,7 +134,7 @@ def _get_file_state(change: FileChange) -> str:
 
 
 def _list_tests(change: FileChange, old: Project, new: Project) -> list[Part]:
-    """Touched tests. A line outside of them touches all of the file; a helper without tests those of its folder."""
+    """Touched tests. A line outside all tests touches all tests of the file; a helper without tests touches those of its folder."""
     states, outside = _list_states(change, old, new)
     names = {name: state for name, (state, is_test) in states.items() if is_test}
     if outside or len(names) < len(states) or not names:
@@ -146,14 +146,14 @@ def _list_tests(change: FileChange, old: Project, new: Project) -> list[Part]:
 
 
 def _list_neighbours(change: FileChange, new: Project) -> list[Part]:
-    """Tests of the folder of a helper, and of the folders in it."""
+    """Tests of the folder of a helper, and of its subfolders."""
     folder = change.path.rpartition("/")[0].removesuffix("/support") + "/"
     files = sorted({test.place.file for test in new.tests if test.place.file.startswith(folder)})
     return [Part(file, span.name, CHANGED, (), True) for file in files for span in _read_spans(new, file) if span.is_test]
 
 
 def _list_headings(change: FileChange, old: Project, new: Project) -> list[Part]:
-    """Touched headings, with the items whose design link leads to them."""
+    """Touched headings, with the items whose design link names them."""
     sides = []
     for project, path, ranges in ((old, change.old_path, change.old_ranges), (new, change.new_path, change.new_ranges)):
         text = read_text(project.root / path, path, []) if path and (project.root / path).is_file() else ""
@@ -170,7 +170,7 @@ def _list_headings(change: FileChange, old: Project, new: Project) -> list[Part]
 
 
 def _find_headings(rows: list[tuple[str, int, int]], ranges: list[tuple[int, int]]) -> set[str]:
-    """The heading above each touched line, and those that it lies in."""
+    """The heading above each touched line, and the headings that contain it."""
     touched: set[str] = set()
     for first, last in ranges:
         path: list[tuple[str, int]] = []

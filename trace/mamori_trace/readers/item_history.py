@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Asks git which commits changed which item: one call, read as it comes, with a bound on commits, bytes and time.
+"""Queries git for the commits that changed each item: one call, read as a stream, with limits of commits, bytes and time.
 
 @satisfies SWR-TRC-063      Design: docs/design/trace.md#display
 """
@@ -35,11 +35,11 @@ class Change:
 
 
 def read_item_history(root: Path) -> dict[str, list[Change]]:
-    """Changes of each item, the newest first, at most CHANGES_MAX of each. Empty where git cannot tell."""
+    """Changes of each item, the newest first, at most CHANGES_MAX of each. Empty if git has no history."""
     if not (root / "requirements").is_dir():
         return {}
     with tempfile.NamedTemporaryFile("w", suffix=".attributes") as attributes:
-        # git then names the heading above each hunk, which is the item that the hunk lies in.
+        # git then names the heading above each hunk, which is the item that contains the hunk.
         attributes.write("*.md diff=markdown\n")
         attributes.flush()
         command = [
@@ -56,7 +56,7 @@ def find_changes(lines: Iterable[str]) -> dict[str, list[Change]]:
     changes: dict[str, list[Change]] = defaultdict(list)
     commit = Change("", "", "")
     item = ""
-    in_hunk = is_told = False  # told: the item has this commit, so the next heading is all that matters
+    in_hunk = is_told = False  # is_told: the item has this commit already, so only the next heading matters
     for line in islice(lines, _LINES_MAX):
         if line[:1] in ("+", "-"):
             if not in_hunk or (is_told and "##" not in line) or not line[1:].strip():

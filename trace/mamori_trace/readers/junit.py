@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads JUnit XML as GoogleTest, pytest, CTest and Surefire write it, with the line of every case.
+"""Reads JUnit XML of GoogleTest, pytest, CTest and Surefire, with the line of every case.
 
-A document type definition is refused before any entity could be expanded; a file that is cut off keeps nothing of it.
+A document type definition is rejected before any entity can expand; a truncated file gives no results.
 
 @satisfies SWR-TRC-004, SWR-TRC-009, SWR-TRC-041, SWR-TRC-042, SWR-TRC-101      Design: docs/design/trace_formats.md#results-of-other-tools
 """
@@ -52,13 +52,13 @@ def read_junit_file(path: Path, shown: str, kind: str, root: Path, problems: lis
 
 
 def parse_junit(data: bytes, shown: str, kind: str, root: Path, problems: list[Problem]) -> list[TestResult]:
-    """Results of one file that is in memory already, or none and one problem."""
+    """Results of one file in memory, or none and one problem."""
     collector = _Collector(shown, kind, root)
     return collector.results if feed(collector.parser, io.BytesIO(data), shown, _REMEDY, problems) else []
 
 
 class _Collector:
-    """Gathers test cases while expat walks through the file. Of texts no more is kept than a message may be long."""
+    """Collects test cases while expat parses the file. Texts are truncated to the maximum length of a message."""
 
     def __init__(self, shown: str, kind: str, root: Path) -> None:
         self.results: list[TestResult] = []
@@ -89,7 +89,7 @@ class _Collector:
             self._case.flaky = True
 
     def _take_outcome(self, tag: str, attributes: dict[str, str]) -> None:
-        """An outcome outside of any case is one of its whole suite."""
+        """An outcome outside any case belongs to its complete suite."""
         if self._case is None and tag == "skipped":
             return
         if self._case is None:
@@ -108,7 +108,7 @@ class _Collector:
             self._suites.pop()
 
     def _close_case(self, case: TestResult) -> None:
-        """One result for each requirement that the case names; a case that failed in the end is more than flaky."""
+        """One result for each requirement that the case names; a case that failed at the end is more than flaky."""
         case.message = case.message.strip()[:_MESSAGE_CHARACTERS_MAX]
         of_host = self._verdict in _HOST_WORDS
         if (case.status == SKIPPED and (of_host or _OF_HOST.search(case.message))) or (case.status == PASSED and of_host):
@@ -122,7 +122,7 @@ class _Collector:
         self.results.extend(replace(case, requirement=name, is_first=False) for name in named[1:])
 
     def _take_text(self, text: str) -> None:
-        """pytest puts the full failure here; it serves where no message attribute stands."""
+        """pytest puts the full failure here; it is used if there is no message attribute."""
         if self._takes_text and self._case is not None and len(self._case.message) < _MESSAGE_CHARACTERS_MAX:
             self._case.message += text[:_MESSAGE_CHARACTERS_MAX] if self._case.message else text.lstrip()[:_MESSAGE_CHARACTERS_MAX]
 
@@ -168,7 +168,7 @@ class _Collector:
 
 
 def _read_time(text: str) -> float:
-    """Seconds; nothing where there is no number that a sum could hold."""
+    """Seconds; 0 if there is no number that a sum can hold."""
     try:
         time_s = float(text)
     except ValueError:

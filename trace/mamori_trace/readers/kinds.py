@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads requirements/schema/links.toml and holds it against the levels of items.toml.
+"""Reads requirements/schema/links.toml and compares it with the levels of items.toml.
 
 @satisfies SWR-TRC-028      Design: docs/design/trace.md#kinds-and-links
 """
@@ -22,7 +22,7 @@ _LINK_KEYS = ("from", "to", "written")
 
 
 def read_kinds(root: Path, schema: Schema) -> KindSchema:
-    """The kinds and links; an empty schema where the project has none. Raises InputError: links could not be judged then."""
+    """The kinds and links; an empty schema if the project has none. Raises InputError, because links could not be checked then."""
     path = root / KINDS_PATH
     try:
         table = load_toml(path)

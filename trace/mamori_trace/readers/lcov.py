@@ -14,7 +14,7 @@ from mamori_trace.readers.source_names import SourceNames
 
 
 class _Record:
-    """What stands between `SF:` and `end_of_record`."""
+    """The data between `SF:` and `end_of_record`."""
 
     def __init__(self) -> None:
         self.file = FileCoverage()
@@ -23,7 +23,7 @@ class _Record:
         self.texts: dict[tuple[int, ...], str] = {}
 
     def take(self, key: str, value: str) -> None:
-        """One line. Raises ValueError and IndexError when it does not keep to the format; unknown keys are left out."""
+        """One line. Raises ValueError and IndexError if it violates the format; unknown keys are ignored."""
         words = value.split(",")
         if key == "DA":
             self.file.lines[int(words[0])] = self.file.lines.get(int(words[0]), 0) + max(0, int(float(words[1])))

@@ -19,7 +19,7 @@ _MAIN_FILE = 0
 
 
 def take_llvm(content: dict[str, Any], names: SourceNames, run: CoverageRun) -> None:
-    """Fills `run`. Raises FormatError, KeyError, TypeError, ValueError or IndexError when the export does not keep to its format."""
+    """Fills `run`. Raises FormatError, KeyError, TypeError, ValueError or IndexError if the export violates its format."""
     for data in content["data"]:
         for entry in data["files"]:
             name = names.find(entry["filename"])
@@ -57,8 +57,8 @@ def _take_file(entry: dict[str, Any], file: FileCoverage) -> None:
 
 
 def calc_line_counts(segments: Iterable[list[Any]]) -> dict[int, int]:
-    """How often each line with code was executed, as llvm-cov shows it: the most of all regions that begin in the line, or else
-    of the region that goes on from above. A segment is line, column, count, whether it counts, begins a region, fills a gap."""
+    """How often each line with code was executed, as llvm-cov shows it: the maximum of all regions that begin in the line, or else
+    the count of the region that continues from above. A segment is line, column, count, whether it counts, begins a region, fills a gap."""
     by_line: dict[int, list[list[Any]]] = defaultdict(list)
     for segment in segments:
         by_line[int(segment[0])].append(segment)

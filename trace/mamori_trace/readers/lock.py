@@ -19,7 +19,7 @@ _COLUMNS = 6
 
 
 def read_lock(root: Path, problems: list[Problem], path: Path | None = None) -> ReviewLock | None:
-    """The lock, or None where the project has none. `path`: where it is not at its usual place."""
+    """The lock, or None if the project has none. `path`: its location if that is not the default."""
     path = path or root / LOCK_PATH
     if not path.exists():
         return None
@@ -40,7 +40,7 @@ def read_lock(root: Path, problems: list[Problem], path: Path | None = None) -> 
 
 
 def write_lock(root: Path, lock: ReviewLock, path: Path | None = None) -> None:
-    """Writes the lock whole or not at all, to where a link at its place leads. Raises InputError."""
+    """Writes the lock atomically and follows a link at its path. Raises InputError."""
     rows = [
         f"{each.child} {each.child_fingerprint} {each.parent} {each.parent_fingerprint} {each.date} {each.reviewer}\n"
         for _, each in sorted(lock.reviews.items())

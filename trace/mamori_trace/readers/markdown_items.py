@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads strict item blocks from Markdown, line by line, with the place of every part.
+"""Reads strict item blocks from Markdown, line by line, with the location of every part.
 
-A broken block is told as a problem and kept as far as it can be read, so that one slip does not hide or cause others.
+An invalid block is reported as a problem and kept as far as it is readable, so that one mistake neither hides nor causes others.
 
 @satisfies SWR-TRC-001      Design: docs/design/trace.md#items
 """
@@ -21,7 +21,7 @@ _ATTRIBUTE = re.compile(r"- ([A-Za-z]+):(.*)")
 
 
 def read_items(root: Path, schema: Schema, problems: list[Problem]) -> list[Item]:
-    """All items below requirements/, in file order. README files and the schema folder hold none."""
+    """All items below requirements/, in file order. README files and the schema folder contain none."""
     base = root / "requirements"
     items: list[Item] = []
     for path in sorted(_list_files(base, root, problems)):
@@ -33,19 +33,19 @@ def read_items(root: Path, schema: Schema, problems: list[Problem]) -> list[Item
 
 
 def _list_files(base: Path, root: Path, problems: list[Problem]) -> Iterator[Path]:
-    """A link to a folder is not followed, which could go on for ever; it is told, as its items would be missed by nobody."""
+    """A link to a folder is not followed, because it could be endless. It is reported, because its items would otherwise be missing unnoticed."""
     for folder, folders, files in walk_folders(base, root, problems):
         for path in (Path(folder, name) for name in folders):
             if path.is_symlink():
                 message = "is a link to a folder, which is not followed; put the folder itself here, or links to its files"
                 problems.append(Problem(UNREADABLE, Place((Path("requirements") / path.relative_to(base)).as_posix(), 1), message))
             elif path.suffix == ".md":
-                yield path  # is told as no file
+                yield path  # later reported as not a file
         yield from (Path(folder, name) for name in files if name.endswith(".md"))
 
 
 def parse_items(text: str, shown: str, schema: Schema, problems: list[Problem]) -> list[Item]:
-    """Items of one file. `shown` is the path that findings name."""
+    """Items of one file. `shown` is its path in findings."""
     items: list[Item] = []
     block: _Block | None = None
     for number, line in enumerate(text.splitlines(), start=1):
@@ -64,7 +64,7 @@ def _finish(block: _Block | None, items: list[Item]) -> None:
 
 
 class _Block:
-    """One item under construction: statement first, then the attributes in the order of the schema."""
+    """One item that is being read: statement first, then the attributes in the order of the schema."""
 
     def __init__(self, item: Item, schema: Schema, problems: list[Problem]) -> None:
         self._item = item
@@ -77,7 +77,7 @@ class _Block:
 
     @staticmethod
     def open(line: str, place: Place, schema: Schema, problems: list[Problem]) -> _Block | None:
-        """Starts a block at a level-2 heading; a heading without a proper id starts none."""
+        """Starts a block at a level-2 heading; a heading without a valid id starts none."""
         item_id, _, title = line[3:].strip().partition(" ")
         level = schema.find_level(item_id)
         if level is None:
@@ -148,7 +148,7 @@ class _Block:
         _SETTERS[name](self, number, value)
 
     def _extend_attribute(self, number: int, text: str) -> None:
-        """A wrapped line; only prose wraps."""
+        """A wrapped line; only prose may be wrapped."""
         if self._last == "Rationale":
             self._item.rationale = f"{self._item.rationale} {text}"
         else:
@@ -182,7 +182,7 @@ class _Block:
         self._item.status = "".join(self._keep_known(number, "Status", [value], self._schema.status))
 
     def _keep_known(self, number: int, name: str, words: list[str], known: tuple[str, ...]) -> tuple[str, ...]:
-        """`words` without the unknown ones, which are told."""
+        """`words` without the unknown ones, which are reported."""
         for word in words:
             if word not in known:
                 self._refuse(number, f"{name}: '{word}' is not one of {', '.join(known)}")

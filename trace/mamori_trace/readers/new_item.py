@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Takes a draft only when the reader of items finds nothing wrong with it, and appends it whole or not at all.
+"""Accepts a draft only if the reader of items finds no problem in it, and appends it atomically.
 
 @satisfies SWR-TRC-078      Design: docs/design/trace.md#new-items
 """
@@ -17,7 +17,7 @@ from mamori_trace.readers.markdown_items import parse_items
 
 
 def check_file(root: Path, file: Path) -> None:
-    """Raises InputError when items of `file` would not be read."""
+    """Raises InputError if items of `file` would not be read."""
     base = (root / "requirements").resolve()
     try:
         path = file.resolve()
@@ -37,7 +37,7 @@ def _is_item_file(path: Path, base: Path) -> bool:
 
 
 def check_block(block: str, item_id: str, schema: Schema) -> None:
-    """Raises InputError with the first departure from the format."""
+    """Raises InputError with the first deviation from the format."""
     problems: list[Problem] = []
     items = parse_items(block, "draft", schema, problems)
     if problems:
@@ -47,7 +47,7 @@ def check_block(block: str, item_id: str, schema: Schema) -> None:
 
 
 def append_block(file: Path, block: str, item_id: str) -> int:
-    """@return the line of the heading. Raises InputError; the file is as it was then."""
+    """@return the line of the heading. Raises InputError; the file is then unchanged."""
     try:
         old = file.read_text(encoding="utf-8") if file.exists() else f"# {file.stem.replace('_', ' ').capitalize()}\n"
     except OSError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds tests that a comment names an id for, in languages other than C++ and Python.
+"""Finds tests for which a comment names an id, in languages other than C++ and Python.
 
 @satisfies SWR-TRC-104      Design: docs/design/trace.md#tests-and-results
 """
@@ -19,7 +19,7 @@ _LEADERS = ("//", "/*", "*")
 
 
 def read_other_tests(root: Path, problems: list[Problem]) -> list[SourceTest]:
-    """Tests of all files of these languages below `root`. Rust has its unit tests beside the code, so each file may hold some."""
+    """Tests of all files of these languages below `root`. Rust unit tests are in the source files, so each file may contain some."""
     tests: list[SourceTest] = []
     for path, shown in walk_sources(root, SUFFIXES, problems):
         text = read_text(path, shown, problems)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads a whole project: requirements, sources, evidence, review lock."""
+"""Reads a complete project: requirements, sources, evidence, review lock."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ from mamori_trace.readers.waivers import read_waivers
 
 
 def find_evidence(root: Path) -> Path:
-    """The evidence folder of the release build, or else the only one there is. Raises InputError when there is no such."""
+    """The evidence folder of the release build, or else the only one. Raises InputError if there is no evidence folder."""
     folders = _list_evidence(root)
     preferred = root / "build" / "host-release" / "evidence"
     if preferred in folders:
@@ -64,7 +64,7 @@ def _list_evidence(root: Path) -> list[Path]:
 
 
 def read_requirements(root: Path) -> Project:
-    """Items and review lock alone, without code and evidence. Raises InputError where there is no requirements folder."""
+    """Only items and review lock, without code and evidence. Raises InputError without a requirements folder."""
     if not (root / "requirements").is_dir():
         raise InputError(f"{root}: no folder 'requirements' here; run in the project's folder, name it with --root, or begin one with `mamori trace init`")
     project = Project(root, read_schema(root))
@@ -75,11 +75,11 @@ def read_requirements(root: Path) -> Project:
 
 
 def read_judgement(project: Project, rules: Sequence[str], date: str = "") -> None:
-    """What the project says beside its items: pack, waivers, records, techniques, kinds, and the day to judge by. Raises InputError.
+    """Project data besides the items: pack, waivers, records, techniques, kinds, and the date of the check. Raises InputError.
 
-    `rules` are the ids that packs and waivers may name; who runs the rules knows them.
-    `date` empty: the day of the checked-out commit, or else that of the evidence; never the clock, which would make the
-    outcome change by itself.
+    `rules` are the ids that packs and waivers may name; the caller that runs the rules knows them.
+    `date` empty: the day of the checked-out commit, or else that of the evidence; never the clock, because the
+    outcome would then change by itself.
     """
     project.pack = read_rule_pack(project.root, project.schema, rules)
     project.waivers = read_waivers(project.root, rules, project.problems)
@@ -94,9 +94,9 @@ def read_judgement(project: Project, rules: Sequence[str], date: str = "") -> No
 
 
 def read_project(root: Path, evidence: Path | None, rules: Sequence[str], allow_missing: bool = False, date: str = "") -> Project:
-    """Everything. `rules` are the ids of those that are known.
+    """The complete project. `rules` are the known rule ids.
 
-    `evidence` None looks for the folder; no folder at all is an InputError unless results may be missing.
+    `evidence` None searches the folder; a missing folder is an InputError unless results may be missing.
     """
     project = read_requirements(root)
     project.allow_missing = allow_missing
@@ -135,7 +135,7 @@ def _choose_evidence(root: Path, evidence: Path | None, allow_missing: bool) -> 
 
 
 def read_evidence(folder: Path, project: Project) -> Evidence:
-    """Everything below one evidence folder."""
+    """All files below one evidence folder."""
     evidence = Evidence(folder=folder.as_posix(), shown=get_shown_path(folder, project.root))
     evidence.results = read_junit(folder / "junit", project.root, project.problems)
     read_environment(folder, project.root, evidence, project.problems)

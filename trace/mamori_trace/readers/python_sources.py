@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads `@satisfies` tags and `@pytest.mark.verifies(...)` marks from Python sources.
 
-Only docstrings, comments and decorators count, so a test may hold tags in its texts.
+Only docstrings, comments and decorators count, so a test may contain tags in its strings.
 
 @satisfies SWR-TRC-002, SWR-TRC-003      Design: docs/design/trace.md#code-tags
 """
@@ -24,7 +24,7 @@ from mamori_trace.readers.tag_text import FILE_SYMBOL, ID_PATTERN, find_verified
 def read_python(
     root: Path, problems: list[Problem], code: CodeBase | None = None, id_pattern: str = ID_PATTERN
 ) -> tuple[list[CodeTag], list[SourceTest]]:
-    """Tags of all Python files that are no tests, and marks of those that are. @param code takes in the functions of the former."""
+    """Tags of all Python files that are not tests, and markers of those that are. @param code receives the functions of the former."""
     tags: list[CodeTag] = []
     tests: list[SourceTest] = []
     for path, shown in walk_sources(root, (".py",), problems):
@@ -76,7 +76,7 @@ def _find_tags(
 def _add_tags(
     line: str, place: Place, owner: Definition, problems: list[Problem], code: CodeBase | None, id_pattern: str
 ) -> list[CodeTag]:
-    """Tags of one line, and their scope into `code`."""
+    """Tags of one line; their scope is added to `code`."""
     tags = make_tags(line, place, owner.name.rpartition("::")[2] or FILE_SYMBOL, problems, id_pattern)
     if tags and code is not None:
         code.scopes.append(Scope(place.file, owner.name, owner.first, owner.last, tuple(tag.requirement for tag in tags)))
@@ -89,7 +89,7 @@ def _list_comments(text: str) -> dict[int, str]:
 
 
 def _find_marks(tree: ast.Module, shown: str) -> list[SourceTest]:
-    """Marks of test functions, also inside one class; a mark on a class counts for each of its tests."""
+    """Markers of test functions, also inside one class; a marker on a class counts for each of its tests."""
     module = shown.rpartition("/")[2].removesuffix(".py")
     tests: list[SourceTest] = []
     for node in tree.body:
@@ -103,7 +103,7 @@ def _find_marks(tree: ast.Module, shown: str) -> list[SourceTest]:
 
 
 def _find_tagged(tree: ast.Module, text: str, shown: str, id_pattern: str) -> list[SourceTest]:
-    """Tests that their docstring, or a comment above, names an id for."""
+    """Tests for which their docstring, or a comment above, names an id."""
     module = shown.rpartition("/")[2].removesuffix(".py")
     lines = text.splitlines()
     comments = _list_comments(text)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads rule packs: the one that comes with the tool, and requirements/schema/rules.toml, which overrides single entries.
+"""Reads rule packs: the pack of the tool, and requirements/schema/rules.toml, which overrides single entries.
 
 @satisfies SWR-TRC-020      Design: docs/design/trace.md#rule-packs
 """
@@ -25,7 +25,7 @@ _ALL = "all"
 
 
 def read_rule_pack(root: Path, schema: Schema, rules: Iterable[str]) -> RulePack:
-    """The shipped pack with the project's entries over it. Raises InputError: no severity could be told then."""
+    """The shipped pack with the entries of the project. Raises InputError, because no severity is known then."""
     known = tuple(rules)
     pack = read_shipped_pack(schema)
     path = root / PACK_PATH
@@ -45,7 +45,7 @@ def read_rule_pack(root: Path, schema: Schema, rules: Iterable[str]) -> RulePack
 
 
 def read_shipped_pack(schema: Schema) -> RulePack:
-    """The pack of the tool. A SIL that the project's schema does not have is passed over."""
+    """The pack of the tool. A SIL that the project's schema does not have is ignored."""
     grades = {rule: _make_grades(row, schema, Grades()) for rule, row in _read_table(SHIPPED).items()}
     return RulePack(grades, schema.sil)
 
@@ -70,7 +70,7 @@ def _check_entry(where: str, key: str, word: object, schema: Schema) -> None:
 
 
 def _make_grades(row: dict[str, str], schema: Schema, base: Grades) -> Grades:
-    """`row` over `base`; `all` stands for each SIL that the row does not name."""
+    """`row` over `base`; `all` applies to each SIL that the row does not name."""
     whole = dict.fromkeys(schema.sil, row[_ALL]) if _ALL in row else {}
     of_sil = base.of_sil | whole | {key: word for key, word in row.items() if key in schema.sil}
     return Grades(of_sil, base.of_status | {key: word for key, word in row.items() if key in schema.status})

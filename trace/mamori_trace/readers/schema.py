@@ -15,7 +15,7 @@ _MAYBE_LISTS = ("unfinished_words", "weak_words", "weak_word_exceptions")
 
 
 def read_schema(root: Path) -> Schema:
-    """The schema of the project. Raises InputError when it is missing or wrong, as no item can be judged then."""
+    """The schema of the project. Raises InputError if it is missing or invalid, because no item can be checked then."""
     path = root / "requirements" / "schema" / "items.toml"
     try:
         table = load_toml(path)

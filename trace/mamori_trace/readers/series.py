@@ -28,7 +28,7 @@ class Series:
 
 
 def read_series(path: Path) -> Series:
-    """Raises FormatError when the file is missing, cut off, or holds what is no number."""
+    """Raises FormatError if the file is missing, truncated, or contains text that is not a number."""
     try:
         with path.open(newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the file of this project that evidence means by a path of the machine it was made on."""
+"""Finds the file of this project that the evidence of another host names by a different path."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 
 
 class SourceNames:
-    """The project's files. Evidence of another checkout names them by other folders, so the longest known end of a path counts."""
+    """The files of the project. Evidence of another checkout has other folders, so the longest known end of a path decides."""
 
     def __init__(self, root: Path, known: Iterable[str]) -> None:
         self._root = root.resolve().as_posix()
@@ -16,7 +16,7 @@ class SourceNames:
         self._found: dict[str, str] = {}
 
     def find(self, path: str) -> str:
-        """The file's name as findings show it, or nothing for a file that is none of the project."""
+        """The name of the file in findings, or nothing for a file outside the project."""
         if path not in self._found:
             self._found[path] = self._search(path.replace("\\", "/"))
         return self._found[path]
@@ -30,7 +30,7 @@ class SourceNames:
         return next((end for end in ends if end in self._known), "")
 
     def find_any(self, path: str) -> str:
-        """The same for every file that exists, also one without code: at least its folder must be the same."""
+        """Like `find`, for every existing file, also one without code: at least its folder must match."""
         found = self.find(path)
         if found or not path:
             return found

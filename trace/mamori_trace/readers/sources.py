@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One hash over all sources as they are now, so that evidence can say what it was made of.
+"""One hash over all current sources, so that evidence can name its sources.
 
 @satisfies SWR-TRC-035      Design: docs/design/trace.md#records
 """
@@ -19,10 +19,10 @@ _MADE = ("__pycache__", "node_modules", "target")
 
 
 def calc_sources(root: Path, without: tuple[str, ...] = ()) -> str:
-    """Hash over names and contents of all files below `root` that git does not ignore, whether committed or not; empty without git.
+    """Hash over names and contents of all files below `root` that git does not ignore, committed or not; empty without git.
 
-    Contents count, not commits: git knows those of unchanged files already, so only what was changed is read. A commit of what was
-    tested leaves the hash as it is. @param without paths and folders that are left out.
+    Contents count, not commits: git already knows the contents of unchanged files, so only changed files are read. Committing
+    tested files does not change the hash. @param without excluded paths and folders.
     """
     listed = ask(root, "ls-files", "-s", "-z")
     changed = ask(root, "ls-files", "-m", "-o", "--exclude-standard", "-z")
@@ -45,7 +45,7 @@ def calc_sources(root: Path, without: tuple[str, ...] = ()) -> str:
 
 
 def calc_sources_of(root: Path, folders: Sequence[str]) -> str:
-    """Hash over names and contents of all files of `folders`, with or without git. What a build writes there is left out."""
+    """Hash over names and contents of all files of `folders`, with or without git. Build output in them is excluded."""
     found: dict[str, Path] = {}
     for name in folders:
         top = root / name
@@ -60,7 +60,7 @@ def calc_sources_of(root: Path, folders: Sequence[str]) -> str:
 
 
 def _hash_file(path: Path, digits: int) -> str:
-    """As git names the content; nothing for what is gone, or is no file."""
+    """Git's name of the content; nothing for a removed file or something other than a file."""
     try:
         if path.is_symlink():
             data = os.fsencode(os.readlink(path))

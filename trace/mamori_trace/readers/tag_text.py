@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the ids that one line of a comment names, in the words of this project and in those of other tools.
+"""Finds the ids that one comment line names, in the notations of this project and of other tools.
 
 @satisfies SWR-TRC-002, SWR-TRC-040, SWR-TRC-047      Design: docs/design/trace_formats.md#tags-of-other-tools
 """
@@ -36,7 +36,7 @@ _OFT_ID = r"[A-Za-z]+~[\w.\-]+~\d+"
 
 
 def has_mark(text: str) -> bool:
-    """Whether there is what every tag begins with; a text without it holds none."""
+    """Whether the text contains the common beginning of all tags; a text without it contains no tag."""
     for mark in _MARKS:
         if mark in text:
             return True
@@ -44,7 +44,7 @@ def has_mark(text: str) -> bool:
 
 
 class TagWord(NamedTuple):
-    """One id that a tag names. `of_file`: the tag says that it speaks for the whole file."""
+    """One id that a tag names. `of_file`: the tag applies to the complete file."""
 
     requirement: str
     role: str
@@ -76,7 +76,7 @@ def _get_patterns(id_pattern: str) -> _Patterns:
 
 
 def _list_covered(id_pattern: str) -> str:
-    """What a tag with an arrow covers. Where any word may be an id, only one with a revision counts: `[x -> y]` is code."""
+    """Targets of a tag with an arrow. If any word may be an id, only one with a revision counts: `[x -> y]` is code."""
     return rf"{_OFT_ID}(?:[ \t]*,[ \t]*{_OFT_ID})*" if id_pattern == ANY_ID else rf"(?:{id_pattern})"
 
 
@@ -86,11 +86,11 @@ def find_words(line: str, id_pattern: str = ID_PATTERN) -> Iterator[TagWord]:
         return
     patterns = _get_patterns(id_pattern)
     for mark, pattern, role in (("@satisfies", patterns.satisfies, IMPLEMENTS), ("@verifies", patterns.verifies, VERIFIES), (":", patterns.named, NAMES)):
-        if mark in line:  # looking for plain letters takes a tenth of what a pattern takes
+        if mark in line:  # a search of plain characters takes a tenth of the time of a pattern
             yield from (TagWord(word, role) for match in pattern.finditer(line) for word in _split(match[1]))
     for match in patterns.relation.finditer(line) if "@relation" in line else ():
         options = dict(re.findall(r"(\w+)[ \t]*=[ \t]*(\w+)", match[2]))
-        if options.get("scope") == "range_end":  # its beginning has told it already
+        if options.get("scope") == "range_end":  # the beginning of the range has reported it already
             continue
         role = _get_role(options.get("role", ""))
         yield from (TagWord(word, role, options.get("scope") == "file") for word in _split(match[1]))
@@ -110,7 +110,7 @@ def _split(words: str) -> list[str]:
 
 
 def make_tags(line: str, place: Place, symbol: str, problems: list[Problem], id_pattern: str = ID_PATTERN) -> list[CodeTag]:
-    """Tags of one line of a comment. A tag that names nothing is a problem. @param id_pattern what an id looks like."""
+    """Tags of one comment line. A tag without an id is a problem. @param id_pattern the pattern of an id."""
     if not has_mark(line):
         return []
     if _get_patterns(id_pattern).bare.search(line):
@@ -120,6 +120,6 @@ def make_tags(line: str, place: Place, symbol: str, problems: list[Problem], id_
 
 
 def find_verified(text: str, id_pattern: str = ID_PATTERN) -> Iterator[tuple[int, str]]:
-    """Ids that a comment of a test says to verify, with the number of the line in `text`, from 0."""
+    """Ids that a comment of a test claims to verify, with the line number in `text`, from 0."""
     for number, line in enumerate(text.splitlines()):
         yield from ((number, word.requirement) for word in find_words(line, id_pattern) if word.role != IMPLEMENTS)

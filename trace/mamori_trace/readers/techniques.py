@@ -19,7 +19,7 @@ _COLUMNS = Columns(texts=("name", "clause", "phase"), lists=("items", "tests", "
 
 
 def read_techniques(root: Path, problems: list[Problem]) -> list[Technique] | None:
-    """Techniques in file order, or None where the project lists none. A broken row is a problem and left out."""
+    """Techniques in file order, or None if the project lists none. An invalid row is a problem and is omitted."""
     path = root / TECHNIQUES_PATH
     if not os.path.lexists(path):
         return None

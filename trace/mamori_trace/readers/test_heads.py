@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the heads of tests in sources of any language, under the names by which their results are known.
+"""Finds the heads of tests in sources of any language, under the names that their results use.
 
 @satisfies SWR-TRC-047, SWR-TRC-104      Design: docs/design/trace_formats.md#tags-of-other-tools
 """
@@ -32,7 +32,7 @@ _COMMENT = ("//", "*", "/*")
 
 
 def list_heads(text: str, shown: str) -> list[Head]:
-    """All tests of one file, in order. Of a language that is not known here there are none."""
+    """All tests of one file, in order. An unknown language has none."""
     if shown.endswith(_PYTHON):
         return _list_python(text, shown)
     if shown.endswith(_JVM):
@@ -63,7 +63,7 @@ def _list_python(text: str, shown: str) -> list[Head]:
 
 
 def _list_jvm(text: str) -> list[Head]:
-    """Methods that an annotation such as @Test or @ParameterizedTest, or their name, makes a test; helpers beside them leave no result."""
+    """Methods that an annotation such as @Test or @ParameterizedTest, or their name, marks as tests; helpers leave no result."""
     heads, group, marked = [], "", False
     for number, line in enumerate(text.splitlines(), start=1):
         bare = line.strip()
@@ -87,7 +87,7 @@ def _list_go(text: str, shown: str) -> list[Head]:
 
 
 def _list_rust(text: str) -> list[Head]:
-    """Functions with the attribute `#[test]`; their results name the modules around them, and the last one counts."""
+    """Functions with the attribute `#[test]`; their results name the enclosing modules, and the last one counts."""
     shape = Plain(text).shape
     heads, modules, marked = [], [], False
     for part in _RUST_PART.finditer(shape):
@@ -103,7 +103,7 @@ def _list_rust(text: str) -> list[Head]:
 
 
 def find_head(line: int, lines: list[str], heads: list[Head]) -> tuple[str, str] | None:
-    """Suite and name of the test below `line`, where only comments and marks stand between, or of the one above it."""
+    """Suite and name of the test below `line` if only comments and marks are between, or of the one above it."""
     starts = [each[0] for each in heads]
     above = bisect_left(starts, line)
     if above < len(heads) and all(_is_lead(each) for each in lines[line - 1 : starts[above] - 1]):
@@ -113,7 +113,7 @@ def find_head(line: int, lines: list[str], heads: list[Head]) -> tuple[str, str]
 
 
 def _is_outside(line: int, lines: list[str], start: int) -> bool:
-    """Whether the tag at `line` is not indented more than the head of the test above: it stands behind that test."""
+    """Whether the tag at `line` is not indented more than the head of the test above: it is then after that test."""
     return _indent(lines[line - 1]) <= _indent(lines[start - 1])
 
 
@@ -122,5 +122,5 @@ def _indent(text: str) -> int:
 
 
 def _is_lead(line: str) -> bool:
-    """Whether a line may stand between a tag and the test below: a comment, a decorator, or an attribute."""
+    """Whether a line is permitted between a tag and the test below: a comment, a decorator, or an attribute."""
     return line.lstrip().startswith(("//", "/*", "*", "#", "@", '"""')) if line.strip() else False

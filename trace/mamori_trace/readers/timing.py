@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what `mamori timing` measured: `timing/NAME/timing.json` and the pictures beside it (docs/design/timing.md#results).
+"""Reads the measurements of `mamori timing`: `timing/NAME/timing.json` and its pictures (docs/design/timing.md#results).
 
 @satisfies SWR-TRC-015, SWR-TRC-016      Design: docs/design/trace.md#timing
 """
@@ -53,7 +53,7 @@ _SHAPE = {
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """`address` holds all of it as data, in which nothing runs and nothing is fetched; empty when it is left out, and `reason` says why."""
+    """`address` contains the complete picture as data, which runs and fetches nothing; empty if it is omitted, and `reason` states why."""
 
     address: str
     reason: str = ""
@@ -74,15 +74,15 @@ _KINDS = (
 
 
 def read_timing(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the measured systems in order of their folders. A record that does not keep to its contract is a problem, one each."""
+    """Fills in the measured systems, sorted by folder. Each record that violates the format is one problem."""
     files = list_paths(folder, "timing/*/timing.json", root, problems)
     for path, table, place in read_records(files, SCHEMA, _SHAPE, "measure again", root, problems):
         evidence.timing_runs.append(TimingRun(path.parent.as_posix(), table, place))
 
 
 def read_picture(folder: Path, name: str, room_bytes: int) -> Picture | None:
-    """The smaller of SVG and PNG. @param room_bytes what the page has left for it. @return nothing where there is no such picture.
-    @raise FormatError when there is one that is cut off or unreadable."""
+    """The smaller of SVG and PNG. @param room_bytes remaining size on the page. @return nothing without such a picture.
+    @raise FormatError for a truncated or unreadable picture."""
     present = [(folder / f"{name}{kind.suffix}", kind) for kind in _KINDS if (folder / f"{name}{kind.suffix}").is_file()]
     if not present:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the small TOML files that people write by hand: tables of named rows, each with its place.
+"""Reads the small TOML files that people write by hand: tables of named rows, each with its location.
 
 @satisfies SWR-TRC-021, SWR-TRC-022      Design: docs/design/trace.md#rule-packs
 """
@@ -25,7 +25,7 @@ _LINE = re.compile(r"\(at line (\d+)")
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """What a row may say: texts, and lists of texts; those in `needed` it must say, and not with an empty text."""
+    """The columns of a row: texts, and lists of texts. Those in `needed` are required and must not be empty."""
 
     texts: tuple[str, ...]
     lists: tuple[str, ...] = ()
@@ -33,11 +33,11 @@ class Columns:
 
 
 def read_rows(path: Path, schema: str, name: str, columns: Columns, root: Path, problems: list[Problem]) -> list[tuple[dict[str, Any], Place]]:
-    """Rows `[[name]]` of a file that may be absent. A broken file, and each broken row, is a problem and left out.
+    """Rows `[[name]]` of an optional file. An invalid file, and each invalid row, is a problem and is omitted.
 
-    Every column is there in the rows given back: an empty text or tuple where the row does not say it.
+    The returned rows have every column: an empty text or tuple if the row does not specify it.
     """
-    if not os.path.lexists(path):  # a link that leads nowhere is there, and cannot be read
+    if not os.path.lexists(path):  # a link without a target exists but cannot be read
         return []
     shown = get_shown_path(path, root)
     before = len(problems)
@@ -59,13 +59,13 @@ def read_rows(path: Path, schema: str, name: str, columns: Columns, root: Path, 
 
 
 def suggest(word: str, known: Iterable[str]) -> str:
-    """`; nearest: a, b`, or nothing where nothing is near."""
+    """`; nearest: a, b`, or nothing if no name is similar."""
     near = difflib.get_close_matches(word, list(known), n=3, cutoff=0.6)
     return f"; nearest: {', '.join(near)}" if near else ""
 
 
 def _find_fault(table: dict[str, Any], rows: Any, schema: str, name: str) -> str:
-    """What is wrong with the file as a whole."""
+    """Problems of the complete file."""
     found = table.pop("schema", None)
     if found != schema:
         return f"schema is {found!r}; this tool reads {schema!r}"
@@ -77,7 +77,7 @@ def _find_fault(table: dict[str, Any], rows: Any, schema: str, name: str) -> str
 
 
 def _list_places(text: str, shown: str, name: str, count: int) -> list[Place]:
-    """The line of each row's head; line 1 where the rows are written in a way that has none."""
+    """The line of each row's head; line 1 if the notation of the rows has none."""
     head = re.compile(rf"\s*\[\[\s*\"?{re.escape(name)}\"?\s*\]\]")
     lines = [number for number, line in enumerate(text.splitlines(), start=1) if head.match(line)]
     return [Place(shown, line) for line in lines] if len(lines) == count else [Place(shown, 1)] * count

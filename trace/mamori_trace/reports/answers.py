@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a reader asks first: is it safe, is it complete, what is wrong. Each answer leads to the rows that it counts.
+"""The first three questions of a reader: is it safe, is it complete, what is wrong. Each answer links to the rows that it counts.
 
 @satisfies SWR-TRC-069      Design: docs/design/trace.md#report
 """
@@ -25,7 +25,7 @@ RULES_MAX = 3
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One fact of an answer. `css` colours it; `target` is where a click leads to."""
+    """One line below an answer. `css` colours it; `target` is the view that a click opens."""
 
     text: str
     target: str
@@ -34,7 +34,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """`word` answers `question` in some letters; `lines` hold the facts, the worst first."""
+    """`word` answers `question` in a few characters; `lines` contain the facts, the worst first."""
 
     question: str
     word: str
@@ -49,12 +49,12 @@ def make_answers(
     scenarios: list[ScenarioView],
     measured: Sequence[TimingView | CostView],
 ) -> list[Answer]:
-    """The three answers. `measured`: systems that ran in real time or whose steps were counted."""
+    """The three answers. `measured`: systems with real-time measurements or counted steps."""
     return [_answer_safe(project, verdicts, scenarios), _answer_complete(project, verdicts), _answer_wrong(project, findings, measured)]
 
 
 def _answer_safe(project: Project, verdicts: Mapping[str, Verdict], scenarios: list[ScenarioView]) -> Answer:
-    """By the fault campaign and the items with a safety integrity level; a claim needs both, without an exception."""
+    """From the fault campaign and the items with a safety integrity level; a positive answer needs both, without exception."""
     items = {key: verdict.word for key, verdict in verdicts.items() if project.items[key].sil.isdecimal()}
     cases = project.evidence.cases
     good = sum(case.status == PASSED for case in cases)
@@ -91,7 +91,7 @@ def _answer_complete(project: Project, verdicts: Mapping[str, Verdict]) -> Answe
 
 
 def _answer_wrong(project: Project, findings: Sequence[Finding], measured: Sequence[TimingView | CostView]) -> Answer:
-    """Failures first, then what the checks found, the rules with the most errors before others."""
+    """Failures first, then findings of the checks, the rules with the most errors first."""
     lines = []
     if count := len({result.title for result in project.results if result.failing}):
         lines.append(Line(f"{count:,} failed {_plural(count, 'test')}", "#tests?status=failed", "failed"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes an evidence bundle, folder or archive: whole or not at all, and the same bytes for the same inputs.
+"""Writes an evidence bundle, folder or archive, atomically and with the same bytes for the same inputs.
 
 @satisfies SWR-TRC-074      Design: docs/design/trace.md#bundle
 """
@@ -21,12 +21,12 @@ from mamori_trace.base.whole_file import name_part, whole_file
 from mamori_trace.base.write import find_target
 from mamori_trace.model.bundle import MANIFEST, SIGNATURE, Entry, Manifest, describe_path, format_manifest
 
-FIXED_TIME_S = 315532800  # 1980-01-01: no archive format is too young for it
+FIXED_TIME_S = 315532800  # 1980-01-01: the earliest time that all archive formats support
 _CHUNK = 1 << 16
 
 
 def check_out(out: Path, sources: list[Path]) -> None:
-    """Raises InputError when `out` is there as a folder or lies inside of what is bundled."""
+    """Raises InputError if `out` exists as a folder or is inside the bundled folders."""
     if out.is_dir() or (out.exists() and out.suffix != ".tar"):
         raise InputError(f"{out}: is there already; remove it, or name another")
     for source in sources:
@@ -35,7 +35,7 @@ def check_out(out: Path, sources: list[Path]) -> None:
 
 
 def stage(sources: list[tuple[Path, str]], folder: Path, manifest: Manifest) -> None:
-    """Copies each file to its place below `folder` and lists in the manifest the bytes that were copied."""
+    """Copies each file to its path below `folder` and records the copied bytes in the manifest."""
     for source, name in sources:
         for path, inner in _list_files(source):
             target = f"{name}/{inner}" if inner else name
@@ -46,7 +46,7 @@ def stage(sources: list[tuple[Path, str]], folder: Path, manifest: Manifest) -> 
 
 
 def finish(folder: Path, manifest: Manifest, key: Path | None, out: Path) -> None:
-    """Writes manifest and signature, and puts the staged folder or an archive of it where `out` says."""
+    """Writes manifest and signature, and moves the staged folder or its archive to `out`."""
     data = format_manifest(manifest).encode()
     (folder / MANIFEST).write_bytes(data)
     if key is not None:
@@ -78,7 +78,7 @@ def _place_folder(folder: Path, names: list[str], out: Path) -> None:
 
 
 def _write_tar(folder: Path, names: list[str], out: Path) -> None:
-    """USTAR: one header of fixed size for each file. The reader that verifies knows no other."""
+    """USTAR: one header of fixed size for each file. The verifying reader supports no other format."""
     with tarfile.open(out, "w", format=tarfile.USTAR_FORMAT) as archive:
         for name in names:
             head = tarfile.TarInfo(name)
@@ -94,7 +94,7 @@ def _write_tar(folder: Path, names: list[str], out: Path) -> None:
 
 
 def _list_files(source: Path) -> Iterator[tuple[Path, str]]:
-    """Regular files below `source` in order; a link or special file is refused, since a bundle could not hold it."""
+    """Regular files below `source` in order; a link or special file is rejected, because a bundle cannot contain it."""
     if source.is_file():
         yield source, ""
         return
@@ -120,7 +120,7 @@ def _copy(source: Path, target: Path) -> Entry:
 
 
 def add_text(folder: Path, name: str, text: str, manifest: Manifest) -> None:
-    """A file that is made for the bundle."""
+    """A file that is created for the bundle."""
     data = text.encode()
     path = folder / name
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -54,7 +54,7 @@ class CaseView:
 
     @property
     def facts(self) -> list[tuple[str, str]]:
-        """What the run measured, as names and values; only what there is."""
+        """Measured values of the run, as names and values; missing ones are omitted."""
         rows = (("Fault", self.fault if self.where == ABSENT else f"{self.fault}, {self.where}"), ("Fault at", self.when),
                 ("Detected as", self.detected), ("Reaction", self.reaction or ABSENT), ("Reaction time", self.reaction_time),
                 ("Standstill after", self.standstill), ("Travel until standstill", self.travel), ("Drift at standstill", self.drift),
@@ -64,7 +64,7 @@ class CaseView:
 
 @dataclass(slots=True)
 class ScenarioView:
-    """Cases of one scenario; all figures stand in one fold."""
+    """Cases of one scenario; one fold contains all their figures."""
 
     name: str
     title: str
@@ -93,8 +93,8 @@ def make_scenario_views(project: Project, problems: list[Problem]) -> list[Scena
 
 
 def make_case_view(case: CampaignCase, base: Path, index: int = 0) -> CaseView:
-    """One case with its drawings. `base`: folder of the campaign; `index` makes ids unique in a page. Of a series that cannot be drawn,
-    `plot_problem` holds the reason."""
+    """One case with its drawings. `base`: folder of the campaign; `index` makes ids unique in a page. If a series cannot be drawn,
+    `plot_problem` contains the reason."""
     from mamori_trace.reports.plots import draw_case  # loads matplotlib, which takes longer than a small report
 
     view = _describe_case(case, index)
@@ -111,7 +111,7 @@ def make_case_view(case: CampaignCase, base: Path, index: int = 0) -> CaseView:
 
 
 def list_filled(scenarios: list[ScenarioView]) -> set[str]:
-    """Names of the columns of which some case has a value."""
+    """Names of the columns in which some case has a value."""
     views = [view for scenario in scenarios for view in scenario.cases]
     names = ("when", "detected", "reaction_time", "standstill", "travel", "drift", "peak_speed", "final_state")
     filled = {name for name in names if any(getattr(view, name) != ABSENT for view in views)}
@@ -127,13 +127,13 @@ def _list_keys(series: Series, marks: Marks) -> list[tuple[str, str]]:
 
 
 def find_slowest(scenarios: list[ScenarioView]) -> CaseView | None:
-    """The case that came nearest to its bound."""
+    """The case with the smallest margin to its bound."""
     views = [view for scenario in scenarios for view in scenario.cases if view.share is not None]
     return max(views, key=lambda view: (view.share, view.case.id), default=None)
 
 
 def _find_marks(case: CampaignCase) -> Marks:
-    """Raises FormatError where the run does not tell its speed limits."""
+    """Raises FormatError if the run has no speed limits."""
     from mamori_trace.reports.plots import Marks
 
     limits = _get_numbers(_get_table(case.run, "physics"), "speed_limit_rad_s")
@@ -167,7 +167,7 @@ def _describe_case(case: CampaignCase, index: int) -> CaseView:
         reaction_time=_describe_reaction(reaction_s, bound_s, run),
         share=reaction_s / bound_s if reaction_s is not None and bound_s else None,
         standstill=ABSENT if standstill_s is None else f"{1e3 * standstill_s:.0f} ms",
-        # An arm that went on neither stopped nor held.
+        # An arm that continued neither stopped nor held.
         travel=_format_milli(max(_get_numbers(physics, "stop_travel_rad"), default=None)) if stopped else ABSENT,
         drift=_format_milli(_get_number(physics, "hold_drift_rad")) if stopped else ABSENT,
         peak_speed=_describe_peak_speed(physics),
@@ -212,7 +212,7 @@ def _get_number(table: dict[str, Any] | None, key: str) -> float | None:
 
 
 def _get_numbers(table: dict[str, Any], key: str) -> list[float]:
-    """The list of numbers under `key`, or an empty one where anything else stands there."""
+    """The list of numbers under `key`, or an empty one for any other value."""
     values = table.get(key)
     return list(map(float, values)) if isinstance(values, list) and all(map(_is_number, values)) else []
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes one campaign case as a page of its own, with the drawings and checks that the report shows of it.
+"""Writes one campaign case as a separate page, with its drawings and checks of the report.
 
     write_case_page(make_case(CaseResult.to_json()), evidence / "campaign", Path("case.html"))
 
@@ -19,7 +19,7 @@ from mamori_trace.reports.templating import make_environment
 
 
 class _PlainIds:
-    """A case on its own has no items to link to."""
+    """A single case has no items to link to."""
 
     def link_item(self, item_id: str) -> str:
         return f'<span class="id">{escape(item_id)}</span>'
@@ -28,7 +28,7 @@ class _PlainIds:
 def write_case_page(case: CampaignCase, base: Path, out: Path) -> CaseView:
     """Writes the page of `case` to `out`. `base`: folder of the campaign, which holds the folder of the case.
 
-    @return what the page shows; `plot_problem` holds the reason where the run cannot be drawn. @raise OSError when `out` cannot be written.
+    @return the displayed case; `plot_problem` contains the reason if the run cannot be drawn. @raise OSError if `out` cannot be written.
     """
     view = make_case_view(case, base)
     page = make_environment().get_template("case_page.html.j2").render(view=view, static=_PlainIds(), anchors={})

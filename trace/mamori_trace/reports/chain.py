@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The chain of one item, from hazards and needs down to results, and its history.
+"""The chain of one item, from hazards and needs to results, and its history.
 
 @satisfies SWR-TRC-081      Design: docs/design/trace.md#query
 """
@@ -15,11 +15,11 @@ from mamori_trace.model.verdict import Verdict
 from mamori_trace.readers.history import Event
 from mamori_trace.reports.text import Paint
 
-Row = tuple[str, int, bool]  # id, depth, whether it was told before
+Row = tuple[str, int, bool]  # id, depth, whether it was listed before
 
 
 def format_chain(project: Project, item: Item, verdicts: dict[str, Verdict], paint: Paint) -> str:
-    """What lies above and below as two trees; what was told once is named only."""
+    """The items above and below as two trees; a repeated item is only named."""
     lines: list[str] = []
     for title, rows in (("chain above", _list_above(project, item)), ("chain below", _list_below(project, item))):
         if rows:
@@ -32,7 +32,7 @@ def format_chain(project: Project, item: Item, verdicts: dict[str, Verdict], pai
 
 
 def make_chain(project: Project, item: Item, verdicts: dict[str, Verdict]) -> dict[str, Any]:
-    """The same as plain values; each item once, with its least depth first told."""
+    """The same as plain values; each item once, at its smallest depth."""
     return {
         "above": [_make_row(project, row, verdicts) for row in _list_above(project, item) if not row[2]],
         "below": [_make_row(project, row, verdicts) for row in _list_below(project, item) if not row[2]],
@@ -56,7 +56,7 @@ def _list_below(project: Project, item: Item) -> list[Row]:
 
 
 def _walk(start: str, follow: Callable[[str], Iterable[str]]) -> list[Row]:
-    """Depth first; an item that comes again is not entered, which also ends cycles."""
+    """Depth first; a repeated item is not entered again, which also ends cycles."""
     rows: list[Row] = []
     seen = {start}
     stack = [(key, 0) for key in reversed(list(follow(start)))]
@@ -70,7 +70,7 @@ def _walk(start: str, follow: Callable[[str], Iterable[str]]) -> list[Row]:
 
 
 def _list_evidence(project: Project, key: str) -> list[str]:
-    """Code, results and cases in short."""
+    """Short list of code, results and cases."""
     rows = [f"code: {tag.place} ({tag.symbol})" for tag in project.tags_of.get(key, [])]
     rows += [f"{result.status}: {result.title}" for result in project.results_of.get(key, [])]
     rows += [f"no result: {test.title}" for test in project.unexecuted_of.get(key, [])]

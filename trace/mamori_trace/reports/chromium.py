@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Drives Debian's Chromium without a window, over its own pipe: no port, no driver program, no further library.
+"""Controls Debian's Chromium without a window, over its own pipe: no port, no driver program, no further library.
 
 @satisfies SWR-TRC-065      Design: docs/design/trace.md#pdf
 """
@@ -24,18 +24,18 @@ _PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
 _OPTIONS = (
     "--headless=new", "--remote-debugging-pipe", "--disable-gpu", "--disable-dev-shm-usage", "--disable-extensions", "--disable-sync",
     "--disable-background-networking", "--disable-component-update", "--disable-default-apps", "--no-first-run", "--mute-audio",
-    "--host-resolver-rules=MAP * ~NOTFOUND",  # a page of ours names no host, and none would be found
+    "--host-resolver-rules=MAP * ~NOTFOUND",  # the pages of the report name no host, and none would be found
 )  # fmt: skip
-# The browser reads from descriptor 3 and writes to 4. A process of its own moves them: before the start, both may be in use.
+# The browser reads from descriptor 3 and writes to 4. A separate process moves them, because both may be in use before the start.
 _PLACE_DESCRIPTORS = "import os, sys; os.dup2(int(sys.argv[1]), 3); os.dup2(int(sys.argv[2]), 4); os.execv(sys.argv[3], sys.argv[3:])"
 _CHUNK_BYTES = 1 << 20
 _HIGH_DESCRIPTOR = 20
 
 
 class Chromium:
-    """One browser with one empty page, ended on leaving the `with` block.
+    """One browser with one empty page, which ends with the `with` block.
 
-    `events` keeps what the browser told by itself, in order.
+    `events` stores the unrequested messages of the browser, in order.
     """
 
     def __init__(self, seconds_max: float = 60.0) -> None:
@@ -54,7 +54,7 @@ class Chromium:
         high = [fcntl.fcntl(end, fcntl.F_DUPFD, _HIGH_DESCRIPTOR) for end in (to_read, to_write)]
         command = [program, *_OPTIONS, f"--user-data-dir={self._profile.name}", "about:blank"]
         if os.geteuid() == 0:
-            command.insert(1, "--no-sandbox")  # it refuses to start for root otherwise
+            command.insert(1, "--no-sandbox")  # it does not start for root otherwise
         try:
             self._process = subprocess.Popen(
                 [sys.executable, "-I", "-S", "-c", _PLACE_DESCRIPTORS, *map(str, high), *command],
@@ -72,7 +72,7 @@ class Chromium:
         return self
 
     def __exit__(self, *_: object) -> None:
-        os.close(self._writer)  # the browser ends when its pipe does
+        os.close(self._writer)  # the browser ends when its pipe closes
         try:
             self._process.wait(10)
         except subprocess.TimeoutExpired:
@@ -82,7 +82,7 @@ class Chromium:
         self._profile.cleanup()
 
     def call(self, method: str, parameters: Mapping[str, Any] | None = None) -> dict[str, Any]:
-        """Sends one command and waits for its answer. Raises WorkError."""
+        """Sends one command and waits for its reply. Raises WorkError."""
         self._last_id += 1
         message: dict[str, Any] = {"id": self._last_id, "method": method, "params": dict(parameters or {})}
         if self._session:
@@ -107,13 +107,13 @@ class Chromium:
         self.wait_for("Page.loadEventFired", seen)
 
     def wait_for(self, name: str, start: int) -> None:
-        """Waits until an event called `name` stands in `events` at or after `start`."""
+        """Waits until an event called `name` is in `events` at or after `start`."""
         end_s = time.monotonic() + self._seconds_max
         while not any(event.get("method") == name for event in self.events[start:]):
             self.events.append(self._receive(end_s))
 
     def evaluate(self, expression: str) -> Any:
-        """Value of a JavaScript expression in the page; promises are waited for. Raises WorkError."""
+        """Value of a JavaScript expression in the page; waits for promises. Raises WorkError."""
         answer = self.call("Runtime.evaluate", {"expression": expression, "returnByValue": True, "awaitPromise": True})
         if "exceptionDetails" in answer:
             details = answer["exceptionDetails"]
@@ -142,7 +142,7 @@ class Chromium:
 
 
 def find_chromium() -> str:
-    """Path of the browser. Raises WorkError where there is none."""
+    """Path of the browser. Raises WorkError if there is none."""
     for program in _PROGRAMS:
         if path := shutil.which(program):
             return path

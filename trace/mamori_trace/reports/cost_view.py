@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turns counted steps into facts and tables of the page.
+"""Converts counted steps to facts and tables of the page.
 
 @satisfies SWR-TIM-034      Design: docs/design/cost.md#results
 """
@@ -104,7 +104,7 @@ def _make_steps(record: dict[str, Any]) -> Table:
             Cell(f"{100 * row['time_ns'] / budget_ns:.2f} %" if budget_ns > 0 else ABSENT),
         ]  # fmt: skip
 
-    # A component's classes one below the other, which the record has class by class; the sort keeps the order of both.
+    # The classes of a component in consecutive rows; the record is ordered by class. The sort keeps the order of both.
     names = list(dict.fromkeys(row["component"] for row in record["steps"]))
     rows = sorted(record["steps"], key=lambda row: names.index(row["component"]))
     return make_table("Instructions of a single step", columns, rows, make, where=WHERE)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Coverage of an item as the page shows it: its functions, and what the tests that verify it reached of them.
+"""Coverage of an item on the page: its functions, and the coverage that its verifying tests reached.
 
 @satisfies SWR-TRC-064      Design: docs/design/trace.md#coverage
 """
@@ -16,7 +16,7 @@ from mamori_trace.model.project import Project
 
 @dataclass(frozen=True, slots=True)
 class FunctionCoverage:
-    """One function that an item owns. `executed` None: no counter tells. Each pair is (reached, all); (0, 0): not measured.
+    """One function that an item owns. `executed` None: no counter exists. Each pair is (reached, all); (0, 0): not measured.
 
     `accepted` is the reason why the function need not be called, or empty.
     """
@@ -32,7 +32,7 @@ class FunctionCoverage:
 
 
 def make_coverage_views(project: Project) -> dict[str, list[FunctionCoverage]]:
-    """Functions by item, what was not executed first; empty where the evidence holds no coverage."""
+    """Functions by item, unexecuted ones first; empty if the evidence contains no coverage."""
     if not project.evidence.coverage_runs:
         return {}
     return {key: _list_functions(project, key, functions) for key, functions in project.functions_of.items()}

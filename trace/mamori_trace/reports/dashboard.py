@@ -22,7 +22,7 @@ _KINDS = ((UNIT, "Unit tests"), (INTEGRATION, "Integration tests"), (CAMPAIGN, "
 
 @dataclass(frozen=True, slots=True)
 class Share:
-    """A piece of a bar: its word, count, share of the bar [%] and where a click leads to."""
+    """A segment of a bar: its word, count, share of the bar [%] and the view that a click opens."""
 
     word: str
     count: int
@@ -32,7 +32,7 @@ class Share:
 
 @dataclass(frozen=True, slots=True)
 class Bar:
-    """One row of a card. `count` is what the row is about, `note` stands behind it."""
+    """One row of a card. `count` is the counted number, `note` follows it."""
 
     name: str
     count: int
@@ -53,7 +53,7 @@ def list_level_bars(project: Project, verdicts: Mapping[str, Verdict]) -> list[B
 
 
 def list_sil_bars(project: Project, verdicts: Mapping[str, Verdict]) -> list[Bar]:
-    """Verdicts of each safety integrity level that has items, the highest first; nothing where there is only one."""
+    """Verdicts of each safety integrity level that has items, the highest first; nothing if there is only one level."""
     groups: dict[str, Counter] = {sil: Counter() for sil in (*reversed(project.schema.sil), "")}
     for key, verdict in verdicts.items():
         groups.setdefault(project.items[key].sil, Counter())[verdict.word] += 1
@@ -82,7 +82,7 @@ def list_result_bars(project: Project) -> list[Bar]:
 
 
 def list_finding_bars(findings: list[Finding], count_max: int = 8) -> list[Bar]:
-    """The rules with the most findings, errors before warnings. Bars are shares of the greatest count."""
+    """The rules with the most findings, errors before warnings. Bars are shares of the maximum count."""
     counts = Counter(finding.rule for finding in findings)
     severities = {finding.rule: finding.severity for finding in findings}
     order = [rule.id for rule in list_rules()]

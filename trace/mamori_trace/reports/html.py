@@ -56,9 +56,9 @@ GLOSSARY = (
 def write_report(
     project: Project, out: Path, make_pdf: Callable[[str], None] | None = None
 ) -> tuple[list[Finding], dict[str, Verdict]]:
-    """Checks, judges, draws and writes. `make_pdf` gets the page as it stands on paper, before anything is written.
+    """Checks, evaluates, draws and writes. `make_pdf` receives the print version of the page before anything is written.
 
-    @return the findings, including those about series and pictures that cannot be shown, and the verdicts.
+    @return the findings, including those about series and pictures that cannot be displayed, and the verdicts.
     """
     context = _make_context(project)
     page = _render(context)
@@ -70,12 +70,12 @@ def write_report(
 
 def _render(context: dict[str, Any]) -> bytes:
     page = make_environment().get_template("report.html.j2").render(context)
-    # A lone surrogate can come out of foreign JSON; no file can hold it.
+    # JSON of other tools may contain a lone surrogate, which no file can hold.
     return page.encode("utf-8", errors="replace")
 
 
 def _make_context(project: Project) -> dict[str, Any]:
-    """Everything that the templates name."""
+    """All names that the templates use."""
     scenarios = make_scenario_views(project, project.problems)
     timing, costs = make_timing_views(project, project.problems), make_cost_views(project)
     findings = run_checks(project)
@@ -140,6 +140,6 @@ def _group_by_item(findings: list[Finding]) -> dict[str, list[Finding]]:
 
 
 def _count_requirements(project: Project, verdicts: dict[str, Verdict]) -> tuple[int, int]:
-    """(verified, all) of the items that are to be verified themselves: without needs, hazards."""
+    """(verified, all) of the items with their own verification: without needs and hazards."""
     own = [word for key, word in verdicts.items() if not project.schema.levels[project.items[key].level].from_children]
     return sum(verdict.word == VERIFIED for verdict in own), len(own)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""JSON that may stand inside a script element, whatever the texts in it are.
+"""JSON that is safe inside a script element, for any texts in it.
 
 @satisfies SWR-TRC-062      Design: docs/design/trace.md#data-in-the-page
 """
@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import json
 
-# What could end the element, begin a comment in it, or end a line where JavaScript counts lines.
+# Characters that could end the element, begin a comment in it, or end a line of JavaScript.
 _ESCAPES = (("<", "\\u003c"), (">", "\\u003e"), ("&", "\\u0026"), ("\u2028", "\\u2028"), ("\u2029", "\\u2029"))
 
 
 def format_inline(content: object) -> str:
-    """`content` as compact JSON without any character that HTML gives a meaning to."""
+    """`content` as compact JSON without any character that has a meaning in HTML."""
     text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
     for character, escape in _ESCAPES:
         text = text.replace(character, escape)

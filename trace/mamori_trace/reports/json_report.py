@@ -88,7 +88,7 @@ def make_item(project: Project, item: Item, verdicts: dict[str, Verdict]) -> dic
 
 
 def _make_coverage(project: Project, item: Item) -> dict[str, Any] | None:
-    """What was reached of the functions that the item owns; null where nothing was measured."""
+    """Coverage of the functions that the item owns; null if nothing was measured."""
     reached = project.measure(item.id)
     if not reached.functions_measured:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Everything that the page's script draws from, as columns of plain values: compact, and quick to parse.
+"""All data that the script of the page displays, as columns of plain values: compact, and quick to parse.
 
 @satisfies SWR-TRC-060, SWR-TRC-063, SWR-TRC-064      Design: docs/design/trace.md#data-in-the-page
 """
@@ -22,7 +22,7 @@ MESSAGE_MAX = 4000
 
 
 class Words:
-    """Texts that repeat, each stored once and named by its number."""
+    """Repeated texts, each stored once and identified by its number."""
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {}
@@ -108,7 +108,7 @@ def _make_items(items: list[Item], verdicts: Mapping[str, Verdict], numbers: Map
 
 def _make_results(project: Project, numbers: Mapping[str, int], files: Words) -> dict[str, Any]:
     suites = Words()
-    # By kind and suite; inside, what did not pass comes first.
+    # By kind and suite; within a suite, results that did not pass come first.
     ordered = sorted(project.results, key=lambda row: (row.kind, row.suite, row.status == "passed", row.name, row.requirement))
     rows = (
         [suites.get_number(result.suite), result.name, result.kind, result.status, _name(result.requirement, numbers),
@@ -139,7 +139,7 @@ def _make_function(row: FunctionCoverage, files: Words) -> list:
 
 
 def _make_history(history: Mapping[str, list[Change]], numbers: Mapping[str, int]) -> dict[str, Any]:
-    """Each commit once; items name commits by their numbers."""
+    """Each commit once; items refer to commits by number."""
     commits: dict[Change, int] = {}
     changes = {
         str(numbers[key]): [commits.setdefault(change, len(commits)) for change in rows]
@@ -150,7 +150,7 @@ def _make_history(history: Mapping[str, list[Change]], numbers: Mapping[str, int
 
 
 def _make_rows(rows: Iterable[list], names: tuple[str, ...]) -> dict[str, list]:
-    """Rows turned into columns."""
+    """Rows converted to columns."""
     columns = [list(column) for column in zip(*rows, strict=True)] or [[] for _ in names]
     return dict(zip(names, columns, strict=True))
 

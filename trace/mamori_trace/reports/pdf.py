@@ -15,14 +15,14 @@ from mamori_trace.base.write import write_whole_bytes
 from mamori_trace.reports.chromium import Chromium
 
 _SECONDS_MAX = 300.0
-# The only bytes that a second run would change. What takes their place has their length, which keeps the places of all objects.
+# The only bytes that would differ in a second run. Their replacement has the same length, so all object offsets stay valid.
 _DATES = re.compile(rb"/(CreationDate|ModDate) \(D:\d{14}\+00'00'\)")
 _DATE = rb"/\1 (D:20000101000000+00'00')"
 _NODES = re.compile(rb"\bnode\d{8}\b")
 
 
 def print_page(page: str, out: Path) -> None:
-    """Writes `out` whole or not at all. Raises WorkError and InputError."""
+    """Writes `out` atomically. Raises WorkError and InputError."""
     with tempfile.TemporaryDirectory(prefix="mamori-paper-") as folder:
         file = Path(folder) / "report.html"
         file.write_text(page, encoding="utf-8", newline="\n")
@@ -33,6 +33,6 @@ def print_page(page: str, out: Path) -> None:
 
 
 def fix_bytes(pdf: bytes) -> bytes:
-    """`pdf` without its date, and with its marks of structure numbered from one on, in their order."""
+    """`pdf` without its date, and with its structure marks numbered from one, in their order."""
     numbers = {name: number for number, name in enumerate(sorted(set(_NODES.findall(pdf))), start=1)}
     return _DATES.sub(_DATE, _NODES.sub(lambda match: b"node%08d" % numbers[match[0]], pdf))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws one campaign case: states as bands, joint positions, joint speeds against their limits, fault and reaction.
 
-Each case has a drawing of the whole run and one of the 100 ms around the fault. Both have the same time base: seconds since the start
-of the run. The letters are for a screen of 400 pixels; keys and instants stand beside the drawings as text.
+Each case has a drawing of the complete run and one of the 100 ms around the fault. Both have the same time base: seconds since the start
+of the run. The font is for a screen of 400 pixels; keys and instants are next to the drawings as text.
 
 @satisfies SWR-TRC-012, SWR-TRC-111      Design: docs/design/trace.md#plots
 """
@@ -61,8 +61,8 @@ _STYLE: dict[RcKeyType, Any] = {
 
 @dataclass(frozen=True, slots=True)
 class Marks:
-    """What is marked in a drawing: instants [s] (None: did not happen), the speed limit of each joint [rad/s], and the joint that
-    the fault hits, counted from 1 (None: none), which is drawn thicker."""
+    """Marks of a drawing: instants [s] (None: did not happen), the speed limit of each joint [rad/s], and the faulty joint,
+    counted from 1 (None: none), which is drawn thicker."""
 
     fault_s: float | None
     reaction_s: float | None
@@ -71,13 +71,13 @@ class Marks:
     joint: int | None = None
 
     def list_instants(self) -> list[tuple[str, float, str]]:
-        """(name, instant [s], colour) of each mark that there is."""
+        """(name, instant [s], colour) of each existing mark."""
         marks = (("fault", self.fault_s, FAULT_COLOUR), ("reaction", self.reaction_s, REACTION_COLOUR),
                  ("standstill", self.standstill_s, STANDSTILL_COLOUR))  # fmt: skip
         return [(name, time_s, colour) for name, time_s, colour in marks if time_s is not None]
 
     def find_near(self, series: Series) -> tuple[float, float] | None:
-        """The 100 ms around the fault [s]; nothing where there is no fault inside the run."""
+        """The 100 ms around the fault [s]; nothing without a fault inside the run."""
         if self.fault_s is None or not series.time_s[0] <= self.fault_s <= series.time_s[-1]:
             return None
         return self.fault_s - NEAR_BEFORE_S, self.fault_s + NEAR_AFTER_S
@@ -85,14 +85,14 @@ class Marks:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """An inline SVG and what it shows."""
+    """An inline SVG and its description."""
 
     caption: str
     svg: str
 
 
 def draw_case(series: Series, marks: Marks, prefix: str, title: str) -> list[Drawing]:
-    """The whole run, then the 100 ms around the fault, where there is one. `prefix` makes ids unique in the page."""
+    """The complete run, then the 100 ms around the fault, if there is one. `prefix` makes ids unique in the page."""
     near = marks.find_near(series)
     drawings = [Drawing("Whole run", _draw(series, marks, None, near, f"{prefix}w", f"{title}; whole run"))]
     if near is not None:
@@ -110,7 +110,7 @@ def list_state_colours(series: Series) -> dict[str, str]:
 
 
 def pick_samples(values: list[float], count_max: int = POINTS_MAX) -> list[int]:
-    """Indices of at most `count_max` samples that keep the ends and every peak: smallest and largest value of each bucket."""
+    """Indices of at most `count_max` samples that keep the ends and every peak: minimum and maximum of each bucket."""
     count = len(values)
     if count <= count_max:
         return list(range(count))
@@ -124,7 +124,7 @@ def pick_samples(values: list[float], count_max: int = POINTS_MAX) -> list[int]:
 
 
 def list_bands(series: Series) -> list[tuple[str, float, float]]:
-    """(state, from, to) for each stretch of one state; a stretch ends where the next one begins."""
+    """(state, from, to) for each interval in one state; an interval ends at the beginning of the next one."""
     bands: list[tuple[str, float, float]] = []
     start = 0
     for index in range(1, len(series.state) + 1):
@@ -145,13 +145,13 @@ def _cut(series: Series, span: tuple[float, float]) -> Series:
 
 
 def _draw(series: Series, marks: Marks, span: tuple[float, float] | None, shaded: tuple[float, float] | None, prefix: str, title: str) -> str:
-    """@param span time axis [s], default: all of `series`. @param shaded span that another drawing shows."""
+    """@param span time axis [s], default: all of `series`. @param shaded span of another drawing."""
     first, last = span or (series.time_s[0], max(series.time_s[-1], series.time_s[0] + 1e-3))
     with matplotlib.rc_context(_STYLE):
         figure = Figure(figsize=(_WIDTH_INCHES, _HEIGHT_INCHES), dpi=_DPI)
         states, positions, speeds = figure.subplots(3, 1, sharex=True, height_ratios=(0.34, 2.0, 2.0))
         for axes in (states, positions, speeds):
-            axes.set_title("", y=1.0)  # a place of its own: without one each drawing measures all labels for a title
+            axes.set_title("", y=1.0)  # a fixed position: otherwise each drawing measures all labels to place the title
         figure.subplots_adjust(left=_LEFT, right=_RIGHT, top=0.885, bottom=0.105, hspace=0.24)
         _draw_states(states, series, (first, last))
         _draw_positions(positions, series, marks, span is not None)
@@ -186,7 +186,7 @@ def _draw_states(axes: Axes, series: Series, span: tuple[float, float]) -> None:
 
 
 def _draw_positions(axes: Axes, series: Series, marks: Marks, is_near: bool) -> None:
-    """Near the fault the change since then: it is far smaller than the distance between the joints."""
+    """Near the fault, the change since then, because it is far smaller than the distance between the joints."""
     start = next((index for index, time_s in enumerate(series.time_s) if marks.fault_s is not None and time_s >= marks.fault_s), 0)
     for index in range(JOINTS):
         values = series.position_rad[index]
@@ -199,7 +199,7 @@ def _draw_positions(axes: Axes, series: Series, marks: Marks, is_near: bool) -> 
 
 
 def _draw_speeds(axes: Axes, series: Series, marks: Marks) -> None:
-    """Speeds as shares of each joint's own limit, so that one line is the limit of all."""
+    """Speeds relative to the limit of each joint, so that one line is the limit of all."""
     largest = 1.0
     for index in range(JOINTS):
         shares = [speed / marks.speed_limit_rad_s[index] for speed in series.speed_rad_s[index]]
@@ -221,8 +221,8 @@ def _draw_line(axes: Axes, series: Series, values: list[float], joint: int, is_t
 
 
 def _mark_instants(states: Axes, panels: tuple[Axes, Axes], marks: Marks, span: tuple[float, float]) -> None:
-    """Vertical lines through all panels. Names: the fault to the left of its line, what follows to the right, stacked; on the other
-    side where the edge is near."""
+    """Vertical lines through all panels. Labels: the fault to the left of its line, later marks to the right, stacked; on the other
+    side near an edge."""
     sides = {"fault": ("right", 1.12), "reaction": ("left", 1.12), "standstill": ("left", 1.95)}
     for name, time_s, colour in marks.list_instants():
         if not span[0] <= time_s <= span[1]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Findings as SARIF 2.1.0 (OASIS), which code forges and editors show beside the lines.
+"""Findings as SARIF 2.1.0 (OASIS), which code forges and editors show next to the lines.
 
 @satisfies SWR-TRC-026      Design: docs/design/trace.md#sarif
 """
@@ -29,7 +29,7 @@ _LINE_NUMBERS = re.compile(r"(?<=:)\d+\b|(?<=\bline )\d+\b")
 
 
 def format_sarif(project: Project, findings: list[Finding]) -> str:
-    """One run: the rules, the findings that count, and those that are waived, as suppressed results."""
+    """One run: the rules, the counted findings, and the waived findings as suppressed results."""
     rules = list_rules()
     places = {rule.id: index for index, rule in enumerate(rules)}
     waivers: dict[Finding, Waiver] = {each.finding: each.waiver for each in project.waived}
@@ -87,19 +87,19 @@ def _make_result(finding: Finding, rule_index: int, fingerprint: str, waiver: Wa
 
 
 def _make_location(place: Place) -> dict[str, Any]:
-    """Relative to the project's folder, so that the file means the same on every machine; a file outside keeps its whole path."""
+    """Relative to the folder of the project, so that the file is valid on every host; a file outside keeps its complete path."""
     path = PurePosixPath(place.file)
     artifact = {"uri": path.as_uri()} if path.is_absolute() else {"uri": quote(place.file), "uriBaseId": _BASE}
     return {"physicalLocation": {"artifactLocation": artifact, "region": {"startLine": max(place.line, 1)}}}
 
 
 def _make_level(severity: str) -> str:
-    """SARIF's word: a rule that is off of itself is `none`."""
+    """SARIF's level: a rule that is off by default is `none`."""
     return "none" if severity == "off" else severity
 
 
 def _calc_fingerprints(findings: list[Finding]) -> list[str]:
-    """What recognises a finding when lines moved: rule, file, item and message without line numbers; equal ones are counted."""
+    """Recognises a finding after lines moved: rule, file, item and message without line numbers; equal ones are counted."""
     seen: Counter[str] = Counter()
     prints = []
     for finding in findings:
@@ -110,7 +110,7 @@ def _calc_fingerprints(findings: list[Finding]) -> list[str]:
 
 
 def _read_version() -> str:
-    """Version of the tool; a source tree that nobody installed has none."""
+    """Version of the tool; a source tree that is not installed has none."""
     try:
         return metadata.version("mamori")
     except metadata.PackageNotFoundError:

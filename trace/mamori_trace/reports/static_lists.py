@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Test results and tagged code as plain HTML rows: what is read without a script.
+"""Test results and tagged code as plain HTML rows, which are readable without a script.
 
-Made by hand and not by the template, since ten thousand results go through here.
+Python creates the rows, not the template, because there are ten thousand results.
 
 @satisfies SWR-TRC-061      Design: docs/design/trace.md#data-in-the-page
 """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Matrix and items as plain HTML rows: what is read without a script, and on paper.
+"""Matrix and items as plain HTML rows, which are readable without a script and on paper.
 
-Made by hand and not by the template, since ten thousand items go through here.
+Python creates the rows, not the template, because there are ten thousand items.
 
 @satisfies SWR-TRC-061      Design: docs/design/trace.md#data-in-the-page
 """
@@ -28,7 +28,7 @@ _SAFE_IN_FRAGMENT = "/?:@!$'()*+,;=-._~"
 
 @dataclass(frozen=True, slots=True)
 class StaticView:
-    """Looks up what the rows tell of an item."""
+    """Looks up the contents of the rows of an item."""
 
     project: Project
     verdicts: Mapping[str, Verdict]
@@ -107,7 +107,7 @@ class StaticView:
         return ", ".join(map(self.link_item, dict.fromkeys(ids)))
 
     def link_item(self, item_id: str) -> str:
-        """A link to the item's place in the page, or the bare id where there is no such item."""
+        """A link to the item in the page, or the plain id if there is no such item."""
         if item_id not in self.links:
             start, end = ('<span class="unknown">', "span")
             if item_id in self.verdicts:
@@ -128,7 +128,7 @@ def _format_change(change: Change) -> str:
 
 @cache
 def _name_sil(sil: str) -> str:
-    """QM is no safety integrity level."""
+    """QM is not a safety integrity level."""
     return f"SIL {sil}" if sil.isdecimal() else sil
 
 

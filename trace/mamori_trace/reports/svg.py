@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes an SVG drawing fit for standing inside an HTML page: small, without global styles, with ids of its own."""
+"""Prepares an SVG drawing for an HTML page: small, without global styles, with unique ids."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _BETWEEN_TAGS = re.compile(r">\s+<")
 
 
 def make_inline(svg: str, prefix: str, label: str) -> str:
-    """`svg` without prologue, metadata and global styles, coordinates rounded to a tenth, used ids prefixed, others dropped.
+    """`svg` without prologue, metadata and global styles; coordinates rounded to a tenth; used ids prefixed, others removed.
 
-    `label` is told to those who cannot see the drawing; it must be escaped already.
+    `label` is the text for readers who cannot see the drawing; it must already be escaped.
     """
     text = _METADATA.sub("", svg[svg.index("<svg") :])
     used = {first or second for first, second in _USED.findall(text)}

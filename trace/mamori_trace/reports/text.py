@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Console output: findings in the form that editors parse, a summary, and one item with its chain.
+"""Console output: findings in the format that editors parse, a summary, and one item with its chain.
 
 @satisfies SWR-TRC-010      Design: docs/design/trace.md#command
 """
@@ -24,7 +24,7 @@ _WIDTH = 100
 
 
 class Paint:
-    """Colours text where a person watches: on a terminal, and when NO_COLOR is not set."""
+    """Colours text only on a terminal, and only if NO_COLOR is not set."""
 
     def __init__(self, stream: TextIO) -> None:
         self._active = stream.isatty() and not os.environ.get("NO_COLOR")
@@ -73,7 +73,7 @@ def format_summary(project: Project, findings: list[Finding], verdicts: dict[str
 
 
 def format_item(project: Project, item: Item, verdicts: dict[str, Verdict], paint: Paint) -> str:
-    """One item with where it comes from, what proves it, and what is against it."""
+    """One item with its origin, its evidence, and its objections."""
     verdict = verdicts.get(item.id, Verdict("retired"))
     lines = [f"{paint(item.id, 'bold')} {item.title}   [{paint.verdict(verdict.word)}]", f"  {item.place}", ""]
     lines += textwrap.wrap(item.statement, _WIDTH, initial_indent="  ", subsequent_indent="  ")
@@ -93,7 +93,7 @@ def format_item(project: Project, item: Item, verdicts: dict[str, Verdict], pain
 
 
 def _describe_coverage(project: Project, item: Item) -> list[str]:
-    """Shares of what was reached; nothing where nothing was measured."""
+    """Coverage shares; nothing if nothing was measured."""
     reached = project.measure(item.id)
     if not reached.functions_measured:
         return []

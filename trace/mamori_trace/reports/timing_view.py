@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turns what was measured by the clock into heads, tables and pictures of the page.
+"""Converts real-time measurements to heads, tables and pictures of the page.
 
 @satisfies SWR-TRC-015, SWR-TRC-016      Design: docs/design/trace.md#timing
 """
@@ -36,7 +36,7 @@ _EXIT_RESULTS = {0: ("no findings", "verified"), 1: ("findings", "failed"), 4: (
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """`is_bad`: a value that a reader should see first. `is_name`: text that may be broken into lines; `is_long`: a sentence of it."""
+    """`is_bad`: a value that a reader should see first. `is_name`: text that may wrap; `is_long`: a sentence, which may wrap too."""
 
     text: str
     is_bad: bool = False
@@ -60,13 +60,13 @@ class Column:
 
     @property
     def full_head(self) -> str:
-        """The head with its group, for a cell that stands alone."""
+        """The head with its group, for a separate cell."""
         return f"{self.group}, {self.head}" if self.group else self.head
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """`rows` are at most ROWS_SHOWN of `count`. `notes` stand below. `is_folded`: shown when it is asked for."""
+    """`rows` are at most ROWS_SHOWN of `count`. `notes` are below. `is_folded`: hidden until a click."""
 
     title: str
     columns: tuple[Column, ...]
@@ -82,7 +82,7 @@ class Table:
 
     @property
     def groups(self) -> list[tuple[str, int]]:
-        """Titles above the heads, with the number of columns that each spans."""
+        """Titles above the heads, with the number of columns of each."""
         spans: list[tuple[str, int]] = []
         for column in self.columns:
             if spans and spans[-1][0] == column.group:
@@ -94,7 +94,7 @@ class Table:
 
 @dataclass(slots=True)
 class TimingView:
-    """One measured system. `rights`: (name, granted, reason of the refusal). `pictures`: (caption, picture)."""
+    """One measured system. `rights`: (name, granted, reason of the denial). `pictures`: (caption, picture)."""
 
     run: TimingRun
     anchor: str
@@ -111,7 +111,7 @@ class TimingView:
 
 
 def make_timing_views(project: Project, problems: list[Problem]) -> list[TimingView]:
-    """One for each measured system. A picture that cannot be shown becomes a problem; one that is too large is named only."""
+    """One for each measured system. A picture that cannot be displayed becomes a problem; a picture that is too large is only named."""
     views = []
     here = project.head or str(project.evidence.environment.get("commit") or "")
     room_bytes = PICTURES_BYTES_MAX
@@ -139,7 +139,7 @@ def make_timing_views(project: Project, problems: list[Problem]) -> list[TimingV
 
 
 def format_us(ns: float | None) -> str:
-    """Microseconds with what counts of their digits: three at least, and no fraction from 1,000 us on."""
+    """Microseconds with the significant digits: at least three, and no fraction from 1,000 us on."""
     if ns is None:
         return ABSENT
     us = ns / 1e3
@@ -149,7 +149,7 @@ def format_us(ns: float | None) -> str:
 
 
 def _clip(number: int) -> int:
-    """os.strerror() takes what fits into a C int."""
+    """os.strerror() accepts the range of a C int."""
     return number if 0 <= number < 2**31 else 0
 
 
@@ -176,7 +176,7 @@ def _list_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _describe_lost(record: dict[str, Any]) -> str:
-    """Openings that the host took away: the first thing to know of a late run. Counted among the misses that the record holds."""
+    """Windows that the host delayed or skipped: the first fact about a late run. Counted among the misses in the record."""
     lost = [miss for miss in record["misses"] if miss["is_host"]]
     if not lost:
         return ""
@@ -291,7 +291,7 @@ def make_table(
     is_folded: bool = False,
     where: str = "timing.txt",
 ) -> Table:
-    """@param make the cells of one row. @param count of all rows; default: of those that are given. Columns without a value are left out."""
+    """@param make the cells of one row. @param count of all rows; default: the number of given rows. Empty columns are omitted."""
     cells = [make(row) for row in rows[:shown]]
     filled = [index for index in range(len(columns)) if not cells or any(row[index].text not in ("", ABSENT) for row in cells)]
     return Table(title, tuple(columns[index] for index in filled), [[row[index] for index in filled] for row in cells],
@@ -303,12 +303,12 @@ def _list_times(times: dict[str, int] | None, names: tuple[str, ...]) -> list[Ce
 
 
 def make_time(ns: float | None) -> Cell:
-    """A time in us; a dash where there is none."""
+    """A time in us; a dash if there is none."""
     return Cell(format_us(ns))
 
 
 def make_margin(ns: float | None) -> Cell:
-    """What is left of a limit, in us; bad when it is negative."""
+    """Remaining margin of a limit, in us; bad if it is negative."""
     return Cell(format_us(ns).replace("-", "−"), is_bad=ns is not None and ns < 0)
 
 

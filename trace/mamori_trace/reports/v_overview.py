@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lays out the V: needs down to code on the left, unit tests up to the campaign on the right.
+"""Layout of the V: from needs to code on the left, from unit tests to the campaign on the right.
 
 @satisfies SWR-TRC-011      Design: docs/design/trace.md#report
 """
@@ -25,9 +25,9 @@ _SEGMENT_MIN = 4.0
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Widths of a drawing, in its own units. `step_x` moves each row inwards, which makes the V.
+    """Widths of a drawing, in its own units. `step_x` moves each row inwards, which forms the V.
 
-    `detail_letters` is what the last line of a box holds.
+    `detail_letters` is the capacity of the last line of a box, in characters.
     """
 
     css: str
@@ -46,7 +46,7 @@ LAYOUTS = (Layout("wide", 960, 250, 58, 24), Layout("narrow", 372, 180, 0, 20))
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A piece of a box's bar; `x` and `width` in drawing units."""
+    """A segment of the bar of a box; `x` and `width` in drawing units."""
 
     css: str
     x: float
@@ -55,7 +55,7 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """One station of the V. `target` is where a click leads to, with the filters that belong to it."""
+    """One station of the V. `target` is the view that a click opens, with its filters."""
 
     name: str
     count: str
@@ -67,9 +67,9 @@ class Box:
 
 
 def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -> list[Box]:
-    """Boxes row by row; left and right box of a row show the same height of the V."""
+    """Boxes row by row; left and right box of a row are at the same height of the V."""
     results = {kind: [result.status for result in project.results if result.kind == kind] for kind in (UNIT, INTEGRATION)}
-    # A failing or left-over campaign result counts with the cases only where there are no cases to count.
+    # A failed or remaining campaign result counts with the cases only if there are no cases to count.
     cases = [case.status for case in project.evidence.cases]
     cases = cases or [result.status for result in project.results if result.kind == CAMPAIGN]
     files = len({tag.place.file for tag in project.tags})
@@ -96,7 +96,7 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
 
 
 def _describe(words: list[str], worst_first: Iterable[str], good: str, layout: Layout) -> str:
-    """The two worst, or the worst alone where there is no room for both."""
+    """The two worst, or only the worst if there is no space for both."""
     counts = Counter(words)
     bad = [f"{counts[word]:,} {word}" for word in worst_first if counts[word] and word != good]
     if not bad:
@@ -108,7 +108,7 @@ def _describe(words: list[str], worst_first: Iterable[str], good: str, layout: L
 def _make_segments(words: list[str], order: Iterable[str], x: int, layout: Layout) -> tuple[Segment, ...]:
     counts = Counter(words)
     present = [word for word in order if counts[word]]
-    # One failure among thousands is a sliver that no eye finds; the longer pieces give way for it.
+    # One failure among thousands would be too narrow to see, so it gets a minimum width and the longer segments get less.
     lengths = [max(_SEGMENT_MIN, layout.bar_width * counts[word] / len(words)) for word in present]
     excess = sum(lengths) - layout.bar_width
     spare = sum(length - _SEGMENT_MIN for length in lengths)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turns the project into the plain rows that the page shows: results by suite, code by file, the record of the environment.
+"""Converts the project to the plain rows of the page: results by suite, code by file, the environment record.
 
 @satisfies SWR-TRC-011      Design: docs/design/trace.md#report
 """
@@ -25,7 +25,7 @@ class SuiteView:
 
 
 def make_suite_views(results: list[TestResult]) -> list[SuiteView]:
-    """Suites by kind and name; inside, what did not pass comes first."""
+    """Suites by kind and name; within a suite, results that did not pass come first."""
     groups: dict[tuple[str, str], list[TestResult]] = defaultdict(list)
     for result in results:
         groups[(result.kind, result.suite)].append(result)
@@ -50,7 +50,7 @@ def group_tags(tags: list[CodeTag]) -> list[tuple[str, list[CodeTag]]]:
 
 
 def describe_full_run(record: object) -> dict[str, Any]:
-    """Date, commit and failed steps of the last whole run; nothing where the environment tells of none."""
+    """Date, commit and failed steps of the last complete run; nothing if the environment contains none."""
     if not isinstance(record, dict) or not isinstance(record.get("steps"), list):
         return {}
     steps = [step for step in record["steps"] if isinstance(step, dict)]
@@ -60,7 +60,7 @@ def describe_full_run(record: object) -> dict[str, Any]:
 
 
 def describe_environment(environment: dict[str, Any]) -> dict[str, Any]:
-    """The record with every entry present, as text or as a table of texts; empty where there is no record."""
+    """The record with every entry present, as text or as a table of texts; empty if there is no record."""
     if not environment:
         return {}
     texts = ("commit", "date_utc", "command", "os", "cpu", "cores", "python")

@@ -22,7 +22,7 @@ _COMPLAINTS = ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entry
 
 
 class Page:
-    """One page in the browser: what a user does with it, and what the browser told meanwhile."""
+    """One page in the browser: user actions, and the messages of the browser."""
 
     def __init__(self, browser: Chromium) -> None:
         self._browser = browser
@@ -31,7 +31,7 @@ class Page:
             browser.call(f"{domain}.enable")
 
     def open(self, file: Path, fragment: str = "", width: int = 1280, scheme: str = "light") -> None:
-        """Opens the file anew."""
+        """Opens the file again."""
         self._browser.call("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
         self._browser.call("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
         self._browser.open("about:blank")
@@ -39,7 +39,7 @@ class Page:
         self._browser.open(file.as_uri() + fragment)
 
     def allow_scripts(self, is_allowed: bool) -> None:
-        """For what is opened from now on."""
+        """Applies to pages that are opened later."""
         self._browser.call("Emulation.setScriptExecutionDisabled", {"value": not is_allowed})
 
     def ask(self, expression: str) -> Any:
@@ -51,7 +51,7 @@ class Page:
         self.ask(f"new Promise(done => {{ addEventListener('hashchange', () => setTimeout(done), {{once: true}}); location.hash = {json.dumps(fragment)} }})")
 
     def press(self, key: str, modifiers: int = 0) -> None:
-        """One key, as a keyboard sends it."""
+        """One key press."""
         text = {"Enter": "\r"}.get(key, key if len(key) == 1 else "")
         codes = {"Tab": 9, "Enter": 13, "Escape": 27, "ArrowUp": 38, "ArrowDown": 40}
         event = {"key": key, "modifiers": modifiers, "windowsVirtualKeyCode": codes.get(key, ord(key[0]))}
@@ -60,15 +60,15 @@ class Page:
         self.ask("new Promise(done => setTimeout(done))")
 
     def type(self, text: str) -> None:
-        """Text into the field that has the focus."""
+        """Enters text into the focused field."""
         self._browser.call("Input.insertText", {"text": text})
 
     def list_complaints(self) -> list[str]:
-        """Messages on the console since the page was opened."""
+        """Console messages since the page was opened."""
         return [json.dumps(event["params"])[:500] for event in self._browser.events[self._start :] if event.get("method") in _COMPLAINTS]
 
     def list_requests(self) -> list[str]:
-        """Addresses that were asked for since then, without those that carry their data."""
+        """Requested addresses since then, without data addresses."""
         events = (event for event in self._browser.events[self._start :] if event.get("method") == "Network.requestWillBeSent")
         return [url for event in events if not (url := event["params"]["request"]["url"]).startswith("data:")]
 
@@ -81,7 +81,7 @@ def browser() -> Iterator[Chromium]:
 
 @pytest.fixture
 def page(browser: Chromium) -> Iterator[Page]:
-    """A page on which nothing may complain, whatever the test does."""
+    """A page without console messages, requests and errors, which every test checks at its end."""
     fresh = Page(browser)
     yield fresh
     fresh.allow_scripts(True)
@@ -90,7 +90,7 @@ def page(browser: Chromium) -> Iterator[Page]:
 
 @pytest.fixture(scope="session")
 def small_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The report of the sample project, with hostile words in it, a draft and a failed test."""
+    """The report of the sample project, with hostile texts, a draft and a failed test."""
     sample = make_sample(tmp_path_factory.mktemp("small") / "project")
     sample.replace("requirements/system/system.md", "## SYS-003 Tool", "## SYS-003 <img src=x onerror=alert(1)></script>")
     sample.replace("build/host-release/evidence/junit/tools.xml", 'name="test_no_connection[b]" time="0.001">',
@@ -102,7 +102,7 @@ def small_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def full_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The report of the sample project with a measured and a counted system, in which no worst case is declared."""
+    """The report of the sample project with a measured and a counted system, without declared worst cases."""
     sample = make_sample(tmp_path_factory.mktemp("full") / "project")
     for name, record in (("timing", TIMING), ("cost", COST)):
         path = sample.evidence / name / "safe_arm" / f"{name}.json"

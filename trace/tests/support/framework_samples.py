@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small tests of each framework, and their results. The first tag is at a test that passes, the second at one that fails, the third is dead.
+"""Small tests of each framework, and their results. The first tag is at a passing test, the second at a failing test, the third in dead code.
 
 Samples with a command are shortened from real runs (GoogleTest 1.12, Catch2 2.13, doctest 2.4, Boost.Test 1.74, pytest, cargo 1.95). Tests
-run the framework again where it is installed. The others follow the descriptions of their formats.
+run the framework again if it is installed. The others follow the descriptions of their formats.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 
 class Framework(NamedTuple):
-    """`command` writes results.xml; `needs` are a program and a header without which it cannot be run."""
+    """`command` writes results.xml; `needs` are a required program and a required header."""
 
     file: str
     source: str

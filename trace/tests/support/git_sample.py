@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Puts a sample project under git, as a person would have it."""
+"""Puts a sample project under git, with the settings of a normal user."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ _ENVIRONMENT = {
 
 
 def git(root: Path, *arguments: str) -> str:
-    """What git answers; a failure fails the test."""
+    """The output of git; an error fails the test."""
     answer = subprocess.run(["git", "-C", str(root), *arguments], capture_output=True, text=True, check=True, env=_ENVIRONMENT)
     return answer.stdout.strip()
 
 
 def start_history(root: Path) -> str:
-    """A repository with one commit of all but the build tree. @return its hash."""
+    """A repository with one commit of all files except the build tree. @return its hash."""
     git(root, "init", "-q", "-b", "main")
     (root / ".gitignore").write_text("build/\nreport/\n", encoding="utf-8")
     return commit(root, "Start")
 
 
 def commit(root: Path, message: str) -> str:
-    """Everything as it is. @return the hash."""
+    """Commits all current files. @return the hash."""
     git(root, "add", "-A")
     git(root, "commit", "-q", "--allow-empty", "-m", message)
     return git(root, "rev-parse", "HEAD")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A project of any size in memory, for what must stay quick and small: three levels, results for a part of the items."""
+"""A project of any size in memory, for the limits of time and size: three levels, results for a part of the items."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def make_large_project(root: Path, item_count: int = ITEM_COUNT, result_count: i
 
 
 def _write_designs(root: Path, item_count: int) -> None:
-    """What the items name as their design."""
+    """The design document that the items name."""
     folder = root / "docs" / "design"
     folder.mkdir(parents=True, exist_ok=True)
     for part in range(40):
@@ -55,7 +55,7 @@ def _write_designs(root: Path, item_count: int) -> None:
 
 
 def _allow_long_ids(schema: Schema) -> Schema:
-    """Ids of three digits end at a thousand."""
+    """Ids of three digits end at 999."""
     import dataclasses
     import re
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Records of a count of instructions and of a timing run, as the tools write them."""
+"""Records of an instruction count and of a timing run, in the form of the tools."""
 
 from __future__ import annotations
 

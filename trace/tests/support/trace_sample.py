@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes projects to judge: a small clean one that tests break on purpose, and a campaign of realistic size.
+"""Creates projects for checks: a small clean one that tests change, and a campaign of realistic size.
 
-`python trace/tests/support/trace_sample.py DIR` writes into DIR the evidence of a campaign of 30 cases with 9.8 s of motion each.
+`python trace/tests/support/trace_sample.py DIR` writes to DIR the evidence of a campaign of 30 cases with 9.8 s of motion each.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ SPEED_LIMIT_RAD_S = (1.0, 1.0, 2.0, 2.0, 6.28, 6.28, 6.28)
 
 
 def format_item(item_id: str, title: str, statement: str, **attributes: str) -> str:
-    """One item block; attributes that are not given are those of a plain approved item."""
+    """One item block; missing attributes get the values of a plain approved item."""
     rows = {"Rationale": "It is needed.", "Parents": "-", "SIL": "2", "Verify": "test", "Polarity": "nominal",
             "Design": "-", "Status": "approved"}  # fmt: skip
     rows.update(attributes)
@@ -69,14 +69,14 @@ def format_record(child: str, parent: str, carrier: str) -> str:
 
 
 def format_waiver(rule: str, **columns: str) -> str:
-    """A file of waivers with one row; reason and name are given unless they are among `columns`."""
+    """A file of waivers with one row; reason and name are added unless they are among `columns`."""
     texts = {"rule": rule, "reason": "It is so.", "by": "Sample Reviewer", **columns}
     rows = "".join(f'{key} = "{value}"\n' for key, value in texts.items())
     return f'schema = "mamori.waivers/1"\n\n[[waiver]]\n{rows}'
 
 
 def format_review(item: str, fingerprint: str, **columns: str) -> str:
-    """A file of reviews with one row: an analysis by somebody else than the author."""
+    """A file of reviews with one row: an analysis by a person other than the author."""
     texts = {"item": item, "method": "analysis", "fingerprint": fingerprint, "looked_at": "docs/design/arm.md#hazards",
              "author": "Somebody Else", "by": "Sample Reviewer", "date": "2026-11-21", **columns}  # fmt: skip
     rows = "".join(f'{key} = "{value}"\n' for key, value in texts.items())
@@ -92,7 +92,7 @@ def format_technique(**lists: list[str]) -> str:
 
 @dataclass
 class Outcome:
-    """What one run of the command gave."""
+    """Result of one run of the command."""
 
     status: int
     out: str
@@ -112,7 +112,7 @@ class Outcome:
 
 @dataclass
 class Sample:
-    """A project in `root`. Its files are changed in place; `review` renews the lock afterwards."""
+    """A project in `root`. Tests change its files in place; `review` renews the lock afterwards."""
 
     root: Path
 
@@ -143,12 +143,12 @@ class Sample:
     def review(self) -> None:
         project = read_requirements(self.root)
         review_links(project, set(project.items), "2026-11-21", "Sample Reviewer")
-        assert project.lock is not None  # the reviews stand there
+        assert project.lock is not None  # the lock stores the reviews
         write_lock(self.root, project.lock)
 
 
 def make_sample(root: Path) -> Sample:
-    """A clean project: two needs, a hazard, three system and three software requirements, with everything they demand."""
+    """A clean project: two needs, a hazard, three system and three software requirements, with all required parts."""
     needs = format_item("STK-001", "Reports", "Engineers need reports.", SIL="QM", Verify="review")
     hazards = format_item("HAZ-001", "Speed", "The arm strikes a person.", Verify="review", Design="docs/design/arm.md#hazards")
     system = (
@@ -198,7 +198,7 @@ SAMPLE_INPUTS = {"sources": "", "tool_chain": "", "configuration": "sample"}
 
 
 def record(folder: Path, files: list[Path] | None = None) -> None:
-    """Records an evidence folder, or `files` in it, as they are now. Records that a test wrote itself stay."""
+    """Records the current evidence folder, or `files` in it. Records that a test wrote itself stay unchanged."""
     if any(row.get("configuration") != "sample" for row in read_rows(folder).values()) or ((folder / NAME).exists() and not read_rows(folder)):
         return
     write_rows(folder, make_rows(folder, list_recorded(folder) if files is None else files, SAMPLE_INPUTS, lambda _: None))
@@ -257,7 +257,7 @@ def _make_case(scenario: tuple, number: int, at_s: float, end_s: float, requirem
 
 
 def _format_series(run: dict[str, Any], end_s: float) -> str:
-    """Sines that brake within 0.3 s after the fault; 10 ms steps, 1 ms around the injection."""
+    """Sine motions that brake within 0.3 s after the fault; 10 ms steps, 1 ms around the injection."""
     names = [f"{name}{joint + 1}" for name in ("q", "qd", "qref", "tau") for joint in range(7)]
     rows = [",".join(["t_s", *names, "state", "torque_enable", "brake_release"])]
     fault_s = run["fault"]["at_s"] if run["fault"] else math.inf
@@ -333,7 +333,7 @@ def test_no_connection(name):
 
 
 def format_gtest_case(suite: str, name: str, requirement: str, polarity: str = "nominal", inner: str = "", **more: str) -> str:
-    """One test case as GoogleTest writes it."""
+    """One test case in the form of GoogleTest."""
     attributes = {"name": name, "status": "run", "result": "completed", "time": "0.001", "classname": suite, **more}
     head = " ".join(f'{key}="{value}"' for key, value in attributes.items())
     rows = (("requirement", requirement), ("technique", "requirements_based"), ("polarity", polarity))

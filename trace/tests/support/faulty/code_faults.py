@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fault classes of functions and their coverage, and of ids that are no more."""
+"""Fault classes of functions and their coverage, and of removed ids."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def condition_open(plan: Plan, chance: random.Random) -> list[Seed]:
 
 
 def dropped(plan: Plan, chance: random.Random) -> list[Seed]:
-    """Gone after the review, with all that named it."""
+    """Removed after the review, with all references."""
     chosen = pick(plan, chance)
     gone = {each.id for each in chosen}
     plan.requirements = [each for each in plan.requirements if each.id not in gone]

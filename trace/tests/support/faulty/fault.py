@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a fault class is made of."""
+"""The parts of a fault class."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Seed = tuple[str, str, tuple[str, ...]]
 
 @dataclass(frozen=True)
 class Fault:
-    """`unstated`: formats that cannot hold the fault, with the reason. `reviewed`: the links are reviewed before the fault."""
+    """`unstated`: formats that cannot represent the fault, with the reason. `reviewed`: the links are reviewed before the fault."""
 
     rule: str
     spoil: Callable[[Plan, random.Random], list[Seed]]
@@ -25,7 +25,7 @@ class Fault:
 
 
 def pick(plan: Plan, chance: random.Random, level: int = BOTTOM) -> list[Requirement]:
-    """Two requirements that have no parent in common."""
+    """Two requirements without a common parent."""
     members = plan.list_level(level)
     first = chance.randrange(len(members))
     return [members[first], members[(first + 1) % len(members)]]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a project of one format with one fault, and says what must be found."""
+"""Writes a project of one format with one fault, and returns the expected findings."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ DATE = "2026-11-21"
 
 @dataclass(frozen=True)
 class Seeded:
-    """A finding that must come: it names `word` and stands at `file:line`."""
+    """An expected finding: it names `word` and is at `file:line`."""
 
     word: str
     file: str
@@ -51,7 +51,7 @@ def generate(format_name: str, fault: str, root: Path, count: int = 100, seed: i
     if row and row.reviewed and format_name != "oft":
         _write(plan, writer, root)
         _review(format_name, root)
-        shutil.rmtree(root / "docs")  # what is dropped afterwards may be a file
+        shutil.rmtree(root / "docs")  # a later entry may be a file of that name
     seeds = row.spoil(plan, random.Random(seed)) if row else []
     pages = _write(plan, writer, root)
     if native and not (row and row.reviewed):
@@ -65,7 +65,7 @@ def generate(format_name: str, fault: str, root: Path, count: int = 100, seed: i
 
 
 def _find(pages: Pages, key: str, parts: tuple[str, ...], root: Path, native: bool) -> tuple[str, int]:
-    """The place in a file that was written, or the first line of the lock that names the id."""
+    """The location in a written file, or the first line of the lock that names the id."""
     if parts != ("lock",):
         return pages.find(key, *parts)
     name = LOCK_PATH if native else LOCK_NAME
@@ -91,7 +91,7 @@ def _review(format_name: str, root: Path) -> None:
 
 
 def _write_head(root: Path) -> None:
-    """As much of a git repository as tells which commit is checked out."""
+    """The part of a git repository that shows the checked-out commit."""
     for folder in ("objects", "refs"):
         (root / ".git" / folder).mkdir(parents=True)
     (root / ".git" / "HEAD").write_text(COMMIT + "\n", encoding="utf-8")

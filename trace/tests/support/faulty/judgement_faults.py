@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fault classes of what stands beside the items: waivers, decomposition, reviews, ids, and what a SIL demands."""
+"""Fault classes of waivers, decomposition, reviews, ids, and the rules of a SIL."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _NO_WORD = dict.fromkeys(_FOREIGN, "the format does not tell a hazard, or has no
 
 
 def _add_row(plan: Plan, file: tuple[str, str, str], key: str, **columns: str | list[str]) -> None:
-    """A row of a TOML file beside the items; `key` finds its head."""
+    """A row of a TOML file in requirements/; `key` finds its head."""
     name, schema, head = file
     lines = plan.beside.setdefault(name, [(f'schema = "{schema}"', "")])
     lines.append((f"[[{head}]]", key))
@@ -100,7 +100,7 @@ def review_missing(plan: Plan, chance: random.Random) -> list[Seed]:
 
 
 def _add_review(plan: Plan, requirement: Requirement) -> None:
-    """An analysis of the requirement as it stands, by its author."""
+    """An analysis of the current requirement by its author."""
     item = Item(requirement.id, requirement.title, "SWR", Place("", 1), statement=requirement.statement, sil=requirement.sil,
                 verify=tuple(requirement.verify.split(", ")), polarity=tuple(requirement.polarity.split(", ")))  # fmt: skip
     _add_row(plan, _REVIEWS, requirement.id, item=requirement.id, method="analysis", fingerprint=item.calc_fingerprint(),

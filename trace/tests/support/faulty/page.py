@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files in the making, which remember on which line each part of each requirement stands."""
+"""Files that are being written, with the line of each part of each requirement."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from pathlib import Path
 
 
 class Pages:
-    """Lines of files by name. A part that is written twice keeps its last place."""
+    """Lines of files by name. For a part that is written twice, the last line counts."""
 
     def __init__(self) -> None:
         self.files: dict[str, list[str]] = {}
         self.places: dict[tuple[str, str], tuple[str, int]] = {}
 
     def add(self, file: str, line: str, *parts: tuple[str, str]) -> None:
-        """Adds one line; `parts` are (id, part) that stand on it."""
+        """Adds one line; `parts` are the (id, part) pairs in this line."""
         lines = self.files.setdefault(file, [])
         lines.append(line)
         for part in parts:
             self.places[part] = (file, len(lines))
 
     def find(self, requirement: str, *parts: str) -> tuple[str, int]:
-        """The place of the first of `parts` that the format writes."""
+        """The location of the first of `parts` that the format writes."""
         return next(self.places[(requirement, part)] for part in parts if (requirement, part) in self.places)
 
     def write(self, root: Path) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a generated project holds, before it is written in one format or another."""
+"""The content of a generated project, before it is written in a format."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ TOP, MIDDLE, BOTTOM = 0, 1, 2
 
 @dataclass
 class Requirement:
-    """`level` is TOP, MIDDLE or BOTTOM. An empty word is not written where the format allows that."""
+    """`level` is TOP, MIDDLE or BOTTOM. An empty text is omitted if the format permits that."""
 
     id: str
     level: int
@@ -36,7 +36,7 @@ class Code:
 
 @dataclass
 class Test:
-    """A test, the requirement it names, and its outcome: passed, flaky, failed, error, skipped, disabled, or nothing where it was not run."""
+    """A test, the requirement it names, and its outcome: passed, flaky, failed, error, skipped, disabled, or empty if it was not run."""
 
     __test__ = False
 
@@ -51,9 +51,9 @@ class Test:
 
 @dataclass
 class Plan:
-    """`revisions` are ids as they are written where they differ; `beside` are further files by name: lines, each with the key that
-    finds it, or an empty one. `traced` demands an owner of each function; `coverage` asks for a coverage file, in which the functions
-    `unexecuted` were never called and those in `gaps` have a condition that was not shown.
+    """`revisions` are the written ids that differ from the plan; `beside` are further files by name: lines, each with the key that
+    finds it, or an empty one. `traced` requires an owner of each function; `coverage` requests a coverage file, in which the functions
+    `unexecuted` were never called and those in `gaps` have an uncovered condition.
     """
 
     make_id: Callable[[int, int], str]

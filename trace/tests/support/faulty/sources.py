@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes code, tests and results of a plan; each format has its own spelling of a tag."""
+"""Writes code, tests and results of a plan; each format has its own notation of a tag."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _INNER = {
 
 
 def write_sources(plan: Plan, pages: Pages, code_tag: str, test_tag: str, native: bool = False) -> None:
-    """`code_tag` and `test_tag` are comments with a place for the id."""
+    """`code_tag` and `test_tag` are comments with a field for the id."""
     for number, code in enumerate(plan.code):
         file = f"src/part_{number // _PER_FILE}.cpp"
         if file not in pages.files:
@@ -50,7 +50,7 @@ def _write_test(test: Test, pages: Pages, file: str, tag: str, native: bool) -> 
 
 
 def write_results(plan: Plan, pages: Pages, folder: str, properties: Callable[[Test], dict[str, str]]) -> None:
-    """JUnit as GoogleTest writes it, and the environment of the run."""
+    """JUnit in the form of GoogleTest, and the environment of the run."""
     file = f"{folder}/tests.xml"
     pages.add(file, '<?xml version="1.0" encoding="UTF-8"?>')
     pages.add(file, '<testsuites name="AllTests"><testsuite name="Generated">')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a plan in one format. Each writer says how ids look, where the files are, and how the command is told of them."""
+"""Writes a plan in one format. Each writer defines the shape of the ids, the files, and the arguments of the command."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _EVIDENCE = "build/host-release/evidence"
 
 @dataclass(frozen=True)
 class Writer:
-    """`arguments` follow `mamori trace check`; ROOT stands for the folder of the project."""
+    """`arguments` follow `mamori trace check`; ROOT is replaced by the folder of the project."""
 
     make_id: Callable[[int, int], str]
     write: Callable[[Plan, Pages], None]

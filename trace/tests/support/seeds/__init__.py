@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Faults that are seeded into a clean project, one at a time, by what they break."""
+"""Faults that are seeded into a clean project, one at a time, sorted by the affected part."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Faults in how items hang together: ids, parents, levels, safety levels, decomposition, design, kinds of links, reviews of links."""
+"""Faults of links: ids, parents, levels, safety levels, decomposition, design, kinds of links, reviews of links."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the parts of the sample project stand, for the faults that are seeded into it."""
+"""Locations of the parts of the sample project, for the seeded faults."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Faults in what people keep beside the items: reviews, techniques, waivers."""
+"""Faults of reviews, techniques and waivers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WAIVERS = "requirements/waivers.toml"
 
 
 def add_analysed(s: Sample, verify: str = "analysis") -> int:
-    """An item that is shown by analysis. @return the line of that attribute."""
+    """An item that analysis verifies. @return the line of that attribute."""
     block = format_item("AOU-001", "Clock", "The integrator shall provide a clock.", Parents="SYS-001", Verify=verify)
     return s.append(SYSTEM, block) + block[: block.index("- Verify")].count("\n")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Faults in code, tests, results and the campaign."""
+"""Faults of code, tests, results and the campaign."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Faults in what items and documents say."""
+"""Faults of the texts of items and documents."""
 
 from __future__ import annotations
 
