@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: the measurement of the real-time part counts what its programs decided. Method: programs of one line with known verdicts."""
+"""Goal: the measurement of the real-time part counts the verdicts of its programs. Method: programs of one line with known verdicts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ STATUS = {"passed": 0, "failed": 1, "inconclusive": 4}
 
 
 def write_program(folder: Path, program: Program, *verdicts: str) -> None:
-    """A program that ends with the next verdict at each run, with the last one again and again."""
+    """A program that ends with the next verdict at each run, and repeats the last one."""
     place = folder / "verification" / program.place
     place.mkdir(parents=True, exist_ok=True)
     statuses = " ".join(str(STATUS.get(verdict, 77)) for verdict in verdicts)
