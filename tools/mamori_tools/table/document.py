@@ -150,7 +150,7 @@ def read_table(path: Path) -> Table:
 
 
 def _refuse_untold_times(root: JsonNode) -> None:
-    """Rejects a time that the check of the kernel never passes, in a document without findings, because such a table was not checked."""
+    """Rejects non-positive times in a document without findings. The check of the kernel reports such times, so this table was not checked."""
     times = [root.at("frame_ns")]
     times += [window.at(key) for window in root.at("windows").items() for key in ("length_ns", "period_ns", "budget_ns")]
     times += [reaction.at("within_ns") for reaction in root.at("reactions").items()]
