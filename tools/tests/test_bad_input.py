@@ -165,7 +165,7 @@ def make_folder(base: Path) -> Path:
 
 
 def read_tree(folder: Path) -> dict[str, tuple[int, int, int]]:
-    """What changes when anything in it is written."""
+    """Values that change when any file in it is written."""
     return {str(path): (path.stat().st_ino, path.stat().st_size, path.stat().st_mtime_ns * path.is_file()) for path in folder.rglob("*")}
 
 
@@ -176,7 +176,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(autouse=True)
 def no_work(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each call is over before the work begins, and none waits for the lock of the checkout."""
+    """Each call ends before the work begins, and none waits for the lock of the checkout."""
     real = subprocess.Popen.__init__
 
     def start(self: object, words: Any, *more: Any, **options: Any) -> None:
@@ -196,7 +196,7 @@ def no_work(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def names_culprit(words: list[str], said: str) -> bool:
-    """Whether the line names a given word, in the form that a line can hold, or what is missing."""
+    """Whether the line names a given word, in a form that fits on a line, or the missing part."""
     given = words[2 if words[:1] == ["trace"] else 1 :] or words
     parts = {part[:8] for word in given for part in re.split(r"[=/\s]+", word.encode("utf-8", "backslashreplace").decode()) if part}
     return not parts or "required" in said or ("" in given and "''" in said) or any(part in said for part in parts)

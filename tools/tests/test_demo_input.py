@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a motion that cannot be followed and a scenario that does not exist end the demo before it touches earlier evidence.
+# Goal: an invalid motion and an unknown scenario end the demo before it changes earlier evidence.
 from __future__ import annotations
 
 from pathlib import Path
@@ -15,7 +15,7 @@ for part in ("mamori_tools.motion", "mamori_tools.campaign"):
 
 @pytest.fixture(autouse=True)
 def begun(monkeypatch: pytest.MonkeyPatch) -> list[object]:
-    """What the demo began; it goes no further here."""
+    """The first actions of the demo; it stops here."""
     calls: list[object] = []
 
     def begin(*arguments: object) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the record of the environment is whole and tells commit, machine and tools.
+# Goal: the record of the environment is complete and names commit, host and tools.
 from __future__ import annotations
 
 import json
@@ -23,7 +23,7 @@ def test_record_has_every_field_of_the_contract(tmp_path: Path, monkeypatch: pyt
     assert fields is not None
     assert set(re.findall(r'"(\w+)"', fields[1])) == set(record)
     assert record["command"] == "./mamori test"
-    assert record["commit"] == "unknown"  # an empty folder is no clone
+    assert record["commit"] == "unknown"  # an empty folder is not a clone
     assert record["compilers"]["g++"].startswith("g++")
     assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00", record["date_utc"])
     assert list(path.parent.iterdir()) == [path]

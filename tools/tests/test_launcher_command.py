@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: wrong arguments and input end with status 2 and one line that helps, before anything is built or thrown away.
+# Goal: wrong arguments and input end with status 2 and one helpful line, before anything is built or removed.
 from __future__ import annotations
 
 import json

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the launcher script installs what is missing only with permission, reports in one line why it does not, and answers wrong
-# words without installing. Method: a copy of the script on a machine in a folder (support/launcher_box.py).
+# Goal: the launcher script installs missing packages only with permission, otherwise states the reason in one line, and rejects wrong
+# arguments without installing. Method: a copy of the script on a simulated host (support/launcher_box.py).
 from __future__ import annotations
 
 import argparse
@@ -344,7 +344,7 @@ def test_help_names_each_option_that_the_command_takes_and_no_other(command: str
     [subparsers] = [action for action in make_parser()._actions if isinstance(action, argparse._SubParsersAction)]
     taken = {text for action in subparsers.choices[command]._actions for text in action.option_strings}
 
-    # What follows a bare -- is another program's.
+    # The arguments after a bare -- belong to another program.
     shown = {word.strip("[],;:`") for word in TEXTS[command].split() if word.strip("[").startswith("--")}
 
     assert shown - {"--help", "--", "--install"} == taken - {"--help", "-h"}

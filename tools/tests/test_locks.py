@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: of two commands that write to one project the second ends at once; what the first leaves behind, in whatever way it ends,
-# stops nobody; and a checkout that is read-only, moved or reached by a link is handled in one line.
-# Method: a real process that holds the lock; mount namespaces where the host grants them.
+# Goal: of two commands that write to one project the second ends immediately; files that the first leaves, for any kind of end,
+# block no command; and a checkout that is read-only, moved or reached by a link is handled in one line.
+# Method: a real process that holds the lock; mount namespaces if the host permits them.
 from __future__ import annotations
 
 import os
@@ -70,7 +70,7 @@ def holder(tmp_path: Path) -> Iterator[Holder]:
 
 @pytest.fixture(autouse=True)
 def no_caller(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The gate that runs these tests holds a lock of its own."""
+    """The gate that runs these tests holds its own lock."""
     monkeypatch.delenv(KEYS, raising=False)
 
 
@@ -241,7 +241,7 @@ def has_namespaces() -> bool:
 
 
 def call_read_only(words: str) -> subprocess.CompletedProcess[str]:
-    """Calls the command with a view of the checkout that is read-only."""
+    """Calls the command with a read-only view of the checkout."""
     script = f"mount --bind {ROOT} {ROOT} && mount -o remount,bind,ro {ROOT} && cd {ROOT} || exit 99; {sys.executable} -P -B -m mamori_tools.command"
     return subprocess.run(["unshare", "-rm", "sh", "-c", f"{script} {words}"], capture_output=True, text=True, check=False)
 

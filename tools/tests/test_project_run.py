@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each test of `ctest -N` has a result of this run, whatever its kind, its name and its end; what is missing fails the step.
+# Goal: each test of `ctest -N` has a result of this run, for every kind of test, name and end; a missing result fails the step.
 # Method: one small project with every kind of test, built once and run by the step that `mamori verify PROJECT` runs.
 from __future__ import annotations
 
@@ -180,7 +180,7 @@ def test_a_process_without_a_result_file_has_one_failed_result(sample: Sample) -
     found = sample.run(cmake)
 
     outcomes = {cases[0][0]: [verdict for _, verdict in cases] for cases in found.values()}
-    assert sample.failure == ""  # the failed results say it
+    assert sample.failure == ""  # the failed results report it
     assert outcomes == {
         "crash.crash": ["failed"], "torn.torn": ["failed"], "Arm.Holds": ["passed", "passed", "skipped", "passed"],
         "hang.hang": ["failed"], "no.program.no.program": ["failed"], "no.fixture.no.fixture": ["failed"],

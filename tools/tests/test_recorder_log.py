@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: `mamori log` shows and exports what a recorder file holds, and answers a broken one with one line. Method: the
-# command in this process, on files made by hand; exported files are read back with the library that viewers use.
+# Goal: `mamori log` shows and exports the content of a recorder file, and rejects an invalid one with one line. Method: the
+# command in this process, on handwritten files; exported files are read back with the library that viewers use.
 from __future__ import annotations
 
 import csv
@@ -241,7 +241,7 @@ def test_what_is_no_recorder_file_is_answered_in_one_line(tmp_path: Path, capsys
 def test_file_that_may_not_be_read_is_answered_in_one_line(recorder: Path, capsys: pytest.CaptureFixture[str],
                                                            monkeypatch: pytest.MonkeyPatch) -> None:  # fmt: skip
     recorder.chmod(0)
-    if os.access(recorder, os.R_OK):  # root may read everything: let the system refuse
+    if os.access(recorder, os.R_OK):  # root may read everything, so the system call is replaced by an error
 
         def refuse(*_: object) -> bytes:
             raise PermissionError(13, "Permission denied")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each record that was written is read, and nothing else. Method: files made by hand; the bytes that the C++ test
-# holds its writer to; each damage at each place; a seeded generator that flips bytes, whose seed is in the test's name.
+# Goal: each written record is read, and nothing else. Method: handwritten files; the bytes that the C++ test requires of
+# its writer; each damage at each position; a seeded generator that flips bits, whose seed is in the test's name.
 from __future__ import annotations
 
 import random

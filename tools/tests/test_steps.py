@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a table of steps runs to its end whatever fails, skips only what needs a failed step, and counts every result once.
+# Goal: a table of steps runs to its end despite failures, skips only steps that require a failed one, and counts every result once.
 from __future__ import annotations
 
 import os
@@ -96,7 +96,7 @@ def test_result_of_the_same_tick_is_not_counted_again(context: Context) -> None:
     def write_late(context: Context, _tick: Tick, _log: TextIO) -> None:
         path = context.project.junit / "result.xml"
         path.write_text('<testsuite><testcase name="a"/><testcase name="b"/></testsuite>', encoding="utf-8")
-        os.utime(path, ns=(2**62, 2**62))  # as if the clock had not moved on when the next step begins
+        os.utime(path, ns=(2**62, 2**62))  # as if the clock had not advanced when the next step begins
 
     outcomes = run_steps([Step("campaign", function=write_late), Step("trace check", (PASS,))], context)
 

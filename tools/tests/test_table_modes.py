@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: `mamori table` shows modes, parameters and sets as text and as a picture, and answers broken ones with one line.
+# Goal: `mamori table` shows modes, parameters and sets as text and as a picture, and rejects invalid ones with one line.
 # Method: the table that the library's test writes (robot_with_modes.json), changed by hand; pictures are read back as XML, and
 # their boxes and labels compared with each other. The page of the manual is compared with that table and its source.
 from __future__ import annotations
@@ -38,7 +38,7 @@ def write(folder: Path, table: dict[str, Any]) -> Path:
 
 
 def changed(**changes: object) -> dict[str, Any]:
-    """A copy of the robot; a key names a place, its parts apart by two underscores."""
+    """A copy of the robot; a key names a location, its parts separated by two underscores."""
     table = copy.deepcopy(ROBOT)
     for key, value in changes.items():
         *parents, last = (int(part) if part.isdigit() else part for part in key.split("__"))
@@ -155,7 +155,7 @@ def test_picture_of_many_modes_has_no_two_things_in_one_place(tmp_path: Path) ->
 
 
 def box_of(text: ElementTree.Element) -> tuple[float, float, float, float]:
-    """Left, right, top, bottom of a text that is centred: narrow letters, so that touching ones do not count."""
+    """Left, right, top, bottom of a centred text, for narrow characters, so that touching texts do not count."""
     size = float(text.get("font-size", "0"))
     x, y, half = float(text.get("x", "0")), float(text.get("y", "0")), 0.25 * size * len(text.text or "")
     return x - half, x + half, y - 0.7 * size, y
@@ -190,7 +190,7 @@ def test_graph_marks_connections_that_hold_in_some_modes(tmp_path: Path) -> None
 
     backwards = changed(connections__0__modes=[0, 1])
     edge = next(line for line in make_dot(read_table(write(tmp_path, backwards))).splitlines() if "[dir=" in line)
-    assert "arrowhead=odot" in edge  # within a window dot gets the edge the other way round
+    assert "arrowhead=odot" in edge  # within a window dot gets the edge in reverse direction
 
     many = make_system(9, [])
     many["connections"][3]["modes"] = [0, 2, 4, 6]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori bench`: what the kernel costs beside floors and peers, and how many instructions its operations take exactly.
+"""`./mamori bench`: times of kernel operations relative to lower bounds and reference implementations, and exact instruction counts.
 
 Design: docs/design/bench.md
 """

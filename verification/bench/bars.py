@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bars as data: what each operation may cost. They stand in bars.toml beside this file.
+"""The acceptance limits as data, from bars.toml in this folder.
 
 @satisfies SWR-BEN-003      Design: docs/design/bench.md#bars
 """
@@ -20,7 +20,7 @@ KINDS = ("gate", "advisory")
 
 @dataclass(frozen=True)
 class RatioBar:
-    """`ours` may cost at most `limits[size]` times what `against` costs in the same case."""
+    """In the same case, `ours` may take at most `limits[size]` times as long as `against`."""
 
     id: str
     title: str
@@ -33,7 +33,7 @@ class RatioBar:
 
 @dataclass(frozen=True)
 class GrowthBar:
-    """`ours` may cost at `to` at most `limit` times what it costs at `from`, per component. `floor` is shown beside it."""
+    """At `to`, `ours` may take at most `limit` times as long per component as at `from`. `floor` is shown for comparison."""
 
     id: str
     title: str
@@ -48,7 +48,7 @@ class GrowthBar:
 
 @dataclass(frozen=True)
 class CountBar:
-    """An exact count [instructions]: of the first operation, less the second one's where there are two."""
+    """An exact count [instructions]: of the first operation, minus that of the second one if there are two."""
 
     id: str
     name: str
@@ -60,7 +60,7 @@ class CountBar:
 
 @dataclass(frozen=True)
 class Bars:
-    """All bars, in the order of the file."""
+    """All acceptance limits, in the order of the file."""
 
     ratios: tuple[RatioBar, ...]
     growths: tuple[GrowthBar, ...]
@@ -73,7 +73,7 @@ class Bars:
 
 
 def load_bars(path: Path = FILE) -> Bars:
-    """@raise InputError naming the file and what is wrong in it."""
+    """@raise InputError with the file and the fault."""
     try:
         data = tomllib.loads(read_text(path, "file of bars").text)
         return Bars(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compares exact counts with their limits and with the stored baseline, and rewrites the baseline when told to.
+"""Compares exact counts with their limits and with the stored baseline, and rewrites the baseline on request.
 
 @satisfies SWR-BEN-006, SWR-BEN-008      Design: docs/design/bench.md#baseline
 """
@@ -23,7 +23,7 @@ ACCEPT = "./mamori bench --accept"
 
 @dataclass(frozen=True)
 class Baseline:
-    """Counts by name [instructions], and the compiler and C library that they belong to."""
+    """Counts by name [instructions], with their compiler and C library."""
 
     compiler: str
     c_library: str
@@ -35,7 +35,7 @@ class Baseline:
 
 @dataclass(frozen=True)
 class CountResult:
-    """One exact count and its verdict; `note` says what to do."""
+    """One exact count and its verdict; `note` states what to do."""
 
     id: str
     name: str
@@ -45,11 +45,11 @@ class CountResult:
     baseline: int | None
     verdict: str
     note: str = ""
-    is_known_miss: bool = False  # failed for no other reason than a limit that is marked as missed
+    is_known_miss: bool = False  # failed only because of a limit that is marked as missed
 
 
 def load_baseline(path: Path = FILE) -> Baseline:
-    """@raise InputError naming what is wrong."""
+    """@raise InputError with the fault."""
     try:
         data = tomllib.loads(read_text(path, "baseline").text)
         counts = {name: int(count) for name, count in data["instructions"].items()}
@@ -61,7 +61,7 @@ def load_baseline(path: Path = FILE) -> Baseline:
 
 
 def write_baseline(baseline: Baseline, path: Path = FILE) -> None:
-    """Whole or not at all."""
+    """Writes the baseline atomically."""
     lines = ["# SPDX-License-Identifier: Apache-2.0",
              "# Exact instructions per operation, written by `./mamori bench --accept`. CI fails when a count is greater.",
              "[belongs_to]", f'compiler = "{baseline.compiler}"', f'c_library = "{baseline.c_library}"', "",
@@ -70,13 +70,13 @@ def write_baseline(baseline: Baseline, path: Path = FILE) -> None:
 
 
 def calc_count(bar: CountBar, profiles: Mapping[str, Profile]) -> int:
-    """@raise WorkError when the repetitions of an operation were not all alike, so that it has no exact count."""
+    """@raise WorkError if the repetitions of an operation differ, so that it has no exact count."""
     counts = [profiles[name].calc_count(REPETITIONS) for name in bar.operations]
     return counts[0] - sum(counts[1:])
 
 
 def judge_count(bar: CountBar, count: int, baseline: Baseline, compiler: str, c_library: str) -> CountResult:
-    """Worst first: a limit holds for every compiler, the baseline for its own."""
+    """Worst first: a limit applies to every compiler, the baseline to its own."""
     before = baseline.counts.get(bar.name)
 
     def result(verdict: str, note: str = "", is_known_miss: bool = False) -> CountResult:

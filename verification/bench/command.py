@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori bench`: build, measure, count, judge, show.
+"""`./mamori bench`: build, measure, count, evaluate, show.
 
 @satisfies SWR-BEN-003, SWR-BEN-005, SWR-BEN-008      Design: docs/design/bench.md#bench
 """
@@ -51,7 +51,7 @@ SEALED = ("port_8", "port_64", "e2e_port_32", "cycle_20", "supervised_cycle_20")
 
 @dataclass(frozen=True)
 class Request:
-    """What the user asked for. @raise InputError from check() for a name that is none, or a folder that takes no file."""
+    """The request of the user. @raise InputError from check() for an unknown name, or a folder that is not writable."""
 
     only: tuple[str, ...] = ()
     is_quick: bool = False
@@ -93,7 +93,7 @@ class Request:
 
 @dataclass
 class Work:
-    """The steps of one call and what they find."""
+    """The steps of one call and their findings."""
 
     request: Request
     bars: Bars
@@ -144,7 +144,7 @@ def _read(path: Path) -> Samples:
 
 
 def name_reason(samples: Samples, reason: str) -> Samples:
-    """CMake only sees that iceoryx2's library is not there; the build of it knows why."""
+    """CMake only reports that iceoryx2's library is missing; the build of the library states why."""
     if not reason or tools.ICEORYX2 not in samples.absent:
         return samples
     return replace(samples, absent={**samples.absent, tools.ICEORYX2: reason})
@@ -152,9 +152,9 @@ def name_reason(samples: Samples, reason: str) -> Samples:
 
 def count_all(program: Path, bars: Bars, baseline: Baseline | None, tell: Tick
               ) -> tuple[list[CountResult], dict[str, str], Baseline]:  # fmt: skip
-    """Counts every bar's operations. @return judged counts, heap and system calls found by operation, the counts as a baseline.
+    """Counts the operations of every limit. @return evaluated counts, heap and system calls by operation, the counts as a baseline.
 
-    Without a baseline the counts are judged by themselves: that is how they are accepted.
+    Without a baseline only the limits apply, which is necessary to accept new counts.
     """
     about = ask_about(program)
     compiler, c_library = str(about["compiler"]), str(about["c_library"])
@@ -168,13 +168,13 @@ def count_all(program: Path, bars: Bars, baseline: Baseline | None, tell: Tick
 
 
 def describe_calls(heap: Sequence[str], makes_calls: bool) -> str:
-    """@return what an operation did that it must not do after start, or nothing."""
+    """@return the forbidden actions of an operation after start, or nothing."""
     words = [f"uses the heap ({', '.join(heap)})"] if heap else []
     return " and ".join([*words, *(["makes system calls"] if makes_calls else [])])
 
 
 def list_benches() -> int:
-    """Prints what can be measured, with the bars. @return exit status."""
+    """Prints the available cases and the acceptance limits. @return exit status."""
     bars = load_bars()
     for name, text in BENCHES.items():
         print(f"{name:<10} {text}")
@@ -193,7 +193,7 @@ def list_benches() -> int:
 
 
 def bench(request: Request, jobs: int) -> int:
-    """@return exit status: 1 when a step failed, or with --gate a gate."""
+    """@return exit status: 1 if a step failed, or with --gate a gate."""
     request.check()
     project = Project(ROOT)
     bars = load_bars()
@@ -211,7 +211,7 @@ def bench(request: Request, jobs: int) -> int:
 
 
 def show(work: Work, context: Context, folder: Path, before: dict[str, object]) -> int:
-    """Tables, record, picture and verdict of finished work. @return exit status."""
+    """Shows tables, record, picture and verdict of a finished run. @return exit status."""
     run, screen = work.run, context.screen
     environment = collect_environment(context.project, ["./mamori", *sys.argv[1:]])
     after = collect_host()

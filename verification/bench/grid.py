@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wake-ups on a grid of 1 kHz: the runner of the real-time port and cyclictest in turns, each a process of its own with the same
-priority on the same processor. What is compared are percentiles of the lateness, round by round.
+"""Wake-ups on a schedule of 1 kHz: the runner of the real-time port and cyclictest alternate, each in its own process with the same
+priority on the same processor. Percentiles of the lateness are compared round by round.
 
 @satisfies SWR-BEN-009      Design: docs/design/bench.md#grid
 """
@@ -31,7 +31,7 @@ LONGEST_NS = 1_000_000
 
 
 class Refused(WorkError):
-    """A program could not measure, which ends its own rounds only; the text says why."""
+    """A program could not measure, which ends only its own rounds; the text states why."""
 
 
 @dataclass(frozen=True)
@@ -53,13 +53,13 @@ class Turn:
 
 
 def parse_ours(text: str) -> Turn:
-    """@raise KeyError, TypeError or ValueError where `text` is not what the benchmark program writes."""
+    """@raise KeyError, TypeError or ValueError if `text` is not in the format of the benchmark program."""
     values = [int(value) for value in json.loads(text)["lateness_ns"]]
     return Turn(_count(values), len(values))
 
 
 def parse_peer(text: str) -> Turn:
-    """@raise KeyError, TypeError or ValueError where `text` is not what cyclictest writes with --json and --nsecs."""
+    """@raise KeyError, TypeError or ValueError if `text` is not in the format of cyclictest with --json and --nsecs."""
     data = json.loads(text)
     if int(data["resolution_in_ns"]) != 1:
         raise ValueError("its figures are not in nanoseconds")
@@ -75,7 +75,7 @@ def _count(values: Sequence[int]) -> dict[int, int]:
 
 
 def make_cases(turns: Mapping[str, Sequence[Turn]]) -> dict[tuple[str, int], Case]:
-    """One case per percentile, with the programs that were run."""
+    """One case per percentile, with the measured programs."""
     return {
         (METRIC, percent): Case(METRIC, percent, UNIT,
                                 {name: Series(name, tuple(turn.calc_percentile(percent) for turn in rounds))
@@ -90,8 +90,8 @@ def add_grid(samples: Samples, turns: Mapping[str, Sequence[Turn]], absent: Mapp
 
 def measure_grid(programs: Programs, effort: Effort, folder: Path, tick: Tick, log: TextIO
                  ) -> tuple[dict[str, list[Turn]], dict[str, str]]:  # fmt: skip
-    """Runs both in turns, each round beginning with the other one. @return the turns of each program that could be run in every
-    round, and why the others could not. @raise WorkError when a program wrote something else than figures."""
+    """Runs both programs alternately; each round begins with the other one. @return the runs of each program that was measured in
+    every round, and why the others were not. @raise WorkError if a program wrote something other than figures."""
     processor = max(os.sched_getaffinity(0))
     out = folder / "grid.json"
     cycles = str(effort.grid_cycles)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Judges samples by the bars: each bar by the median of its per-round ratios, never by a time.
+"""Evaluates samples by the acceptance limits: each by the median of its per-round ratios, never by a time.
 
 @satisfies SWR-BEN-001, SWR-BEN-002, SWR-BEN-003      Design: docs/design/bench.md#bars
 """
@@ -21,7 +21,7 @@ PASSED, FAILED, ABSENT = "passed", "failed", "not available"
 
 @dataclass(frozen=True)
 class RatioResult:
-    """One bar at one size. What has no figures (`ratio` is None) says in `note` why."""
+    """One limit at one size. Without figures (`ratio` is None), `note` states why."""
 
     id: str
     title: str
@@ -44,8 +44,8 @@ FLOORS = ("seqlock", "CRC-32 frame", "virtual call", "virtual call + clock")
 
 
 def judge(samples: Samples, bars: Bars, floors: Sequence[str] = FLOORS) -> list[RatioResult]:
-    """@param floors subjects that are part of the program, so that one that is missing is a failure.
-    @return one result for each bar and size whose metric was measured.
+    """@param floors subjects that are part of the program, so that a missing one is a failure.
+    @return one result for each limit and size whose metric was measured.
     """
     measured = {metric for metric, _ in samples.cases}
     results = []
@@ -54,7 +54,7 @@ def judge(samples: Samples, bars: Bars, floors: Sequence[str] = FLOORS) -> list[
             ours = _find(samples, bar.metric, size, bar.ours)
             against = _find(samples, bar.metric, size, bar.against)
             base = RatioResult(bar.id, bar.title, bar.metric, size, bar.ours, bar.against, limit, bar.kind, ABSENT)
-            has_reason = bar.kind == "advisory" and bar.ours in samples.absent  # a right that the machine does not grant
+            has_reason = bar.kind == "advisory" and bar.ours in samples.absent  # a privilege that the host does not grant
             missing_fails = bar.against in floors or (ours is None and not has_reason)
             results.append(_compare(base, ours, against, samples, missing_fails))
     for growth in bars.growths:
@@ -73,7 +73,7 @@ def list_failed_gates(results: Sequence[RatioResult]) -> list[RatioResult]:
 
 
 def _describe_floor(samples: Samples, growth: GrowthBar) -> str:
-    """How the floor grows in the same run: what no one who makes the same calls can stay under on this machine."""
+    """Growth of the lower bound in the same run: no program with the same calls can be below it on this host."""
     floor = _find(samples, growth.metric, growth.to_size, growth.floor)
     before = _find(samples, growth.metric, growth.from_size, growth.floor)
     if floor is None or before is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The picture of a run: every bar with its ratio on one logarithmic axis, and the times behind them.
+"""The picture of a run: the ratio of every acceptance limit on one logarithmic axis, and the measured times.
 
 @satisfies SWR-BEN-004      Design: docs/design/bench.md#record
 """
@@ -22,18 +22,18 @@ from verification.bench.record import Run
 from verification.bench.samples import Samples
 from verification.bench.table import SIZE_UNITS, format_ratio, format_time
 
-# Told apart by everybody, also in grey: verdicts differ in shape as well as in colour.
+# Distinguishable for all readers, also in grey: verdicts differ in shape as well as in colour.
 GOOD, BAD, INK, FAINT = "#0072b2", "#d55e00", "#222222", "#bbbbbb"
 OURS = ("#0072b2", "#56b4e9")
 OTHERS = ("#222222", "#777777", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#8c564b")
 MARKERS = "sDv^<>P"
 SUFFIXES = (".svg", ".png")
 ROW_INCH = 0.27
-LABEL_SHARE = 0.4  # room for the figures on the right, as a share of the logarithmic axis
+LABEL_SHARE = 0.4  # space for the figures on the right, as a share of the logarithmic axis
 
 
 def draw_run(run: Run, folder: Path, subtitle: str) -> list[Path]:
-    """Writes bench.svg and bench.png, each whole or not at all. @return their paths; none when nothing was measured."""
+    """Writes bench.svg and bench.png, each atomically. @return their paths; none if nothing was measured."""
     if run.samples is None:
         return []
     ratios = [one for one in run.ratios if one.ratio is not None]
@@ -108,7 +108,7 @@ def _draw_times(axis: Any, samples: Samples, metric: str) -> None:
 
 
 def _set_log(side: Any, axis: Any, name: str, lowest: float, highest: float) -> None:
-    """A logarithmic axis with plain numbers at 1, 2 and 5 of each decade, or at 1 where there are many decades."""
+    """A logarithmic axis with plain numbers at 1, 2 and 5 of each decade, or at 1 if there are many decades."""
     decades = [10.0**exponent for exponent in range(-4, 7)]
     steps = (1.0, 2.0, 5.0) if highest / lowest < 3000.0 else (1.0,)
     ticks = [step * decade for decade in decades for step in steps if 0.5 * lowest <= step * decade <= 2.0 * highest]

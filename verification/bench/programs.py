@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the benchmark programs and runs them. A peer that cannot be built is left out, with the reason.
+"""Builds the benchmark programs and runs them. A reference implementation that cannot be built is left out, with the reason.
 
 @satisfies SWR-BEN-002      Design: docs/design/bench.md#peers
 """
@@ -25,7 +25,7 @@ CARGO_MIN = (1, 89)
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured."""
+    """Extent of a measurement."""
 
     rounds: int
     batches: int
@@ -33,14 +33,14 @@ class Effort:
     grid_cycles: int  # wake-ups of each program in a round, a millisecond each
 
 
-# A batch is far below the time slice of a scheduler, so that most are not interrupted.
+# A batch is far below the time slice of a scheduler, so that most batches are not interrupted.
 NORMAL = Effort(rounds=15, batches=21, batch_ns=400_000, grid_cycles=1000)
 QUICK = Effort(rounds=5, batches=11, batch_ns=100_000, grid_cycles=250)
 
 
 @dataclass(frozen=True)
 class Programs:
-    """Where the programs of a project are built."""
+    """Build folders of the programs of a project."""
 
     project: Project
 
@@ -66,7 +66,7 @@ class Programs:
 
 
 def build_iceoryx2(programs: Programs, tick: Tick, log: TextIO) -> str:
-    """Builds the peer with cargo. @return why it is not there, or nothing."""
+    """Builds the reference implementation with cargo. @return why it is missing, or nothing."""
     reason = _check_cargo()
     if not reason:
         log.flush()
@@ -81,7 +81,7 @@ def build_iceoryx2(programs: Programs, tick: Tick, log: TextIO) -> str:
 
 
 def _check_cargo() -> str:
-    """@return what is wrong with the cargo of this machine, or nothing."""
+    """@return what is wrong with cargo on this host, or nothing."""
     needed = ".".join(map(str, CARGO_MIN))
     if shutil.which("cargo") is None:
         return f"cargo is not installed; iceoryx2 needs cargo {needed} or newer, which Debian 12 does not package (rustup does)"
@@ -93,7 +93,7 @@ def _check_cargo() -> str:
 
 
 def build_programs(programs: Programs, targets: Sequence[str], jobs: int, tick: Tick, log: TextIO) -> None:
-    """Configures and builds `targets`. @raise WorkError when that fails."""
+    """Configures and builds `targets`. @raise WorkError if that fails."""
     project = programs.project
     log.flush()
     for argv in (
@@ -107,7 +107,7 @@ def build_programs(programs: Programs, targets: Sequence[str], jobs: int, tick: 
 
 
 def run_bench(programs: Programs, metrics: Sequence[str], effort: Effort, out: Path, tick: Tick, log: TextIO) -> None:
-    """Measures `metrics` and writes the samples to `out`. @raise WorkError when that fails."""
+    """Measures `metrics` and writes the samples to `out`. @raise WorkError if that fails."""
     log.flush()
     argv = [str(programs.bench), "--out", str(out), "--rounds", str(effort.rounds), "--batches", str(effort.batches),
             "--batch-ns", str(effort.batch_ns), "--only", *metrics]  # fmt: skip

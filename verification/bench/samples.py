@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The samples that the program `mamori_bench` wrote: for each case and subject one time per round.
+"""The samples of the program `mamori_bench`: for each case and subject one time per round.
 
 @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
 """
@@ -33,7 +33,7 @@ class Series:
 
 @dataclass(frozen=True)
 class Case:
-    """Subjects that did the same work in the same rounds. `size`: payload [byte] or components."""
+    """Subjects with the same work in the same rounds. `size`: payload [byte] or components."""
 
     metric: str
     size: int
@@ -43,7 +43,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Samples:
-    """One run. `absent`: peers that did not take part, with the reason."""
+    """One run. `absent`: missing reference implementations, with the reason."""
 
     cases: dict[tuple[str, int], Case]
     absent: dict[str, str]
@@ -53,7 +53,7 @@ class Samples:
 
 
 def read_samples(path: Path) -> Samples:
-    """@raise InputError where the file is not what the program writes."""
+    """@raise InputError if the file is not in the format of the program."""
     try:
         return parse_samples(json.loads(read_text(path, "file of samples").text))
     except json.JSONDecodeError as error:
@@ -63,7 +63,7 @@ def read_samples(path: Path) -> Samples:
 
 
 def parse_samples(data: dict[str, Any]) -> Samples:
-    """@raise KeyError, TypeError or ValueError where `data` is not of the form."""
+    """@raise KeyError, TypeError or ValueError if `data` has another structure."""
     if data["schema"] != SCHEMA:
         raise ValueError(f"schema is '{data['schema']}', not '{SCHEMA}'")
     rounds = int(data["effort"]["rounds"])

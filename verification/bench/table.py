@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A run on one screen.
+"""Prints a run on one screen.
 
 @satisfies SWR-BEN-002, SWR-BEN-004      Design: docs/design/bench.md#record
 """
@@ -19,7 +19,7 @@ SIZE_UNITS = {"port": "B", "e2e": "B", "scheduler": "components", "wake-up": "B"
 
 
 def show_run(run: Run, screen: Screen) -> None:
-    """Prints the tables of `run`; what was not measured has none."""
+    """Prints the tables of `run`; parts without measurements have none."""
     if run.samples:
         for metric in dict.fromkeys(metric for metric, _ in run.samples.cases):
             screen.say()
@@ -39,7 +39,7 @@ def show_run(run: Run, screen: Screen) -> None:
 
 
 def tabulate_times(samples: Samples, metric: str) -> tuple[Row, list[Row]]:
-    """Medians of one metric: a row per subject, a column per size; a peer that is absent has its row."""
+    """Medians of one metric: a row per subject, a column per size; a missing reference implementation has a row."""
     cases = [case for (name, _), case in samples.cases.items() if name == metric]
     names = list(dict.fromkeys(name for case in cases for name in case.series))
     heads = (f"{metric}: {cases[0].unit}", *(f"{case.size} {SIZE_UNITS.get(metric, '')}".strip() for case in cases))
@@ -70,7 +70,7 @@ def tabulate_counts(counts: Sequence[CountResult]) -> tuple[Row, list[Row]]:
 
 
 def format_time(ns: float) -> str:
-    """Three digits that count."""
+    """Three significant digits."""
     return f"{ns:.2f}" if ns < 10.0 else f"{ns:.1f}" if ns < 100.0 else f"{ns:.0f}"
 
 

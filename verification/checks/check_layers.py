@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Proves the layer table of CONTRIBUTING.md: who includes, links and imports whom, in which order the component folders of a layer
-are, what target code may contain, and that death tests state their cause.
+"""Proves the layer table of CONTRIBUTING.md: permitted includes, links and imports, the order of the component folders of a layer,
+the permitted content of target code, and that death tests state their cause.
 
     python -m verification.checks.check_layers [--root FOLDER]
 
@@ -38,7 +38,7 @@ CMAKE_TARGET = re.compile(r"\bmamori(?:::|_)(?P<layer>\w+)")
 
 @dataclass(frozen=True, order=True)
 class Finding:
-    """One breach, where it is and which rule it breaks."""
+    """One violation, with its location and rule."""
 
     file: str
     line: int
@@ -66,7 +66,7 @@ def check_tree(root: Path) -> list[Finding]:
 
 
 def check_texts(root: Path) -> list[Finding]:
-    """Findings in the wording of all texts below `root`, by the list that is there, and in the samples of its manual."""
+    """Findings in the wording of all texts below `root`, by the list of that tree, and in the samples of its manual."""
     file = root / WORDING
     wording = [Finding(name, line, "wording", message) for name, line, message in check_wording(root, file)] if file.exists() else []
     return wording + [Finding(name, line, "sample", message) for name, line, message in check_samples(root)]
@@ -127,7 +127,7 @@ def _check_includes(root: Path, path: Path, layer: Layer, text: str, is_test: bo
 
 
 def _find_beside(root: Path, path: Path, include: str) -> tuple[str, ...]:
-    """Parts of the file that a quoted include without layer names: beside `path`, or in a folder above it. Else nothing."""
+    """Path parts of the file that a quoted include without layer names: beside `path`, or in a folder above it. Otherwise nothing."""
     for folder in path.parents:
         if (folder / include).is_file():
             return (folder / include).resolve().relative_to(root.resolve()).parts
@@ -146,7 +146,7 @@ def _is_outside_header_allowed(layer: Layer, include: str, is_test: bool) -> boo
 
 
 def _check_links(layer: Layer, layers: set[str], text: str) -> Iterator[tuple[int, str]]:
-    """Of the libraries only: tests may link what they test with."""
+    """Checks libraries only: tests may link what they test with."""
     if layer.name in ("examples", "verification", "trace"):
         return
     forbidden = layers - {*layer.links, layer.name.rpartition("/")[2]}
@@ -173,7 +173,7 @@ def _check_imports(path: tuple[str, ...], text: str) -> Iterator[tuple[int, str]
 
 
 def _list_imports(text: str) -> Iterator[tuple[int, str]]:
-    """@return line and dotted name of each thing that is imported."""
+    """@return line and dotted name of each import."""
     for node in ast.walk(ast.parse(text)):
         match node:
             case ast.Import(names=names):

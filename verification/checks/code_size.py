@@ -3,7 +3,7 @@
 
     python -m verification.checks.code_size
 
-Lines count as they are in the file, with comments and empty lines. Data (requirements, TOML, JSON) count as files only.
+All lines of a file count, including comments and empty lines. Data (requirements, TOML, JSON) count as files only.
 
 Design: docs/design/launcher.md#layer-check
 """
@@ -33,7 +33,7 @@ class Size:
 
     @property
     def share(self) -> float:
-        """Of the code that is in `verification`."""
+        """Share of `verification` in the code."""
         return self.code["verification"] / max(1, self.code.total())
 
     def __str__(self) -> str:
@@ -42,7 +42,7 @@ class Size:
 
 
 def list_tracked(root: Path) -> list[str]:
-    """Files that git tracks; outside of a checkout, all files that are not generated."""
+    """Files that git tracks; outside a checkout, all files that are not generated."""
     done = subprocess.run(("git", "-C", str(root), "ls-files", "-z"), capture_output=True, text=True, check=False)
     if done.returncode == 0 and done.stdout:
         return [name for name in done.stdout.split("\0") if name]
@@ -72,7 +72,7 @@ def is_test(path: Path) -> bool:
 
 
 def check_share(size: Size) -> list[str]:
-    """@return what is too large."""
+    """@return the exceeded limits."""
     if size.share <= VERIFICATION_SHARE_MAX:
         return []
     return [f"verification has {size.share:.1%} of the code, {VERIFICATION_SHARE_MAX:.0%} are the limit; move what users run to tools/"]

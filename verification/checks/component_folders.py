@@ -17,7 +17,7 @@ UMBRELLA_HEADERS = ("kernel/include/mamori/kernel.hpp",)
 
 
 def find_folder(path: tuple[str, ...]) -> str | None:
-    """@return the component folder of a header or source of kernel or safety; "" where it is in none; None for other files."""
+    """@return the component folder of a header or source of kernel or safety; "" if it is in none; None for other files."""
     match path:
         case (layer, "include", "mamori", _, *inner) | (layer, "src", *inner) if layer in FOLDER_LEVELS:
             if "/".join(path) in UMBRELLA_HEADERS:
@@ -28,13 +28,13 @@ def find_folder(path: tuple[str, ...]) -> str | None:
 
 
 def check_place(path: tuple[str, ...]) -> Iterator[str]:
-    """@return a message for a header or source that is in no component folder."""
+    """@return a message for a header or source outside the component folders."""
     if find_folder(path) == "":
         yield f"{path[0]} has component folders only ({', '.join(FOLDER_LEVELS[path[0]])}); move the file into one of them"
 
 
 def check_order(path: tuple[str, ...], include: str) -> Iterator[str]:
-    """@param include path of a header of the project, as it is included. @return a message where the order of the folders forbids it."""
+    """@param include path of a header of the project, as in the include line. @return a message if the order of the folders forbids it."""
     match include.split("/"):
         case ["mamori", layer, folder, *inner] if inner and layer in FOLDER_LEVELS:
             pass

@@ -13,10 +13,10 @@ from collections.abc import Iterator
 DEATH_TEST = re.compile(r"\b(?:EXPECT|ASSERT)_(?:DEBUG_)?(?:DEATH|EXIT)(?:_IF_SUPPORTED)?\s*\(")
 TEXT = re.compile(r'R"(?P<mark>[^\s()\\]*)\((?P<raw>.*?)\)(?P=mark)"|(?P<plain>"(?:\\.|[^"\\\n])*")', re.DOTALL)
 MASKED = re.compile(rf"//[^\n]*|/\*.*?\*/|'(?:\\[^'\n]+|[^'\\\n])'|{TEXT.pattern}", re.DOTALL)
-# What may surround a literal: nothing, a constructor or a matcher, and the suffix of a std::string.
+# Permitted text around a literal: nothing, a constructor or a matcher, and the suffix of a std::string.
 AROUND_LITERAL = re.compile(r"(?:[\w:]+\s*[({]\s*[)}])?s?")
 EMPTY_STRING = re.compile(r"std::string(?:_view)?\s*[({]\s*[)}]")
-# What a program prints that dies of something else; no literal of a test contains the first character.
+# Output of a program that dies of another cause; no literal of a test contains the first character.
 UNRELATED_OUTPUT = (
     "\x01", "\x01\n\x01", "==7==ERROR: AddressSanitizer: SEGV on unknown address 0x000000000000",
     "unit.cpp:7:9: runtime error: signed integer overflow", "free(): invalid pointer", "terminate called after throwing an instance",
@@ -39,7 +39,7 @@ def check_death_tests(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _find_last_argument(code: str, start: int) -> tuple[int, int]:
-    """@return where the last argument of the macro begins and ends. To the preprocessor only parentheses keep commas together."""
+    """@return begin and end of the last argument of the macro. For the preprocessor, only parentheses protect commas."""
     first, depth = start, 1
     for place in range(start, len(code)):
         depth += {"(": 1, ")": -1}.get(code[place], 0)

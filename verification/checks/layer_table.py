@@ -11,25 +11,25 @@ from dataclasses import dataclass
 # A new name needs an ADR.
 LISTED_STD = frozenset("array atomic cstddef cstdint limits new type_traits utility".split())
 TEST_INCLUDES = ("mamori/trace/verifies.hpp", "mamori/verification/failed_check.hpp", "gtest/", "gmock/", "relacy/")
-PORT_TEST_INCLUDES = ("mamori/ports/conformance/",)  # the rules that each port must pass: ADR 0012
+PORT_TEST_INCLUDES = ("mamori/ports/conformance/",)  # the rules of each port: ADR 0012
 SIMULATION_INCLUDES = ("Simbody.h", "SimTK", "simbody/", "simmath/", "kdl/", "Eigen/", "yaml-cpp/")
 
 
 @dataclass(frozen=True)
 class Layer:
-    """What one layer may include and link. Prefixes: `mamori/` ones name headers of the project."""
+    """Permitted includes and links of one layer. Prefixes: `mamori/` ones name headers of the project."""
 
     name: str
     headers: tuple[str, ...]  # prefixes of include paths
     links: tuple[str, ...]  # layers
     any_std: bool = True
-    any_library: bool = False  # an OS or library of its own, to be named in the folder's CMakeLists.txt
+    any_library: bool = False  # an OS or a separate library, named in the CMakeLists.txt of the folder
     test_headers: tuple[str, ...] = ()  # prefixes of include paths, in its tests
-    target: bool = False  # runs on a controller: limits of size and words hold
+    target: bool = False  # runs on a controller: limits of size and words apply
 
 
 def get_layer(path: tuple[str, ...]) -> Layer | None:
-    """The row for the file `path` (parts relative to the root); None where the table has no row."""
+    """The row for the file `path` (parts relative to the root); None if the table has no row."""
     match path:
         case ("kernel", *_):
             return Layer("kernel", ("mamori/kernel/",), (), any_std=False, target=True)
@@ -56,7 +56,7 @@ def get_layer(path: tuple[str, ...]) -> Layer | None:
 
 
 # Python package -> level. A file imports its own package and packages of lower levels; the import path is the folder path.
-# Packages of `mamori_trace` are a product of their own: they are below all others and import none of them.
+# Packages of `mamori_trace` are a separate product: they are below all others and import none of them.
 PACKAGE_LEVELS = {
     "mamori_trace.base": 0, "mamori_trace.cache": 1, "mamori_trace.model": 1, "mamori_trace.readers": 2, "mamori_trace.checks": 3,
     "mamori_trace.formats": 3, "mamori_trace.reports": 4, "mamori_trace.actions": 5, "mamori_trace": 6,
@@ -71,14 +71,14 @@ TOP_LEVEL = 13  # of the packages of `verification` that have no row
 
 
 def find_package(module: str) -> tuple[str, int] | None:
-    """@return package and level of a module or of what is imported from one; None for code that is not ours.
+    """@return package and level of a module or of an import from one; None for external code.
     @raise KeyError for a package of the tools that has no row."""
     parts = [part for part in module.split(".") if part != "__init__"]
     name = ".".join(parts[:2])
     if name in PACKAGE_LEVELS:
         return name, PACKAGE_LEVELS[name]
     match parts[0]:
-        case "mamori_trace":  # its modules beside the packages
+        case "mamori_trace":  # its top-level modules
             return parts[0], PACKAGE_LEVELS[parts[0]]
         case "mamori_tools" if len(parts) == 1:
             return parts[0], 0

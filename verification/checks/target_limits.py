@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limits for code that runs on a controller: words that do not belong there, length of functions, files and headers.
+"""Limits for code that runs on a controller: banned words, length of functions, files and headers.
 
 @satisfies SWR-PRF-007, SWR-PRF-008      Design: docs/design/launcher.md#layer-check
 """
@@ -15,11 +15,11 @@ from tree_sitter import Language, Node, Parser
 
 FUNCTION_LINES_MAX = 70
 FILE_LINES_MAX = 500
-MEASURED_HEADERS = "kernel/include"  # folder whose headers are held against the median
+MEASURED_HEADERS = "kernel/include"  # folder of the headers whose median length is limited
 HEADER_LINES_MEDIAN_MAX = 90
 
 BANNED_ANYWHERE = re.compile(r"\bFIXME\b|\bTODO\b(?!\(#\d+\))")
-# Calls that wait, surprise or format; matrices whose size is known at run time only (they allocate).
+# Calls that block, surprise or format; matrices whose size is known at run time only (they allocate).
 BANNED_IN_CODE = re.compile(
     r"\b(?:(?:u|nano)?sleep(?:_for|_until)?|s?rand(?:om)?|v?(?:f|sn?)?printf"
     r"|(?:Matrix|Vector|RowVector|Array)X\w*|Eigen::Dynamic)\b"
@@ -30,7 +30,7 @@ LANGUAGE = Language(tree_sitter_cpp.language())
 
 
 def check_words(text: str) -> Iterator[tuple[int, str, str]]:
-    """@return (line, rule, message) for each banned word. Calls are looked for outside comments and strings only."""
+    """@return (line, rule, message) for each banned word. Calls are searched outside comments and strings only."""
     for match in BANNED_ANYWHERE.finditer(text):
         yield _line_of(text, match), "word", f"'{match[0]}' must be finished, or written TODO(#n) with its issue"
     code = COMMENT_OR_TEXT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
@@ -55,7 +55,7 @@ def check_size(text: str) -> Iterator[tuple[int, str, str]]:
 
 
 def check_headers(lines: Mapping[str, int]) -> Iterator[tuple[int, str, str]]:
-    """@param lines of each header of MEASURED_HEADERS. @return (line, rule, message) when they are too long in the median."""
+    """@param lines of each header of MEASURED_HEADERS. @return (line, rule, message) if their median is too long."""
     if lines and (median := statistics.median(lines.values())) > HEADER_LINES_MEDIAN_MAX:
         longest = max(lines, key=lambda name: lines[name])
         yield (1, "size", f"median of {len(lines)} headers is {median:g} lines, {HEADER_LINES_MEDIAN_MAX} are the limit; "

@@ -23,14 +23,14 @@ FILE = Path(__file__).with_name("wording.toml")
 PLACES = ("CONTRIBUTING.md", "README.md", "docs", "examples", "kernel", "mamori", "ports", "requirements", "safety", "simbody_sim", "tools", "trace",
           "verification")  # fmt: skip
 SUFFIXES = (".cpp", ".hpp", ".md", ".py", "")
-# Decisions are kept as they were made, and the glossary explains old words; the list and its tests contain them all.
+# Decision records stay unchanged, and the glossary explains old words; the list and its tests contain them all.
 LEFT_OUT = ("docs/adr/", "docs/glossary.md", "verification/checks/wording", "verification/tests/test_wording")
 SHOWN = 3  # locations of an expression that became more frequent
 
 
 @dataclass(frozen=True)
 class Expression:
-    """Words of the list. `maximum` counts the occurrences that are still there."""
+    """Words of the list. `maximum` is the permitted number of occurrences."""
 
     text: str
     instead: str
@@ -42,7 +42,7 @@ def read_expressions(file: Path = FILE) -> list[Expression]:
 
 
 def list_texts(root: Path) -> Iterator[Path]:
-    """The files that people read, in order of their paths."""
+    """The files that people read, sorted by path."""
     for place in PLACES:
         top = root / place
         for path in [top] if top.is_file() else sorted(top.rglob("*")):
@@ -53,7 +53,7 @@ def list_texts(root: Path) -> Iterator[Path]:
 
 
 def find_expressions(root: Path, expressions: list[Expression]) -> dict[str, list[tuple[str, int]]]:
-    """@return file and line of each occurrence, by expression. Case does not matter, nor which space or line end is between words."""
+    """@return file and line of each occurrence, by expression. Case, and the kind of space or line end between words, do not matter."""
     places: dict[str, list[tuple[str, int]]] = {each.text: [] for each in expressions}
     patterns = [(each.text, each.text.split()[0], _make_pattern(each.text)) for each in expressions]
     for path in list_texts(root):
@@ -66,12 +66,12 @@ def find_expressions(root: Path, expressions: list[Expression]) -> dict[str, lis
 
 
 def _make_pattern(text: str) -> re.Pattern[str]:
-    """Between two words there may be the end of a line and the sign of a comment."""
+    """Between two words, a line end and a comment sign are permitted."""
     return re.compile(r"\b" + r"\s+(?:(?://[/!<]*|[#*])\s*)?".join(re.escape(word) for word in text.split()) + r"\b")
 
 
 def check_wording(root: Path, file: Path = FILE) -> Iterator[tuple[str, int, str]]:
-    """@return file, line and message for each expression that is more frequent than its maximum, or whose maximum is to be lowered."""
+    """@return file, line and message for each expression that is more frequent than its maximum, or whose maximum must be lowered."""
     expressions = read_expressions(file)
     for each, places in zip(expressions, find_expressions(root, expressions).values(), strict=True):
         if len(places) > each.maximum:
@@ -82,7 +82,7 @@ def check_wording(root: Path, file: Path = FILE) -> Iterator[tuple[str, int, str
 
 
 def lower(root: Path, file: Path = FILE) -> None:
-    """Writes the list with each maximum that is too high lowered to what is there."""
+    """Writes the list and lowers each maximum to the number of occurrences."""
     text = file.read_text(encoding="utf-8")
     expressions = read_expressions(file)
     for each, places in zip(expressions, find_expressions(root, expressions).values(), strict=True):

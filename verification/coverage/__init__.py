@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How much of the kernel its tests reach: lines, branches and MC/DC, measured by clang, held against a list of known gaps."""
+"""Coverage of the kernel by its tests: lines, branches and MC/DC, measured by clang, compared with a list of known gaps."""

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measures line, branch and MC/DC coverage of kernel and safety by their own tests, and holds the gaps against the list of
+"""Measures line, branch and MC/DC coverage of kernel and safety by their own tests, and compares the gaps with the list of
 known ones.
 
     python -P -m verification.coverage [--jobs N]
 
-Prints a table, then each gap that gaps.toml does not list and each row of it that names no gap; writes
-build/host-release/evidence/coverage/coverage.json and .txt. Exit status 0 when there are neither, 1 otherwise, 2 for wrong arguments.
+Prints a table, then each gap that gaps.toml does not list and each row without a gap; writes
+build/host-release/evidence/coverage/coverage.json and .txt. Exit status 0 if there are neither, 1 otherwise, 2 for wrong arguments.
 
 @satisfies SWR-VER-001, SWR-VER-002      Design: docs/design/test_strength.md#coverage
 """
@@ -30,7 +30,7 @@ from verification.coverage.report import Figures, count, make_table, write_evide
 
 
 def check_layers(project: Project, jobs: int) -> tuple[Verdict, str]:
-    """Measures, judges and writes the evidence. @return the verdict and the table."""
+    """Measures, evaluates and writes the evidence. @return the verdict and the table."""
     rows = read_list()
     functions: list[Function] = []
     files: list[Figures] = []
@@ -50,7 +50,7 @@ def check_layers(project: Project, jobs: int) -> tuple[Verdict, str]:
 
 
 def describe(verdict: Verdict) -> list[str]:
-    """One line for each thing to mend."""
+    """One line for each fault to correct."""
     list_name = LIST.relative_to(ROOT)
     return [f"{gap} (test it, or list it in {list_name} with the reason)" for gap in verdict.unlisted] + [
         f"{list_name}: row names no gap any more, remove it: {row}" for row in verdict.unused

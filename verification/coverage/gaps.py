@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Gaps of the coverage, and the checked list of those that are accepted with their reason.
+"""Gaps of the coverage, and the checked list of accepted gaps with their reasons.
 
 @satisfies SWR-VER-001, SWR-VER-002      Design: docs/design/test_strength.md#list-of-gaps
 """
@@ -20,12 +20,12 @@ NEVER_CALLED = "never called"
 
 @dataclass(frozen=True, order=True)
 class Gap:
-    """Something that no test has shown."""
+    """A function or condition that no test has covered."""
 
     file: str
     line: int
     function: str
-    condition: str  # empty: the whole function
+    condition: str  # empty: the complete function
     missing: str
 
     def __str__(self) -> str:
@@ -35,13 +35,13 @@ class Gap:
 
 @dataclass(frozen=True)
 class Row:
-    """An accepted gap. Lines are not named, so that a row outlives changes elsewhere in its file."""
+    """An accepted gap. It names no line, so that a row stays valid after changes elsewhere in its file."""
 
     file: str
     function: str
     condition: str
     reason: str
-    by_chance: bool = False  # the order of threads decides whether a run shows it, so it may be no gap
+    by_chance: bool = False  # the order of threads decides whether a run covers it, so the gap may be absent
 
     def __str__(self) -> str:
         return f"{self.file}: {self.function}: {self.condition or NEVER_CALLED}"
@@ -52,7 +52,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The gaps held against the list."""
+    """The result of comparing the gaps with the list."""
 
     accepted: tuple[tuple[Gap, Row], ...]
     unlisted: tuple[Gap, ...]
@@ -64,7 +64,7 @@ class Verdict:
 
 
 def find_gaps(functions: Iterable[Function]) -> list[Gap]:
-    """Functions that were never called, and in the others the conditions that were not shown."""
+    """Functions that were never called, and uncovered conditions of the others."""
     gaps = []
     for function in functions:
         if function.count == 0:
@@ -77,7 +77,7 @@ def find_gaps(functions: Iterable[Function]) -> list[Gap]:
 
 
 def read_list(path: Path = LIST) -> list[Row]:
-    """@raise WorkError for a row that is not whole, gives no reason, or stands there twice."""
+    """@raise WorkError for an incomplete row, a row without a reason, or a duplicate row."""
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8")).get("gap", [])
     except tomllib.TOMLDecodeError as error:
@@ -97,7 +97,7 @@ def read_list(path: Path = LIST) -> list[Row]:
 
 
 def judge(gaps: Sequence[Gap], rows: Sequence[Row]) -> Verdict:
-    """Holds `gaps` against `rows`, in both directions."""
+    """Compares `gaps` with `rows`, in both directions."""
     accepted = []
     unlisted = []
     for gap in gaps:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the tests of the measured layers with clang's coverage, runs those that have not run yet, and exports what each layer's
-own tests reached.
+"""Builds the tests of the measured layers with clang's coverage, runs the tests without counters, and exports the coverage of
+each layer by its own tests.
 
 @satisfies SWR-VER-001      Design: docs/design/test_strength.md#coverage
 """
@@ -17,13 +17,13 @@ from typing import Any
 from mamori_tools.host.project import SANITIZED, Project
 from mamori_trace.base.errors import WorkError
 
-LAYERS = ("kernel", "safety")  # each is to be shown by its own tests
+LAYERS = ("kernel", "safety")  # the tests of each layer must cover it
 TEST_TIMEOUT_S = 600
 BUILD_TIMEOUT_S = 3600
 
 
 def measure(root: Path, jobs: int) -> list[dict[str, Any]]:
-    """Builds all test programs of LAYERS, and runs those without counters of their own. @return the export of llvm-cov, one of each
+    """Builds all test programs of LAYERS, and runs those without counters. @return the export of llvm-cov, one for each
     layer. @raise WorkError."""
     build = Project(root, SANITIZED).build
     run(("cmake", "-S", str(root), "--preset", SANITIZED))
@@ -32,8 +32,8 @@ def measure(root: Path, jobs: int) -> list[dict[str, Any]]:
 
 
 def measure_layer(folder: Path, build: Path, jobs: int) -> dict[str, Any]:
-    """Runs the test programs of the layer in `folder`, but for those whose counters are newer than they are: `./mamori test` has
-    run them already. @return what they reached of its sources. @raise WorkError."""
+    """Runs the test programs of the layer in `folder`, except those whose counters are newer than the program: `./mamori test` has
+    run them already. @return the coverage of its sources. @raise WorkError."""
     tests = build / folder.name
     listing = json.loads(run(("ctest", "--test-dir", str(tests), "--show-only=json-v1")))
     programs = {test["name"]: Path(test["command"][0]) for test in listing["tests"]}
@@ -48,13 +48,13 @@ def measure_layer(folder: Path, build: Path, jobs: int) -> dict[str, Any]:
 
 
 def has_counters(profiles: Path, test: str, program: Path) -> bool:
-    """True when `test` has written its counters since `program` was built."""
+    """True if `test` has written its counters since `program` was built."""
     built = program.stat().st_mtime
     return any(path.stat().st_mtime > built for path in profiles.glob(f"{test}-*.profraw"))
 
 
 def discard_counters(profiles: Path, kept: Container[str]) -> None:
-    """Removes the counters of all tests but those in `kept`: of an earlier build, or of a test that is no more."""
+    """Removes the counters of all tests except those in `kept`: of an earlier build, or of a removed test."""
     for path in profiles.glob("*.profraw"):
         if path.name.rpartition("-")[0] not in kept:
             path.unlink()
@@ -65,21 +65,21 @@ def export(programs: Sequence[Path], profiles: Path, sources: Sequence[Path]) ->
     merged = profiles / "merged.profdata"
     run(("llvm-profdata-19", "merge", "-sparse", "-o", str(merged), *map(str, sorted(profiles.glob("*.profraw")))))
     whole = export_objects(programs, merged, sources)
-    # Where one program includes a function that it never calls, llvm-cov may take that for all: so each is asked alone, too.
+    # If one program includes a function that it never calls, llvm-cov may apply that to all. Each program is therefore queried alone, too.
     alone = [export_objects((program,), merged, sources) for program in programs if len(programs) > 1]
     functions = [data["functions"] for each in alone for data in each["data"]]
     return {**whole, "data": [*whole["data"], *({"files": [], "functions": each} for each in functions)]}
 
 
 def export_objects(programs: Sequence[Path], profile: Path, sources: Sequence[Path]) -> dict[str, Any]:
-    """@return what llvm-cov says of `sources` in all of `programs` together."""
+    """@return llvm-cov's result for `sources` in all of `programs` together."""
     first, *others = map(str, programs)
     objects = [word for other in others for word in ("-object", other)]
     return json.loads(run(("llvm-cov-19", "export", first, *objects, f"-instr-profile={profile}", *map(str, sources))))
 
 
 def run(argv: Sequence[str], timeout_s: int = TEST_TIMEOUT_S, **settings: str) -> str:
-    """@return standard output. @raise WorkError when the program is missing, fails, or does not end."""
+    """@return standard output. @raise WorkError if the program is missing, fails, or does not end."""
     try:
         done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
                               timeout=timeout_s, env={**os.environ, **settings})  # fmt: skip

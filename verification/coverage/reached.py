@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What an export of llvm-cov says about each function: which decisions it holds, and what of them the tests have shown.
+"""Evaluates an export of llvm-cov for each function: its decisions, and their coverage by the tests.
 
-A decision of one condition is shown when it was seen true and false. In a decision of several, each condition must have changed
-the outcome by itself (MC/DC). Instantiations of one template are merged: a condition counts when any of them shows it.
+A decision of one condition is covered if it was true and false. In a decision of several, each condition must have changed
+the outcome independently (MC/DC). Instantiations of one template are merged: a condition counts if any of them covers it.
 
 @satisfies SWR-VER-001      Design: docs/design/test_strength.md#coverage
 """
@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-Span = tuple[int, int, int, int]  # first line, first column, last line, column behind the last
+Span = tuple[int, int, int, int]  # first line, first column, last line, column after the last
 
 EXPANSION = 1  # kinds of regions, as llvm::coverage numbers them
 MCDC_BRANCH = 6
@@ -25,18 +25,18 @@ MAIN_FILE = 0
 
 @dataclass
 class Condition:
-    """One condition and what was seen of it."""
+    """One condition and its observed values."""
 
     line: int
     text: str
     is_true_seen: bool = False
     is_false_seen: bool = False
     is_alone: bool = True  # the only condition of its decision
-    is_effect_shown: bool = False  # it changed the outcome of a decision of several conditions by itself
+    is_effect_shown: bool = False  # it changed the outcome of a decision of several conditions independently
 
     @property
     def missing(self) -> str:
-        """What was not seen; nothing when the condition is shown."""
+        """The missing values; nothing if the condition is covered."""
         if not self.is_alone:
             return "" if self.is_effect_shown else "own effect on the decision"
         unseen = [word for word, seen in (("true", self.is_true_seen), ("false", self.is_false_seen)) if not seen]
@@ -61,7 +61,7 @@ class Function:
 
 
 def read_functions(exported: dict[str, Any], root: Path) -> list[Function]:
-    """Functions of the exported files, which lie below `root`, by file and line."""
+    """Functions of the exported files below `root`, by file and line."""
     wanted = {file["filename"] for data in exported["data"] for file in data["files"]}
     source = _Source()
     functions: dict[tuple[str, int, int], Function] = {}
@@ -100,7 +100,7 @@ def _read_conditions(entry: dict[str, Any], source: _Source) -> Iterator[tuple[t
         shown = record[-1]
         file_id = _find_file(branches, _span(record))
         if file_id is None:
-            continue  # a fold over constants, which the compiler has decided
+            continue  # a constant expression, which the compiler has evaluated
         taken = _take_within(branches[file_id], _span(record), len(shown))
         for number, (branch, is_shown) in enumerate(zip(taken, _fit(shown, taken), strict=True), start=1):
             site, text = _describe(entry, source, _span(branch), file_id)
@@ -111,8 +111,8 @@ def _read_conditions(entry: dict[str, Any], source: _Source) -> Iterator[tuple[t
 
 
 def _take_within(left: list[list[int]], span: Span, most: int) -> list[list[int]]:
-    """Takes the conditions of the decision at `span` off the front of `left`. A condition that is a constant in this
-    instantiation of a template has no entry."""
+    """Removes the conditions of the decision at `span` from the front of `left`. A condition that is a constant in this
+    template instantiation has no entry."""
     count = 0
     while count < min(most, len(left)) and span[:2] <= _span(left[count])[:2] and _span(left[count])[2:] <= span[2:]:
         count += 1
@@ -122,15 +122,15 @@ def _take_within(left: list[list[int]], span: Span, most: int) -> list[list[int]
 
 
 def _fit(shown: list[bool], taken: list[list[int]]) -> list[bool]:
-    """Which of `taken` were shown to decide alone. llvm-cov judges no decision with a constant in it: a single condition
-    that is left decides by itself, of several nothing is known."""
+    """The conditions in `taken` whose independent effect was shown. llvm-cov evaluates no decision with a constant in it: a single
+    remaining condition decides alone; of several nothing is known."""
     if len(taken) == len(shown):
         return shown
     return [len(taken) == 1 and branch[4] > 0 and branch[5] > 0 for branch in taken]
 
 
 def _find_file(branches: dict[int, list[list[int]]], span: Span) -> int | None:
-    """The file whose next decision lies in `span`: the export names the file of a branch, but not that of a decision.
+    """The file whose next decision is in `span`: the export names the file of a branch, but not that of a decision.
     None: no condition is left in it."""
     for file_id, left in sorted(branches.items()):
         if left and span[:2] <= _span(left[0])[:2] and _span(left[0])[2:] <= span[2:]:
@@ -139,7 +139,7 @@ def _find_file(branches: dict[int, list[list[int]]], span: Span) -> int | None:
 
 
 def _describe(entry: dict[str, Any], source: _Source, span: Span, file_id: int) -> tuple[Span, str]:
-    """Where in the function's own file, and the text there; for what a macro brought in, the call of the macro."""
+    """Location in the function's own file, and the text there; for a macro expansion, the call of the macro."""
     if file_id == MAIN_FILE:
         return span, source.get_text(entry["filenames"][MAIN_FILE], span)
     while file_id != MAIN_FILE:
@@ -166,7 +166,7 @@ class _Source:
         return b" ".join(part for line in lines for part in line.split()).decode("utf-8")
 
     def get_call(self, path: str, span: Span) -> str:
-        """The call that begins at `span`, up to its closing bracket."""
+        """The call that begins at `span`, including its closing bracket."""
         lines = self._read(path)[span[0] - 1 :]
         text = b"\n".join([lines[0][span[1] - 1 :], *lines[1:20]]).decode("utf-8")
         depth = 0
@@ -186,7 +186,7 @@ _OPERATOR = re.compile(r"operator\s*(?:\(\)|\[\]|->\*?|<=>|<<=?|>>=?|<=?|>=?)")
 
 
 def _demangle(names: Iterable[str]) -> list[str]:
-    """Names as the source spells them: without namespace of the project, template arguments and parameters."""
+    """Names as in the source: without namespace of the project, template arguments and parameters."""
     text = "\n".join(names)
     done = subprocess.run(("llvm-cxxfilt-19", "-p"), input=text, capture_output=True, text=True, check=True)
     return [_shorten(name) for name in done.stdout.splitlines()]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the evidence says about each function: the trace tool joins it with the requirements that own the function.
+"""Evidence for each function: the trace tool joins it with the requirements that own the function.
 
 @satisfies SWR-VER-001, SWR-TRC-032      Design: docs/design/trace.md#coverage
 """
@@ -15,8 +15,8 @@ from verification.coverage.reached import Function
 
 
 def make_rows(exported: dict[str, Any], functions: Sequence[Function], root: Path) -> list[dict[str, Any]]:
-    """One row for each function, by file and line. Lines are left out where only a program on its own shows that they were
-    reached, since the export counts lines for all programs together."""
+    """One row for each function, by file and line. Lines are omitted if only a single program shows that they were
+    reached, because the export counts lines for all programs together."""
     counts: dict[str, dict[int, int]] = {}
     for data in exported["data"]:
         for entry in data["files"]:

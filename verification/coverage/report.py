@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Figures of the coverage per file: as a table for people and as `coverage.json` for tools.
+"""Figures of the coverage per file: as a table for readers and as `coverage.json` for tools.
 
 @satisfies SWR-VER-001      Design: docs/design/test_strength.md#coverage
 """
@@ -21,7 +21,7 @@ SCHEMA = "mamori.coverage/1"
 
 @dataclass
 class Figures:
-    """Reached and all there are, of one file."""
+    """Reached and total numbers of one file."""
 
     file: str
     lines: int = 0
@@ -35,7 +35,7 @@ class Figures:
 
 
 def count(exported: dict[str, Any], functions: Sequence[Function], root: Path) -> list[Figures]:
-    """Figures of each file, by name. Branch outcomes and conditions are counted once per place, not per instantiation."""
+    """Figures of each file, by name. Branch outcomes and conditions count once per location, not per instantiation."""
     files: dict[str, Figures] = {}
     for data in exported["data"]:
         for entry in data["files"]:
@@ -90,7 +90,7 @@ def _share(part: int, whole: int) -> str:
 def write_evidence(
     folder: Path, files: Sequence[Figures], verdict: Verdict, table: str, functions: Sequence[dict[str, Any]]
 ) -> None:
-    """Writes coverage.json and coverage.txt, each whole or not at all. @param functions the rows of record.make_rows."""
+    """Writes coverage.json and coverage.txt, each atomically. @param functions the rows of record.make_rows."""
     content = {
         "schema": SCHEMA,
         "passed": verdict.passed,

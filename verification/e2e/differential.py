@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compares end-to-end protection with the package `autosar-e2e`, an implementation by others, on random frames.
+"""Compares end-to-end protection with the package `autosar-e2e`, an independent implementation, on random messages.
 
     python -P -m verification.e2e.differential PROGRAM [--frames N] [--seed N]
 
-PROGRAM is the built `mamori_e2e_pipe`. Each frame is protected by both, then read by both, half of the frames damaged in
-between. Prints the number of frames per profile and the first differences; exit status 1 with differences, 2 for wrong
+PROGRAM is the built `mamori_e2e_pipe`. Both implementations protect each message and then read it, half of the messages damaged in
+between. Prints the number of messages per profile and the first differences; exit status 1 with differences, 2 for wrong
 arguments.
 
 @satisfies SWR-E2E-003      Design: docs/design/e2e.md#comparison
@@ -25,7 +25,7 @@ from pathlib import Path
 
 from e2e import p01, p02, p04, p05, p06, p07, p11
 
-BATCH = 2000  # frames per run of the program: its answers wait in a pipe, so not all at once
+BATCH = 2000  # messages per run of the program: its replies wait in a pipe of limited size
 GOOD = 0  # FrameCause::kGood
 DIFFERENCES_SHOWN = 10
 HEADER_SIZES = {1: 2, 2: 2, 4: 12, 5: 3, 6: 5, 7: 20, 11: 2}
@@ -38,7 +38,7 @@ P11_MODES = {BOTH: p11.E2E_P11_DATAID_BOTH, NIBBLE: p11.E2E_P11_DATAID_NIBBLE}
 
 @dataclass(frozen=True)
 class Case:
-    """A channel, a counter, and what the frame holds before it is protected."""
+    """A channel, a counter, and the content of the message before its protection."""
 
     profile: int
     mode: int
@@ -55,7 +55,7 @@ class Case:
 
 
 def make_case(chance: random.Random) -> Case:
-    """Any channel that a profile allows, with any counter and payload."""
+    """Any channel that a profile permits, with any counter and payload."""
     profile = chance.choice(sorted(HEADER_SIZES))
     mode, data_id = BOTH, chance.getrandbits(32 if profile in (4, 7) else 16)
     if profile in (1, 11):
@@ -69,7 +69,7 @@ def make_case(chance: random.Random) -> Case:
 
 
 def protect(case: Case) -> bytes:
-    """The frame as the package makes it. Its counter is written first: the package takes it from the frame."""
+    """The message protected by the package. Its counter is written first, because the package reads it from the message."""
     frame = bytearray(case.payload)
     at = case.offset
     match case.profile:
@@ -101,7 +101,7 @@ def protect(case: Case) -> bytes:
 
 def check(case: Case, received: bytes) -> bool:
     """The verdict of the package."""
-    frame = bytearray(received)  # the package reads from what it could write only
+    frame = bytearray(received)  # the package needs a writable buffer
     size, at = len(frame), case.offset
     match case.profile:
         case 1:
@@ -121,7 +121,7 @@ def check(case: Case, received: bytes) -> bool:
 
 
 def damage(frame: bytes, chance: random.Random) -> bytes:
-    """Up to four bits turned; none in half of the frames."""
+    """Up to four flipped bits; none in half of the messages."""
     damaged = bytearray(frame)
     for _ in range(chance.choice((0, 0, 0, 0, 1, 2, 3, 4))):
         bit = chance.randrange(len(damaged) * 8)
@@ -130,7 +130,7 @@ def damage(frame: bytes, chance: random.Random) -> bytes:
 
 
 def ask(program: Path, requests: Sequence[bytes]) -> bytes:
-    """The program's answers."""
+    """The replies of the program."""
     return subprocess.run((program,), input=b"".join(requests), capture_output=True, check=True).stdout
 
 
@@ -144,20 +144,20 @@ def compare(program: Path, cases: Sequence[Case], chance: random.Random) -> Iter
     for number, (case, frame) in enumerate(zip(cases, frames, strict=True)):
         cause, ours = answers[at], answers[at + 5 : at + 5 + len(frame)]
         at += 5 + len(frame)
-        if cause == 255:  # a stuck line would fit this identifier: refused on purpose, so nothing to compare
+        if cause == 255:  # a stuck line would match this identifier: it is rejected on purpose, so there is nothing to compare
             continue
         if ours != frame:
             yield f"protect {case}: {ours.hex()}, the package says {frame.hex()}"
         is_good = verdicts[5 * number] == GOOD
         expected = check(case, damaged[number])
         if expected and case.profile in (1, 11) and damaged[number][case.offset + 1] & 15 == 15:
-            expected = False  # the package does not look at the counter, which is never 15
+            expected = False  # the package does not check the counter, which is never 15
         if is_good != expected:
             yield f"check {case}, {damaged[number].hex()}: {is_good}, the package says {expected}"
 
 
 def run(program: Path, frames: int, seed: int) -> tuple[Counter[int], list[str]]:
-    """@return frames per profile, and the differences."""
+    """@return messages per profile, and the differences."""
     chance = random.Random(seed)
     counts: Counter[int] = Counter()
     differences: list[str] = []

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: frames are those of another implementation, and so are the verdicts; a difference is told, and bad arguments are refused.
-# Method: the built program beside the package on random frames of random channels; a program that answers wrongly.
+# Goal: messages and verdicts equal those of an independent implementation; a difference is reported, and wrong arguments are rejected.
+# Method: the built program and the package on random messages of random channels; a program with wrong replies.
 from __future__ import annotations
 
 import sys

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Throws random bytes at what reads bytes: libFuzzer harnesses, one per file `<name>_fuzz.cpp`, with a corpus each."""
+"""Feeds random bytes to readers of bytes: libFuzzer harnesses, one per file `<name>_fuzz.cpp`, with a corpus each."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori fuzz`: which harnesses, for how long, and what came of it.
+"""`./mamori fuzz`: runs harnesses for a time and reports their results.
 
 @satisfies SWR-VER-010, SWR-VER-011      Design: docs/design/test_strength.md#fuzzing
 """
@@ -32,7 +32,7 @@ FAULT = re.compile(r"ERROR: |runtime error: |deadly signal")
 
 @dataclass(frozen=True)
 class Request:
-    """What the user asked for."""
+    """The request of the user."""
 
     names: tuple[str, ...] = ()
     seconds: int = 30
@@ -41,8 +41,8 @@ class Request:
 
 
 def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
-    """Runs the harnesses of `folder` against kernel and safety layer below `root`. @return exit status; 1 when one found
-    something, did nothing, or when there is none at all. @raise InputError for a harness that does not exist."""
+    """Runs the harnesses of `folder` against kernel and safety layer below `root`. @return exit status; 1 if one has a finding
+    or did nothing, or if there is none. @raise InputError for a harness that does not exist."""
     project = Project(root)
     try:
         harnesses = choose(find_harnesses(folder, root / "build" / "fuzz"), request.names, folder)
@@ -62,7 +62,7 @@ def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
 
 
 def choose(harnesses: Sequence[Harness], names: Sequence[str], folder: Path) -> list[Harness]:
-    """@raise WorkError when there is nothing to run. @raise InputError for an unknown name."""
+    """@raise WorkError if there is nothing to run. @raise InputError for an unknown name."""
     if not harnesses:
         raise WorkError(f"{folder} holds no <name>_fuzz.cpp; nothing was fuzzed")
     known = {harness.name: harness for harness in harnesses}
@@ -78,7 +78,7 @@ def list_includes(root: Path) -> list[Path]:
 
 
 def describe(runs: Sequence[Run], kept: dict[str, int]) -> list[str]:
-    """A line per harness, and for each that failed the input, its log, and the command that shows it again."""
+    """A line per harness, and for each failed one the input, its log, and the command that repeats it."""
     lines = []
     for run in runs:
         rate = run.executions / run.seconds if run.seconds > 0.0 else 0.0
@@ -98,14 +98,14 @@ def describe(runs: Sequence[Run], kept: dict[str, int]) -> list[str]:
 
 
 def read_fault(log: Path) -> list[str]:
-    """What the sanitizer said first, or else the last lines."""
+    """The first message of the sanitizer, or else the last lines."""
     lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
     first = next((number for number, line in enumerate(lines) if FAULT.search(line)), max(0, len(lines) - SHOWN_LINES))
     return lines[first : first + SHOWN_LINES]
 
 
 def write_json(path: Path, runs: Sequence[Run], seconds: int) -> None:
-    """Writes the whole file or nothing."""
+    """Writes the file atomically."""
     content = {
         "schema": SCHEMA,
         "seconds": seconds,

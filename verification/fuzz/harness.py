@@ -76,15 +76,15 @@ class Harness:
 
 @dataclass(frozen=True)
 class Run:
-    """What came of one harness."""
+    """Result of one harness."""
 
     harness: Harness
     executions: int
-    coverage: int  # edges of the program that were reached
+    coverage: int  # reached edges of the program
     seconds: float
     new_inputs: int
     findings: tuple[Path, ...]
-    problem: str = ""  # why it failed; nothing when it did not
+    problem: str = ""  # why it failed; empty if it did not
 
     @property
     def passed(self) -> bool:
@@ -97,7 +97,7 @@ def find_harnesses(folder: Path, build: Path) -> list[Harness]:
 
 
 def build_harnesses(harnesses: Sequence[Harness], sources: Sequence[Path], includes: Sequence[Path], jobs: int) -> None:
-    """Compiles `sources` once, and each harness with them. @raise WorkError with the compiler's words."""
+    """Compiles `sources` once, and each harness with them. @raise WorkError with the message of the compiler."""
     objects = harnesses[0].build / "objects"
     shutil.rmtree(objects, ignore_errors=True)
     objects.mkdir(parents=True)
@@ -174,7 +174,7 @@ def _watch(harness: Harness, argv: Sequence[str], seconds: int, say: Callable[[s
 
 
 def read_corpus(file: Path) -> dict[str, bytes]:
-    """Inputs by name; none without the file. @raise InputError with file and line of a row that is no input."""
+    """Inputs by name; none without the file. @raise InputError with file and line of an invalid row."""
     rows = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
     inputs: dict[str, bytes] = {}
     for number, row in enumerate(rows, 1):
@@ -195,7 +195,7 @@ def _check_name(name: str) -> str:
 
 
 def unpack_corpus(harness: Harness) -> None:
-    """Writes each input of the corpus to a file of its own. @raise InputError as read_corpus()."""
+    """Writes each input of the corpus to its own file. @raise InputError like read_corpus()."""
     shutil.rmtree(harness.inputs, ignore_errors=True)
     harness.inputs.mkdir(parents=True)
     for name, data in read_corpus(harness.corpus).items():
@@ -203,7 +203,7 @@ def unpack_corpus(harness: Harness) -> None:
 
 
 def keep_inputs(harness: Harness) -> int:
-    """Adds to the stored corpus those new inputs that reach something it does not. @return how many. @raise WorkError."""
+    """Adds those new inputs to the stored corpus that reach additional code. @return how many. @raise WorkError."""
     before = len(list(harness.inputs.iterdir()))
     _compile((str(harness.program), "-merge=1", str(harness.inputs), str(harness.new_inputs)))
     files = sorted(harness.inputs.iterdir())

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a harness that reads past its input is found, with the input kept and a command that shows it again.
-# Method: the runner on a small project of its own, with harnesses that do nothing wrong, overflow, or do not compile.
+# Goal: a harness that reads beyond its input is found; the input is kept, and the report shows a command that repeats it.
+# Method: the runner on a small separate project, with harnesses that are correct, overflow, or do not compile.
 from __future__ import annotations
 
 import json

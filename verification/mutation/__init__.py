@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How many small faults, put into the kernel one by one, its tests find: the mutation score."""
+"""The mutation score: the share of small faults, seeded into the kernel one by one, that its tests find."""

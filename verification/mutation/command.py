@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori mutate`: arguments of the command, what it prints, and when it fails.
+"""`./mamori mutate`: arguments, output and exit status of the command.
 
 @satisfies SWR-VER-004, SWR-VER-006, SWR-VER-007, SWR-VER-009      Design: docs/design/test_strength.md#score
 """
@@ -35,7 +35,7 @@ PROGRESS_S = 10.0
 
 @dataclass(frozen=True)
 class Request:
-    """What the user asked for."""
+    """The request of the user."""
 
     files: tuple[str, ...] = ()
     sample: int | None = None
@@ -43,11 +43,11 @@ class Request:
     jobs: int = 1
     only_list: bool = False
     store: bool = False
-    missing: bool = False  # only files without a row that counts
+    missing: bool = False  # only files without a valid row
 
 
 def mutate(request: Request) -> int:
-    """@return exit status. @raise InputError for files that are of none of the layers."""
+    """@return exit status. @raise InputError for files outside the layers."""
     project = Project(ROOT)
     if request.store and request.sample is not None:
         raise InputError("mutate: --store keeps the result of all mutants; leave --sample out")
@@ -72,13 +72,13 @@ def mutate(request: Request) -> int:
         print(line)
     if request.store:
         print(f"stored: {baseline.STORE.relative_to(project.root)}")
-    # What was tried is a part of a layer; its rows now stand with those of the others.
+    # The tried files are a part of a layer; their rows are now stored with those of the others.
     is_strong = not standing.findings if request.missing and request.store else report.passed
     return EXIT_OK if is_strong and report.is_consistent else EXIT_FAILED
 
 
 def run_layers(root: Path, plan: Plan, jobs: int, progress: Callable[[Result, int, int], None]) -> Report:
-    """Tries `plan` layer by layer, in a folder of its own, so that two runs do not meet. @raise WorkError."""
+    """Tries `plan` layer by layer, in a separate folder, so that two runs do not collide. @raise WorkError."""
     folder = root / "build" / "mutation"
     tally = Tally(plan, progress)
     for layer in LAYERS:
@@ -91,7 +91,7 @@ def run_layers(root: Path, plan: Plan, jobs: int, progress: Callable[[Result, in
 
 
 def choose_files(wanted: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
-    """@return the files of the layers that were named, or all. @raise InputError for one that is none."""
+    """@return the named files of the layers, or all. @raise InputError for a file outside the layers."""
     for name in wanted:
         if _normalise(name) not in known:
             nearest = nearest_names(name, known, "./mamori mutate --list shows them with their mutants")
@@ -105,7 +105,7 @@ def _normalise(name: str) -> str:
 
 
 class Progress:
-    """Tells of every survivor at once, and of the rest now and then."""
+    """Reports every survivor at once, and the other results occasionally."""
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
@@ -122,7 +122,7 @@ class Progress:
 
 
 class Keeper:
-    """Stores the row of each file as soon as its last mutant has been tried, so that a run that is stopped keeps what it has."""
+    """Stores the row of each file as soon as its last mutant was tried, so that a stopped run keeps its results."""
 
     def __init__(self, root: Path, plan: Plan, tell: Callable[[Result, int, int], None]) -> None:
         self._root = root
@@ -151,7 +151,7 @@ def show_plan(plan: Plan) -> int:
 
 
 def describe(report: Report) -> list[str]:
-    """What is to be mended, and the closing line."""
+    """The faults to correct, and the closing line."""
     lines = [f"equivalent.toml: row names no mutant any more, remove it: {row}" for row in report.plan.unused]
     lines += [f"equivalent.toml: {result.killer} kills this mutant, so it is not equivalent: {row}"
               for row, result in report.wrong_rows]  # fmt: skip
@@ -173,7 +173,7 @@ def describe_score(layer: Layer, counts: Counts, is_sample: bool) -> str:
 
 
 def store(root: Path, file: str, source: bytes, counts: Counts) -> None:
-    """Puts the counts of one file into the stored result, and drops files that are gone."""
+    """Adds the counts of one file to the stored result, and drops removed files."""
     entries = baseline.read_store()
     argv = ("git", "-C", str(root), "rev-parse", "--short=12", "HEAD")
     commit = subprocess.run(argv, capture_output=True, text=True, check=False)
@@ -183,7 +183,7 @@ def store(root: Path, file: str, source: bytes, counts: Counts) -> None:
 
 
 def read_standing(root: Path) -> baseline.Standing:
-    """What the stored result is worth for the layers as they are. @raise WorkError when there is no such file of results."""
+    """Compares the stored result with the current layers. @raise WorkError if there is no such file of results."""
     sources = {file: (root / file).read_bytes() for file in list_files(root)}
     mutated = {
         file: baseline.Mutated(baseline.fingerprint(source), len(mutants))

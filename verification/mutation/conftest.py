@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The weak layer, as it is and with its whole run."""
+"""The unchanged weak layer, and its complete run."""
 
 from __future__ import annotations
 
@@ -19,5 +19,5 @@ def sources(tmp_path: Path) -> Sources:
 
 @pytest.fixture(scope="session")
 def weak(tmp_path_factory: pytest.TempPathFactory) -> Report:
-    """The whole run of that project."""
+    """The complete run of that project."""
     return run_all(make_sources(tmp_path_factory.mktemp("weak")))

@@ -21,8 +21,8 @@ KEYS = {"file", "before", "after", "reason"}
 
 @dataclass(frozen=True)
 class Row:
-    """A mutant named by the code of its changed line, so that a row outlives changes elsewhere in its file. Neither the comment
-    at the end of the line nor how its words are set apart matters."""
+    """A mutant identified by the code of its changed line, so that a row stays valid after changes elsewhere in its file. Neither the
+    comment at the end of the line nor the spaces between its words matter."""
 
     file: str
     before: str
@@ -34,7 +34,7 @@ class Row:
 
 
 def read_list(path: Path = LIST) -> list[Row]:
-    """@raise WorkError for a row that is not whole, gives no reason, or stands there twice."""
+    """@raise WorkError for an incomplete row, a row without a reason, or a duplicate row."""
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8")).get("mutant", [])
     except tomllib.TOMLDecodeError as error:
@@ -53,7 +53,7 @@ def read_list(path: Path = LIST) -> list[Row]:
 
 
 def match(rows: Sequence[Row], mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> tuple[dict[Mutant, Row], list[Row]]:
-    """@return the row of each mutant that has one, and the rows of `sources` that name no mutant any more."""
+    """@return the row of each mutant that has one, and the rows of `sources` without a mutant."""
     by_change = {(row.file, _keep_code(row.before), _keep_code(row.after)): row for row in rows}
     found: dict[Mutant, Row] = {}
     for mutant in mutants:

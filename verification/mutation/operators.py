@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes mutants of a C++ source: one small change each, found in the syntax tree, so that most of them compile.
+"""Creates mutants of a C++ source: one small change each, found in the syntax tree, so that most of them compile.
 
 The same text gives the same mutants in the same order. A change never adds or removes a line.
 
@@ -18,7 +18,7 @@ from tree_sitter import Language, Node, Parser
 
 LANGUAGE = Language(tree_sitter_cpp.language())
 
-# What each operator is replaced by. Of a comparison: the limit moved by one, and the opposite.
+# The replacements of each operator. Of a comparison: the limit moved by one, and the opposite.
 REPLACEMENTS = {
     "<": ("<=", ">="), "<=": ("<", ">"), ">": (">=", "<="), ">=": (">", "<"), "==": ("!=",), "!=": ("==",),
     "&&": ("||",), "||": ("&&",),
@@ -30,13 +30,13 @@ REPLACEMENTS = {
 COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
 CONNECTIVES = ("&&", "||")
 
-# Nothing below these is changed: text that is no code at run time, or that decides types.
+# Nothing below these nodes is changed: text that is not run-time code, or that determines types.
 SKIPPED = frozenset(
     ("comment", "preproc_include", "preproc_def", "preproc_function_def", "preproc_call", "static_assert_declaration",
      "template_parameter_list", "template_argument_list", "operator_name", "attribute_declaration", "noexcept",
      "alignas_qualifier", "decltype", "fold_expression", "linkage_specification_string")
 )  # fmt: skip
-# Words whose spaces count.
+# Tokens whose spaces count.
 LITERALS = frozenset(("string_literal", "raw_string_literal", "char_literal"))
 INTEGER = re.compile(r"(0[xX][0-9A-Fa-f']+|[0-9']+)([uUlLzZ]*)")
 INTEGER_TYPE = re.compile(r"(?:std::)?(?:u?int(?:8|16|32|64)_t|size_t|ptrdiff_t|int|unsigned)|double|float")
@@ -67,7 +67,7 @@ class Mutant:
         return "".join(lines)
 
     def get_change(self, source: bytes) -> tuple[str, str]:
-        """The first changed line before and after, without indentation: names the mutant when lines move."""
+        """The first changed line before and after, without indentation: identifies the mutant when lines move."""
         before = source.decode("utf-8").splitlines()
         after = self.apply(source).decode("utf-8").splitlines()
         number = next(index for index, pair in enumerate(zip(before, after, strict=True)) if pair[0] != pair[1])
@@ -75,7 +75,7 @@ class Mutant:
 
 
 def iterate_words(source: bytes) -> Iterator[bytes]:
-    """The words of the code in their order, without includes, comments and the spaces between words."""
+    """The tokens of the code in order, without includes, comments and the spaces between tokens."""
     left = [Parser(LANGUAGE).parse(source).root_node]
     while left:
         node = left.pop()
@@ -88,7 +88,7 @@ def iterate_words(source: bytes) -> Iterator[bytes]:
 
 
 def make_mutants(file: str, source: bytes) -> list[Mutant]:
-    """All mutants of `source`, in order of place. Two changes that give one text are one mutant."""
+    """All mutants of `source`, sorted by location. Two changes with equal results are one mutant."""
     mutants: list[Mutant] = []
     seen: set[bytes] = {source}
     changes = {
@@ -108,7 +108,7 @@ def _keep_lines(node: Node, replacement: str) -> str:
 
 
 def _walk(root: Node) -> Iterator[tuple[Node, str, str]]:
-    """(node, operator, what replaces the node) for every change below `root`."""
+    """(node, operator, replacement of the node) for every change below `root`."""
     pending = [root]
     while pending:
         node = pending.pop()
@@ -181,7 +181,7 @@ def _change_return(node: Node) -> Iterator[tuple[Node, str, str]]:
 
 
 def _get_return_type(node: Node) -> str:
-    """Of the function that encloses `node`; nothing in a lambda, whose type is not written."""
+    """Return type of the function that encloses `node`; nothing in a lambda, whose type is not written."""
     above = node.parent
     while above is not None and above.type not in ("function_definition", "lambda_expression"):
         above = above.parent
@@ -190,7 +190,7 @@ def _get_return_type(node: Node) -> str:
 
 
 def _negate(condition: Node | None) -> Iterator[tuple[Node, str, str]]:
-    """The condition of a statement, or an operand of `&&` or `||`, but for what another operator turns round."""
+    """The condition of a statement, or an operand of `&&` or `||`, except those that another operator negates."""
     while condition is not None and condition.type in ("condition_clause", "parenthesized_expression"):
         condition = condition.named_children[0] if condition.named_child_count == 1 else None
     if condition is not None and condition.type != "declaration" and not _is_covered(condition):
@@ -198,14 +198,14 @@ def _negate(condition: Node | None) -> Iterator[tuple[Node, str, str]]:
 
 
 def _is_covered(node: Node) -> bool:
-    """Comparisons, connectives, `!x` and literals have mutants of their own that turn them round."""
+    """Comparisons, connectives, `!x` and literals have their own mutants that negate them."""
     if node.type == "binary_expression":
         return _operator(node) in (*COMPARISONS, *CONNECTIVES)
     return node.type in ("true", "false") or (node.type == "unary_expression" and _operator(node) == "!")
 
 
 def _is_number_of_check(node: Node) -> bool:
-    """The first argument of a check names it and decides nothing."""
+    """The first argument of a check is its number and has no effect on the condition."""
     arguments = node.parent
     if arguments is None or arguments.type != "argument_list" or arguments.parent is None:
         return False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One run: chooses mutants, tries them on several benches at once, writes the evidence.
+"""One run: selects mutants, tries them on several benches in parallel, writes the evidence.
 
 @satisfies SWR-VER-004, SWR-VER-005, SWR-VER-006      Design: docs/design/test_strength.md#score
 """
@@ -25,13 +25,13 @@ from verification.mutation.trial import KILLED, SURVIVED, Result, Suspect, judge
 from verification.mutation.workbench import TEST_TIMEOUT_S, Baseline, Bench
 
 SCHEMA = "mamori.mutation/3"
-SWEEP = 400  # mutants between two times that those are judged which are left
+SWEEP = 400  # mutants between two evaluations of the remaining ones
 Progress = Callable[[Result, int, int], None]
 
 
 @dataclass(frozen=True)
 class Selection:
-    """Which mutants are tried. `size` None: all of them."""
+    """The mutants to try. `size` None: all of them."""
 
     files: tuple[str, ...]
     size: int | None = None
@@ -40,7 +40,7 @@ class Selection:
 
 @dataclass(frozen=True)
 class Plan:
-    """What a selection means for the sources as they are."""
+    """A selection applied to the current sources."""
 
     sources: dict[str, bytes]
     mutants: tuple[Mutant, ...]
@@ -51,11 +51,11 @@ class Plan:
 
 @dataclass(frozen=True)
 class Report:
-    """What came of a plan."""
+    """Results of a plan."""
 
     plan: Plan
     results: tuple[Result, ...]
-    wrong_rows: tuple[tuple[Row, Result], ...]  # listed as equivalent, and yet killed
+    wrong_rows: tuple[tuple[Row, Result], ...]  # listed as equivalent, but killed
 
     @property
     def files(self) -> dict[str, Counts]:
@@ -79,7 +79,7 @@ class Report:
 
     @property
     def is_consistent(self) -> bool:
-        """True when each row of the list of equivalent mutants names one that no test finds."""
+        """True if each row of the list of equivalent mutants names one that no test finds."""
         return not self.plan.unused and not self.wrong_rows
 
 
@@ -99,8 +99,8 @@ def try_mutants(
     sources: Sources, mutants: Sequence[Mutant], texts: Mapping[str, bytes], folder: Path, jobs: int,
     note: Callable[[Result], None], test_timeout_s: float = TEST_TIMEOUT_S,
 ) -> None:  # fmt: skip
-    """Tries `mutants` of one layer and tells `note` of each. @param texts of the files as they are. @raise WorkError when
-    the tests do not pass as they are."""
+    """Tries `mutants` of one layer and reports each to `note`. @param texts of the current files. @raise WorkError if
+    the tests do not pass on the unchanged layer."""
     baseline = Baseline(sources, folder, jobs, test_timeout_s)
     benches: queue.SimpleQueue[Bench] = queue.SimpleQueue()
     for number in range(jobs):
@@ -133,7 +133,7 @@ def try_mutants(
 
 
 class Tally:
-    """Results as they come in."""
+    """Results in order of arrival."""
 
     def __init__(self, plan: Plan, progress: Progress) -> None:
         self._plan = plan
@@ -150,7 +150,7 @@ class Tally:
         self._progress(result, len(self._results), len(self._plan.mutants))
 
     def make_report(self) -> Report:
-        """In the order of the places, whichever came first."""
+        """Sorted by location, in any order of arrival."""
         return Report(self._plan, tuple(sorted(self._results, key=lambda result: result.mutant)),
                       tuple(sorted(self._wrong, key=lambda wrong: wrong[1].mutant)))  # fmt: skip
 
@@ -176,7 +176,7 @@ def make_table(files: dict[str, Counts]) -> str:
 
 
 def write_json(path: Path, report: Report, selection: Selection, stored: Standing) -> None:
-    """Writes the whole file or nothing. @param stored what whole runs said, beside which this run stands."""
+    """Writes the file atomically. @param stored result of complete runs, which is shown with this run."""
     content = {
         "schema": SCHEMA,
         "passed": report.passed,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From verdicts to a score, and from a score to yes or no.
+"""Calculates a score from verdicts, and compares the score with its limit.
 
 @satisfies SWR-VER-005, SWR-VER-006      Design: docs/design/test_strength.md#score
 """
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from verification.mutation.sources import LAYERS, Layer, get_layer
 from verification.mutation.trial import EQUIVALENT, INVALID, KILLED, SURVIVED, Result
 
-DOUBT = 0.05  # a sample is believed to contradict the bar when so good a layer would give it this rarely
+DOUBT = 0.05  # a sample contradicts the limit if a layer at the limit would give such a sample with a probability below this
 NORMAL_975 = 1.959964  # two-sided 95 % of the normal distribution
 LISTED = "listed as equivalent"
 
@@ -30,7 +30,7 @@ class Counts:
 
     @property
     def valid(self) -> int:
-        """Mutants that a test could tell from the original."""
+        """Mutants that a test could distinguish from the original."""
         return self.killed + self.survived
 
     @property
@@ -39,7 +39,7 @@ class Counts:
 
     @property
     def score(self) -> float:
-        """Share of the valid mutants that were killed; 1 when there was none."""
+        """Share of the valid mutants that were killed; 1 if there was none."""
         return self.killed / self.valid if self.valid else 1.0
 
     def add(self, verdict: str) -> None:
@@ -70,15 +70,15 @@ def add_up_layers(files: dict[str, Counts]) -> dict[Layer, Counts]:
 
 
 def is_met(counts: Counts, bar: float, is_sample: bool) -> bool:
-    """A whole run is held against the bar itself. A sample may fall short of it by chance: it fails when a layer that just
-    meets the bar would leave so many survivors in it with a probability below DOUBT."""
+    """A complete run is compared with the limit itself. A sample may miss the limit by chance: it fails if a layer at the limit
+    would leave so many survivors in it with a probability below DOUBT."""
     if not is_sample:
         return counts.score >= bar
     return calc_chance(counts.survived, counts.valid, bar) >= DOUBT
 
 
 def calc_chance(survived: int, valid: int, bar: float) -> float:
-    """Probability of at least `survived` survivors among `valid` mutants when each survives with probability 1 - `bar`."""
+    """Probability of at least `survived` survivors among `valid` mutants if each survives with probability 1 - `bar`."""
     return math.fsum(math.comb(valid, k) * (1.0 - bar) ** k * bar ** (valid - k) for k in range(survived, valid + 1))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the layers and their tests consist of, and how each file is compiled; CMake is asked, so nothing is said twice.
+"""Files of the layers and their tests, and the compiler options of each file, which CMake reports.
 
 @satisfies SWR-VER-005      Design: docs/design/test_strength.md#counted-mutants
 """
@@ -20,7 +20,7 @@ COMPILER = "clang++-19"
 
 @dataclass(frozen=True)
 class Layer:
-    """A layer whose own tests are to find the faults in it: which share of them, and the layers that it stands on."""
+    """A layer whose own tests must find its faults: the required share of them, and the layers that it uses."""
 
     name: str
     bar: float
@@ -36,7 +36,7 @@ def get_layer(file: str) -> Layer:
 
 
 def list_files(root: Path, layers: Sequence[Layer] = LAYERS) -> list[str]:
-    """Files that are mutated, relative to the root: headers and sources of `layers`, no tests."""
+    """Files that are mutated, relative to the root: headers and sources of `layers`, without tests."""
     folders = [root / layer.name for layer in layers]
     patterns = ("include/**/*.hpp", "src/**/*.hpp", "src/**/*.cpp")
     return sorted(path.relative_to(root).as_posix() for folder in folders for pattern in patterns for path in folder.glob(pattern))
@@ -44,7 +44,7 @@ def list_files(root: Path, layers: Sequence[Layer] = LAYERS) -> list[str]:
 
 @dataclass(frozen=True)
 class Unit:
-    """One file that is compiled: `path` relative to its layer's folder, and flags that decide what it means."""
+    """One compiled file: `path` relative to the folder of its layer, and flags that affect its meaning."""
 
     path: str
     flags: tuple[str, ...]
@@ -60,8 +60,8 @@ class Unit:
 
 @dataclass(frozen=True)
 class Sources:
-    """A layer below `root`, its units, the sources (relative to `root`) that it stands on, and the header that all its tests
-    begin with."""
+    """A layer below `root`, its units, the sources (relative to `root`) that it uses, and the header that all its tests
+    include first."""
 
     root: Path
     units: tuple[Unit, ...]
@@ -91,7 +91,7 @@ def read_sources(root: Path, build: Path, layer: Layer) -> Sources:
 
 
 def _select_units(entries: Sequence[dict[str, str]], folder: Path, base: Path) -> list[Unit]:
-    """Units below `folder`, each once though several programs may compile it, with paths relative to `base`."""
+    """Units below `folder`, each once although several programs may compile it, with paths relative to `base`."""
     units = {
         path: Unit(path.relative_to(base).as_posix(), keep_flags(shlex.split(entry["command"])))
         for entry in entries
@@ -101,8 +101,8 @@ def _select_units(entries: Sequence[dict[str, str]], folder: Path, base: Path) -
 
 
 def keep_flags(command: list[str]) -> tuple[str, ...]:
-    """Language, folders and definitions. Warnings, optimisation and names of files are the workbench's own affair: a mutant
-    that only a warning would refuse must be found by a test."""
+    """Language, folders and definitions. The workbench sets warnings, optimisation and file names itself: a mutant
+    that only a warning would reject must be found by a test."""
     flags: list[str] = []
     words = iter(command)
     for word in words:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each operator makes the changes that the design note names, and no others.
+# Goal: each operator makes the changes that the design document names, and no others.
 # Method: short texts, each with all its mutants.
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Judges mutants: each alone by the tests that most likely find it, and those that are left together by all the others.
+"""Tries mutants: each alone by the tests that most likely find it, and the remaining ones together by all other tests.
 
-Most mutants are found by one of a few tests. Those that are not would have to be compiled into every test that includes their
-file, most of them for nothing; so they go into one copy, which is tried once for all of them. The cases of
-a test that fail for all are run for each of them alone, and only that counts as found. So a mutant that survives has passed every
-case of every test, alone or in company.
+One of a few tests finds most mutants. The remaining ones would have to be compiled into every test that includes their
+file, mostly without effect. They are therefore put into one copy, which is tried once for all of them. The cases of
+a test that fail for all are run for each mutant alone, and only that counts as found. A surviving mutant has therefore passed
+every case of every test, alone or together with others.
 
 @satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#counted-mutants
 """
@@ -25,23 +25,23 @@ SURVIVED = "survived"
 INVALID = "does not compile"
 EQUIVALENT = "same object code"
 
-LIKELY = 4  # tests that a mutant is tried by alone
+LIKELY = 4  # tests that try a mutant alone
 COMPANY = 20  # mutants that are tried together
 
-# The compiler evaluates tables and checks of tables: a mutant that it refuses for their sake was found by a check.
+# The compiler evaluates tables and their checks: a mutant that it rejects for that reason counts as found by a check.
 COMPILE_TIME_CHECK = re.compile(
     r"static assertion failed|static assertion expression is not an integral constant"
     r"|must be initialized by a constant expression|is not a constant expression"
 )
 FAILED_CASE = re.compile(r"^\[  FAILED  \] (\w[\w/]*\.[\w/]+)", re.MULTILINE)
-CASES_FAILED = 1  # status of a test program that came to its end
+CASES_FAILED = 1  # exit status of a test program that ran to its end
 AT_ONCE = ("--gtest_fail_fast",)
 FIRST_ERROR = re.compile(r"error: (?P<text>[^\n]*)")
 
 
 @dataclass(frozen=True)
 class Result:
-    """What became of one mutant, and who killed it."""
+    """The result of one mutant, and the test that killed it."""
 
     mutant: Mutant
     verdict: str
@@ -50,7 +50,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Suspect:
-    """A mutant that has passed the likely tests alone, and the units whose objects it was seen to change."""
+    """A mutant that has passed the likely tests alone, and the units whose objects it changed."""
 
     mutant: Mutant
     passed: frozenset[str]
@@ -59,7 +59,7 @@ class Suspect:
 
 @dataclass(frozen=True)
 class Fate:
-    """Why the mutants of a trial are no original. `cases` of the test failed, when only some of them did."""
+    """Why the mutants of a trial differ from the original. `cases`: the failed cases of the test, if not all failed."""
 
     verdict: str
     killer: str = ""
@@ -67,10 +67,10 @@ class Fate:
 
 
 class Trial:
-    """Mutants that are in the copy of a bench at the same time, and what was compiled of it so far."""
+    """Mutants that are in the copy of a bench at the same time, and the units compiled from it so far."""
 
     def __init__(self, bench: Bench, mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> None:
-        """@param mutants no two of which change one place."""
+        """@param mutants at different locations."""
         self._bench = bench
         self._texts = apply(mutants, sources)
         self._objects = bench.folder / ("alone" if len(mutants) == 1 else "together")
@@ -82,12 +82,12 @@ class Trial:
         self.differing: list[Unit] = []
 
     def concerns(self, test: Unit) -> bool:
-        """Whether the program of `test` may be another one."""
+        """Whether the program of `test` may differ."""
         parts = {test.path, *self._bench.baseline.links[test.path]}
         return test.path in self._bound or not parts.isdisjoint(self._left) or not parts.isdisjoint(self._changed)
 
     def run(self, test: Unit, options: Sequence[str]) -> Fate | None:
-        """Compiles what the program of `test` consists of, and runs it if a byte of it changed. @return None when it passes."""
+        """Compiles the units of the program of `test`, and runs it if a byte of it changed. @return None if it passes."""
         parts = {test.path, *self._bench.baseline.links[test.path]}
         for unit in [self._left[path] for path in sorted(parts & self._left.keys())]:
             if fate := self.compile(unit):
@@ -102,7 +102,7 @@ class Trial:
         return Fate(KILLED, f"{test.path} {words}" if words == TIMED_OUT else test.path, cases)
 
     def compile(self, unit: Unit) -> Fate | None:
-        """Compiles `unit` if that is still to be done. @return why it is refused, or None."""
+        """Compiles `unit` unless that was already done. @return the compiler's reason for rejecting it, or None."""
         if unit.path not in self._left:
             return None
         self._bench.put(self._texts)
@@ -119,7 +119,7 @@ class Trial:
         return None
 
     def has_same_code(self, units: Iterable[Unit]) -> bool:
-        """Whether the optimised code of all `units` is that of the original."""
+        """Whether the optimised code of all `units` equals that of the original."""
         self._bench.put(self._texts)
         return all(self._bench.hash_assembler(unit) == self._bench.baseline.get_assembler(unit)
                    for unit in units if unit.path not in self._bound)  # fmt: skip
@@ -128,7 +128,7 @@ class Trial:
 def apply(mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> dict[str, bytes]:
     """The files that `mutants` change, with all changes."""
     texts: dict[str, bytes] = {}
-    for mutant in sorted(mutants, reverse=True):  # the last place first, so that the places before it stay
+    for mutant in sorted(mutants, reverse=True):  # the last location first, so that earlier locations stay valid
         texts[mutant.file] = mutant.apply(texts.get(mutant.file, sources[mutant.file]))
     return texts
 
@@ -149,7 +149,7 @@ def screen(bench: Bench, mutant: Mutant, sources: Mapping[str, bytes]) -> Result
 
 
 def judge_together(bench: Bench, suspects: Sequence[Suspect], sources: Mapping[str, bytes]) -> list[Result]:
-    """Tries `suspects` together by all tests that they have not passed yet; their order is that of the results."""
+    """Tries `suspects` together by all tests that they have not passed yet; the results have their order."""
     court = Court(bench, suspects, sources)
     files = {suspect.mutant.file for suspect in suspects}
     for test in bench.baseline.order_tests(files):
@@ -161,7 +161,7 @@ def judge_together(bench: Bench, suspects: Sequence[Suspect], sources: Mapping[s
 
 
 class Court:
-    """Suspects that are tried together, of which those that are found leave."""
+    """Suspects that are tried together; found ones are removed."""
 
     def __init__(self, bench: Bench, suspects: Sequence[Suspect], sources: Mapping[str, bytes]) -> None:
         self._bench = bench
@@ -173,7 +173,7 @@ class Court:
         self._together = self._gather()
 
     def try_all(self, test: Unit) -> None:
-        """Runs `test` for all, and the cases of it that fail for each alone."""
+        """Runs `test` for all, and its failing cases for each alone."""
         due = [suspect for suspect in self._alive if test.path not in suspect.passed]
         if due and self._together.concerns(test):
             fate = self._together.run(test, AT_ONCE if len(self._alive) == 1 else ())
@@ -181,7 +181,7 @@ class Court:
             self._decide(due, test, fate, lambda trial: trial.run(test, options))
 
     def compile_all(self, unit: Unit) -> None:
-        """The same for a unit that is to compile and to do no more."""
+        """The same for a unit that only has to compile."""
         if self._alive:
             self._decide(self._alive, unit, self._together.compile(unit), lambda trial: trial.compile(unit))
 
@@ -198,15 +198,15 @@ class Court:
         return [self._results[suspect.mutant] for suspect in self._suspects]
 
     def _sort_by_code(self) -> dict[Unit, bool]:
-        """The units that may differ, and whether their optimised code is the same when all that are left are in it: where it is
-        not, one of them alone is soonest seen to differ."""
+        """The units that may differ, and whether their optimised code is the same with all remaining mutants in it: if it is
+        not, trying one alone shows the difference soonest."""
         units = list(self._differing.values())
         if len(self._alive) < 2:
             return dict.fromkeys(units, False)
         return {unit: self._together.has_same_code((unit,)) for unit in units}
 
     def _decide(self, due: Sequence[Suspect], unit: Unit, fate: Fate | None, attempt: Callable[[Trial], Fate | None]) -> None:
-        """@param fate of all together. @param attempt tells that of one alone."""
+        """@param fate result of all together. @param attempt returns that of one alone."""
         if fate is None:
             return
         fates = {due[0]: fate} if len(self._alive) == 1 else {suspect: attempt(self._alone(suspect)) for suspect in due}
@@ -229,8 +229,8 @@ class Court:
 
 
 def make_companies(suspects: Sequence[Suspect], count: int) -> list[list[Suspect]]:
-    """Deals `suspects` to at least `count` companies of at most COMPANY, so that neighbours come apart and no two of one company
-    change one place."""
+    """Distributes `suspects` to at least `count` groups of at most COMPANY, so that adjacent ones are separated and all mutants of a
+    group are at different locations."""
     companies: list[list[Suspect]] = [[] for _ in range(max(count, -(-len(suspects) // COMPANY)))]
     for suspect in suspects:
         company = next((each for each in sorted(companies, key=len) if len(each) < COMPANY and _fits(suspect, each)), None)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compiles mutants of a private copy of a layer and runs its tests on them, in bounded time and memory.
 
-Each test file is a program of its own, so that the one that most likely finds the fault is compiled and run first and the
-others need not be built once it has.
+Each test file is a separate program, so that the test that most likely finds the fault is compiled and run first and the
+others need not be built after it has.
 
 @satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#counted-mutants
 """
@@ -26,9 +26,9 @@ from mamori_trace.base.errors import WorkError
 from verification.mutation.sources import COMPILER, Sources, Unit
 
 COMPILE_TIMEOUT_S = 120.0
-TEST_TIMEOUT_S = 10.0  # added to what a test may need
-TEST_PATIENCE = 5.0  # times what the test took on the unchanged layer
-SLOWEST_TEST_S = 240.0  # of the unchanged layer, on a busy machine
+TEST_TIMEOUT_S = 10.0  # added to the maximum time of a test
+TEST_PATIENCE = 5.0  # times the duration of the test on the unchanged layer
+SLOWEST_TEST_S = 240.0  # of the unchanged layer, on a busy host
 MEMORY_KIB = 4 * 1024 * 1024
 FILE_BLOCKS = 64 * 1024  # of 512 bytes, that a test may write
 LIBRARIES = ("-lgtest_main", "-lgtest", "-lpthread")
@@ -37,22 +37,22 @@ COMPARED_FLAGS = ("-O2", "-g0", "-w", "-fno-ident", "-UNDEBUG", "-ffp-contract=o
 
 
 class Baseline:
-    """The layer as it is: its objects, what each unit includes, what each test links and how long it takes, and the order
+    """The unchanged layer: its objects, the includes of each unit, the objects and duration of each test, and the order
     of the tests. Shared by all benches."""
 
     def __init__(self, sources: Sources, folder: Path, jobs: int, test_timeout_s: float = TEST_TIMEOUT_S) -> None:
-        """Compiles every unit and runs every test. @param folder empty or new. @raise WorkError when a test does not
-        pass as it is."""
+        """Compiles every unit and runs every test. @param folder empty or new. @raise WorkError if a test does not
+        pass on the unchanged layer."""
         self.sources = sources
         self.folder = folder
         self.test_timeout_s = test_timeout_s
         self.includes: dict[str, frozenset[str]] = {}
         self.links: dict[str, frozenset[str]] = {}
         self.archive = folder / "liblayer.a"
-        self.is_stopped = False  # benches begin nothing any more: the judgement of many mutants takes minutes
+        self.is_stopped = False  # benches start no further work: the evaluation of many mutants takes minutes
         self.archives = [self.archive]  # in the order in which the linker needs them
         self._took_s: dict[str, float] = {}
-        self._kills: Counter[tuple[str, str]] = Counter()  # by file that was mutated and path of the test
+        self._kills: Counter[tuple[str, str]] = Counter()  # by mutated file and path of the test
         self._assembler: dict[str, str] = {}
         self._texts = {test.path: (sources.folder / test.path).read_text(encoding="utf-8") for test in self.tests}
         (folder / "objects").mkdir(parents=True)
@@ -77,8 +77,8 @@ class Baseline:
         return self.folder / "objects" / (unit.path.replace("/", "_") + ".o")
 
     def order_tests(self, files: Collection[str]) -> list[Unit]:
-        """Tests by how likely they find a fault in one of `files`: those that found most of them so far, named after it, after
-        its beginning, naming it, after its first word, including it. Of equals the quick ones come first."""
+        """Tests sorted by their likelihood to find a fault in one of `files`: most faults found so far; then name equal to that of the file,
+        name beginning with it, direct include, same first word, indirect include. Of equals the fastest comes first."""
 
         def rank(test: Unit) -> tuple[int, int, int, str]:
             kills = sum(self._kills[file, test.path] for file in files)
@@ -99,7 +99,7 @@ class Baseline:
         return next((place for place, mark in enumerate(marks) if mark), len(marks))
 
     def note_kill(self, file: str, test: Unit) -> None:
-        """Only the order depends on it, in which benches come to their verdicts; the verdicts do not."""
+        """Only the order of the verdicts depends on it; the verdicts do not."""
         self._kills[file, test.path] += 1
 
     def find_units(self, files: Collection[str]) -> list[Unit]:
@@ -108,22 +108,22 @@ class Baseline:
         return [unit for unit in self.sources.units if unit.path in names or not names.isdisjoint(self.includes[unit.path])]
 
     def calc_timeout(self, test: Unit) -> float:
-        """Seconds after which a test of a mutant is taken for one that never ends."""
+        """Seconds after which a test of a mutant counts as endless."""
         return self.test_timeout_s + TEST_PATIENCE * self._took_s[test.path]
 
     def find_bound(self) -> list[Unit]:
-        """Units that are told by a definition where the layer lies: tests that call the compiler themselves."""
+        """Units with a definition of the folder of the layer: tests that call the compiler themselves."""
         place = str(self.sources.folder)
         return [unit for unit in self.sources.units if any(flag.startswith("-D") and place in flag for flag in unit.flags)]
 
     def get_assembler(self, unit: Unit) -> str:
-        """Fingerprint of the optimised code of the original. Two benches may both compute it; it is the same."""
+        """Fingerprint of the optimised code of the original. Two benches may both compute it; the result is the same."""
         if unit.path not in self._assembler:
             self._assembler[unit.path] = self._bench.hash_assembler(unit)
         return self._assembler[unit.path]
 
     def _make_prefix(self, name: str, flags: Iterable[str]) -> Path:
-        """The headers that every test begins with, compiled once."""
+        """The headers that every test includes first, compiled once."""
         header = self.folder / f"{name}.hpp"
         header.write_text(f'#include "{self.sources.prefix_header}"\n', encoding="utf-8")
         prefix = header.with_suffix(".pch")
@@ -142,7 +142,7 @@ class Baseline:
         return ""
 
     def _compile_below(self, unit: Unit) -> str:
-        """What the layer stands on never changes, so it is compiled where it lies."""
+        """The lower layers never change, so they are compiled in their original folder."""
         status, words = _run((COMPILER, *unit.flags, *TEST_FLAGS, "-c", str(self.sources.root / unit.path),
                               "-o", str(self._get_object_below(unit))), COMPILE_TIMEOUT_S)  # fmt: skip
         return "" if status == 0 else f"{unit.path}: {words}"
@@ -151,7 +151,7 @@ class Baseline:
         return self.folder / "objects" / ("below_" + unit.path.replace("/", "_") + ".o")
 
     def _make_archives(self) -> None:
-        """All sources in libraries, of which the linker takes what a test needs."""
+        """All sources in libraries, from which the linker takes the objects that a test needs."""
         self._make_archive(self.archive, [self.get_object(unit) for unit in self.sources.units if not unit.is_test])
         if self.sources.below:
             self.archives.append(self.folder / "libbelow.a")
@@ -163,7 +163,7 @@ class Baseline:
             raise WorkError(f"the objects of {self.sources.layer} do not go into {archive.name}:\n{words}")
 
     def _measure(self, test: Unit, bench: Bench) -> str:
-        """Notes what a test links and how long it runs. @return what is wrong with it, or nothing."""
+        """Records the objects and the duration of a test. @return what is wrong with it, or nothing."""
         taken = bench.trace_link(test)
         self.links[test.path] = frozenset(unit.path for unit in self.sources.units if self.get_object(unit).name in taken)
         began = time.monotonic()
@@ -185,7 +185,7 @@ class Bench:
         shutil.copytree(self._sources.folder, self._layer)
 
     def put(self, texts: Mapping[str, bytes]) -> None:
-        """Makes the copy the original but for `texts`, by path relative to the root."""
+        """Makes the copy equal to the original except for `texts`, by path relative to the root."""
         for file in self._changed - texts.keys():
             (self.folder / file).write_bytes(self._originals[file])
         for file, text in texts.items():
@@ -194,7 +194,7 @@ class Bench:
         self._changed = set(texts)
 
     def compile(self, unit: Unit, output: Path, *options: str) -> tuple[int, str]:
-        """@return status and the compiler's words."""
+        """@return status and message of the compiler."""
         prefix = _include(unit, self.baseline.prefix)
         return self._run((COMPILER, *self._map(unit), *TEST_FLAGS, *prefix, *options, "-c", str(self._layer / unit.path),
                      "-o", str(output)), COMPILE_TIMEOUT_S)  # fmt: skip
@@ -205,7 +205,7 @@ class Bench:
         return "" if status == 0 else f"{test.path}: {words.strip()[-500:] or f'status {status}'}"
 
     def hash_assembler(self, unit: Unit) -> str:
-        """Fingerprint of the optimised code of a unit; empty when it does not compile."""
+        """Fingerprint of the optimised code of a unit; empty if it does not compile."""
         output = self.folder / "compared.s"
         output.unlink(missing_ok=True)
         prefix = _include(unit, self.baseline.compared_prefix)
@@ -223,18 +223,18 @@ class Bench:
         return frozenset(path.relative_to(self._layer).as_posix() for path in paths if path.is_relative_to(self._layer))
 
     def _map(self, unit: Unit) -> Iterable[str]:
-        """Flags that point into this copy. File names in checks must not tell one copy from another."""
+        """Flags with paths into this copy. File names in checks must not differ between copies."""
         original = str(self._sources.folder)
         return (*(flag.replace(original, str(self._layer)) for flag in unit.flags), f"-ffile-prefix-map={self.folder}/=")
 
     def trace_link(self, test: Unit) -> set[str]:
-        """@return names of the objects that the test takes from the library of the unchanged layer."""
+        """@return names of the objects that the test links from the library of the unchanged layer."""
         _, words = self._link(test, {}, "-Wl,-t,-t")
         return set(re.findall(rf"^\({re.escape(str(self.baseline.archive))}\)(\S+)$", words, re.MULTILINE))
 
     def run_test(self, test: Unit, changed: Mapping[str, Path], timeout_s: float, *options: str) -> tuple[int, str]:
-        """Links and runs one test. @param changed objects that take the place of the original ones. @param options for the test.
-        @return status, and why when it is not 0."""
+        """Links and runs one test. @param changed objects that replace the original ones. @param options for the test.
+        @return status, and the reason if it is not 0."""
         status, words = self._link(test, changed)
         if status != 0:
             return status, words
@@ -247,7 +247,7 @@ class Bench:
                      "-o", str(self._program(test))), COMPILE_TIMEOUT_S)  # fmt: skip
 
     def _program(self, test: Unit) -> Path:
-        """One for each test: tests of the unchanged layer run at the same time."""
+        """One for each test, because tests of the unchanged layer run in parallel."""
         return self.folder / (test.path.replace("/", "_") + ".program")
 
     def _run(self, argv: Iterable[str], timeout_s: float, cwd: Path | None = None) -> tuple[int, str]:
@@ -264,9 +264,9 @@ TIMED_OUT = "timed out"
 
 
 def _run(argv: Iterable[str], timeout_s: float, cwd: Path | None = None) -> tuple[int, str]:
-    """Runs a program with bounded memory and files in a session of its own, all of which ends with it.
+    """Runs a program with bounded memory and files in a separate session, which ends with it.
 
-    @return status and output; status 124 and TIMED_OUT when it did not end."""
+    @return status and output; status 124 and TIMED_OUT if it did not end."""
     limited = ("/bin/sh", "-c", f'ulimit -v {MEMORY_KIB} -c 0 -f {FILE_BLOCKS}; exec "$@"', "sh", *argv)
     environment = {name: value for name, value in os.environ.items() if not name.startswith("GTEST_")}
     with subprocess.Popen(limited, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=cwd,

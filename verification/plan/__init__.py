@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The steps of `./mamori test`: what proves Mamori itself."""
+"""The steps of `./mamori test`, which verify Mamori itself."""

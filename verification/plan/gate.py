@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The steps that prove Mamori itself. A new check is a new row.
+"""The steps that verify Mamori itself. A new check is a new row.
 
 @satisfies SWR-CLI-006, SWR-CLI-012      Design: docs/design/launcher.md#steps
 """
@@ -18,7 +18,7 @@ FUZZ_S, LONG_FUZZ_S = 5, 600  # time for each harness
 
 
 def ctest_step(preset: str, tier: Tier = Tier.QUICK, *options: str) -> Step:
-    """@param options of ctest that choose tests."""
+    """@param options of ctest that select tests."""
     return Step(
         name=f"tests {preset}",
         commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error", *options), (*REPEAT, preset)),
@@ -41,7 +41,7 @@ def faults_step(preset: str, tier: Tier = Tier.QUICK) -> Step:
 
 
 def race_steps() -> tuple[Step, ...]:
-    """What two cores share, under the thread sanitizer: these programs alone, since nothing else has threads."""
+    """Data shared by two cores, under the thread sanitizer: only these programs, because no other program has threads."""
     preset = "host-tsan"
     targets = ("kernel_abandon_stress_test", "kernel_crossing_test", "kernel_introspection_stress_test", "kernel_mode_stress_test",
                "kernel_stimulus_stress_test", "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test", "supervision_log_test",
@@ -74,7 +74,7 @@ def proof_step(name: str, file: str, needs: tuple[str, ...] = (BUILD,), tier: Ti
 
 
 def benchmark_step() -> Step:
-    """Exact counts against their baseline, and a short run of the benchmarks. Times are no part of any test."""
+    """Exact counts compared with their baseline, and a short run of the benchmarks. No test depends on times."""
     return Step(
         name="exact instruction counts",
         commands=(
@@ -87,7 +87,7 @@ def benchmark_step() -> Step:
 
 
 def comparison_step() -> Step:
-    """End-to-end protection beside another implementation, on random frames."""
+    """End-to-end protection compared with an independent implementation, on random messages."""
     return Step(
         name="comparison of end-to-end protection",
         commands=((*PYTEST, "verification/e2e/test_differential.py"),),
@@ -135,7 +135,7 @@ def tidy_step() -> Step:
     )  # fmt: skip
 
 
-# A part of a table states the constants that it changes; NoTypes has those of a part that changes nothing.
+# A part of a table states the constants that it changes; NoTypes contains those of a part that changes nothing.
 PARTS_HIDE_CONSTANTS = "--suppress=duplInheritedMember:kernel/include/mamori/kernel/*part*.hpp"
 
 
@@ -157,7 +157,7 @@ def cppcheck_step(project: Project) -> Step:
 
 
 def strength_steps() -> tuple[Step, ...]:
-    """How strong the tests are: what they reach, which faults they find, and what random bytes find (test_strength.md)."""
+    """Test adequacy: coverage, detected mutants, and findings of random bytes (test_strength.md)."""
     folder = "verification"
     return (
         Step(name="MC/DC of kernel and safety", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
@@ -172,7 +172,7 @@ def make_fuzz_command(seconds: int) -> tuple[str, ...]:
 
 
 def long_steps() -> tuple[Step, ...]:
-    """What takes hours, or a host of its own for a while: run before a release, and recorded with date and commit."""
+    """Steps that take hours, or need an idle host for a while: run before a release, and recorded with date and commit."""
 
     def campaign(kind: str, *arguments: str) -> Step:
         return Step(
@@ -194,7 +194,7 @@ def long_steps() -> tuple[Step, ...]:
 
 
 def cost_step() -> Step:
-    """Instructions of the components of the safe arm against its budgets and its baseline. Counts are exact, so a finding fails."""
+    """Instruction counts of the components of the safe arm, compared with its budgets and its baseline. Exact, so a finding fails."""
     return Step(
         name="cost of components",
         commands=((*COMMAND, "cost", "examples/safe_arm", "--check", "examples/safe_arm/cost_baseline.toml", "--jobs", "{jobs}"),),
@@ -210,7 +210,7 @@ def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
         ctest_step(RELEASE),
         faults_step(RELEASE),
         HOST_TOOLS,
-        # What only `./mamori test` runs may be missing here; what ran and failed may not.
+        # Results that only `./mamori test` produces may be missing here; existing results must not be failed.
         campaign_step(campaign),
         timing_step(),
         *trace_steps("--allow-missing"),
@@ -218,10 +218,10 @@ def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
 
 
 def list_test_steps(project: Project, campaign: Action, tier: Tier) -> tuple[Step, ...]:
-    # What must not compile takes a third of the time of all C++ tests, and depends on headers only.
+    # The compile-must-fail tests take a third of the time of all C++ tests, and depend on headers only.
     fewer = ("--exclude-regex", "compile_fail") if tier == Tier.QUICK else ()
     steps = (
-        # First, since it writes the stored rows: what all other results are made from is recorded after it.
+        # First, because it writes the stored rows: the inputs of all other results are recorded after it.
         Step(name="mutation rows", commands=((*COMMAND, "mutate", "--missing", "--store", "--jobs", "{jobs}"),), function=renew_environment,
              tier=Tier.ALL),
         build_step(RELEASE),

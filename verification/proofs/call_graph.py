@@ -18,12 +18,12 @@ from verification.proofs.object_code import UnitFacts, VirtualCall
 from verification.proofs.toolchain import Toolchain, run_tool
 
 RULES = Path(__file__).with_name("stack.toml")
-PURE = "__cxa_pure_virtual"  # never called: the call of a pure function is an own bug, and the image traps
+PURE = "__cxa_pure_virtual"  # never called: the call of a pure function is a contract violation, and the image traps
 
 
 @dataclass(frozen=True)
 class PointerRow:
-    """A call through a pointer: where it is, and which parameters its targets take."""
+    """A call through a pointer: its location, and the parameters of its targets."""
 
     file: str
     call: str  # text of the line
@@ -33,7 +33,7 @@ class PointerRow:
 
 @dataclass(frozen=True)
 class OutsideRow:
-    """A function without a frame of the compiler: assembler, or of a library."""
+    """A function without a frame size from the compiler: assembler, or of a library."""
 
     toolchain: str
     function: str
@@ -43,7 +43,7 @@ class OutsideRow:
 
 @dataclass(frozen=True)
 class Rules:
-    """The checked list: what the compiler cannot tell."""
+    """The checked list: facts that the compiler does not provide."""
 
     pointers: tuple[PointerRow, ...] = ()
     outside: tuple[OutsideRow, ...] = ()
@@ -60,11 +60,11 @@ class Function:
 
 @dataclass(frozen=True)
 class Finding:
-    """What keeps the stack from being bounded."""
+    """A reason why the stack is unbounded."""
 
     rule: str
     place: str  # file:line:column, or the checked list
-    message: str  # names the function, and how to mend it
+    message: str  # names the function, and the correction
 
     def __str__(self) -> str:
         return f"{self.place}: {self.rule}: {self.message}"
@@ -72,7 +72,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Resolved:
-    """An indirect call and what it may call."""
+    """An indirect call and its possible targets."""
 
     caller: str
     place: str
@@ -82,7 +82,7 @@ class Resolved:
 
 @dataclass
 class CallGraph:
-    """Functions by key: the symbol, of a local function with its source before it."""
+    """Functions by key: the symbol, preceded by the source for a local function."""
 
     functions: dict[str, Function] = field(default_factory=dict)
     calls: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
@@ -90,7 +90,7 @@ class CallGraph:
     resolved: list[Resolved] = field(default_factory=list)
     tables: dict[str, dict[int, str]] = field(default_factory=dict)  # virtual table -> offset -> function
     bases: dict[str, set[tuple[str, int]]] = field(default_factory=dict)
-    vectors: set[str] = field(default_factory=set)  # C functions whose address is taken: for the machine to call
+    vectors: set[str] = field(default_factory=set)  # C functions whose address is taken: the processor may call them
     findings: list[Finding] = field(default_factory=list)
 
 
@@ -102,12 +102,12 @@ def read_rules(path: Path = RULES) -> Rules:
 
 
 def make_call_graph(toolchain: Toolchain, root: Path, units: Sequence[UnitFacts], rules: Rules) -> CallGraph:
-    """The graph of all `units`; what is not known for certain is a finding in it."""
+    """The graph of all `units`; each uncertainty is a finding in it."""
     return _Joiner(toolchain, root, units, rules).join()
 
 
 def split_signature(demangled: str) -> tuple[str, str | None]:
-    """Name and parameters of a function as c++filt writes it; no parameters for a C function."""
+    """Name and parameters of a function in the notation of c++filt; no parameters for a C function."""
     text = re.sub(r" \[clone [^\]]*\]", "", demangled)
     text = re.sub(r"\)(?: (?:const|noexcept|&|&&))+$", ")", text)
     if not text.endswith(")"):
@@ -129,7 +129,7 @@ class _Joiner:
         self._units = units
         self._rules = rules
         self._graph = CallGraph()
-        self._taken: dict[str, str] = {}  # function -> where its address is taken
+        self._taken: dict[str, str] = {}  # function -> location where its address is taken
         self._known: set[str] = set()  # functions that a unit defines
         self._used_rows: set[PointerRow] = set()
         self._names: dict[str, str] = {}
@@ -149,7 +149,7 @@ class _Joiner:
         return self._graph
 
     def _get_key(self, unit: UnitFacts, symbol: str) -> str:
-        """An alias or a cold part is the function that the compiler gives a frame for."""
+        """An alias or a cold part is mapped to the function for which the compiler reports a frame."""
         where = unit.defined.get(symbol)
         if where is None:
             return symbol
@@ -224,7 +224,7 @@ class _Joiner:
         lines = path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
         code = lines[int(line) - 1].strip() if 0 < int(line) <= len(lines) else ""
         rows = [row for row in self._rules.pointers if row.file == file and row.call in code]
-        # Several calls at one place are copies of one that the compiler made, of a loop for instance.
+        # Several calls at one location are copies of one call that the compiler made, for instance of a loop.
         if len(rows) != 1 or (count > 1 and code.count(rows[0].call) != 1):
             why = "no row tells" if not rows else "no one row for one call tells"
             self._fail("indirect call", place, f"{self._get_name(caller)}: '{code}' calls through a pointer, and {why} what it "
@@ -251,9 +251,9 @@ class _Joiner:
                 self._fail("unused row", RULES.name, f"{row.file}: no indirect call is in a line with '{row.call}'; remove it")
 
     def _check_taken(self) -> None:
-        """Somebody calls what somebody keeps the address of: the tables, a row, or for a C function the machine."""
+        """Every function whose address is taken has a caller: the tables, a row, or for a C function the processor."""
         called = {target for resolved in self._graph.resolved for target in resolved.targets}
-        # The address of a virtual function is in tables, and in a guess of the compiler at what a call will find there.
+        # The address of a virtual function is in tables, and in speculative code of the compiler for its target.
         called.update(self._get_key(unit, frame.symbol)
                       for unit in self._units for frame in unit.frames.values() if frame.is_virtual)  # fmt: skip
         called.update(entry for entries in self._graph.tables.values() for entry in entries.values())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the proofs share: the source tree, its release build, compiling a seeded violation."""
+"""Fixtures of the proofs: the source tree, its release build, compilation of a seeded violation."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SUBSET_FLAGS = ("-std=c++17", "-O2", "-fno-exceptions", "-fno-rtti", "-fno-threa
 
 @pytest.fixture(scope="session")
 def project() -> Project:
-    """The source tree; its release build must be there (`./mamori build`)."""
+    """The source tree; its release build must exist (`./mamori build`)."""
     project = Project(ROOT)
     if not (project.build / "CMakeCache.txt").exists():
         pytest.skip(f"{project.build} is not built; run ./mamori build")

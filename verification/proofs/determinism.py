@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the safe arm again and again, as several compilers made it, and compares the port-trace hashes.
+"""Runs the safe arm repeatedly, compiled by several compilers, and compares the port-trace hashes.
 
 @satisfies SWR-PRF-005      Design: docs/design/launcher.md#determinism-proof
 """
@@ -21,14 +21,14 @@ RUN_TIMEOUT_S = 120
 
 @dataclass(frozen=True)
 class Variant:
-    """A way to compile the project."""
+    """A configuration of compiler and options."""
 
     name: str
     compiler: str
     flags: str
 
 
-# Beside g++ -O2 (host-release) and clang++ -O0 (host-asan), which the proof runs as they are.
+# In addition to g++ -O2 (host-release) and clang++ -O0 (host-asan), which the proof runs unchanged.
 VARIANTS = (
     Variant("gcc-O0", "g++", "-O0"),
     Variant("clang-O2", "clang++-19", "-O2"),
@@ -37,7 +37,7 @@ VARIANTS = (
 
 @dataclass(frozen=True)
 class Inputs:
-    """All that may decide the trace hash, but for the commit."""
+    """All inputs that may determine the trace hash, except the commit."""
 
     model: Path
     motion: Path
@@ -53,7 +53,7 @@ class Inputs:
 def build_variant(
     root: Path, build: Path, variant: Variant, target: str, jobs: int, options: Sequence[str] = ("-DMAMORI_BUILD_TESTS=OFF",)
 ) -> None:
-    """Configures and builds only `target`, without tests unless `options` say otherwise."""
+    """Configures and builds only `target`, without tests unless `options` specify them."""
     configure = ["cmake", "-S", str(root), "-B", str(build), "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={variant.compiler}",
                  f"-DCMAKE_CXX_FLAGS={variant.flags}", *options]  # fmt: skip
     for argv in (configure, ["cmake", "--build", str(build), "--parallel", str(jobs), "--target", target]):
@@ -63,7 +63,7 @@ def build_variant(
 
 
 def get_trace_hash(binary: Path, inputs: Inputs, out: Path) -> str:
-    """One run. @return the hash of its run.json, which must be new, whole, and of as many frames as asked."""
+    """One run. @return the hash of its run.json, which must be new, complete, and of the requested number of frames."""
     if not binary.is_file():
         raise WorkError(f"{binary} is missing; run ./mamori build")
     argv = [str(binary), "run", *inputs.arguments(), "--out", str(out)]
@@ -84,6 +84,6 @@ def get_trace_hash(binary: Path, inputs: Inputs, out: Path) -> str:
 
 
 def find_differences(wanted: str, hashes: Mapping[str, str] | Sequence[str]) -> list[str]:
-    """One line for each hash that is not `wanted`, with its name or number."""
+    """One line for each hash that differs from `wanted`, with its name or number."""
     named = hashes.items() if isinstance(hashes, Mapping) else enumerate(hashes, start=1)
     return [f"{name}: {found} instead of {wanted}" for name, found in named if found != wanted]

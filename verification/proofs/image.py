@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The small but whole system of verification/proofs/target: which sources it has, how it is linked, and its run in QEMU.
+"""The small but complete system of verification/proofs/target: its sources, its linking, and its run in QEMU.
 
 @satisfies SWR-PRF-024, SWR-PRF-027, SWR-PRF-028      Design: docs/design/proofs.md#watermark
 """
@@ -30,7 +30,7 @@ QEMU = ("qemu-system-arm", "-machine", "mps2-an386", "-display", "none", "-monit
 
 @dataclass(frozen=True)
 class Run:
-    """What the image told at its end."""
+    """Output of the image at its end."""
 
     frames: int
     overruns: int
@@ -41,7 +41,7 @@ class Run:
 
 
 def find_sources(root: Path, toolchain: Toolchain) -> list[str]:
-    """Sources of the image for one machine: target layers, port, its own, and each of the example that those include."""
+    """Sources of the image for one processor: target layers, port, its own, and those of the example that they include."""
     board = BOARD.get(toolchain.name, {"board_host"})
     boards = {"board_host"}.union(*BOARD.values())
     own = [path for path in sorted((root / TARGET).glob("*.cpp")) if path.stem in board or path.stem not in boards]
@@ -68,14 +68,14 @@ def link_image(root: Path, units: Sequence[Unit], result: Path, toolchain: Toolc
 
 
 def get_stack_size(image: Path) -> int:
-    """Bytes that the linker script gives to the stack."""
+    """Size of the stack in the linker script [bytes]."""
     lines = run_tool([f"{CORTEX_M4.prefix}nm", "--format=posix", str(image)]).splitlines()
     values = {line.split(" ")[0]: int(line.split(" ")[2], 16) for line in lines}
     return values["stack_top"] - values["stack_bottom"]
 
 
 def check_watermark(bound: int | None, used: int) -> str:
-    """@return what is wrong with a proven bound beside the stack that a run used [bytes]; nothing when they agree."""
+    """@return the contradiction between a proven bound and the stack that a run used [bytes]; nothing if they agree."""
     if bound is None:
         return "the program has no bound; see the findings of the stack proof"
     if used <= 0:
@@ -86,12 +86,12 @@ def check_watermark(bound: int | None, used: int) -> str:
 
 
 def run_in_qemu(image: Path) -> Run:
-    """@raise WorkError when it did not end by itself with a whole record."""
+    """@raise WorkError if it did not end by itself with a complete record."""
     return _run([*QEMU, str(image)])
 
 
 def run_on_host(image: Path) -> Run:
-    """@raise WorkError when it did not end by itself with a whole record."""
+    """@raise WorkError if it did not end by itself with a complete record."""
     return _run([str(image)])
 
 
@@ -103,7 +103,7 @@ def _run(argv: Sequence[str]) -> Run:
         raise WorkError(f"{argv[0]} is missing; ./mamori test installs it") from error
     except subprocess.TimeoutExpired as error:
         raise WorkError(f"{argv[-1]} did not end within {RUN_TIMEOUT_S} s") from error
-    # The exit status alone proves nothing: a machine that resets or is powered off ends with 0 as well.
+    # The exit status alone shows nothing: a processor that resets or is powered off ends with 0 as well.
     if done.returncode != 0:
         raise WorkError(f"{argv[-1]} ended with status {done.returncode}: {done.stderr.strip()}")
     try:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stack of linked functions that the compiler of this project did not make (libgcc, C library), from their disassembly.
+"""Stack of linked functions that the compiler of this project did not compile (libgcc, C library), from their disassembly.
 
-The sum of all that a function takes from the stack pointer anywhere, and the deepest of what it branches to, is an upper bound.
+The sum of all stack-pointer decrements of a function, plus the deepest function that it branches to, is an upper bound.
 
 @satisfies SWR-PRF-023      Design: docs/design/proofs.md#outside-functions
 """
@@ -33,11 +33,11 @@ class Region:
 
     bytes: int = 0
     targets: set[str] = field(default_factory=set)
-    ends: bool = False  # its last instruction does not go on to the next symbol
+    ends: bool = False  # its last instruction does not continue at the next symbol
 
 
 def calc_library_bounds(image: Path, functions: list[str]) -> dict[str, int]:
-    """Upper bound of each function [bytes]. @raise WorkError when one is not in the image or takes an unknown amount."""
+    """Upper bound of each function [bytes]. @raise WorkError if one is not in the image or takes an unknown amount."""
     prefix = CORTEX_M4.prefix
     addresses: dict[str, int] = {}
     for line in run_tool([f"{prefix}nm", "--format=posix", str(image)]).splitlines():
@@ -94,7 +94,7 @@ def _count_bytes(operands: str) -> int:
 
 
 def _calc_bounds(regions: dict[str, Region]) -> dict[str, int]:
-    """Regions that branch into each other take at most what all of them take together."""
+    """Regions that branch into each other take at most the sum of all of them."""
     bounds: dict[str, int] = {}
     calls = {name: {target for target in region.targets if target in regions} for name, region in regions.items()}
     for group in find_groups(calls):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every loop of the target layers ends: its form shows the bound, or `loops.toml` gives it with a reason. No goto.
+"""Every loop of the target layers terminates: its form shows the bound, or `loops.toml` gives it with a reason. No goto.
 
     python -P -m verification.proofs.loops [--root FOLDER]
 
@@ -34,7 +34,7 @@ NARROW = re.compile(r"\b(?:u?int(?:8|16)_t|char|short|bool|auto)\b")  # may wrap
 
 @dataclass(frozen=True)
 class Loop:
-    """One loop as it is written."""
+    """One loop in the source."""
 
     file: str
     line: int
@@ -44,13 +44,13 @@ class Loop:
 
     @property
     def is_bounded(self) -> bool:
-        """The form shows that it ends."""
+        """The form shows that it terminates."""
         return self.kind in ("range", "counted")
 
 
 @dataclass(frozen=True)
 class LoopRow:
-    """A loop of another form that was looked at."""
+    """A reviewed loop of another form."""
 
     file: str
     function: str
@@ -61,7 +61,7 @@ class LoopRow:
 
 @dataclass(frozen=True, order=True)
 class LoopFinding:
-    """A loop that may not end, or a row without a loop."""
+    """A loop that may not terminate, or a row without a loop."""
 
     file: str
     line: int
@@ -84,7 +84,7 @@ def find_files(root: Path) -> list[Path]:
 
 
 def find_loops(root: Path, files: Sequence[Path]) -> tuple[list[Loop], list[LoopFinding]]:
-    """All loops of `files`, and what is never right: a goto, or a loop that only the preprocessor sees."""
+    """All loops of `files`, and forbidden code: a goto, or a loop in a macro."""
     loops: list[Loop] = []
     findings: list[LoopFinding] = []
     for path in files:
@@ -106,7 +106,7 @@ def find_loops(root: Path, files: Sequence[Path]) -> tuple[list[Loop], list[Loop
 
 
 def check_loops(loops: Sequence[Loop], rows: Sequence[LoopRow]) -> list[LoopFinding]:
-    """Loops that neither their form nor exactly one row bounds, and rows that do not belong to exactly one loop."""
+    """Loops that neither their form nor exactly one row bounds, and rows that do not match exactly one loop."""
     findings = []
     for loop in loops:
         if not loop.is_bounded and not any(_does_match(row, loop) for row in rows):
@@ -142,7 +142,7 @@ def _walk(root: Node) -> Iterator[Node]:
 
 
 def _find_keywords(text: str) -> Iterator[tuple[int, int, str]]:
-    """Every word that begins a loop, as (line, column in bytes, word), whatever the grammar makes of it."""
+    """Every keyword that begins a loop, as (line, column in bytes, word), independent of the grammar."""
     code = COMMENT_OR_TEXT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
     for number, (line, original) in enumerate(zip(code.split("\n"), text.split("\n"), strict=True), start=1):
         for match in KEYWORD.finditer(line):
@@ -163,7 +163,7 @@ def _make_loop(file: str, node: Node) -> Loop:
 
 
 def _is_counted(node: Node) -> bool:
-    """One counter that goes one way to a bound, and neither is changed by the body."""
+    """One counter with constant steps towards a bound; the body changes neither of them."""
     counter = _get_counter(node.child_by_field_name("initializer"))
     condition, update, body = (node.child_by_field_name(name) for name in ("condition", "update", "body"))
     if not counter or condition is None or body is None:
@@ -183,7 +183,7 @@ def _is_counted(node: Node) -> bool:
 
 
 def _get_counter(initializer: Node | None) -> str:
-    """Name of the one variable that the loop declares with a value, wide enough for any count."""
+    """Name of the only variable that the loop declares with a value; its type is wide enough for any count."""
     if initializer is None or initializer.type != "declaration":
         return ""
     if NARROW.search(_get_text(initializer.child_by_field_name("type"))):
@@ -206,14 +206,14 @@ def _split_conjunction(node: Node) -> Iterator[Node]:
 
 
 def _is_counter(node: Node | None, counter: str) -> bool:
-    """The counter, or a constant more."""
+    """The counter, or the counter plus a constant."""
     text = _get_text(node)
     more = text.removeprefix(f"{counter} + ")
     return text == counter or (more != text and STEP.fullmatch(more) is not None)
 
 
 def _is_step(update: Node | None, counter: str, one: str, many: str = "") -> bool:
-    """One step, or where `many` allows it a constant number of them."""
+    """One step or, if `many` permits it, a constant number of steps."""
     text = _get_text(update)
     step = text.removeprefix(f"{counter} {many} ")
     return text in (f"{one}{counter}", f"{counter}{one}") or (step != text and STEP.fullmatch(step) is not None)
@@ -225,7 +225,7 @@ def _find_names(node: Node | None) -> set[str]:
 
 
 def _find_changed(body: Node) -> set[str]:
-    """Variables and members that are assigned to, stepped, or whose address is taken."""
+    """Variables and members that are assigned, incremented or decremented, or whose address is taken."""
     changed = set()
     for node in _walk(body):
         if node.type == "assignment_expression":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the system of 100 components in virtual time, as several compilers made it and under load, and records what it did.
+"""Runs the system of 100 components in virtual time, compiled by several compilers and under load, and records the results.
 
 @satisfies SWR-INS-006, SWR-INS-007      Design: docs/design/kernel.md#scale
 """
@@ -24,7 +24,7 @@ TARGET = PROGRAM.name
 OPTIONS = ("-DMAMORI_BUILD_TESTS=ON", "-DMAMORI_BUILD_EXAMPLES=OFF", "-DMAMORI_WITH_SIMBODY_SIM=OFF")
 RUN_TIMEOUT_S = 300
 
-# With the release build, g++ -O2, each compiler at each level.
+# In addition to the release build, g++ -O2: each compiler at each level.
 VARIANTS = (
     Variant("gcc-O0", "g++", "-O0"),
     Variant("gcc-Os", "g++", "-Os"),
@@ -33,13 +33,13 @@ VARIANTS = (
     Variant("clang-Os", "clang++-19", "-Os"),
 )
 
-# Ends by itself, so that nothing is left behind when the proof is killed.
+# Ends by itself, so that no process remains if the proof is killed.
 BUSY = "import time\nend = time.monotonic() + 60\nwhile time.monotonic() < end:\n    pass"
 
 
 @dataclass(frozen=True)
 class Run:
-    """What scale_run says of itself."""
+    """Output of scale_run."""
 
     components: int
     cores: int
@@ -53,12 +53,12 @@ class Run:
 
     @property
     def speed(self) -> float:
-        """Seconds of virtual time per second on the wall clock; 0 when the clock was too coarse to tell."""
+        """Seconds of virtual time per second of real time; 0 if the clock was too coarse."""
         return self.virtual_s / self.wall_s if self.wall_s > 0.0 else 0.0
 
 
 def run_scale(program: Path, cycles: int, *options: str) -> Run:
-    """One run, which must be of as many cycles as asked for, without an overrun."""
+    """One run, which must have the requested number of cycles, without an overrun."""
     if not program.is_file():
         raise WorkError(f"{program} is missing; run ./mamori build")
     argv = [str(program), "--cycles", str(cycles), *options]
@@ -79,7 +79,7 @@ def run_scale(program: Path, cycles: int, *options: str) -> Run:
 
 @contextmanager
 def busy_machine() -> Iterator[None]:
-    """All processors have something else to do."""
+    """Keeps all processors busy."""
     loops = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range(os.cpu_count() or 1)]
     try:
         yield
@@ -90,7 +90,7 @@ def busy_machine() -> Iterator[None]:
 
 
 def write_record(path: Path, runs: Sequence[tuple[str, Run]]) -> None:
-    """Writes the named runs with their speed, whole or not at all."""
+    """Writes the named runs with their speed atomically."""
     record = {"runs": [{"name": name, **asdict(run), "times_real_time": round(run.speed, 1)} for name, run in runs]}
     path.parent.mkdir(parents=True, exist_ok=True)
     write_text(path, json.dumps(record, indent=2) + "\n")

@@ -36,7 +36,7 @@ PROGRAM = ("reset_handler", "main")
 
 @dataclass(frozen=True)
 class Entry:
-    """A function that is called from outside: by the application, the executive or the machine."""
+    """A function that is called from outside: by the application, the executive or the processor."""
 
     kind: str
     key: str
@@ -44,7 +44,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Analysis:
-    """What was found for one toolchain."""
+    """Results for one toolchain."""
 
     toolchain: Toolchain
     graph: CallGraph
@@ -53,14 +53,14 @@ class Analysis:
     findings: tuple[Finding, ...]
 
     def get_bound(self, key: str) -> int | None:
-        """Largest stack of a function with all that it calls [bytes]; None when it has no bound."""
+        """Maximum stack of a function including its callees [bytes]; None if it has no bound."""
         if key not in self.paths:
             return None
         return sum(self.graph.functions[name].bytes for name in self.paths[key]) + self.toolchain.red_zone_bytes
 
 
 def analyse(toolchain: Toolchain, root: Path, units: Sequence[Unit], rules: Rules) -> Analysis:
-    """Everything about the stack of `units`. A function that leads to a recursion has no bound."""
+    """The complete analysis of the stack of `units`. A function that leads to a recursion has no bound."""
     graph = make_call_graph(toolchain, root, [read_unit(toolchain, unit) for unit in units], rules)
     calls = {key: graph.calls.get(key, set()) for key in graph.functions}
     cycles = [group for group in find_groups(calls) if is_recursive(group, calls)]
@@ -96,7 +96,7 @@ def make_table(analyses: Sequence[Analysis]) -> str:
 
 
 def write_evidence(analyses: Sequence[Analysis], folder: Path, **more: object) -> None:
-    """Writes stack.json and stack.txt, each whole or not at all."""
+    """Writes stack.json and stack.txt, each atomically."""
     folder.mkdir(parents=True, exist_ok=True)
     record = {**make_record(analyses), **more}
     for name, text in (("stack.json", json.dumps(record, indent=1) + "\n"), ("stack.txt", make_table(analyses))):
@@ -106,8 +106,8 @@ def write_evidence(analyses: Sequence[Analysis], folder: Path, **more: object) -
 def _find_entries(graph: CallGraph) -> list[Entry]:
     executive = {key for key, function in graph.functions.items() if function.name.startswith(EXECUTIVE)}
     inner = {target for key in executive for target in graph.calls[key]}
-    inner.update(target for call in graph.resolved for target in call.targets)  # work that it hands to its host
-    # ComponentRun and other classes inside the executive are reached through it, never from outside.
+    inner.update(target for call in graph.resolved for target in call.targets)  # work that it passes to its host
+    # ComponentRun and other classes inside the executive are called through it, never from outside.
     entries = [Entry("executive", key) for key in sorted(executive - inner)
                if "::" not in split_signature(graph.functions[key].name)[0].removeprefix(EXECUTIVE)]  # fmt: skip
     actions = {key for table, bases in graph.bases.items() if any(name == COMPONENT for name, _ in bases)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Looks for symbols and sections in object code that show heap, exceptions, RTTI or dynamic initialisation.
+"""Searches object code for symbols and sections of heap, exceptions, RTTI or dynamic initialisation.
 
 @satisfies SWR-PRF-001, SWR-PRF-002      Design: docs/design/launcher.md#symbol-proof
 """
@@ -11,7 +11,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-# Mangled names (Itanium C++ ABI). A pure virtual call traps in __cxa_pure_virtual, which the image supplies: no violation.
+# Mangled names (Itanium C++ ABI). A pure virtual call traps in __cxa_pure_virtual of the image, which is not a violation.
 FORBIDDEN_SYMBOLS = {
     "heap": r"_{0,2}(?:malloc|calloc|realloc|free|reallocarray|aligned_alloc|memalign|posix_memalign|strn?dup|sbrk)(?:_r)?"
     r"|brk|_Zn[wa].*|_Zd[la].*",
@@ -27,7 +27,7 @@ FORBIDDEN_SECTIONS = re.compile(r"\.(?:preinit_array|init_array|fini_array|ctors
 
 @dataclass(frozen=True, order=True)
 class Finding:
-    """One forbidden thing in one object file."""
+    """One forbidden symbol or section in one object file."""
 
     kind: str
     member: str
@@ -38,7 +38,7 @@ class Finding:
 
 
 def scan_symbols(path: Path, prefix: str = "") -> list[Finding]:
-    """Forbidden symbols, defined or wanted, in an object file or archive. @param prefix of the binutils of its target."""
+    """Forbidden symbols, defined or undefined, in an object file or archive. @param prefix of the binutils of its target."""
     findings = []
     for line in _run(f"{prefix}nm", "--print-file-name", "--format=posix", str(path)):
         location, _, rest = line.partition(": ")
@@ -50,7 +50,7 @@ def scan_symbols(path: Path, prefix: str = "") -> list[Finding]:
 
 
 def scan_sections(path: Path, prefix: str = "") -> list[Finding]:
-    """Sections with code to run before main(), in an object file or archive."""
+    """Sections with code that runs before main(), in an object file or archive."""
     findings = []
     member = path.name
     for line in _run(f"{prefix}readelf", "--section-headers", "--wide", str(path)):
@@ -62,7 +62,7 @@ def scan_sections(path: Path, prefix: str = "") -> list[Finding]:
 
 
 def count_symbols(path: Path, prefix: str = "") -> int:
-    """Number of symbols seen: nothing found in nothing is no proof."""
+    """Number of symbols: a search without symbols would show nothing."""
     return len(_run(f"{prefix}nm", "--format=posix", str(path)))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which layers run on a bare controller: those whose CMakeLists.txt says TARGET_SUBSET."""
+"""The layers that run on a bare controller: those with TARGET_SUBSET in their CMakeLists.txt."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the benchmarks can be run, and what they write can be judged. Method: one run of the smallest effort; no time is looked at.
+# Goal: the benchmarks run, and their output can be evaluated. Method: one run of the smallest effort; no time is checked.
 from __future__ import annotations
 
 import subprocess

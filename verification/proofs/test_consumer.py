@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a project in a foreign folder builds against the installed package alone, and runs. The installed tree is moved before
-# it is used, so a path into the build or source tree that slipped into the package would show.
+# Goal: a project in another folder builds against the installed package only, and runs. The installed tree is moved before
+# it is used, so that a path to the build or source tree in the package would be detected.
 from __future__ import annotations
 
 import json
@@ -91,7 +91,7 @@ def test_first_system_builds_against_the_package_and_prints_what_the_manual_says
 
 
 def build_page(project: Project, prefix: Path, folder: Path, name: str, library: str) -> Path:
-    """The first system with the end that a page of the manual gives it, on the library that the page names. @return `folder`."""
+    """The first system with the end that a page of the manual shows, linked to the library that the page names. @return `folder`."""
     configure(project, prefix, folder, "examples/minimal")
     source, lists = folder / "main.cpp", folder / "CMakeLists.txt"
     page = (project.root / "docs" / "manual" / name).read_text(encoding="utf-8")
@@ -110,7 +110,7 @@ def test_first_system_runs_in_real_time_as_the_manual_says(project: Project, pre
     folder = build_page(project, prefix, tmp_path / "minimal", "real_time.md", "mamori::posix_rt")
     ran = run(folder / "build" / "minimal")
     form = r"40 openings, (\d+) overran, (\d+) missed, latest by \d+\.\d{3} ms; priority (fixed|not granted), memory (locked|not locked)\n"
-    # A machine that runs other work may be late, and says so; then the last window may still be out at the stop.
+    # A host that runs other work may be late and reports that; then the last window may still be running at the stop.
     counts = re.fullmatch(form, ran.stdout)
     assert counts is not None, (ran.stdout, ran.stderr)
     assert ran.returncode == 0 or int(counts[1]) > 0
@@ -121,7 +121,7 @@ def test_first_system_hangs_and_is_told_as_the_manual_says(project: Project, pre
     folder = build_page(project, prefix, tmp_path / "minimal", "last_resort.md", "mamori::posix_rt")
     program = folder / "build" / "minimal"
     orderly = run("env", "-C", tmp_path, program)
-    # A machine that stands still for a tenth of a second makes the watchdog act in this run too.
+    # If the host stalls for a tenth of a second, the watchdog acts in this run too.
     by_machine = orderly.returncode == -signal.SIGABRT and orderly.stderr == "outputs closed\n"
     served = re.fullmatch(r"watchdog served (\d+) times\n", orderly.stdout)
     assert by_machine or (orderly.returncode == 0 and served is not None and int(served[1]) > 0), (orderly.stdout, orderly.stderr)
@@ -166,7 +166,7 @@ def test_first_system_is_measured_as_the_manual_says(project: Project, prefix: P
     out = tmp_path / "times"
     shown = run(sys.executable, "-P", "-m", "mamori_tools.command", "timing", folder / "build" / "minimal",
                 "--cycles", "50", "--out", out)  # fmt: skip
-    # A busy machine may cost a window its time (1), and not every machine grants the rights (4).
+    # A busy host may delay a window (1), and not every host grants the privileges (4).
     assert shown.returncode in (0, 1, 4), shown.stderr
     assert "drive" in shown.stdout and "monitor" in shown.stdout
     measured = json.loads((out / "timing.json").read_text(encoding="utf-8"))
@@ -189,7 +189,7 @@ def test_folders_of_a_users_project_are_built_and_measured_by_their_names(projec
 
     for command, name, words in (("timing", "timed", ("--cycles", "50")), ("cost", "counted", ())):
         shown = run(sys.executable, "-P", "-m", "mamori_tools.command", command, robot / name, "--json", *words)
-        # A busy machine may cost a window its time (1), and not every machine grants the rights (4).
+        # A busy host may delay a window (1), and not every host grants the privileges (4).
         assert shown.returncode in (0, 1, 4), shown.stderr
         record = json.loads(shown.stdout)
         assert (record["schema"], record["system"]) == (f"mamori.{command}/1", name)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: counts of single steps are exact, and times belong to them. Method: callgrind over a program whose work is known to the
-# instruction (tools/probe/timing/tests/cost_subject.cpp); one that does something else by the clock must be found.
+# Goal: counts of single steps are exact, and times belong to them. Method: callgrind over a program with known instruction
+# counts (tools/probe/timing/tests/cost_subject.cpp); a program that executes other steps in real time must be found.
 from __future__ import annotations
 
 from pathlib import Path
@@ -89,7 +89,7 @@ def test_counting_fewer_frames_changes_no_count(system: System, whole: ClassRun,
 def test_each_time_belongs_to_its_count(whole: ClassRun) -> None:
     chosen = (whole.steps["component"] == HEAVY) & (whole.steps["pass"] == EXECUTE)
 
-    # No processor goes round the loop faster, and none is too slow: what disturbs a machine makes steps longer.
+    # The loop has a minimum time per cycle on any processor, and no maximum: disturbances of the host make steps longer.
     assert whole.times_ns[chosen][7] >= HEAVY_ROUNDS * LEAST_ROUND_NS
     assert [ratio.component for ratio in list_ratios([whole])] == ["linear", "constant", "heavy"]
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the same inputs give the same port-trace hash: run after run, -O0 and -O2, g++ and clang++; other inputs give another.
-# Method: a short piece of the shipped motion with a fault in it, so that the reaction is hashed as well.
+# Goal: equal inputs give equal port-trace hashes: run after run, -O0 and -O2, g++ and clang++; different inputs give a different one.
+# Method: a short part of the shipped motion with a fault in it, so that the hash includes the reaction.
 from __future__ import annotations
 
 import dataclasses

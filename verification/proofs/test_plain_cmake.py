@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the ways that README.md shows for a project with a build of its own work: package components, add_subdirectory, FetchContent,
-# tests with sanitizers. Method: small projects made from the blocks of that page and the sources of verification/consumer. One
+# Goal: the methods of README.md work for a project with its own build: package components, add_subdirectory, FetchContent,
+# tests with sanitizers. Method: small projects from the blocks of that page and the sources of verification/consumer. One
 # package is installed; one project compiles the layers from source, without package manager and dpkg in PATH.
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def write_project(project: Project, folder: Path, *blocks: str) -> Path:
     folder.mkdir()
     consumer = project.root / "verification" / "consumer"
     shutil.copy(consumer / "main.cpp", folder)
-    shutil.copy(consumer / "robot_test.cpp.in", folder / "robot_test.cpp")  # names a requirement of a user's project, not of this one
+    shutil.copy(consumer / "robot_test.cpp.in", folder / "robot_test.cpp")  # names a requirement of a user project, not of this one
     (folder / "CMakeLists.txt").write_text(HEAD + "".join(blocks), encoding="utf-8")
     return folder
 
@@ -58,7 +58,7 @@ def prefix(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def bare_path(tmp_path: Path) -> dict[str, str]:
-    """An environment whose PATH has a compiler cache, and all programs but those of the package system."""
+    """An environment whose PATH contains a compiler cache, and all programs except those of the package system."""
     folder = tmp_path / "bin"
     folder.mkdir()
     for where in reversed(os.environ["PATH"].split(":")):
@@ -74,7 +74,7 @@ def bare_path(tmp_path: Path) -> dict[str, str]:
 
 
 def find_launchers(build: Path) -> set[str]:
-    """Programs through which a build calls its C++ compiler; an empty name stands for a direct call."""
+    """Programs through which a build calls its C++ compiler; an empty name means a direct call."""
     rules = (build / "CMakeFiles" / "rules.ninja").read_text(encoding="utf-8")
     calls = re.findall(r"^  command = (.*?)\S*c\+\+ .*-o \$out -c \$in$", rules, re.MULTILINE)
     return {Path(call.strip()).name for call in calls}

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: 100 components at four rates on two cores give one hash: after a million cycles, run after run, on a busy machine, seen
-# by a tool or not, from g++ and clang++ at -O0, -O2 and -Os. Method: pinned hashes; speed is recorded and never judged.
+# Goal: 100 components at four rates on two cores give one hash: after a million cycles, run after run, on a busy host, observed
+# by a tool or not, from g++ and clang++ at -O0, -O2 and -Os. Method: pinned hashes; speed is recorded and never checked.
 from __future__ import annotations
 
 import dataclasses
@@ -34,7 +34,7 @@ def program(project: Project) -> Path:
 
 @pytest.fixture(scope="module")
 def runs(project: Project) -> Iterator[Runs]:
-    """What the tests of this file ran, for the evidence."""
+    """The runs of this file, for the evidence."""
     runs: Runs = []
     yield runs
     if runs:

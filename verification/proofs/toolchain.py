@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The compilers whose code is proven, and what of their output the proofs read.
+"""The compilers whose code is proven, and the parts of their output that the proofs read.
 
 @satisfies SWR-PRF-020      Design: docs/design/proofs.md#stack
 """
@@ -15,22 +15,22 @@ from pathlib import Path
 
 from mamori_trace.base.errors import WorkError
 
-# The language subset of the target layers. One section per function: then every call to another one is a relocation.
+# The language subset of the target layers. One section per function, so that every call to another function is a relocation.
 SUBSET = ("-std=c++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-ffp-contract=off", "-UNDEBUG",
           "-ffunction-sections", "-fdata-sections")  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Toolchain:
-    """A compiler and its options, as g++ and its binutils take them."""
+    """A compiler and its options, in the notation of g++ and its binutils."""
 
     name: str
     prefix: str
     flags: tuple[str, ...]
     word_bytes: int
     branch_relocations: frozenset[str]
-    branch_addend: int = 0  # what the relocation of a branch to the begin of a function adds
-    red_zone_bytes: int = 0  # below the stack pointer, which a function that calls no other may use without a frame
+    branch_addend: int = 0  # addend in the relocation of a branch to the begin of a function
+    red_zone_bytes: int = 0  # below the stack pointer, which a leaf function may use without a frame
 
     @property
     def compiler(self) -> str:
@@ -44,7 +44,7 @@ CORTEX_M4 = Toolchain(
     word_bytes=4,
     branch_relocations=frozenset({"R_ARM_THM_CALL", "R_ARM_THM_JUMP24", "R_ARM_THM_JUMP19", "R_ARM_CALL", "R_ARM_JUMP24"}),
 )
-# No position-independent code: a function whose address is taken is then never mistaken for one that is called.
+# No position-independent code, so that taking the address of a function is never confused with a call.
 HOST = Toolchain(
     name="x86-64",
     prefix="",
@@ -54,15 +54,15 @@ HOST = Toolchain(
     branch_addend=-4,
     red_zone_bytes=128,
 )
-# Nothing is inlined and no tail call becomes a jump: what recurs in the source recurs here.
+# Nothing is inlined and no tail call becomes a jump: a recursion in the source is a recursion here.
 HOST_AS_WRITTEN = replace(HOST, name="x86-64 as written", flags=("-O0", "-fno-pie"))
 
 
 @dataclass(frozen=True)
 class Unit:
-    """One compiled source and what the compiler tells about it."""
+    """One compiled source and the compiler output for it."""
 
-    source: str  # as given to the compiler, relative to the root
+    source: str  # as passed to the compiler, relative to the root
     object: Path
     call_graph: Path
     virtual_calls: Path
@@ -72,14 +72,14 @@ class Unit:
 def compile_units(
     toolchain: Toolchain, root: Path, sources: Sequence[str], includes: Sequence[str], folder: Path
 ) -> list[Unit]:
-    """Compiles `sources`, relative to `root` so that places read the same everywhere. @raise WorkError"""
+    """Compiles `sources`, relative to `root` so that locations are equal on all hosts. @raise WorkError"""
     folder.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         return list(pool.map(lambda source: _compile(toolchain, root, source, includes, folder), sources))
 
 
 def run_tool(argv: Sequence[str], cwd: Path | None = None) -> str:
-    """@return what the program wrote. @raise WorkError when it failed."""
+    """@return the output of the program. @raise WorkError if it failed."""
     try:
         done = subprocess.run(argv, cwd=cwd, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     except FileNotFoundError as error:

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Repeated runs of the real-time campaigns: how often they pass, fail or are inconclusive on this host."""
+"""Repeated runs of the real-time campaigns: the frequencies of passed, failed and inconclusive runs on this host."""

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measures how often the real-time part passes, fails or is inconclusive on this host:
+"""Measures the frequencies of passed, failed and inconclusive runs of the real-time part on this host:
 `python -P -m verification.real_time [--runs N] [--load] [--defect NAME ...] [--build DIR]`.
 
 One run executes every campaign program once; an inconclusive program is repeated at most twice. The worst verdict of its programs is
-that of the run. Ends by itself: each program is bounded, and so is the load.
+determines the verdict of the run. It terminates: each program has a time limit, and so has the load.
 
 Design: docs/design/test_strength.md#real-time-verdicts
 """
@@ -51,7 +51,7 @@ def run_program(campaign: Campaign, build: Path, seed: int, defect: str) -> Ende
 
 @contextmanager
 def load(is_wanted: bool) -> Iterator[None]:
-    """Two processes that compute, for as long as one run takes and not longer than a bound."""
+    """Two computing processes that run as long as one run, within a time limit."""
     if not is_wanted:
         yield
         return
@@ -97,7 +97,7 @@ def make_rows(label: str, results: Sequence[Sequence[Ended]]) -> list[str]:
 
 
 def is_accepted(results: Sequence[Sequence[Ended]], is_loaded: bool, defect: str) -> bool:
-    """Limits for 20 runs, in proportion: without a defect 0 failed, and 5 inconclusive under load or 1 without; with one 0 passed
+    """Limits for 20 runs, scaled: without a defect 0 failed, and 5 inconclusive under load or 1 without; with a defect 0 passed
     and 18 failed."""
     counts = Counter(get_worst(ended) for ended in results)
     if defect:

@@ -18,8 +18,8 @@ REPEATS_MAX = 2
 
 
 def read_verdict(path: Path) -> str:
-    """Verdict of one test program from its JUnit file: passed, failed or inconclusive. @return failed as well when the file is not
-    complete."""
+    """Verdict of one test program from its JUnit file: passed, failed or inconclusive. @return failed also for an incomplete
+    file."""
     try:
         cases = list(ElementTree.parse(path).iter("testcase"))
     except (OSError, ElementTree.ParseError):
@@ -40,7 +40,7 @@ def list_figures(path: Path) -> list[str]:
 
 
 def repeat_inconclusive(path: Path, run: Callable[[], object]) -> tuple[str, int]:
-    """Calls `run`, which writes `path` anew, as long as the result is inconclusive and at most twice.
+    """Calls `run`, which rewrites `path`, while the result is inconclusive, at most twice.
     @return the last verdict and the number of repetitions."""
     for repeats in range(REPEATS_MAX):
         verdict = read_verdict(path)
@@ -51,7 +51,7 @@ def repeat_inconclusive(path: Path, run: Callable[[], object]) -> tuple[str, int
 
 
 def repeat_preset(preset: str, junit: Path, names: Sequence[str] = ()) -> bool:
-    """All test programs of `preset` that have a result file. @return false when one failed meanwhile."""
+    """All test programs of `preset` with a result file. @return false if one failed meanwhile."""
     is_well = True
     for path in sorted(junit.glob("*.xml")):
         if (names and path.stem not in names) or read_verdict(path) != "inconclusive":

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: samples are judged by the medians of their ratios, what is missing is named, and wrong input ends early.
-# Method: samples written by hand, with figures that can be checked in the head.
+# Goal: samples are evaluated by the medians of their ratios, missing parts are named, and invalid input is rejected early.
+# Method: handwritten samples with figures that are easy to check.
 from __future__ import annotations
 
 import copy
@@ -279,7 +279,7 @@ def test_every_effort_has_rounds_enough() -> None:
 
 
 class GridBox:
-    """Programs of a grid made of words: each call of one gives the next of its answers."""
+    """Simulated programs of a wake-up benchmark: each call returns the next of its outputs."""
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch, answers: dict[str, list[str | int]]) -> None:
         self.calls: list[str] = []

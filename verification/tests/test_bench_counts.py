@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: callgrind's output is read for what it says, and counts are judged by limit and baseline. Method: recorded output.
+# Goal: callgrind's output is read correctly, and counts are evaluated by limit and baseline. Method: recorded output.
 from __future__ import annotations
 
 from pathlib import Path
@@ -169,7 +169,7 @@ def test_shipped_baseline_has_every_count_that_the_bars_name() -> None:
 
 
 def finish(request: Request, run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch) -> int:
-    """Ends a call of `bench` whose work found `run`; its baseline goes to `folder`."""
+    """Ends a call of `bench` with the result `run`; its baseline is in `folder`."""
     monkeypatch.setattr(command, "write_baseline", lambda baseline: write_baseline(baseline, folder / "baseline.toml"))
     project = Project(ROOT)
     work = Work(request, load_bars(), BASELINE, Programs(project), folder / "samples.json", run=run)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the shipped tree keeps the layer table, and each kind of breach is found with its place.
+# Goal: the shipped tree complies with the layer table, and each kind of violation is found with its location.
 # Method: a small tree with one seeded file per case.
 from __future__ import annotations
 
@@ -222,7 +222,7 @@ def test_what_keeps_the_limits_is_no_finding(tmp_path: Path, text: str) -> None:
 
 
 def seed_headers(root: Path, folder: str, lines: list[int]) -> list[str]:
-    """@return findings in a tree whose headers below `folder` have so many lines."""
+    """@return findings in a tree whose headers below `folder` have these numbers of lines."""
     for number, count in enumerate(lines):
         path = root / folder / f"h{number}.hpp"
         path.parent.mkdir(parents=True, exist_ok=True)

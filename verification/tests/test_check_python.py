@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the step "Python checks" finds what ruff and mypy find, at its place in the tree, and fails then. Method: the rules of the
+# Goal: the step "Python checks" reports the findings of ruff and mypy with their locations, and then fails. Method: the rules of the
 # project, on a small tree of the same layout.
 from __future__ import annotations
 

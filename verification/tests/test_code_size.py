@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: code, tests, documents and data are counted apart, and the share of verification has a limit. Method: a small tree.
+# Goal: code, tests, documents and data are counted separately, and the share of verification has a limit. Method: a small tree.
 from __future__ import annotations
 
 from pathlib import Path

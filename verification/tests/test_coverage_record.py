@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: what the coverage gate writes of each function is what the trace tool reads.
+# Goal: the trace tool reads the coverage gate's record of each function.
 from __future__ import annotations
 
 from pathlib import Path
@@ -43,4 +43,4 @@ def test_the_trace_tool_reads_what_the_gate_writes(tmp_path: Path) -> None:
     assert (judge_.conditions_shown, judge_.conditions) == (1, 2)
     assert judge_.gaps == [Gap(Place(FILE, 5), "'limit > 0': own effect on the decision")]
     assert (never.executed, never.accepted, never.lines_reached, never.lines) == (False, "only the compiler calls it", 0, 2)
-    assert (alone.executed, alone.lines) == (True, 0)  # the lines of all programs together do not know of it
+    assert (alone.executed, alone.lines) == (True, 0)  # the lines of all programs together do not include it

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a death test that accepts any death is found with its place, and no other.
+# Goal: a death test that accepts any death is found with its location, and no other test.
 # Method: the shipped tree, one seeded call per case, and the whole check on a seeded file of each layer.
 from __future__ import annotations
 

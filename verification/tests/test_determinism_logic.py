@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the determinism proof believes only whole, new records, and names each hash that differs.
-# Method: a small program in place of the safe arm, which writes what the case asks for. The real one is run by verification/proofs.
+# Goal: the determinism proof accepts only complete, new records, and names each hash that differs.
+# Method: a small program replaces the safe arm and writes the output of the case. verification/proofs runs the real arm.
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: an assembler statement without a row, and a row without a statement, are found; so is a row that says too little.
-# Method: one source and one row, each wrong in one way; the shipped tree.
+# Goal: an assembler statement without a row, a row without a statement, and an incomplete row are found.
+# Method: one source and one row, each with one fault; the shipped tree.
 from __future__ import annotations
 
 from pathlib import Path

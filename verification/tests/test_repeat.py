@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: an inconclusive program is repeated at most twice, a failed one never. Method: result files made by hand."""
+"""Goal: an inconclusive program is repeated at most twice, a failed one never. Method: handwritten result files."""
 
 from __future__ import annotations
 

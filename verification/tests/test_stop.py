@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a stopped command ends its children, also a child of a child and one that does not listen, and says so in one line.
-# Method: a real process that runs a step, stopped by a signal as soon as the step's own child is there.
+# Goal: a stopped command ends its children, including grandchildren and those that ignore signals, and reports that in one line.
+# Method: a real process that runs a step, stopped by a signal as soon as the child of the step runs.
 from __future__ import annotations
 
 import signal
@@ -31,7 +31,7 @@ def is_running(pid: int) -> bool:
 
 
 def stop_while_running(folder: Path, text: str, number: signal.Signals) -> tuple[int, str, int]:
-    """@return exit status, what was said on standard error, process id of the grandchild."""
+    """@return exit status, text on standard error, process id of the grandchild."""
     runner = subprocess.Popen([sys.executable, "-P", "-c", RUNNER, str(folder), text], stderr=subprocess.PIPE,
                               stdout=subprocess.DEVNULL, text=True)  # fmt: skip
     pid_file = folder / "pid"

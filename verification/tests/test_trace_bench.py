@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the large project is clean and the same each time; what a run took is measured; an absent peer and wrong arguments are told.
-# Method: small sizes, children whose cost is known, a machine without the programs of the peers.
+# Goal: the large project is clean and reproducible; usage is measured; a missing reference implementation and wrong arguments are reported.
+# Method: small sizes, child processes with known usage, a host without the reference implementations.
 from __future__ import annotations
 
 import sys

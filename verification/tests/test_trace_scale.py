@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the cost of judging grows with the project and no faster, nothing is read twice, an unchanged project is not read at all.
-# Method: generated projects of two sizes; calls, opened files and bytes are counted, which no busy machine can change.
+# Goal: the cost of a check grows no faster than the project, nothing is read twice, and an unchanged project is not read.
+# Method: generated projects of two sizes; calls, opened files and bytes are counted, which load of the host cannot change.
 from __future__ import annotations
 
 import collections
@@ -36,7 +36,7 @@ def projects(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path]:
 
 
 def count_calls(words: list[str]) -> int:
-    """Calls of functions, those of C included, that a check makes once its modules are loaded."""
+    """Function calls of a check after its modules are loaded, including those of C functions."""
     count = 0
 
     def take(_frame: FrameType, event: str, _argument: Any) -> None:

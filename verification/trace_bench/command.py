@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What judging a large project costs: cold, unchanged, with the report, and beside OpenFastTrace and StrictDoc, in one run.
+"""Cost of checking a large project: cold, unchanged, with the report, and next to OpenFastTrace and StrictDoc, in one run.
 
     python -P -m verification.trace_bench [--requirements N] [--repeats N] [--peers] [--limit S] [--out DIR]
 
-Exit status: 0 all of ours ran clean, 1 one did not, 2 wrong arguments. Times are no gate: machines differ, counts are tested instead.
+Exit status: 0 all runs of Mamori were clean, 1 one was not, 2 wrong arguments. Times are no gate: hosts differ; tests compare counts.
 
 @satisfies SWR-TRC-090      Design: docs/design/trace.md#cache
 """
@@ -31,7 +31,7 @@ _MEGA = 1e6
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One line of the table: a run, or why there is none."""
+    """One line of the table: a run, or the reason for its absence."""
 
     title: str
     usage: Usage | None = None
@@ -51,7 +51,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def measure_own(plan: Plan, base: Path, repeats: int, limit_s: float) -> list[Row]:
-    """Our tool, each row the run of median CPU time."""
+    """The runs of Mamori; each row is the run of median CPU time."""
     root = get_folder(plan, "native", base)
     write_native(plan, root, with_git=True)
     time.sleep(_SETTLE_S)
@@ -76,7 +76,7 @@ _OWN_ROWS = 3
 
 
 def measure_peers(plan: Plan, base: Path, limit_s: float) -> list[Row]:
-    """Each peer once, checking and writing its report; none of them has a check alone."""
+    """Each reference implementation once, with check and report; none of them has a separate check."""
     cache = base / "peers"
     oft_root, oft_out = get_folder(plan, "openfasttrace", base), base / "openfasttrace_report" / "index.html"
     sdoc_root, sdoc_out = get_folder(plan, "strictdoc", base), base / "strictdoc_report"

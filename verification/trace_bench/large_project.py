@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes a large clean project: requirements on three levels, C++ sources and tests, results, review lock. Same size, same bytes.
+"""Creates a large clean project: requirements on three levels, C++ sources and tests, results, review lock. Same size, same bytes.
 
-`Plan` says what there is; `write_native` writes it as the trace tool reads it. `peer_projects` writes the same plan for the peers.
+`Plan` contains the project; `write_native` writes it for the trace tool, `peer_projects` for the reference implementations.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ class Plan:
 
 
 def get_folder(plan: Plan, kind: str, base: Path) -> Path:
-    """Where a project of that plan lives below `base`."""
+    """Folder of the project of that plan below `base`."""
     return base / f"{kind}_{plan.count}"
 
 
@@ -123,9 +123,9 @@ def get_test(requirement: Requirement) -> tuple[str, str]:
 
 
 def write_native(plan: Plan, root: Path, with_git: bool = False) -> None:
-    """Writes the project into `root`, which is made anew.
+    """Writes the project to `root`, which is created again.
 
-    @param with_git makes it a repository of one commit, from which the evidence says to come, as a project has that is at work.
+    @param with_git makes it a repository of one commit, which the evidence names, as in a real project.
     """
     if plan.count < LEAST:
         raise ValueError(f"a project of {plan.count} requirements has no three levels; ask for at least {LEAST}")
@@ -142,7 +142,7 @@ def write_native(plan: Plan, root: Path, with_git: bool = False) -> None:
     _write_results(plan, root / EVIDENCE / "junit")
     project = read_requirements(root)
     review_links(project, set(project.items), "2026-01-05", "the maintainers")
-    assert project.lock is not None  # the reviews stand there
+    assert project.lock is not None  # the lock stores the reviews
     write_lock(root, project.lock)
     commit = _make_commit(root) if with_git else COMMIT_WITHOUT_GIT
     _write(root / EVIDENCE / "environment.json", json.dumps(_make_environment(commit), indent=1) + "\n")
@@ -151,7 +151,7 @@ def write_native(plan: Plan, root: Path, with_git: bool = False) -> None:
 
 
 def list_documents(plan: Plan) -> Iterator[tuple[str, str]]:
-    """(path, text) of each Markdown file: a hundred items to a file, and the design document that they point at."""
+    """(path, text) of each Markdown file: a hundred items per file, and the design document that they name."""
     folders = {"STK": "stakeholder", "SYS": "system", "SWR": "software"}
     for level, items in (("STK", plan.needs), ("SYS", plan.system), ("SWR", plan.software)):
         for index, part in enumerate(_slice(items, _AREA_ITEMS)):
@@ -163,7 +163,7 @@ def list_documents(plan: Plan) -> Iterator[tuple[str, str]]:
 
 
 def format_source(source: Source, tag: str) -> str:
-    """C++ with one function for each requirement. @param tag line that names `{id}`, as the reader of the set wants it."""
+    """C++ with one function for each requirement. @param tag line that names `{id}`, in the notation of the reader."""
     functions = "\n".join(
         f"/// Answers case {each.number}: counts up to the limit and keeps what was left.\n"
         f"/// @param[in] request number of cycles asked for, 0 .. 4294967295.\n"
@@ -207,7 +207,7 @@ def _format_block(item: Requirement, area: int) -> str:
 
 
 def _write_results(plan: Plan, folder: Path) -> None:
-    """One JUnit file for each area, as GoogleTest writes it."""
+    """One JUnit file for each area, in the form of GoogleTest."""
     for index, part in enumerate(_slice(plan.software, _AREA_ITEMS)):
         cases = []
         for each in part:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs one command and writes what it took: `measured_child.py RESULT LIMIT COMMAND...`.
+"""Runs one command and writes its resource usage: `measured_child.py RESULT LIMIT COMMAND...`.
 
-A process of its own, as small as can be: the largest memory that the system tells of a process is never below that of the one that started it.
+A separate, small process: the maximum memory that the system reports for a process is never below that of its parent.
 """
 
 import json
@@ -26,7 +26,7 @@ def main(result: str, limit_s: float, command: list[str]) -> None:
                 ended = False
                 os.killpg(child, signal.SIGKILL)
             time.sleep(_POLL_S)
-    except BaseException:  # stopped: nothing may run on
+    except BaseException:  # stopped: no process may continue
         os.killpg(child, signal.SIGKILL)
         raise
     wall_s = time.monotonic() - started

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Gets the peers: OpenFastTrace by Maven, StrictDoc by pip into an environment of its own, both below one cache folder.
+"""Installs the reference implementations: OpenFastTrace by Maven, StrictDoc by pip into a separate environment, in one cache folder.
 
-A peer that cannot be had is a sentence that says why and what to do; the measurement goes on without it and shows the sentence.
+If one is not available, a sentence states the reason and the remedy; the measurement continues without it and shows the sentence.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _MAIN = "org.itsallcode.openfasttrace.core.cli.CliStarter"
 
 @dataclass(frozen=True, slots=True)
 class Peer:
-    """`command` begins the line that runs it; empty when it is not here, and `reason` says why."""
+    """`command` is the beginning of its command line; empty if it is not installed, and `reason` states why."""
 
     title: str
     command: tuple[str, ...] = ()
@@ -37,7 +37,7 @@ def get_openfasttrace(cache: Path) -> Peer:
     repository = cache / "maven"
     jar = repository.joinpath(*_NAME.replace(":", ".").split(".")[:3], "openfasttrace", OPENFASTTRACE, f"openfasttrace-{OPENFASTTRACE}.jar")
     if not jar.is_file():
-        # The jar holds all its parts; what it names as dependencies are the same parts, which the registry need not have.
+        # The jar contains all its parts; its declared dependencies are the same parts, which the registry may lack.
         reason = _run(["mvn", "-q", "-B", "dependency:get", f"-Dartifact={_NAME}:{OPENFASTTRACE}", "-Dtransitive=false",
                        f"-Dmaven.repo.local={repository}"])  # fmt: skip
         if reason or not jar.is_file():
@@ -49,7 +49,7 @@ def get_strictdoc(cache: Path) -> Peer:
     title = f"StrictDoc {STRICTDOC}"
     environment = cache / f"strictdoc_{STRICTDOC}"
     program = environment / "bin" / "strictdoc"
-    done = environment / "whole"  # written last, so an installation that was stopped is made again
+    done = environment / "whole"  # written last, so that a stopped installation is repeated
     if not done.is_file():
         shutil.rmtree(environment, ignore_errors=True)
         pip = [str(environment / "bin" / "python"), "-m", "pip", "--disable-pip-version-check", "-q", "install", f"strictdoc=={STRICTDOC}"]
@@ -61,7 +61,7 @@ def get_strictdoc(cache: Path) -> Peer:
 
 
 def _run(command: list[str]) -> str:
-    """@return an empty text, or what went wrong, in one line."""
+    """@return an empty text, or the error in one line."""
     try:
         answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=_LIMIT_S, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:

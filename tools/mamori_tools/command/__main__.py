@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`python -m mamori_tools.command`, the way the launcher script comes in."""
+"""`python -m mamori_tools.command`, which the launcher script calls."""
 
 import sys
 
@@ -17,7 +17,7 @@ try:
         status = run_kept(sys.argv[2:], _run)
     else:
         status = _run()
-except KeyboardInterrupt:  # stopped before it could listen
+except KeyboardInterrupt:  # stopped before the signal handler was installed
     print("\nmamori: stopped; no report was written", file=sys.stderr)
     status = 130
 

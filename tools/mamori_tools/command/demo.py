@@ -39,7 +39,7 @@ def demo(jobs: int, motion: Path | None, scenarios: tuple[str, ...], instants: i
 
 
 def show_not_run(names: Sequence[str], context: Context) -> None:
-    """What `./mamori test` does more than this run."""
+    """The steps of `./mamori test` that this run omits."""
     context.screen.say()
     context.screen.say("not run (./mamori test runs these as well):")
     for line in textwrap.wrap(", ".join(names), width=SHOWN_WIDTH, break_long_words=False, break_on_hyphens=False):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which folders a command writes to, and what it finds there: the lock of each, and build trees that were made elsewhere.
+"""The folders that a command writes to: the lock of each, and build trees that were created in another folder.
 
 @satisfies SWR-CLI-040, SWR-CLI-042      Design: docs/design/launcher.md#lock
 """
@@ -25,9 +25,9 @@ MADE_IN = re.compile(r"^CMAKE_CACHEFILE_DIR:INTERNAL=(.*)$", re.MULTILINE)
 
 @contextlib.contextmanager
 def hold_locks(arguments: argparse.Namespace, words: Sequence[str]) -> Iterator[None]:
-    """Holds the locks of a command that writes; a reader takes none. A stopped command ends its children before it lets go.
+    """Holds the locks of a writing command; a reader takes none. A stopped command ends its children before it releases the locks.
 
-    @raise MissingError another command writes there, or nothing can be written there.
+    @raise MissingError if another command writes there, or the folder is not writable.
     """
     command = " ".join(("./mamori", *words))
     with contextlib.ExitStack() as stack:
@@ -41,13 +41,13 @@ def hold_locks(arguments: argparse.Namespace, words: Sequence[str]) -> Iterator[
             discard_moved_trees(folder)
         try:
             yield
-        except (KeyboardInterrupt, OSError):  # also when the reader of the output is gone: no child writes without the lock
+        except (KeyboardInterrupt, OSError):  # also when the reader of the output has ended: no child process writes without the lock
             end_children()
             raise
 
 
 def list_written(arguments: argparse.Namespace) -> list[Path]:
-    """Folders of the projects that the command writes to: the checkout, and the project that it names."""
+    """Folders of the projects that the command writes to: the checkout, and the project in its arguments."""
     match arguments.command:
         case "demo" | "run" | "test" | "fuzz" | "prove":
             return [ROOT]
@@ -58,7 +58,7 @@ def list_written(arguments: argparse.Namespace) -> list[Path]:
         case "timing" | "cost":
             return _with_project(_find_project(arguments.system))
         case _:
-            return []  # readers; `trace` has locks of its own, and what `new` makes is not there yet
+            return []  # readers; `trace` has its own locks, and the folder of `new` does not exist yet
 
 
 def _with_project(folder: Path | None) -> list[Path]:
@@ -68,7 +68,7 @@ def _with_project(folder: Path | None) -> list[Path]:
 
 
 def _find_project(system: str) -> Path | None:
-    """The project of the user's that the folder `system` is part of; None for other folders and for programs."""
+    """The user project that contains the folder `system`; None for other folders and for programs."""
     from mamori_tools.timing.system import find_project
 
     folder = Path(system)
@@ -78,7 +78,7 @@ def _find_project(system: str) -> Path | None:
 
 
 def discard_moved_trees(root: Path) -> None:
-    """Lets CMake configure anew what was configured before the folder was moved or copied to this place: it refuses such a tree."""
+    """Lets CMake configure a build tree again after its folder was moved or copied, because CMake rejects such a tree."""
     for cache in sorted(path for pattern in ("*", "*/*") for path in (root / "build").glob(f"{pattern}/CMakeCache.txt")):
         found = MADE_IN.search(cache.read_text(encoding="utf-8", errors="replace"))
         if found is None or os.path.realpath(found[1]) == os.path.realpath(cache.parent):

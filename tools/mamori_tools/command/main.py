@@ -36,7 +36,7 @@ def list_commands() -> dict[str, EntryPoint]:
 
 
 def make_parser(wanted: str | None = None, with_trace: bool = False) -> Parser:
-    """@param wanted the command whose arguments are known; None: all but `trace`, whose libraries no other command needs."""
+    """@param wanted the command whose arguments are added; None: all except `trace`, whose libraries no other command needs."""
     parser = Parser(prog=PROGRAM, allow_abbrev=False, usage="%(prog)s COMMAND [options]", description=ABOUT)
     parser.statuses = {4: "timing without real-time privileges"}
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=Parser, prog=PROGRAM)
@@ -83,7 +83,7 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
 
 def _split(argv: list[str]) -> tuple[list[str], tuple[str, ...]]:
-    """@return our own words, and those that `timing` passes on: what comes after the first `--`."""
+    """@return the arguments of the command, and those after the first `--`, which `timing` passes to its program."""
     if argv[:1] != ["timing"] or "--" not in argv:
         return argv, ()
     place = argv.index("--")
@@ -92,13 +92,13 @@ def _split(argv: list[str]) -> tuple[list[str], tuple[str, ...]]:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input), 3 (a tool is missing, or another command holds
-    the lock), 4 (timing without rights), 130 (stopped) or 141 (nobody reads the output)."""
+    the lock), 4 (timing without privileges), 130 (stopped) or 141 (the reader of the output has ended)."""
     try:
         raise_on_signals()
         status = run(list(sys.argv[1:] if argv is None else argv))
-        sys.stdout.flush()  # what cannot be written is reported here, not when Python ends
+        sys.stdout.flush()  # reports an output error here, not when Python ends
         return status
-    except BrokenPipeError:  # whoever reads standard output has read enough
+    except BrokenPipeError:  # the reader of standard output has read enough
         discard_output()
         return EXIT_PIPE
     except InputError as error:
@@ -108,7 +108,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except OSError as error:
         try:
             sys.stdout.flush()
-        except OSError:  # what is left would fail once more when Python ends
+        except OSError:  # the remaining output would fail again when Python ends
             discard_output()
         return _refuse(describe(error), EXIT_USAGE)
     except UnicodeEncodeError as error:
@@ -120,7 +120,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _refuse(message: str, status: int) -> int:
-    """One line, whatever a name of the user's contains."""
+    """One line, for any name of the user."""
     line = " ".join(message.split())
     print(f"{PROGRAM}: {line.encode('utf-8', 'backslashreplace').decode('utf-8')}", file=sys.stderr)
     return status

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`mamori new NAME`: a project of the user's, made from the first example, so that an API change is made at one place.
+"""`mamori new NAME`: a user project, created from the first example, so that an API change needs an edit at one location only.
 
-The sources of examples/minimal are cut at their landmarks and put together anew; only what the example does not have (requirements,
-tests, CMake of a project of its own) is kept as text, in start/. The folder appears complete or not at all.
+The sources of examples/minimal are cut at their landmarks and joined again. Only parts that the example does not have (requirements,
+tests, CMake of a separate project) are stored as text, in start/. The folder is created atomically.
 
 @satisfies SWR-CLI-024, SWR-CLI-025      Design: docs/design/launcher.md#new-projects
 """
@@ -28,7 +28,7 @@ from mamori_trace.base.errors import InputError
 START = Path(__file__).parent / "start"
 EXAMPLE = ROOT / "examples" / "minimal"
 NAME_LENGTH_MAX = 64
-# Targets that CMake or this project makes itself.
+# Targets that CMake or this project defines itself.
 RESERVED = frozenset("all clean help install list_install_components package package_source edit_cache rebuild_cache test mamori".split())
 LANDMARKS = ("using mamori::Status;", "static Wheel wheel;", "/// What surrounds the components", "int main() {\n")
 
@@ -49,7 +49,7 @@ def new(path: Path) -> int:
 
 
 def check_target(path: Path) -> Path:
-    """@return the absolute path of the new folder. @raise InputError when it cannot become a project."""
+    """@return the absolute path of the new folder. @raise InputError if it cannot become a project."""
     name = path.name
     if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > NAME_LENGTH_MAX:
         raise InputError(f"'{path}' ends in no valid name of a project; use a lower-case letter, then lower-case letters, digits "
@@ -67,7 +67,7 @@ def check_target(path: Path) -> Path:
 
 
 def make_files(name: str) -> dict[str, str]:
-    """@return the content of each file by its place in the project, but for requirements/trace.lock."""
+    """@return the content of each file by its path in the project, except requirements/trace.lock."""
     head, components, table, printer, main = cut(EXAMPLE / "main.cpp")
     includes = "".join(line for line in head.splitlines(keepends=True) if line.startswith("#include"))
     used = re.search(r"target_link_libraries\(\S+ PRIVATE ([^)]+)\)", (EXAMPLE / "CMakeLists.txt").read_text(encoding="utf-8"))
@@ -113,7 +113,7 @@ def replace_once(text: str, old: str, new_text: str) -> str:
 
 
 def make_run(main: str) -> str:
-    """The main function of the example as a function with any devices."""
+    """The main function of the example as a function for any devices."""
     text = replace_once(main, "int main() {\n", "/// Runs the system for `frame_count` major frames. @return 0 when each action succeeded.\n"
                         "inline int run_system(int frame_count, mamori::ports::virtual_time::FrameDevices& devices) {\n")  # fmt: skip
     text = replace_once(text, "    Printer printer;\n", "")
@@ -147,7 +147,7 @@ def fill(template: str, words: dict[str, str]) -> str:
 
 
 def write_project(target: Path, files: dict[str, str]) -> None:
-    """Writes `files` and the record of their links to a folder beside `target` and renames it. @raise OSError"""
+    """Writes `files` and the record of their links to a temporary folder and renames it to `target`. @raise OSError"""
     part = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
     try:
         for name, text in files.items():

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`mamori run`: one case of the example arm with its plots, beside the end state that the fault plan expects.
+"""`mamori run`: one case of the example arm with its plots, and the end state that the fault plan expects.
 
-What the user leaves out of a fault comes from the scenario of the plan that is most like it; that scenario also states what is
-expected. Campaign, motion reader and report are imported where they are used: they pull in large libraries.
+Values that the user omits come from the most similar scenario of the plan. That scenario also states the expected
+end state. Campaign, motion reader and report are imported when they are used, because they load large libraries.
 
 @satisfies SWR-CLI-013      Design: docs/design/launcher.md#one-case
 """
@@ -83,7 +83,7 @@ def _make_empty(folder: Path) -> None:
 
 
 def select_case(plan: Plan, motion: Motion, fault: str | None) -> Selection:
-    """The one case that `fault` (KIND[,key=value...]) asks for; None: no fault. @raise InputError with the valid words."""
+    """The case that `fault` (KIND[,key=value...]) specifies; None: no fault. @raise InputError with the valid words."""
     from mamori_tools.campaign import Selection
     from mamori_tools.campaign.arm.plan import ArmScenario
 
@@ -93,7 +93,7 @@ def select_case(plan: Plan, motion: Motion, fault: str | None) -> Selection:
     if not scenarios:
         raise InputError(f"run: --fault: unknown kind '{kind}'; known: {_join(each.fault.kind for each in known)}")
     given = _read_pairs(pairs, scenarios[0], motion)
-    # Scenarios in the order of the plan; a scenario with each part that was given comes first.
+    # Scenarios in the order of the plan; a scenario with all given values comes first.
     scenario = max(scenarios, key=lambda each: sum(getattr(each.fault, _FIELDS[key]) == value
                                                    for key, value in given.items() if key in _FIELDS))  # fmt: skip
     spec = replace(scenario.fault, **{_FIELDS[key]: value for key, value in given.items() if key in _FIELDS})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori build` and `./mamori verify`: Mamori itself, or a project of the user's.
+"""`./mamori build` and `./mamori verify`: Mamori itself, or a user project.
 
 @satisfies SWR-CLI-006      Design: docs/design/launcher.md#steps
 """
@@ -59,14 +59,14 @@ def verify_own(jobs: int) -> int:
 
 
 def check_folder(folder: Path) -> Path:
-    """@return the absolute path of a project folder. @raise InputError when it is none."""
+    """@return the absolute path of a project folder. @raise InputError if it is not a project."""
     if not (folder / "CMakeLists.txt").is_file():
         raise InputError(f"'{folder}' has no CMakeLists.txt; give the folder of a project that calls find_package(mamori)")
     return folder.resolve()
 
 
 def check_preset(preset: str) -> None:
-    """@raise InputError when CMakePresets.json has no such configuration."""
+    """@raise InputError if CMakePresets.json has no such configuration."""
     presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
     names = [entry["name"] for entry in presets if not entry.get("hidden")]
     if preset not in names:

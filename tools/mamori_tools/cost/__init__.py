@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori cost SYSTEM`: exact instructions of each step of each component, and what they say about its budgets (docs/design/cost.md)."""
+"""`./mamori cost SYSTEM`: exact instruction counts of each step of each component, compared with the budgets (docs/design/cost.md)."""

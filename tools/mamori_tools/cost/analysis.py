@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What counted steps say about components and budgets: pure functions from arrays to figures.
+"""Evaluates counted steps of components and windows: pure functions from arrays to figures.
 
 @satisfies SWR-TIM-032, SWR-TIM-033, SWR-TIM-035      Design: docs/design/cost.md#figures
 """
@@ -18,7 +18,7 @@ from mamori_tools.timing.reader import PASSES, Array
 
 @dataclass(frozen=True)
 class Count:
-    """Instructions; each is a value that was counted. `cycle`: the frame in which the maximum came first."""
+    """Instruction counts; each is a counted value. `cycle`: the first major frame with the maximum."""
 
     count: int
     min: int
@@ -29,7 +29,7 @@ class Count:
 
 @dataclass(frozen=True)
 class StepRow:
-    """One pass of a component, with the inputs of one class. `time_ns`: the maximum at the worst ratio of the run."""
+    """One pass of a component, with the inputs of one class. `time_ns`: the maximum count times the largest ratio of the run."""
 
     input_class: str
     component: str
@@ -41,7 +41,7 @@ class StepRow:
 
 @dataclass(frozen=True)
 class Ratio:
-    """How long an instruction of one component takes by the clock [ns]: median and 99th percentile over openings of all classes."""
+    """Measured time per instruction of one component [ns]: median and 99th percentile over window instances of all classes."""
 
     component: str
     openings: int
@@ -51,8 +51,8 @@ class Ratio:
 
 @dataclass(frozen=True)
 class Pace:
-    """The ratio that turns counts into times. `ns_per_instruction`: the greatest median of a component, which is `component`;
-    `least_ns` the smallest. `reference_ns`: that of the reference work, for comparison."""
+    """The ratio that converts counts to times. `ns_per_instruction`: the largest median, which `component` has;
+    `least_ns` the smallest median. `reference_ns`: the ratio of the reference work, for comparison."""
 
     ns_per_instruction: float
     component: str
@@ -63,9 +63,9 @@ class Pace:
 
 @dataclass(frozen=True)
 class LimitRow:
-    """A budget of a window or the declared worst case of a component, against the greatest count in one opening.
+    """A budget of a window or the declared worst case of a component, compared with the maximum count in one window instance.
 
-    `heaviest`: the component that had most of it. `needed_ns`: the time of it and the margin.
+    `heaviest`: the component with the largest share. `needed_ns`: time of the maximum count plus margin.
     """
 
     what: str
@@ -88,7 +88,7 @@ class LimitRow:
 
 
 def list_ratios(runs: Sequence[ClassRun]) -> list[Ratio]:
-    """Of all components that ran in a counted cycle."""
+    """The ratio of each component that ran in a counted cycle."""
     rows = []
     for index, component in enumerate(runs[0].table.components):
         parts = [_calc_ratios(run, index) for run in runs]
@@ -108,7 +108,7 @@ def find_pace(ratios: Sequence[Ratio], runs: Sequence[ClassRun]) -> Pace:
 
 
 def list_steps(runs: Sequence[ClassRun], pace: Pace) -> list[StepRow]:
-    """Class by class, component by component, pass by pass."""
+    """Sorted by class, component and pass."""
     rows = []
     for run in runs:
         for index, component in enumerate(run.table.components):
@@ -123,7 +123,7 @@ def list_steps(runs: Sequence[ClassRun], pace: Pace) -> list[StepRow]:
 
 
 def list_limits(runs: Sequence[ClassRun], pace: Pace, margin_percent: float) -> list[LimitRow]:
-    """Each budget and each declared worst case that a counted opening can be held against."""
+    """Each budget and each declared worst case for which a window instance was counted."""
     table = runs[0].table
     rows = []
     for index, window in enumerate(table.windows):
@@ -136,7 +136,7 @@ def list_limits(runs: Sequence[ClassRun], pace: Pace, margin_percent: float) -> 
 
 
 def list_findings(limits: Sequence[LimitRow], runs: Sequence[ClassRun], ratios: Sequence[Ratio], margin_percent: float) -> list[str]:
-    """One line each: limits below the measured maximum and its margin, and components of which nothing was counted."""
+    """One line each: limits below the measured maximum plus margin, and components without a count."""
     table = runs[0].table
     findings = []
     for row in limits:
@@ -156,7 +156,7 @@ def list_findings(limits: Sequence[LimitRow], runs: Sequence[ClassRun], ratios: 
 
 
 def _calc_ratios(run: ClassRun, component: int) -> Array:
-    """ns per instruction of one component in each opening."""
+    """ns per instruction of one component in each window instance."""
     chosen = run.steps["component"] == component
     instructions, _ = _sum_openings(run, chosen, run.instructions)
     times, _ = _sum_openings(run, chosen, run.times_ns)
@@ -164,9 +164,9 @@ def _calc_ratios(run: ClassRun, component: int) -> Array:
 
 
 def _sum_openings(run: ClassRun, chosen: Array, values: Array) -> tuple[Array, Array]:
-    """@return sum of `values` over the chosen steps of each opening of one window, and the releases of the openings."""
+    """@return sum of `values` over the chosen steps of each instance of one window, and the releases of the instances."""
     releases, place = np.unique(run.steps["release_ns"][chosen], return_inverse=True)
-    # Sums of a float are exact here: counts and times are far below 2**53.
+    # Floating-point sums are exact here: counts and times are far below 2**53.
     return np.bincount(place, weights=values[chosen], minlength=len(releases)).astype(np.int64), releases
 
 
@@ -177,13 +177,13 @@ def _describe(values: Array, releases: Array, table: Table) -> Count:
 
 
 def _pick(ordered: Array, permille: int) -> float:
-    """Nearest rank: a value that is there."""
+    """Nearest rank: an existing value."""
     return ordered[-(-permille * len(ordered) // 1000) - 1]
 
 
 def _make_limit(what: str, name: str, limit_ns: int, members: Sequence[int], runs: Sequence[ClassRun], pace: Pace, margin_percent: float
                 ) -> list[LimitRow]:  # fmt: skip
-    """@return the worst opening over all classes; nothing where none was counted."""
+    """@return the worst window instance over all classes; nothing if none was counted."""
     worst: tuple[int, ClassRun, int] | None = None
     for run in runs:
         chosen = np.isin(run.steps["component"], members)

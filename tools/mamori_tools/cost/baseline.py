@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stored maxima of instructions: written when told to, and held against a new count of the same compiler.
+"""Stored maximum counts: written on request, and compared with a new count of the same compiler.
 
 @satisfies SWR-TIM-037, SWR-TIM-038      Design: docs/design/cost.md#baseline
 """
@@ -32,7 +32,7 @@ Key = tuple[str, str, str]
 
 @dataclass(frozen=True)
 class Baseline:
-    """`maxima` [instructions]. What it belongs to must be the same in a run that is held against it."""
+    """`maxima` [instructions]. The other fields must be equal in a compared run."""
 
     path: Path
     system: str
@@ -43,13 +43,13 @@ class Baseline:
 
 
 def make_class_fingerprint(classes: Sequence[InputClass]) -> str:
-    """Of everything that is declared of them."""
+    """Hash of all declared properties of the input classes."""
     declared = [[one.name, one.cycles, one.first, one.every, list(one.arguments)] for one in classes]
     return hashlib.sha256(json.dumps(declared).encode()).hexdigest()
 
 
 def load_baseline(path: Path, system: str, classes: Sequence[InputClass]) -> Baseline:
-    """@raise InputError for what is no baseline, of another format, of another system, or of other classes of inputs."""
+    """@raise InputError for an invalid baseline, or one of another format, system or set of input classes."""
     try:
         data = tomllib.loads(read_text(path, "baseline", 1_000_000).text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
@@ -86,7 +86,7 @@ def _read_max(row: dict[str, Any]) -> int:
 
 
 def check_origin(baseline: Baseline, table: Table, build: Build) -> None:
-    """@raise InputError when it was made of another table or by another compiler: such counts do not compare."""
+    """@raise InputError if it belongs to another table or compiler, because such counts are not comparable."""
     for what, before, now in (("compiler", baseline.build.compiler, build.compiler), ("flags", baseline.build.flags, build.flags),
                               ("C library", baseline.build.c_library, build.c_library)):  # fmt: skip
         if before != now:
@@ -97,7 +97,7 @@ def check_origin(baseline: Baseline, table: Table, build: Build) -> None:
 
 
 def judge_growth(baseline: Baseline, rows: Sequence[StepRow], growth_percent: float) -> list[str]:
-    """@return one finding per maximum that grew by more than is allowed, for one that is new, and for one that is gone."""
+    """@return one finding per maximum that grew by more than allowed, per new maximum, and per missing maximum."""
     now = {(row.input_class, row.component, row.pass_name): row for row in rows}
     findings = []
     for key, row in now.items():
@@ -114,7 +114,7 @@ def judge_growth(baseline: Baseline, rows: Sequence[StepRow], growth_percent: fl
 
 
 def write_baseline(path: Path, system: str, table: Table, classes: Sequence[InputClass], build: Build, rows: Sequence[StepRow]) -> None:
-    """Whole or not at all. @raise InputError where it cannot be written."""
+    """Atomic. @raise InputError if it cannot be written."""
     steps = "".join(f"\n[[step]]\nclass = {_quote(row.input_class)}\ncomponent = {_quote(row.component)}\npass = {_quote(row.pass_name)}\n"
                     f"max = {row.instructions.max}\n" for row in rows)  # fmt: skip
     belongs = "".join(f"{key} = {_quote(value)}\n" for key, value in asdict(build).items())
@@ -129,5 +129,5 @@ classes = "{make_class_fingerprint(classes)}"
 
 
 def _quote(text: str) -> str:
-    """A basic string of TOML: that of JSON, but for DEL."""
+    """A basic string of TOML: like that of JSON, except for DEL."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table `[cost]` of a `timing.toml`: classes of inputs, the margin that budgets keep, and how much a count may grow.
+"""The table `[cost]` of a `timing.toml`: input classes, margin of the budgets, and permitted growth of a count.
 
 @satisfies SWR-TIM-031      Design: docs/design/cost.md#input-classes
 """
@@ -29,9 +29,9 @@ GROWTH_PERCENT = 2.0
 
 @dataclass(frozen=True)
 class InputClass:
-    """Inputs that take a system through some of its branches: `arguments` of its program, as they are declared.
+    """Inputs that execute some of the branches of a system: the declared `arguments` of its program.
 
-    Of `cycles` major frames those are counted whose number is `first`, `first + every`, ...
+    The major frames `first`, `first + every`, ... of `cycles` are counted.
     """
 
     name: str
@@ -45,8 +45,8 @@ class InputClass:
 
 @dataclass(frozen=True)
 class CostPlan:
-    """What is counted and what it is held against [percent]: a budget is at least the measured maximum and `margin_percent` of it;
-    a maximum is at most that of the baseline and `growth_percent` of it."""
+    """Input classes and limits [percent]: a budget is at least the measured maximum plus `margin_percent` of it;
+    a maximum is at most that of the baseline plus `growth_percent` of it."""
 
     margin_percent: float
     growth_percent: float
@@ -54,7 +54,7 @@ class CostPlan:
 
 
 def read_plan(system: System, project: Project) -> CostPlan:
-    """@raise InputError when the system has none, InputError for one that is not in order."""
+    """@raise InputError if the system has no such table, or an invalid one."""
     if system.file is None:
         raise InputError(f"cost: '{system.program.name}' has no input classes; name a folder with a {FILE} that has a [cost]")
     if not system.cost:
@@ -75,7 +75,7 @@ def read_plan(system: System, project: Project) -> CostPlan:
 
 
 def choose(plan: CostPlan, names: Sequence[str]) -> tuple[InputClass, ...]:
-    """Classes of these names; all, where none is given. @raise InputError for one that there is not."""
+    """Classes of these names; all if none is given. @raise InputError for an unknown name."""
     known = [one.name for one in plan.classes]
     for name in names:
         if name not in known:

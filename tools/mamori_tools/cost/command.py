@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori cost SYSTEM`: check, build, count, time, judge, show.
+"""`./mamori cost SYSTEM`: check, build, count, time, evaluate, show.
 
 @satisfies SWR-TIM-036, SWR-TIM-039      Design: docs/design/cost.md#cost
 """
@@ -37,7 +37,7 @@ TOOL = "valgrind"
 
 @dataclass(frozen=True)
 class Request:
-    """What the user asked for. No classes: all of them."""
+    """The request of the user. No classes: all of them."""
 
     system: str
     classes: tuple[str, ...] = ()
@@ -49,7 +49,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Job:
-    """A request that was found to be in order."""
+    """A checked request."""
 
     request: Request
     system: System
@@ -84,7 +84,7 @@ def cost(request: Request, jobs: int) -> int:
 
 
 def check(request: Request, jobs: int) -> Job:
-    """Everything that can be known before work begins. @raise InputError."""
+    """All checks that are possible before work begins. @raise InputError."""
     project = Project(ROOT)
     if request.check is not None and request.accept is not None:
         raise InputError("cost: --check and --accept exclude each other; check first, accept what you want to keep")
@@ -109,7 +109,7 @@ def check(request: Request, jobs: int) -> Job:
 
 
 def _prepare_folder(job: Job) -> None:
-    """Takes earlier results away, so that none can be taken for those of this run. @raise InputError."""
+    """Removes earlier results, so that none counts for this run. @raise InputError."""
     try:
         for name in RESULTS:
             (job.folder / name).unlink(missing_ok=True)

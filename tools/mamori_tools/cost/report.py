@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Everything that one call found, its exit status, cost.json and its text.
+"""All results of one call, its exit status, cost.json and its text.
 
 @satisfies SWR-TIM-039      Design: docs/design/cost.md#results
 """
@@ -29,7 +29,7 @@ ASSUMPTION = ("times are counts at the worst median ratio of a component on this
 
 @dataclass(frozen=True)
 class Report:
-    """One call. `host` holds setting and state before and after (timing/environment.py)."""
+    """One call. `host` contains setting and state before and after (timing/environment.py)."""
 
     system: str
     plan: CostPlan
@@ -51,7 +51,7 @@ class Report:
 
     @property
     def marks(self) -> list[str]:
-        """What nobody may overlook: on the screen, in the files and on the page."""
+        """Marks that must be visible on the screen, in the files and on the page."""
         refused = {right.name: right for run in self.runs for right in run.facts.rights if not right.is_granted}
         if not refused:
             return []
@@ -98,7 +98,7 @@ def _make_class(run: ClassRun) -> dict[str, Any]:
 
 
 def write_results(report: Report, environment: dict[str, object], folder: Path) -> list[Path]:
-    """Each whole or not at all. @return the paths."""
+    """Writes each file atomically. @return the paths."""
     paths = [folder / "cost.json", folder / "cost.txt"]
     write_text(paths[0], json.dumps(make_record(report, environment), indent=1) + "\n")
     write_text(paths[1], make_text(report))
@@ -106,7 +106,7 @@ def write_results(report: Report, environment: dict[str, object], folder: Path) 
 
 
 def make_text(report: Report) -> str:
-    """One screen for a system of some components; times in us."""
+    """One screen for a system of a few components; times in us."""
     build, pace = report.build, report.pace
     steps = [("class", "component", "pass", "counted", "min", "median", "max", "in cycle", "time")]
     steps += [(row.input_class, row.component, row.pass_name, str(row.instructions.count), str(row.instructions.min),

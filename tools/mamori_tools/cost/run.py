@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the program twice for one class of inputs: under callgrind, and by the clock. Both must have done the same.
+"""Runs the program twice for one input class: under callgrind, and in real time. Both runs must execute the same steps.
 
 @satisfies SWR-TIM-032, SWR-TIM-033      Design: docs/design/cost.md#counting
 """
@@ -35,7 +35,7 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Build:
-    """What the program was made with: counts of another one do not compare."""
+    """Compiler, flags and C library of the program: counts of another build are not comparable."""
 
     compiler: str
     flags: str
@@ -44,7 +44,7 @@ class Build:
 
 @dataclass(frozen=True)
 class Facts:
-    """run.json of one run. `empty_ns`: the least time of counted work that does nothing; `reference_ns`: the median of the reference work."""
+    """run.json of one run. `empty_ns`: the minimum time of empty counted work; `reference_ns`: the median of the reference work."""
 
     build: Build
     calibration_count: int
@@ -56,8 +56,8 @@ class Facts:
 
 @dataclass(frozen=True)
 class ClassRun:
-    """One class of inputs. `steps` (STEP) in the order in which they ran; for each of them `instructions` of the step alone, and
-    `times_ns` between the two readings of the clock around it, less what they take themselves."""
+    """One input class. `steps` (STEP) in execution order; for each of them `instructions` of the step alone, and
+    `times_ns` between the two clock readings around it, less the time of the readings themselves."""
 
     input_class: InputClass
     table: Table
@@ -70,8 +70,8 @@ class ClassRun:
 
 
 def run_class(system: System, one: InputClass, log: Path, tell: Tell) -> ClassRun:
-    """@raise WorkError when a run fails or the two differ, InputError for files that are not in order, InputError when the program
-    refuses its arguments, KeyboardInterrupt when it was stopped."""
+    """@raise WorkError if a run fails or the two differ, InputError for invalid files, InputError if the program
+    rejects its arguments, KeyboardInterrupt if it was stopped."""
     with tempfile.TemporaryDirectory(prefix="mamori-cost-") as scratch:
         folder = Path(scratch)
         out = folder / "callgrind.out"
@@ -79,7 +79,7 @@ def run_class(system: System, one: InputClass, log: Path, tell: Tell) -> ClassRu
         _run(system, one, "count", folder / "count", make_step_options(FUNCTION, out), limit_s, log, tell)
         table, steps, facts = read_cost(folder / "count", one)
         totals = list_totals(out)
-        out.unlink()  # megabytes that nobody needs any more
+        out.unlink()  # megabytes that are no longer needed
         calls = 2 * facts.calibration_count
         if len(totals) != len(steps) + calls:
             raise WorkError(f"class '{one.name}': callgrind saw {len(totals)} calls of {FUNCTION}(), the program noted {len(steps)} steps "
@@ -108,7 +108,7 @@ def _run(system: System, one: InputClass, by: str, out: Path, before: Sequence[s
 
 
 def read_cost(folder: Path, one: InputClass) -> tuple[Table, Array, Facts]:
-    """The files of one run. @raise InputError for anything that is not whole, or of another class than `one`."""
+    """The files of one run. @raise InputError for an incomplete file, or one of another class than `one`."""
     table = read_table(folder / "table.json")
     if table.findings:
         raise InputError(f"breaks a rule: {table.findings[0]}; ./mamori table --text shows all", folder / "table.json")
@@ -132,7 +132,7 @@ def read_cost(folder: Path, one: InputClass) -> tuple[Table, Array, Facts]:
 
 
 def _check_same(one: InputClass, table: Table, counted: Array, timed: Array) -> None:
-    """@raise WorkError when the two runs did not do the same steps: then no time belongs to a count."""
+    """@raise WorkError if the two runs executed different steps, because no time then belongs to a count."""
     if len(counted) != len(timed):
         raise WorkError(f"class '{one.name}': {len(counted)} steps under callgrind, {len(timed)} by the clock; the program must do the same "
                         "again with the same arguments")  # fmt: skip

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori e2e`: the residual error of a channel, beside the budgets of the safety integrity levels.
+"""`./mamori e2e`: the residual error of a channel, compared with the limits of the safety integrity levels.
 
 @satisfies SWR-E2E-021, SWR-E2E-025, SWR-E2E-026      Design: docs/design/e2e.md#residual-error
 """
@@ -21,13 +21,13 @@ from mamori_trace.base.nearest_names import nearest_names
 
 SCHEMA = "mamori.e2e_residual/1"
 SECONDS_PER_HOUR = 3600
-# Per hour: 1 % of the upper end of the band of each level.
+# Per hour: 1 % of the upper limit of each level.
 BUDGETS = {1: Decimal("1e-7"), 2: Decimal("1e-8"), 3: Decimal("1e-9"), 4: Decimal("1e-10")}
 PE_LEAST, PE_MOST = Decimal("1e-30"), Decimal("0.5")
 RATE_LEAST, RATE_MOST = Decimal("1e-9"), Decimal("1e9")
 DIGITS_MOST = 12  # of a count
-LIST_LENGTH_MAX = 14  # bytes: above it two turned bits pass in profiles 2 and 22
-EXACT_LENGTH_MAX = 65_535  # bytes: longer frames have a bound only
+LIST_LENGTH_MAX = 14  # bytes: in longer messages two flipped bits pass in profiles 2 and 22
+EXACT_LENGTH_MAX = 65_535  # bytes: longer messages have only a bound
 WIDTH_COUNTED = 32  # bits: dual words of wider checksums are too many
 EXACT, ESTIMATE, BOUND = "exact", "estimate", "bound"
 WITHIN, OVER, NOT_SHOWN, REFUSED = "within", "over", "not shown", "refused"
@@ -35,7 +35,7 @@ WITHIN, OVER, NOT_SHOWN, REFUSED = "within", "over", "not shown", "refused"
 
 @dataclass(frozen=True)
 class Channel:
-    """What is asked. Length in bytes with the header, rate in frames per second."""
+    """The requested channel. Length in bytes with the header, rate in messages per second."""
 
     profile: Profile
     length: int
@@ -46,7 +46,7 @@ class Channel:
 
 @dataclass(frozen=True)
 class Answer:
-    """What is known. Without a number of patterns the Hamming distance is a least one."""
+    """The calculated figures. Without a number of patterns, the Hamming distance is a lower bound."""
 
     channel: Channel
     method: str
@@ -58,11 +58,11 @@ class Answer:
 
     @property
     def rate(self) -> Decimal:
-        """Damaged frames that pass [1/h]."""
+        """Undetected damaged messages [1/h]."""
         return self.residual * self.channel.rate_hz * SECONDS_PER_HOUR * self.channel.receivers
 
     def judge(self, budget: Decimal) -> str:
-        """What can be said of a budget [1/h]. A bound that is over it shows nothing."""
+        """Whether the limit [1/h] is met. A bound above the limit shows nothing."""
         if self.channel.profile.checksum is CRC8_H2F and self.channel.length > LIST_LENGTH_MAX:
             return REFUSED
         if self.rate > budget:
@@ -71,19 +71,19 @@ class Answer:
 
     @property
     def status(self) -> int:
-        """Exit status: 1 when no level's budget is kept."""
+        """Exit status: 1 if the limit of no level is met."""
         return EXIT_OK if any(self.judge(budget) == WITHIN for budget in BUDGETS.values()) else EXIT_FAILED
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """@return exit status: 0, 1 (no level's budget is kept). @raise InputError."""
+    """@return exit status: 0, 1 (the limit of no level is met). @raise InputError."""
     answer = answer_channel(check(arguments))
     print(make_json(answer) if arguments.json else make_text(answer))
     return answer.status
 
 
 def check(arguments: argparse.Namespace) -> Channel:
-    """@raise InputError what is wrong, with which option, and what would be right."""
+    """@raise InputError with the option, the fault and the valid values."""
     number = arguments.profile.strip().lower().removeprefix("p").lstrip("0")
     known = [str(profile) for profile in PROFILES]
     if number not in known:
@@ -110,7 +110,7 @@ def _read_count(text: str, option: str) -> int:
 
 
 def _read_number(text: str, option: str, wanted: str) -> Decimal:
-    """Exactly what was written; infinity and what is no number are refused."""
+    """The exact written value; infinity and not-a-number are rejected."""
     try:
         number = Decimal(text)
     except InvalidOperation:
@@ -121,7 +121,7 @@ def _read_number(text: str, option: str, wanted: str) -> Decimal:
 
 
 def answer_channel(channel: Channel) -> Answer:
-    """The best that can be said within a minute or so. @raise InputError a stored file is damaged."""
+    """The best result within about a minute. @raise InputError if a stored file is damaged."""
     checksum, bits = channel.profile.checksum, 8 * channel.length
     limits = _list_limits(channel)
     if checksum.width > WIDTH_COUNTED:
@@ -161,7 +161,7 @@ def _show_share(share: float) -> None:
 
 
 def _list_limits(channel: Channel) -> tuple[str, ...]:
-    """What the numbers leave out."""
+    """Effects that the figures do not include."""
     limits = ["bits are taken to be turned independently of each other; a stuck line and bursts are other questions",
               "what a receiver compares beside the checksum (length, identifier, counter) is not counted in favour"]  # fmt: skip
     number, checksum = channel.profile.number, channel.profile.checksum
@@ -183,7 +183,7 @@ def _list_limits(channel: Channel) -> tuple[str, ...]:
 
 
 def make_text(answer: Answer) -> str:
-    """What the user sees."""
+    """The text output."""
     channel = answer.channel
     patterns = (
         "or more; patterns not counted" if answer.patterns is None else f"bits; {answer.patterns} patterns of so many bits pass"
@@ -210,7 +210,7 @@ def make_text(answer: Answer) -> str:
 
 
 def make_json(answer: Answer) -> str:
-    """The same for programs. Numbers that are no counts have 17 digits."""
+    """The same for programs. Numbers other than counts have 17 digits."""
     channel = answer.channel
     document = {
         "schema": SCHEMA,

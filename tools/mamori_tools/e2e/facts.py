@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes safety/include/mamori/safety/e2e/residual_facts.hpp: what the compiler is told of the 16- and 32-bit checksums.
+"""Creates safety/include/mamori/safety/e2e/residual_facts.hpp: the compile-time figures of the 16- and 32-bit checksums.
 
     python -P -m mamori_tools.e2e.facts
 
@@ -26,7 +26,7 @@ from mamori_tools.host.project import ROOT
 from mamori_trace.base.text_file import write_text
 
 HEADER = ROOT / "safety" / "include" / "mamori" / "safety" / "e2e" / "residual_facts.hpp"
-# Bytes. 4093: the longest frame with a distance above 2.
+# Bytes. 4093: the longest message with a distance above 2.
 CRC16_LENGTHS = (*range(3, 9), 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 96, 128, 256, 512, 1024, 2048, 4093, 4096)
 TEXT = """// SPDX-License-Identifier: Apache-2.0
 /// @file
@@ -109,8 +109,8 @@ class Fact:
 def calc_shares(spectrum: Spectrum) -> Iterator[tuple[int, float]]:
     """For each weight the share of its patterns that pass, in units of 2^-width.
 
-    Krawtchouk polynomials divided by their value at 0 stay within -1 .. 1, and those of one half of the weights follow from the
-    other half, so the widest floating-point numbers lose less than 1e-6.
+    Krawtchouk polynomials divided by their value at 0 stay within -1 .. 1, and the values of one half of the weights follow from
+    the other half. The widest floating-point numbers therefore lose less than 1e-6.
     """
     bits = spectrum.bits
     weights = np.array(sorted(spectrum.counts), dtype=np.longdouble)
@@ -141,7 +141,7 @@ def make_facts(checksum: Checksum, lengths: Iterable[int]) -> Iterator[Fact]:
 
 
 def make_header() -> str:
-    """The whole header. @raise ValueError as make_facts()."""
+    """The complete header. @raise ValueError like make_facts()."""
     texts: dict[str, str | int] = {}
     for checksum, lengths in ((CRC16, CRC16_LENGTHS), (CRC32_P4, P4_LENGTHS)):
         rows = list(make_facts(checksum, lengths))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Residual error of a checksum: how likely a damaged frame passes, exactly, by the weights of the dual code.
+"""Residual error of a checksum: the exact probability that a damaged message passes, from the weights of the dual code.
 
-The words that pass are a linear code: those errors whose syndromes add up to nothing. Its dual has 2^width words, and the weight
-of each is one value of the Walsh-Hadamard transform of the syndromes. From these weights the identities of MacWilliams give the
-number of patterns of any weight that pass, as whole numbers, and the probability that one passes.
+The error patterns that pass are a linear code: the errors whose syndromes add up to zero. Its dual has 2^width words. The weight
+of each word is one value of the Walsh-Hadamard transform of the syndromes. From these weights the identities of MacWilliams give
+the number of passing patterns of each weight, as integers, and the probability that one passes.
 
 @satisfies SWR-E2E-020, SWR-E2E-021      Design: docs/design/e2e.md#residual-error
 Source: MacWilliams and Sloane, The Theory of Error-Correcting Codes, chapter 5; IEC 61784-3 (rate of residual errors)
@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-GUARD_DIGITS = 30  # kept of a result after all that cancels
+GUARD_DIGITS = 30  # kept in a result after cancellation
 LOW_BITS = 16  # of a dual word: one block of the transform; 2^16 numbers of 16 bits fit the cache of a core
 BATCH = 16  # blocks at a time
 NO_TELLING: Callable[[float], None] = lambda share: None  # noqa: E731
@@ -31,7 +31,7 @@ Words = npt.NDArray[np.uint64]
 
 @dataclass(frozen=True)
 class Checksum:
-    """What decides which errors pass. `gap`: bits [0 ..] that are divided but not sent, between payload and checksum."""
+    """The properties that determine which errors pass. `gap`: bits [0 ..] that are divided but not sent, between payload and checksum."""
 
     name: str
     width: int
@@ -49,7 +49,7 @@ CRC64 = Checksum("CRC-64 ECMA", 64, 0x42F0E1EBA9EA3693)
 
 @dataclass(frozen=True)
 class Profile:
-    """A profile as far as its residual error goes. Lengths in bytes, with the header."""
+    """The properties of a profile that affect its residual error. Lengths in bytes, with the header."""
 
     number: int
     checksum: Checksum
@@ -57,7 +57,7 @@ class Profile:
     length_max: int
 
 
-# An identifier in front of the payload (1, 11) changes no error; one behind it (2, 22, 5, 6) is a gap.
+# An identifier before the payload (1, 11) changes no error; one after it (2, 22, 5, 6) is a gap.
 PROFILES = {
     profile.number: profile
     for profile in (
@@ -77,7 +77,7 @@ PROFILES = {
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Weights of the dual code: `counts[j]` of its 2^width words have j ones. `bits`: length of a frame."""
+    """Weights of the dual code: `counts[j]` of its 2^width words have j ones. `bits`: length of a message."""
 
     checksum: Checksum
     bits: int
@@ -86,14 +86,14 @@ class Spectrum:
 
 @dataclass(frozen=True)
 class Distance:
-    """The fewest turned bits that can pass, and how many such patterns there are."""
+    """The minimum number of flipped bits that can pass, and the number of such patterns."""
 
     bits: int
     patterns: int
 
 
 def calc_syndromes(checksum: Checksum, bits: int) -> list[int]:
-    """What each sent bit adds to the remainder: first those of the checksum, then the payload from its end on."""
+    """Contribution of each sent bit to the remainder: first the bits of the checksum, then the payload from its end."""
     top, mask = checksum.width - 1, (1 << checksum.width) - 1
     syndromes, power = [], 1
     for place in range(bits + checksum.gap):
@@ -117,9 +117,9 @@ def transform(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def make_blocks(checksum: Checksum, bits: int) -> Iterator[tuple[float, npt.NDArray[Any]]]:
-    """Transforms of all 2^width dual words, some blocks at a time, each with the share of the work that is done then [0 .. 1].
+    """Transforms of all 2^width dual words, some blocks at a time, each with the finished share of the work [0 .. 1].
 
-    A block has the dual words of one upper part; the upper part only turns the signs of the syndromes.
+    A block has the dual words of one upper part; the upper part only changes the signs of the syndromes.
     """
     low_bits = min(checksum.width, LOW_BITS)
     blocks = 1 << (checksum.width - low_bits)
@@ -144,11 +144,11 @@ def make_blocks(checksum: Checksum, bits: int) -> Iterator[tuple[float, npt.NDAr
 def calc_spectrum(checksum: Checksum, bits: int, tell: Callable[[float], None] = NO_TELLING) -> Spectrum:
     """Weights of all 2^width dual words: milliseconds up to 16 bits, most of a minute for 32.
 
-    @param bits length of the frame, from the width of the checksum on. @param tell hears the share that is done [0 .. 1].
+    @param bits length of the message, at least the width of the checksum. @param tell receives the finished share [0 .. 1].
     """
     counts = np.zeros(2 * bits + 1, dtype=np.int64)
     for share, values in make_blocks(checksum, bits):
-        places = values.ravel().astype(np.intp)  # what bincount() wants; it converts more slowly
+        places = values.ravel().astype(np.intp)  # the type that bincount() needs; its own conversion is slower
         places += bits
         counts += np.bincount(places, minlength=len(counts))
         tell(share)
@@ -156,10 +156,10 @@ def calc_spectrum(checksum: Checksum, bits: int, tell: Callable[[float], None] =
 
 
 def count_patterns(spectrum: Spectrum) -> Iterator[int]:
-    """How many error patterns of 0, 1, 2 .. bits pass (MacWilliams). @raise ValueError these are no weights of a dual code."""
+    """Number of passing error patterns of 0, 1, 2 .. bits (MacWilliams). @raise ValueError these are not weights of a dual code."""
     bits = spectrum.bits
     weights = sorted(spectrum.counts)
-    before, now = [0] * len(weights), [1] * len(weights)  # Krawtchouk polynomials of two neighbouring degrees
+    before, now = [0] * len(weights), [1] * len(weights)  # Krawtchouk polynomials of two adjacent degrees
     for turned in range(bits + 1):
         total = sum(spectrum.counts[weight] * value for weight, value in zip(weights, now, strict=True))
         count, rest = divmod(total, 1 << spectrum.checksum.width)
@@ -172,7 +172,7 @@ def count_patterns(spectrum: Spectrum) -> Iterator[int]:
 
 
 def find_distance(spectrum: Spectrum) -> Distance:
-    """@raise ValueError as count_patterns()."""
+    """@raise ValueError like count_patterns()."""
     for turned, count in enumerate(count_patterns(spectrum)):
         if turned > 0 and count > 0:
             return Distance(turned, count)
@@ -180,10 +180,10 @@ def find_distance(spectrum: Spectrum) -> Distance:
 
 
 def calc_residual(spectrum: Spectrum, distance: Distance, pe: Decimal) -> Decimal:
-    """Probability that a frame arrives damaged and passes [1 per frame].
+    """Probability that a message arrives damaged and passes [1 per message].
 
-    It is the probability of all that passes less that of no error. What the two have in common is known beforehand, since
-    patterns of the least weight alone are a part of the result; that many more digits are taken, so none is lost.
+    It is the probability of all passing patterns minus that of no error. The cancelled digits are known beforehand, because
+    patterns of the minimum weight are a part of the result; that many more digits are used, so none is lost.
     @param pe bit error probability, above 0 and up to 0.5.
     """
     shared = 1 + ((1 - pe) / pe) ** distance.bits / distance.patterns
@@ -196,7 +196,7 @@ def calc_residual(spectrum: Spectrum, distance: Distance, pe: Decimal) -> Decima
 
 
 def sum_patterns(spectrum: Spectrum, pe: Decimal) -> Decimal:
-    """The same as a plain sum over the patterns of each weight: for comparison, since it takes long frames too long."""
+    """The same as a plain sum over the patterns of each weight, for comparison, because it is too slow for long messages."""
     terms = (
         count * pe**turned * (1 - pe) ** (spectrum.bits - turned) for turned, count in enumerate(count_patterns(spectrum)) if turned
     )
@@ -204,16 +204,16 @@ def sum_patterns(spectrum: Spectrum, pe: Decimal) -> Decimal:
 
 
 def bound_residual(bits: int, distance: int, pe: Decimal) -> Decimal:
-    """What no frame exceeds if only the Hamming distance is known [1 per frame]: that so many bits are turned at all, at most."""
+    """Upper bound for any message if only the Hamming distance is known [1 per message]: the probability of so many flipped bits."""
     return min(Decimal(1), comb(bits, distance) * pe**distance)
 
 
 @cache
 def find_least_distance(checksum: Checksum, bits: int) -> int:
-    """A Hamming distance that is certain, found by trying all patterns of few bits: for checksums too wide for the dual code.
+    """A proven Hamming distance, found by trying all patterns of few bits: for checksums too wide for the dual code.
 
-    Sums of one, two, three syndromes, as far as memory goes: two equal sums of k are a pattern of 2 k bits. A single bit never
-    passes, whatever the length.
+    Sums of one, two, three syndromes, as far as memory permits: two equal sums of k are a pattern of 2 k bits. A single flipped
+    bit never passes, for any length.
     """
     depth = next((depth for depth, most in ((3, 256), (2, 4096), (1, 524_288)) if bits <= most), 0)
     syndromes = np.array(calc_syndromes(checksum, bits) if depth else [], dtype=np.uint64)
@@ -227,7 +227,7 @@ def find_least_distance(checksum: Checksum, bits: int) -> int:
         if (sums[size][1:] == sums[size][:-1]).any():
             return 2 * size
     least = max(2, 2 * depth + 1)
-    # A polynomial with an even number of terms lets no odd number of turned bits pass.
+    # A polynomial with an even number of terms detects every odd number of flipped bits.
     return least + least % 2 if (checksum.polynomial.bit_count() + 1) % 2 == 0 else least
 
 

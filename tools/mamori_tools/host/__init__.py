@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The project, its steps and their processes: what the tools share."""
+"""The project, its steps and their processes, for all tools."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a command registers under the entry points `mamori.commands` of pyproject.toml, and the parser of its arguments.
+"""The description of a command under the entry points `mamori.commands` of pyproject.toml, and the parser of its arguments.
 
 @satisfies SWR-CLI-004, SWR-CLI-005      Design: docs/design/launcher.md#launcher
 """
@@ -24,8 +24,8 @@ DIGITS_MAX = 12  # of an option that counts something
 class Command:
     """`run` returns the exit status. It raises InputError, MissingError or OSError, which become one line.
 
-    `summary` is the line of the overview. `statuses` replaces or extends the common meanings of exit statuses. `usage_end` names what
-    follows the arguments that argparse knows. `examples` are command lines without the program."""
+    `summary` is the line of the overview. `statuses` replaces or extends the common meanings of exit statuses. `usage_end` names the
+    arguments after those that argparse knows. `examples` are command lines without the program."""
 
     add_arguments: Callable[[argparse.ArgumentParser], None]
     run: Callable[[argparse.Namespace], int]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Counts instructions with callgrind: one operation of the program `mamori_exact`, many times, nothing else.
+"""Counts instructions with callgrind: one operation of the program `mamori_exact`, repeated many times.
 
 @satisfies SWR-BEN-006, SWR-BEN-007, SWR-TIM-032      Design: docs/design/bench.md#exact-counts
 """
@@ -20,7 +20,7 @@ from mamori_trace.base.errors import WorkError
 REPETITIONS = 1000
 OPTIONS = ("--tool=callgrind", "--collect-atstart=no", "--toggle-collect=measured_*", "--zero-before=begin_counting")
 
-# As callgrind prints them, without arguments and version.
+# In the notation of callgrind, without arguments and version.
 HEAP = re.compile(r"^(malloc|calloc|realloc|free|cfree|memalign|aligned_alloc|posix_memalign|pvalloc|valloc|reallocarray"
                   r"|operator (new|delete)(\[\])?|_Zn[wa].*|_Zd[la].*|sbrk|brk|mmap|mmap64)$")  # fmt: skip
 
@@ -30,13 +30,13 @@ _COST = re.compile(r"^[+\-*\d]\S* (\d+)$")
 
 @dataclass(frozen=True)
 class Profile:
-    """What callgrind saw of the repetitions: instructions, and the names of the functions that ran."""
+    """Callgrind's record of the repetitions: instructions, and the names of the executed functions."""
 
     instructions: int
     functions: frozenset[str]
 
     def calc_count(self, repetitions: int) -> int:
-        """Instructions of one operation. @raise WorkError when the repetitions were not all alike."""
+        """Instructions of one operation. @raise WorkError if the repetitions differ."""
         count, rest = divmod(self.instructions, repetitions)
         if rest:
             raise WorkError(f"{self.instructions} instructions are not {repetitions} times the same number; the operation "
@@ -45,17 +45,17 @@ class Profile:
 
     @property
     def heap_functions(self) -> list[str]:
-        """Functions of the heap among those that ran, sorted."""
+        """Heap functions among the executed functions, sorted."""
         return sorted(name for name in self.functions if HEAP.match(_strip(name)))
 
 
 def _strip(name: str) -> str:
-    """`operator new(unsigned long)` and `malloc@@GLIBC_2.2` without what follows the name, and the part file's mark."""
+    """Removes from `operator new(unsigned long)` and `malloc@@GLIBC_2.2` the text after the name, and the mark of the part file."""
     return re.sub(r"('\d+)?$", "", name.partition("(")[0].partition("@")[0])
 
 
 def parse_profile(text: str) -> Profile:
-    """@param text a callgrind.out file. @raise WorkError where it is none."""
+    """@param text a callgrind.out file. @raise WorkError if it is not one."""
     names: dict[str, str] = {}
     ran: set[str] = set()
     total = current = None
@@ -68,7 +68,7 @@ def parse_profile(text: str) -> Profile:
             if line.startswith("fn="):
                 current = number
         elif line.startswith("calls="):
-            is_call = True  # the next line holds the cost of the callee
+            is_call = True  # the next line contains the cost of the callee
         elif line.startswith("summary:"):
             total = int(line.split()[1])
         elif cost := _COST.match(line):
@@ -81,14 +81,14 @@ def parse_profile(text: str) -> Profile:
 
 
 def make_step_options(function: str, out: Path) -> list[str]:
-    """Words that make valgrind count each single call of `function`, and nothing else; list_totals() reads `out` then."""
+    """Options that make valgrind count each single call of `function`, and nothing else; list_totals() then reads `out`."""
     return ["valgrind", "--tool=callgrind", "--collect-atstart=no", f"--toggle-collect={function}", f"--dump-after={function}",
             "--combine-dumps=yes", "--dump-line=no", f"--callgrind-out-file={out}"]  # fmt: skip
 
 
 def list_totals(path: Path) -> list[int]:
-    """Instructions of each call, in order, of a file that make_step_options() asked for. A dump comes after each call, and one
-    with nothing at the end. @raise WorkError where the file is cut off or holds something else."""
+    """Instructions of each call, in order, from a file for make_step_options(). Each call is followed by a dump, and the end by an
+    empty dump. @raise WorkError if the file is truncated or has other content."""
     totals, is_trigger = [], []
     try:
         with path.open(encoding="utf-8", errors="replace") as lines:
@@ -105,7 +105,7 @@ def list_totals(path: Path) -> list[int]:
 
 
 def run_callgrind(program: Path, operation: str, repetitions: int = REPETITIONS) -> Profile:
-    """@raise WorkError when valgrind is missing or the program fails."""
+    """@raise WorkError if valgrind is missing or the program fails."""
     with tempfile.TemporaryDirectory(prefix="mamori-bench-") as folder:
         out = Path(folder) / "callgrind.out"
         argv = ["valgrind", *OPTIONS, f"--callgrind-out-file={out}", str(program), operation, str(repetitions)]
@@ -131,7 +131,7 @@ def run_profiles(program: Path, operations: Iterable[str], tell: Callable[[str],
 def makes_system_calls(program: Path, operation: str, repetitions: int = REPETITIONS) -> bool:
     """Runs the operation in a process that the operating system kills at its first system call.
 
-    @return whether it was killed. @raise WorkError when it ended in any other way than well.
+    @return whether it was killed. @raise WorkError if it failed in another way.
     """
     done = subprocess.run([str(program), operation, str(repetitions), "--sealed"], capture_output=True, text=True,
                           check=False, stdin=subprocess.DEVNULL)  # fmt: skip

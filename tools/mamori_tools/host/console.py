@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the user sees: one line per step, a spinner on a terminal, a sign of life every half minute elsewhere.
+"""The screen output: one line per step, a spinner on a terminal, a progress line every 30 s elsewhere.
 
-rich keeps to NO_COLOR and leaves colours and cursor moves out where the output is no terminal.
+rich follows NO_COLOR and omits colours and cursor moves if the output is not a terminal.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ STYLES = {"passed": "green", "failed": "bold red", "skipped": "yellow"}
 
 
 class _Output(Console):
-    """rich ends the process with status 1 where nobody reads any more; the command has a status for that."""
+    """rich ends the process with status 1 after the reader has ended; the command has its own status for that."""
 
     def on_broken_pipe(self) -> None:
         raise  # rich calls this while it handles the BrokenPipeError
 
 
 class Screen:
-    """Writes to standard output, or to standard error where standard output takes a result only. Thread safety: none."""
+    """Writes to standard output, or to standard error if standard output is reserved for a result. Thread safety: none."""
 
     def __init__(self, to_stderr: bool = False) -> None:
         is_terminal = os.isatty(2 if to_stderr else 1)
@@ -42,11 +42,11 @@ class Screen:
         self._console.print(escape(text), style=style or None)
 
     def say_verdict(self, verdict: str, text: str) -> None:
-        """One line that begins with a coloured verdict."""
+        """One line with a coloured verdict at its beginning."""
         self._console.print(f"  [{STYLES[verdict]}]{verdict:<8}[/] {escape(text)}")
 
     def print_table(self, columns: tuple[str, ...], rows: list[tuple[str, ...]]) -> None:
-        """A table; cells that hold a verdict are coloured."""
+        """A table; cells with a verdict are coloured."""
         table = Table(box=None, pad_edge=False, header_style="bold")
         for index, column in enumerate(columns):
             table.add_column(column, no_wrap=index == 0)
@@ -56,7 +56,7 @@ class Screen:
 
     @contextmanager
     def show_work(self, title: str) -> Iterator[Tick]:
-        """Shows that `title` goes on; the yielded function takes the newest piece of news."""
+        """Shows that `title` is running; the yielded function receives the latest status text."""
         start = last = time.monotonic()
         if self._console.is_terminal:
             with self._console.status(escape(title)) as status:

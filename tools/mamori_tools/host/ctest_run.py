@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what CTest knows of the tests of a project, and runs them so that each test process has a result folder of its own.
+"""Reads CTest's list of the tests of a project, and runs them so that each test process has its own result folder.
 
 CTest runs a second test folder. It includes the tests of the project with all their properties and adds one environment
 variable to each. GoogleTest selects a file name when a program starts: two processes that share a folder lose results.
@@ -40,14 +40,14 @@ class ProjectTest:
         return Path(str(self.properties.get("WORKING_DIRECTORY", ".")))
 
     def get_words(self, name: str) -> tuple[str, ...]:
-        """A property that is a list."""
+        """A property with a list value."""
         value = self.properties.get(name, ())
         return (value,) if isinstance(value, str) else tuple(value)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)
 class Record:
-    """What CTest says of one test: `passed`, `failed` or `skipped`, and why."""
+    """CTest's result of one test: `passed`, `failed` or `skipped`, and the reason."""
 
     verdict: str
     seconds: str
@@ -55,7 +55,7 @@ class Record:
 
 
 def list_tests(build: Path) -> list[ProjectTest]:
-    """The tests of `ctest -N`. @raise WorkError when CTest cannot list them."""
+    """The tests of `ctest -N`. @raise WorkError if CTest cannot list them."""
     try:
         done = subprocess.run(["ctest", "--test-dir", str(build), "--show-only=json-v1"], env=make_environment(),
                               capture_output=True, check=False, stdin=subprocess.DEVNULL)  # fmt: skip
@@ -73,12 +73,12 @@ def list_tests(build: Path) -> list[ProjectTest]:
 
 
 def make_environment() -> dict[str, str]:
-    """The environment of all tests: a filter or a repetition that the caller's shell sets for GoogleTest does not apply."""
+    """The environment of all tests: a filter or a repetition for GoogleTest in the caller's shell does not apply."""
     return {name: value for name, value in os.environ.items() if not name.startswith(_GTEST)}
 
 
 def prepare(tests: list[ProjectTest], build: Path, folder: Path) -> None:
-    """Makes the second test folder, empty of earlier results. @raise OSError."""
+    """Creates the second test folder without earlier results. @raise OSError."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     for name in _SETTINGS:
@@ -94,9 +94,9 @@ def prepare(tests: list[ProjectTest], build: Path, folder: Path) -> None:
 
 
 def get_result_folder(folder: Path, test: ProjectTest) -> Path:
-    """Where the process of `test` writes. The name is a number: a test name can hold what no file name can.
+    """Result folder of the process of `test`. Its name is a number, because a test name can contain characters that no file name can.
 
-    Tests that share a name share the folder of the last one. CTest sets a property by name, so they run one after another.
+    Tests with the same name share the folder of the last one. CTest sets a property by name, so they run one after another.
     """
     return folder / "results" / f"{test.number:04}"
 
@@ -109,7 +109,7 @@ def run_tests(folder: Path, jobs: int, log: Path, root: Path, tick: Tick) -> int
 
 
 def read_records(folder: Path) -> dict[str, list[Record]]:
-    """CTest's own record of the run, by test name. @raise WorkError when CTest has not written it."""
+    """CTest's own record of the run, by test name. @raise WorkError if CTest has not written it."""
     path = folder / "ctest.xml"
     try:
         cases = list(ElementTree.parse(path).iter("testcase"))
@@ -122,7 +122,7 @@ def read_records(folder: Path) -> dict[str, list[Record]]:
 
 
 def _read_record(case: ElementTree.Element) -> Record:
-    """CTest calls a test skipped when it could not start it, too: a missing program, file or fixture. That is a failure."""
+    """CTest also reports a test as skipped if it could not start it: a missing program, file or fixture. That is a failure."""
     status, seconds = case.get("status", ""), case.get("time", "0")
     output = " ".join((case.findtext("system-out") or "").split())
     if status == "run":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes evidence/environment.json: where, when and with what the evidence was made (docs/design/trace.md#evidence-files).
+"""Writes evidence/environment.json: the origin of the evidence (docs/design/trace.md#evidence-files).
 
 @satisfies SWR-CLI-009      Design: docs/design/launcher.md#environment-record
 """
@@ -28,7 +28,7 @@ COMPILERS = ("g++", "clang++-19", "arm-none-eabi-g++")
 
 
 def write_environment(project: Project, command: Sequence[str]) -> Path:
-    """Writes the record for a run of `command`, whole or not at all. @return its path."""
+    """Atomically writes the record for a run of `command`. @return its path."""
     record = collect_environment(project, command)
     project.evidence.mkdir(parents=True, exist_ok=True)
     path = project.evidence / "environment.json"
@@ -37,12 +37,12 @@ def write_environment(project: Project, command: Sequence[str]) -> Path:
 
 
 def renew_environment(context: Context, _tick: Tick, _log: TextIO) -> None:
-    """Writes the record of the running command anew, after a step that changed what results are made from."""
+    """Writes the record of the running command again, after a step that changed the inputs of results."""
     write_environment(context.project, ["./mamori", *sys.argv[1:]])
 
 
 def collect_environment(project: Project, command: Sequence[str]) -> dict[str, Any]:
-    """The record as a dictionary. What the machine cannot tell is "unknown" or left out."""
+    """The record as a dictionary. Values that the host does not provide are "unknown" or omitted."""
     names = os.environ.get("MAMORI_PACKAGES", "").split()
     compilers = {name: line for name in COMPILERS if (line := _ask([name, "--version"]).partition("\n")[0])}
     return {
@@ -68,7 +68,7 @@ def _ask_git(root: Path, *words: str) -> str:
 
 
 def _ask(argv: list[str], cwd: Path | None = None) -> str:
-    """What a program says; nothing when it is missing or fails."""
+    """Output of a program; nothing if it is missing or fails."""
     try:
         done = subprocess.run(argv, cwd=cwd, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     except OSError:

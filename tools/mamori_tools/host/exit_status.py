@@ -5,5 +5,5 @@ EXIT_OK = 0
 EXIT_FAILED = 1
 EXIT_USAGE = 2
 EXIT_MISSING = 3
-EXIT_PIPE = 141  # as a shell counts a program whose reader is gone
+EXIT_PIPE = 141  # as a shell reports a program whose reader has ended
 EXIT_INTERRUPTED = 130

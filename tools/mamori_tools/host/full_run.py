@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The record of the last `./mamori test --all`, which is kept in the project and shown in each report.
+"""The record of the last `./mamori test --all`, which is stored in the project and shown in each report.
 
 @satisfies SWR-CLI-050      Design: docs/design/launcher.md#tiers
 """
@@ -20,7 +20,7 @@ SCHEMA = "mamori.full_run/1"
 
 
 def read_full_run(root: Path) -> dict[str, Any]:
-    """The record, or nothing where there is none that can be read."""
+    """The record, or nothing if there is no readable one."""
     try:
         record = json.loads((root / FILE).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -29,7 +29,7 @@ def read_full_run(root: Path) -> dict[str, Any]:
 
 
 def record_full_run(project: Project, outcomes: Sequence[Outcome]) -> None:
-    """Writes the record of a run, whatever became of its steps, from its `outcomes` and its environment record."""
+    """Writes the record of a run, for any result of its steps, from its `outcomes` and its environment record."""
     environment = json.loads((project.evidence / "environment.json").read_text(encoding="utf-8"))
     record = {
         "schema": SCHEMA,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Asks a GoogleTest program which cases it has, so that a result file with fewer cases is noticed.
+"""Queries a GoogleTest program for its cases, so that a result file with fewer cases is detected.
 
 @satisfies SWR-CLI-032      Design: docs/design/launcher.md#tests-of-a-project
 """
@@ -31,7 +31,7 @@ def is_gtest_program(path: str) -> bool:
 
 
 def list_cases(command: tuple[str, ...], folder: Path, environment: Mapping[str, str]) -> list[Case] | None:
-    """The cases that `command` selects; None when the program does not list any in GoogleTest's format."""
+    """The cases that `command` selects; None if the program lists none in GoogleTest's format."""
     with tempfile.TemporaryDirectory(prefix="mamori-list-") as place:
         path = Path(place) / "cases.xml"
         argv = [*command, "--gtest_list_tests", f"{_OUTPUT}=xml:{path}"]
@@ -44,7 +44,7 @@ def list_cases(command: tuple[str, ...], folder: Path, environment: Mapping[str,
 
 
 def read_cases(path: Path) -> list[Case] | None:
-    """The cases of a result file or a list; None when the file is missing or malformed."""
+    """The cases of a result file or a list; None if the file is missing or malformed."""
     try:
         root = ElementTree.parse(path).getroot()
     except (OSError, ElementTree.ParseError):
@@ -53,9 +53,9 @@ def read_cases(path: Path) -> list[Case] | None:
 
 
 def find_own_output(command: tuple[str, ...], folder: Path) -> Path | None:
-    """The XML file that the command line itself gives to GoogleTest, which the environment cannot change; None without one.
+    """The XML file that the command line itself specifies to GoogleTest, which the environment cannot change; None without one.
 
-    A folder where that is no XML or no single file: nothing can be read from there.
+    A folder if it is not XML or not a single file: it is not readable then.
     """
     own = None
     for word in command[1:]:

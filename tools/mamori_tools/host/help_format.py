@@ -99,7 +99,7 @@ def _format_rows(rows: list[tuple[str, str]]) -> list[str]:
 
 
 def _wrap(text: str, indent: int = 0) -> list[str]:
-    """Wraps each line of `text` on its own and keeps its indentation."""
+    """Wraps each line of `text` separately and keeps its indentation."""
     lines = []
     for line in text.splitlines():
         lead = " " * (indent + len(line) - len(line.lstrip()))

@@ -23,7 +23,7 @@ EXAMPLE_TARGET = "safe_arm"
 
 
 def build_step(preset: str, tier: Tier = Tier.QUICK, targets: tuple[str, ...] = ("all",)) -> Step:
-    """Mamori itself, or only its `targets` and what they need."""
+    """Mamori itself, or only its `targets` and their dependencies."""
     return Step(
         name=f"build {preset}",
         commands=(
@@ -35,7 +35,7 @@ def build_step(preset: str, tier: Tier = Tier.QUICK, targets: tuple[str, ...] = 
 
 
 def trace_steps(*options: str) -> tuple[Step, ...]:
-    """Records, trace check and report: the end of every plan; without the report in `--quick`. The report is written also when something failed before."""
+    """Records, trace check and report: the end of every plan; without the report in `--quick`. The report is also written after a failure."""
     return (
         Step(name="evidence records", function=record_evidence, tier=Tier.QUICK),
         Step(
@@ -47,7 +47,7 @@ def trace_steps(*options: str) -> tuple[Step, ...]:
             name=REPORT,
             commands=((*COMMAND, "trace", "report", "--root", "{root}", *options),),
             produces="report/index.html",
-            accepted=(0, 1),  # 1 tells of findings; the check above has judged those
+            accepted=(0, 1),  # 1 means findings, which the check above has evaluated
         ),
     )
 
@@ -57,19 +57,19 @@ def campaign_step(campaign: Action) -> Step:
 
 
 def timing_step() -> Step:
-    """A short run by the clock for the report. What it finds fails nothing: a shared machine is late, and may refuse rights. That
-    there is a result does."""
+    """A short real-time run for the report. Its findings fail nothing, because a shared host is late and may deny privileges. A
+    missing result fails."""
     return Step(
         name="timing run",
         commands=((*COMMAND, "timing", "examples/safe_arm", "--cycles", TIMING_CYCLES, "--jobs", "{jobs}"),),
         needs=(BUILD,),
         produces=f"build/{RELEASE}/evidence/timing/safe_arm/timing.json",
-        accepted=(0, 1, 4),  # 1 tells of findings, 4 of refused rights; both stand in the report
+        accepted=(0, 1, 4),  # 1 means findings, 4 denied privileges; the report contains both
     )
 
 
 def demo_plan(campaign: Action) -> tuple[Step, ...]:
-    """The arm at once: its program alone is built, and no test is run. What only other plans run may be missing here."""
+    """The example arm: only its program is built, and no test is run. Results of other plans may be missing."""
     return (
         build_step(RELEASE, targets=(EXAMPLE_TARGET,)),
         campaign_step(campaign),
@@ -85,7 +85,7 @@ def find_not_run(plan: tuple[Step, ...], whole: tuple[Step, ...]) -> list[str]:
 
 
 def build_plan(project: Project, target: str = "all") -> tuple[Step, ...]:
-    """`project` is Mamori itself, or one of the user's, of which `target` is built against the installed package."""
+    """`project` is Mamori itself, or a user project, whose `target` is built against the installed package."""
     if project.root == ROOT:
         return (build_step(project.preset),)
     shipped = build_step(project.preset, targets=("mamori_package",))
@@ -110,6 +110,6 @@ def build_plan(project: Project, target: str = "all") -> tuple[Step, ...]:
 
 
 def verify_plan(project: Project) -> tuple[Step, ...]:
-    """A project of the user's."""
+    """A user project."""
     tests = Step(name="tests of the project", function=run_project_tests, needs=(BUILD_USER,))
     return (*build_plan(project), tests, *trace_steps())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Child processes: output to a log, progress while they run, none left behind when the command is stopped.
+"""Child processes: output to a log, progress while they run, and termination of all of them when the command is stopped.
 
 @satisfies SWR-CLI-008, SWR-CLI-045      Design: docs/design/launcher.md#interrupt
 """
@@ -28,7 +28,7 @@ PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
 
 def run_logged(argv: Sequence[str], log: Path, cwd: Path, tick: Tick, env: Mapping[str, str] | None = None) -> int:
     """Runs `argv` in `cwd` with its output appended to `log`; calls `tick` with the newest log line. @return exit status;
-    127 when the program does not exist."""
+    127 if the program does not exist."""
     with log.open("a", encoding="utf-8") as out:
         print("$", *argv, file=out, flush=True)
         try:
@@ -46,7 +46,7 @@ def run_logged(argv: Sequence[str], log: Path, cwd: Path, tick: Tick, env: Mappi
 
 
 def read_tail(log: Path, lines: int) -> list[str]:
-    """The last non-empty `lines` of `log`; nothing when there is no log."""
+    """The last non-empty `lines` of `log`; nothing if there is no log."""
     if not log.exists():
         return []
     text = log.read_text(encoding="utf-8", errors="replace")
@@ -54,7 +54,7 @@ def read_tail(log: Path, lines: int) -> list[str]:
 
 
 def read_last_line(log: Path) -> str:
-    """The newest line of a log that may be long and still grows."""
+    """The latest line of a log that may be long and still grow."""
     with log.open("rb") as file:
         file.seek(max(0, file.seek(0, os.SEEK_END) - LOG_TAIL_BYTES))
         lines = file.read().decode("utf-8", errors="replace").split("\n")
@@ -62,14 +62,14 @@ def read_last_line(log: Path) -> str:
 
 
 def discard_output() -> None:
-    """Sends standard output to nowhere, so that Python does not complain at its end about a reader that is gone."""
+    """Redirects standard output to the null device, so that Python prints no error at its end after the reader has ended."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def raise_on_signals() -> None:
-    """SIGINT and SIGTERM both stop the command in order, also where a parent shell had told it to ignore SIGINT.
+    """SIGINT and SIGTERM both stop the command in order, also if a parent shell had set SIGINT to be ignored.
 
-    A child of a child whose own parent is ended first by the same signal becomes a child of this process, not of init.
+    A grandchild whose own parent the same signal ends first becomes a child of this process, not of init.
     """
     ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
@@ -77,7 +77,7 @@ def raise_on_signals() -> None:
         raise KeyboardInterrupt(signal.Signals(number).name)
 
     def stop_later(dropped: sys.UnraisableHookArgs) -> None:
-        if isinstance(dropped.exc_value, KeyboardInterrupt):  # it came in a destructor, which cannot raise: once more, after it
+        if isinstance(dropped.exc_value, KeyboardInterrupt):  # it came in a destructor, which cannot raise; raised again after the destructor
             signal.setitimer(signal.ITIMER_REAL, AGAIN_S)
         else:
             sys.__unraisablehook__(dropped)

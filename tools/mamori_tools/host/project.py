@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where things are: one place for every path that the command reads or writes."""
+"""All paths that the command reads or writes."""
 
 from __future__ import annotations
 
@@ -54,12 +54,12 @@ class Project:
 
     @property
     def motion(self) -> Path:
-        """The motion that is shipped."""
+        """The shipped motion."""
         return self.root / "examples" / "safe_arm" / "motions" / "pick_and_place.yaml"
 
     @property
     def campaign_plan(self) -> Path:
-        """Which faults are injected, and what is expected of them."""
+        """The injected faults, and the expected results."""
         return self.root / "examples" / "safe_arm" / "faults.yaml"
 
     def cpp_sources(self, layers: tuple[str, ...] = CPP_LAYERS) -> list[str]:

@@ -37,7 +37,7 @@ _OWN_VERDICT = ("WILL_FAIL", "PASS_REGULAR_EXPRESSION")
 
 @dataclass
 class Collected:
-    """What the run left for each test."""
+    """Results of the run for each test."""
 
     files: dict[int, list[Path]] = field(default_factory=dict)
     missing: list[str] = field(default_factory=list)
@@ -49,7 +49,7 @@ def get_folder(project: Project) -> Path:
 
 
 def run_project_tests(context: Context, tick: Tick, log: TextIO) -> None:
-    """Runs all tests once and writes one result file per test process. @raise WorkError when a result is missing."""
+    """Runs all tests once and writes one result file per test process. @raise WorkError if a result is missing."""
     project, folder = context.project, get_folder(context.project)
     tests = ctest_run.list_tests(project.build)
     if not tests:
@@ -117,7 +117,7 @@ def _list_cases(tests: list[ProjectTest], jobs: int) -> dict[int, list[gtest_pro
 
 def _copy_own_outputs(tests: list[ProjectTest], own: dict[int, Path | None], before: dict[Path, tuple[int, int, int] | None],
                       folder: Path) -> None:  # fmt: skip
-    """A file that the command line names is copied when it is new and of this test alone."""
+    """A file that the command line names is copied if it is new and belongs to this test alone."""
     count = Counter(path for path in own.values() if path is not None)
     for test in tests:
         path = own[test.number]
@@ -156,18 +156,18 @@ def _collect(tests: list[ProjectTest], records: dict[str, list[Record]], listed:
 
 
 def _match_shared(files: list[Path], listed: list[gtest_program.Case] | None) -> list[Path]:
-    """The first file whose cases are those of the test; none of another kind of test."""
+    """The first file whose cases are those of the test; none for another kind of test."""
     return next(([path] for path in files if listed and set(gtest_program.read_cases(path) or ()) >= set(listed)), [])
 
 
 def _find_missing(test: ProjectTest, whole: list[Path], files: list[Path], listed: dict[int, list[gtest_program.Case]]) -> list[str]:
-    """What is missing of a test that CTest calls passed."""
+    """The missing cases of a test that CTest reports as passed."""
     torn = [path.name for path in files if path not in whole]
     if torn:
         return [f"test '{test.name}' passed, and its result file {torn[0]} is malformed; run it alone and look at its end"]
     wanted = listed.get(test.number, [])
     if whole and _is_sharded(test):
-        return []  # a shard runs a part of what it lists; the trace check finds a case that no shard ran
+        return []  # a shard runs a part of its list; the trace check finds a case that no shard ran
     present = {case for path in whole for case in gtest_program.read_cases(path) or ()}
     lost = [case for case in wanted if case not in present]
     if not lost:
@@ -184,7 +184,7 @@ def _is_sharded(test: ProjectTest) -> bool:
 
 
 def _name_result(junit: Path, test: ProjectTest, index: int) -> Path:
-    """A name for people that is unique by its number."""
+    """A readable name that its number makes unique."""
     slug = re.sub(r"[^A-Za-z0-9]+", "-", test.name).strip("-")[:_SLUG_LENGTH]
     return junit / f"{test.number:04}{f'.{index}' if index else ''}{'-' if slug else ''}{slug}.xml"
 

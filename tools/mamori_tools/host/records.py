@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes evidence/records.json: the hash of each evidence file and of what it was made from (docs/design/trace.md#evidence-files).
+"""Writes evidence/records.json: the hash of each evidence file and of its inputs (docs/design/trace.md#evidence-files).
 
 @satisfies SWR-TRC-036      Design: docs/design/trace.md#records
 """
@@ -26,10 +26,10 @@ _SKIPPED = ("CMakeFiles", "_deps", "evidence")
 
 
 def collect_inputs(project: Project, compilers: dict[str, str], python: str) -> dict[str, str]:
-    """Hashes of what results depend on, as they are now. Sources without git have none."""
+    """Hashes of the current inputs of results. Sources without git have none."""
     try:
         sources = calc_sources(project.root, read_code_schema(project.root).no_evidence)
-    except InputError:  # the trace check tells what is wrong there
+    except InputError:  # the trace check reports the fault
         sources = ""
     presets = project.root / "CMakePresets.json"
     preset = presets.read_text(encoding="utf-8") if presets.is_file() else ""
@@ -38,20 +38,20 @@ def collect_inputs(project: Project, compilers: dict[str, str], python: str) -> 
 
 
 def record_evidence(context: Context, _tick: Tick, log: TextIO) -> None:
-    """The step of a run that makes the records of all its files. @raise WorkError when the environment is not recorded."""
+    """The step of a run that creates the records of all its files. @raise WorkError if the environment is not recorded."""
     count = write_records(context.project)
     print(f"{count} files recorded", file=log)
 
 
 def write_records(project: Project) -> int:
-    """Records every evidence file, as made from what environment.json names. @return how many. @raise WorkError without that."""
+    """Records every evidence file with the inputs of environment.json. @return how many. @raise WorkError without that file."""
     rows = _make_rows(project, list_recorded(project.evidence), _read_inputs(project))
     write_rows(project.evidence, rows)
     return len(rows)
 
 
 def renew_records(project: Project, files: Iterable[Path], inputs: dict[str, str]) -> None:
-    """Records `files`, which one command has made anew from `inputs`. Evidence without any record stays so."""
+    """Records `files`, which one command has created from `inputs`. Other evidence without a record stays unrecorded."""
     if (project.evidence / NAME).is_file():
         write_rows(project.evidence, read_rows(project.evidence) | _make_rows(project, files, inputs))
 
@@ -74,7 +74,7 @@ def _make_rows(project: Project, files: Iterable[Path], inputs: dict[str, str]) 
 
 
 def _find_programs(build: Path) -> dict[str, Path]:
-    """Test programs by name: a JUnit file is named after the one that wrote it."""
+    """Test programs by name: a JUnit file is named after its program."""
     programs: dict[str, Path] = {}
     for folder, folders, files in os.walk(build):
         folders[:] = sorted(name for name in folders if name not in _SKIPPED)

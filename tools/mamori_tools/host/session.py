@@ -23,9 +23,9 @@ FAILURE_LENGTH = 2000  # characters of a failed result in the closing lines
 
 
 def begin(project: Project, jobs: int, presets: Sequence[str]) -> Context:
-    """Throws the evidence of earlier runs away, so that none of it can count for this one, and records the environment.
+    """Removes the evidence of earlier runs, so that none of it counts for this one, and records the environment.
 
-    @raise InputError when the report could not be written at the end.
+    @raise InputError if the report could not be written at the end.
     """
     check_report_folder(project.report.parent)
     for preset in presets:
@@ -38,7 +38,7 @@ def begin(project: Project, jobs: int, presets: Sequence[str]) -> Context:
 
 
 def check_report_folder(folder: Path) -> None:
-    """@raise InputError when no file can be written there: better known before the work than after it."""
+    """@raise InputError if no file can be written there; this is reported before the work."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -61,7 +61,7 @@ def show_steps(outcomes: Sequence[Outcome], context: Context) -> None:
 
 
 def show_failures(outcome: Outcome, context: Context) -> None:
-    """The failed results of a step with all that they say: where only the end of the screen is kept, it must be there."""
+    """The failed results of a step with their complete messages, because some systems keep only the end of the screen."""
     for text in outcome.failures[:FAILURES_SHOWN]:
         context.screen.say(f"{outcome.name}: {text[:FAILURE_LENGTH]}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a table of steps: each one timed, logged and judged; one that fails stops only those that need it.
+"""Runs a table of steps: each is timed, logged and evaluated; a failed step stops only the steps that require it.
 
 @satisfies SWR-CLI-006, SWR-CLI-007      Design: docs/design/launcher.md#steps
 """
@@ -29,7 +29,7 @@ INCONCLUSIVE = "inconclusive"
 
 
 class Tier(IntEnum):
-    """The three runs of `./mamori test`. Each one has all steps of the one before."""
+    """The three runs of `./mamori test`. Each has all steps of the previous one."""
 
     QUICK = 0
     GATE = 1
@@ -38,7 +38,7 @@ class Tier(IntEnum):
 
 @dataclass(frozen=True)
 class Context:
-    """What a step may know about the run it is part of."""
+    """The data of the run that its steps may use."""
 
     project: Project
     jobs: int
@@ -54,9 +54,9 @@ Action = Callable[[Context, Tick, TextIO], None]
 class Step:
     """One row of a table of steps: `commands` run in order in the project folder, then `function`.
 
-    In a command `{root}`, `{build}`, `{evidence}`, `{junit}`, `{python}`, `{jobs}` stand for their values, and `{result}` for
-    a temporary name that becomes `<evidence>/junit/<result>` when the command has ended. A word that is a key of `lists`
-    (`{files}`) is replaced by many words.
+    In a command, `{root}`, `{build}`, `{evidence}`, `{junit}`, `{python}`, `{jobs}` are replaced by their values, and `{result}` by
+    a temporary name that becomes `<evidence>/junit/<result>` when the command has ended. An argument that is a key of `lists`
+    (`{files}`) is replaced by several arguments.
     """
 
     name: str
@@ -65,16 +65,16 @@ class Step:
     needs: tuple[str, ...] = ()
     lists: dict[str, list[str]] = field(default_factory=dict)
     result: str = ""
-    junit: str = ""  # folder, relative to the root, whose new JUnit files hold the results; default: that of the evidence
-    produces: str = ""  # file, relative to the root, that the step must have written
+    junit: str = ""  # folder, relative to the root, of its new JUnit result files; default: that of the evidence
+    produces: str = ""  # file, relative to the root, that the step must write
     accepted: tuple[int, ...] = (0,)  # exit statuses of a command that did its work
-    inconclusive: tuple[int, ...] = ()  # exit statuses of a command that the host kept from showing anything
-    tier: Tier = Tier.GATE  # the smallest run that has this step
+    inconclusive: tuple[int, ...] = ()  # exit statuses of a command that could not show anything on this host
+    tier: Tier = Tier.GATE  # the smallest run with this step
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one step."""
+    """The outcome of one step."""
 
     name: str
     verdict: str  # passed, failed or skipped
@@ -112,7 +112,7 @@ def total(outcomes: Sequence[Outcome]) -> Counts:
 
 
 def all_passed(outcomes: Sequence[Outcome]) -> bool:
-    """True when every step ran and passed; a skipped step proves nothing."""
+    """True if every step ran and passed; a skipped step shows nothing."""
     return all(outcome.verdict == "passed" for outcome in outcomes)
 
 
@@ -137,7 +137,7 @@ def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
     if not reason and counts.failed:
         reason = f"{counts.failed} results failed"
     if reason and not counts.failed:
-        counts += Counts(failed=1)  # it failed without a result that says so
+        counts += Counts(failed=1)  # it failed without a failed result
     elif counts.total == 0:
         counts = Counts(passed=1)  # a step without results of its own is one result
     verdict = "failed" if reason else "passed"
@@ -153,8 +153,8 @@ def _get_children_cpu_s() -> float:
 
 
 def _get_stamp(path: Path) -> tuple[int, int, int] | None:
-    """What changes when a file is written or replaced; nothing when there is none. Times alone would not do: two files that
-    are written within one tick of the file system's clock have the same."""
+    """Values that change when a file is written or replaced; nothing if there is no file. Times are not sufficient: two files that
+    are written within one tick of the file system's clock have equal times."""
     if not path.is_file():
         return None
     status = path.stat()

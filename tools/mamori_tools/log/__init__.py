@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what a flight recorder left and shows or exports it: `mamori log`."""
+"""Reads the file of a flight recorder and shows or exports it: `mamori log`."""

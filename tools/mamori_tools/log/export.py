@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A recording as MCAP, CSV or JSON; each file is whole or not there.
+"""Writes a recording atomically as MCAP, CSV or JSON.
 
 @satisfies SWR-REC-012, SWR-PRT-028      Design: docs/design/recorder.md#export
-Source: https://mcap.dev/spec and the schema foxglove.Log, which log panels know by its name
+Source: https://mcap.dev/spec and the schema foxglove.Log, which log panels find by its name
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ SCHEMA = {
 
 
 def write_mcap(path: Path, recording: Recording, names: Names) -> None:
-    """Raises InputError where `path` cannot be written."""
+    """Raises InputError if `path` cannot be written."""
     with _replace(path) as stream:
         writer = Writer(stream)
         writer.start(library=f"mamori {version('mamori')}")
@@ -80,7 +80,7 @@ def write_mcap(path: Path, recording: Recording, names: Names) -> None:
 
 
 def write_csv(path: Path, recording: Recording, names: Names) -> None:
-    """Raises InputError where `path` cannot be written."""
+    """Raises InputError if `path` cannot be written."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(CSV_COLUMNS)
@@ -91,7 +91,7 @@ def write_csv(path: Path, recording: Recording, names: Names) -> None:
 
 
 def make_json(recording: Recording, names: Names) -> str:
-    """The whole recording as one document."""
+    """The complete recording as one document."""
     return json.dumps({
         "schema": JSON_SCHEMA, "file": str(recording.path), "capacity": recording.capacity, "session": recording.session,
         "overwritten": recording.overwritten,
@@ -124,7 +124,7 @@ def _make_crash(recording: Recording) -> dict[str, object] | None:
 
 @contextmanager
 def _replace(path: Path) -> Iterator[BinaryIO]:
-    """A file that takes the place of `path` when the block ends well, and is gone otherwise."""
+    """A temporary file that replaces `path` if the block ends without an exception, and is removed otherwise."""
     try:
         with whole_file(path) as part, part.open("wb") as stream:
             yield stream

@@ -27,7 +27,7 @@ READERS: Mapping[str, Callable[[str], object]] = {
 
 @dataclass(frozen=True)
 class Names:
-    """Spelling of sources, codes and arguments; a number without one is shown as it is."""
+    """Names of sources, codes and arguments; a number without a name is shown as a number."""
 
     sources: Mapping[int, str] = field(default_factory=dict)
     codes: Mapping[int, str] = field(default_factory=dict)
@@ -46,12 +46,12 @@ class Names:
 
 
 def default_names_path(path: Path) -> Path:
-    """Where the program that wrote the recorder file `path` puts its names."""
+    """Default path of the names, next to the recorder file `path`."""
     return path.with_name(f"{path.name}.names.json")
 
 
 def read_names(path: Path) -> Names:
-    """Raises InputError, with the place in the table, for anything that is no table of names."""
+    """Raises InputError, with the location in the table, for an invalid table of names."""
     reader = READERS.get(path.suffix.lower())
     if reader is None:
         raise InputError(f"a name table ends in {', '.join(READERS)}; name one of these", path)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the file of a flight recorder: every record that can be believed, and a finding for everything else.
+"""Reads the file of a flight recorder: every valid record, and a finding for everything else.
 
 The bytes are described in docs/design/recorder.md#region; kernel/include/mamori/kernel/record/flight_format.hpp writes them.
 
-A file of the real-time port ends with the note of a crash, which ports/posix_rt/src/crash_note.cpp writes.
+A file of the real-time port ends with the record of a crash, which ports/posix_rt/src/crash_note.cpp writes.
 
 @satisfies SWR-REC-011, SWR-REC-013, SWR-PRT-028      Design: docs/design/recorder.md#the-command-log
 """
@@ -41,7 +41,7 @@ MAX_BYTES = 1 << 30
 
 @dataclass(frozen=True)
 class Record:
-    """One record, and where it stands in the file."""
+    """One record, and its location in the file."""
 
     sequence: int
     session: int
@@ -55,7 +55,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Finding:
-    """Something that is not as it should be. `place` is the number in the order of records where it belongs."""
+    """A fault in the recording. `place` is its number in the order of records."""
 
     kind: str  # torn, corrupt, missing, stale, header, cut, trailing
     place: int
@@ -65,7 +65,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Crash:
-    """The last crash that the file knows; `window` and `component` are places in the system table."""
+    """The last crash in the file; `window` and `component` are indices in the system table."""
 
     session: int
     time_ns: int
@@ -81,7 +81,7 @@ class Crash:
 
 @dataclass(frozen=True)
 class Recording:
-    """What a file holds. `records` and `findings` are in the order of their numbers."""
+    """Content of a file. `records` and `findings` are in the order of their numbers."""
 
     path: Path
     capacity: int
@@ -92,7 +92,7 @@ class Recording:
 
     @property
     def overwritten(self) -> int | None:
-        """Records of the ring's earlier turns; None where the newest record or the size of the ring is not known."""
+        """Records of earlier laps of the ring; None if the newest record or the size of the ring is unknown."""
         if self.count("cut") or self.count("header"):
             return None
         return max(0, self.records[-1].sequence - self.capacity) if self.records else 0
@@ -103,7 +103,7 @@ class Recording:
 
 @dataclass
 class _Ring:
-    """Slots as they were read: the first `slot_count` of a ring of `capacity`; the file may be cut behind them."""
+    """Slots of the file: the first `slot_count` of a ring of `capacity`; the file may be truncated after them."""
 
     capacity: int
     slot_count: int
@@ -112,7 +112,7 @@ class _Ring:
 
 
 def read_recording(path: Path) -> Recording:
-    """Reads `path`, which may be in use. Raises InputError where not one record can be expected in it."""
+    """Reads `path`, which may be in use. Raises InputError if it cannot contain any record."""
     data = _read_bytes(path)
     findings: list[Finding] = []
     problem = _check_header(path, data)
@@ -122,7 +122,7 @@ def read_recording(path: Path) -> Recording:
     else:
         capacity = HEADER.unpack_from(data)[5]
         findings.extend(_check_length(data, capacity))
-    # With a header that is not believed the place of a record is not judged: the capacity may be another one.
+    # With an invalid header the location of a record is not checked, because the capacity may differ.
     ring = _read_slots(data, capacity, is_place_known=not problem)
     if problem and not ring.records:
         raise InputError(f"is no recorder file ({problem}); name the file that a flight recorder wrote", path)
@@ -158,7 +158,7 @@ def _read_bytes(path: Path) -> bytes:
 
 
 def _check_header(path: Path, data: bytes) -> str:
-    """@return what is wrong with the header; nothing when it can be believed."""
+    """@return the fault of the header; nothing if it is valid."""
     if data[: len(MAGIC)] != MAGIC:
         return "it does not begin as one"
     if len(data) < HEADER_BYTES:
@@ -189,7 +189,7 @@ def _check_length(data: bytes, capacity: int) -> Iterator[Finding]:
 
 
 def _read_crash(data: bytes, capacity: int) -> Crash | None:
-    """The note behind the last slot; None where there is none, or none that is whole."""
+    """The record after the last slot; None if there is none, or it is incomplete."""
     offset = _offset_of(capacity)
     if len(data) != offset + CRASH_NOTE.size:
         return None
@@ -224,19 +224,19 @@ def _read_slots(data: bytes, capacity: int, is_place_known: bool) -> _Ring:
 
 
 def _find_missing(ring: _Ring) -> Iterator[Finding]:
-    """Findings of the ring: each slot that is there ought to hold the one number of the newest turn that belongs to it."""
+    """Findings of the ring: each present slot must contain its number of the latest lap."""
     capacity = ring.capacity
     newest = ring.records[-1].sequence
     first = max(1, newest - capacity + 1)
     have = {record.sequence for record in ring.records}
     explained = set()
     for slot, kind in ring.damaged:
-        # The slot behind the newest held the oldest, and may have been about to take the next number.
+        # The slot after the newest held the oldest record, and may have been about to take the next number.
         number = newest + 1 - (newest - slot) % capacity
         number += capacity if number < 1 else 0
         before = number - capacity if number > newest else 0
         explained |= {number, before}
-        # The newest may be among the records that are cut off: then the number is a place to print at, and no more.
+        # The newest record may be among the truncated ones: then the number is only a position for the output.
         is_known = ring.slot_count == capacity
         yield _describe_damage(kind, slot, number, f"record {number}{f' or {before}' if before > 0 else ''}, " if is_known else "")
     for record in ring.records:
@@ -255,7 +255,7 @@ def _describe_damage(kind: str, slot: int, number: int, what: str) -> Finding:
 
 
 def _describe_gap(first: int, last: int, ring: _Ring) -> Iterator[Finding]:
-    """Numbers `first` to `last`, less than a turn, as far as their slots are there: nobody knows what the others hold."""
+    """Numbers `first` to `last`, less than a lap, of the present slots; the content of the others is unknown."""
     for turn in range((first - 1) // ring.capacity, (last - 1) // ring.capacity + 1):
         begin = max(first, turn * ring.capacity + 1)
         end = min(last, turn * ring.capacity + ring.slot_count)

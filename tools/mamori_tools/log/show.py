@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A recording as lines for the terminal: records and findings in the order of their numbers, then one line that counts.
 
-rich keeps to NO_COLOR and leaves colours out where the output is no terminal.
+rich follows NO_COLOR and omits colours if the output is not a terminal.
 
 @satisfies SWR-REC-011, SWR-PRT-028      Design: docs/design/recorder.md#the-command-log
 """
@@ -24,14 +24,14 @@ KINDS = ("torn", "corrupt", "missing", "stale", "header", "cut", "trailing")
 
 
 class _Console(Console):
-    """A reader who has seen enough ends the printing, not the program: rich would end that too."""
+    """A reader that ends early ends the printing, not the program; rich would also end the program."""
 
     def on_broken_pipe(self) -> None:
         raise BrokenPipeError
 
 
 def format_time(time_ns: int) -> str:
-    """Seconds with nine digits, without the detour over a binary fraction."""
+    """Seconds with nine digits, without conversion to a binary fraction."""
     seconds, rest = divmod(abs(time_ns), 1_000_000_000)
     return f"{'-' if time_ns < 0 else ''}{seconds}.{rest:09d}"
 
@@ -95,7 +95,7 @@ def _join(cells: tuple[str, ...], widths: list[int]) -> str:
 
 
 def _merge(recording: Recording) -> Iterator[int | Finding]:
-    """Indices of records and findings, by number; what is missing comes where it would have been."""
+    """Indices of records and findings, by number; a missing record is at its expected position."""
     waiting = list(reversed(recording.findings))
     for index, record in enumerate(recording.records):
         while waiting and waiting[-1].place <= record.sequence:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""BodyMotion YAML, as Choreonoid and OpenHRP tools write it.
+"""BodyMotion YAML in the form of Choreonoid and OpenHRP tools.
 
 First format: `type: BodyMotion` with a component `MultiValueSeq` / `JointPosition`. Second format (`formatVersion: 2`):
 `type: CompositeSeq`, `content: BodyMotion` with `MultiValueSeq` / `JointDisplacement`. Keys of the parent (frameRate,
-numFrames) hold for a component that does not state them itself. Read from parser events: a walk of 7,000 frames has
+numFrames) apply to a component without its own. Read from parser events: a walking motion of 7,000 frames has
 300,000 of them, and each sample keeps its line.
 """
 
@@ -43,11 +43,11 @@ class _Component:
 
 
 def read_body_motion(source: SourceText, joints: int, surplus: int = 0) -> Samples:
-    """Reads the joint positions of `joints` joints. One note names what is not used: `surplus` parts after the joints, which a
-    file has or not (`motion_columns_ignored` of the arm), and other components (root link, ZMP).
+    """Reads the joint positions of `joints` joints. One note names unused parts: `surplus` parts after the joints, which are
+    optional in a file (`motion_columns_ignored` of the arm), and other components (root link, ZMP).
 
-    Raises InputError: no BodyMotion, newer format, no or two joint components, frameRate or numFrames missing or
-    senseless, wrong number of joints, a frame that is cut, no number, not finite.
+    Raises InputError: not a BodyMotion, newer format, no or two joint components, frameRate or numFrames missing or
+    invalid, wrong number of joints, a truncated frame, a value that is not a finite number.
     """
     header, components, components_line = _read_document(source, _refuse_aliases(source))
     _check_kind(source, header)
@@ -69,7 +69,7 @@ def read_body_motion(source: SourceText, joints: int, surplus: int = 0) -> Sampl
 
 
 def _count_parts(source: SourceText, component: _Component, joints: int, surplus: int) -> int:
-    """Parts per frame: those that the component declares, else those of its first frame."""
+    """Parts per frame: as the component declares, otherwise as in its first frame."""
     text, line = component.header.get("numParts", ("", 0))
     frames = component.frames or []
     if text:
@@ -150,7 +150,7 @@ def _refuse_aliases(source: SourceText) -> Iterator[yaml.Event]:
 
 
 def _read_document(source: SourceText, events: Iterator[yaml.Event]) -> tuple[Header, list[_Component], int]:
-    next(events)  # the document's start
+    next(events)  # the start of the document
     root = next(events)
     if not isinstance(root, yaml.MappingStartEvent):
         raise InputError("no BodyMotion: keys such as 'type: BodyMotion' are wanted at the top", source.path,
@@ -165,7 +165,7 @@ def _read_document(source: SourceText, events: Iterator[yaml.Event]) -> tuple[He
                 components.append(_read_component(source, events, item))
         else:
             _skip(events, value)
-    for _ in events:  # a second document is found here
+    for _ in events:  # detects a second document
         pass
     return header, components, components_line
 
@@ -185,7 +185,7 @@ def _read_component(source: SourceText, events: Iterator[yaml.Event], start: yam
 
 def _read_frames(source: SourceText, events: Iterator[yaml.Event],
                  component: _Component) -> list[tuple[int, list[str]]]:
-    """Frames as texts with their lines. A fault is kept: it matters only if this turns out to be the joint component."""
+    """Frames as texts with their lines. A fault is stored: it matters only if this is the joint component."""
     frames: list[tuple[int, list[str]]] = []
     while not isinstance(item := next(events), yaml.SequenceEndEvent):
         line = line_of(item)
@@ -210,7 +210,7 @@ def _read_frames(source: SourceText, events: Iterator[yaml.Event],
 
 def _entries(source: SourceText, events: Iterator[yaml.Event],
              header: Header) -> Iterator[tuple[str, int, yaml.Event]]:
-    """Walks a mapping: scalars go into `header`, the start of every other value is handed out, to be consumed."""
+    """Reads a mapping: scalars are added to `header`; the start of every other value is yielded, and the caller consumes it."""
     seen: set[str] = set()
     while not isinstance(key := next(events), yaml.MappingEndEvent):
         line = line_of(key)
@@ -227,7 +227,7 @@ def _entries(source: SourceText, events: Iterator[yaml.Event],
 
 
 def _skip(events: Iterator[yaml.Event], start: yaml.Event) -> None:
-    """Consumes the rest of the value that begins with `start`; counts depth instead of calling itself."""
+    """Consumes the rest of the value that begins with `start`; counts depth instead of recursion."""
     depth = 1 if isinstance(start, yaml.CollectionStartEvent) else 0
     while depth > 0:
         event = next(events)

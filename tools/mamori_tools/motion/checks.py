@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The checks that every motion must pass before anything moves by it. Pure: samples and limits in, first fault out."""
+"""The checks of every motion before anything moves. Pure functions: samples and limits in, first fault out."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a motion must respect, read from the arm's model file. The only module here that knows that file's keys."""
+"""The limits of a motion, read from the model file of the arm. Only this module of the package knows the keys of that file."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ OPERATING_MARGIN_RAD = 0.1
 
 @dataclass(frozen=True)
 class JointLimits:
-    """Limits of one joint: positions that a motion may use [rad] and the speed that a motion may ask for [rad/s]."""
+    """Limits of one joint: permitted positions of a motion [rad] and maximum speed of a motion [rad/s]."""
 
     name: str
     position_min_rad: float
@@ -38,7 +38,7 @@ class ArmLimits:
 
 
 def load_limits(model: Path | str) -> ArmLimits:
-    """Reads the limits from a model file. Raises InputError with file and line where one is missing or senseless."""
+    """Reads the limits from a model file. Raises InputError with file and line for a missing or invalid limit."""
     root = load(model, "model file")
     joints = root.get("joints").as_list()
     if not joints:
@@ -69,7 +69,7 @@ def _positive(node: Node, joint: str) -> float:
 
 
 def _ignored_columns(root: Node) -> int:
-    """`motion_columns_ignored` is a count or a list of names; absent means none."""
+    """`motion_columns_ignored` is a count or a list of names; missing means none."""
     entries = root.as_mapping()
     if "motion_columns_ignored" not in entries:
         return 0
@@ -83,5 +83,5 @@ def _ignored_columns(root: Node) -> int:
 
 
 def _value(node: Node) -> Node:
-    """The bare value of a figure that may carry its source: `{value: .., source: ..}` or the value itself."""
+    """The plain value of a figure that may name its source: `{value: .., source: ..}` or the value itself."""
     return node.get("value") if isinstance(node.value, dict) else node

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The data that the readers hand on: samples as they stand in a file, and the checked motion."""
+"""The data of the readers: samples as in the file, and the checked motion."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MAX_SAMPLES = 1_000_000
 
 @dataclass
 class Samples:
-    """What a file holds, not yet checked against an arm. One entry per sample in `lines`, `time_s`, `rows`."""
+    """Content of a file, not yet checked against an arm. One entry per sample in `lines`, `time_s`, `rows`."""
 
     path: Path
     sha256: str
@@ -29,9 +29,9 @@ class Samples:
 
 @dataclass(frozen=True)
 class Motion:
-    """A joint motion that was checked against the limits of an arm; `read_motion` makes it.
+    """A joint motion that was checked against the limits of an arm; `read_motion` creates it.
 
-    `time_s` [s], shape (samples,), starts at 0 and rises. `position_rad` [rad], shape (samples, joints).
+    `time_s` [s], shape (samples,), starts at 0 and increases. `position_rad` [rad], shape (samples, joints).
     """
 
     source_name: str
@@ -50,9 +50,9 @@ class Motion:
         return calc_speeds(self.time_s, self.position_rad)
 
     def calc_mean_speed(self, start_s: float, end_s: float) -> np.ndarray:
-        """Distance between the places at two instants over the time between them [rad/s], shape (joints,).
+        """Distance between the positions at two instants divided by the time between them [rad/s], shape (joints,).
 
-        The places are interpolated; before the start and after the end the motion stands still.
+        Positions are interpolated; before the start and after the end the motion is at rest.
         """
         ends = [np.interp([start_s, end_s], self.time_s, joint) for joint in self.position_rad.T]
         return np.array([abs(late - early) / (end_s - start_s) for early, late in ends])

@@ -13,9 +13,9 @@ _SHOWN = 24
 
 
 def parse_number(word: str, path: Path, line: int, what: str) -> float:
-    """The finite number that `word` writes. Raises InputError naming `what` where it writes none."""
+    """The finite number in `word`. Raises InputError, which names `what`, if there is none."""
     try:
-        # float() also takes 1_000 and digits of other scripts; motion files have neither.
+        # float() also accepts 1_000 and digits of other scripts; motion files contain neither.
         number = float(word) if word.isascii() and "_" not in word else None
     except ValueError:
         number = math.nan if word.lower() in _NOT_FINITE else None

@@ -30,7 +30,7 @@ def read_motion(path: Path | str, limits: ArmLimits) -> Motion:
 
 
 def is_body_motion(source: SourceText) -> bool:
-    """True for a YAML suffix, or where the first line that is no comment looks like YAML."""
+    """True for a YAML suffix, or if the first line other than a comment looks like YAML."""
     if source.path.suffix.lower() in _YAML_SUFFIXES:
         return True
     for line in source.text.split("\n"):

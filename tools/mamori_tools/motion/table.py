@@ -14,8 +14,8 @@ from mamori_trace.base.text_file import SourceText
 def read_table(source: SourceText, joints: int, ignored_columns: int) -> Samples:
     """Reads a table of `joints` positions per line, or of `joints + ignored_columns`, whose last ones are dropped.
 
-    Times are shifted so that the first is 0, exactly in decimal, so 0.003 - 0.001 stays 0.002.
-    Raises InputError: wrong or changing number of columns, no number, not finite, too many lines.
+    Times are shifted so that the first is 0, in exact decimal arithmetic, so 0.003 - 0.001 stays 0.002.
+    Raises InputError: wrong or changing number of columns, not a finite number, too many lines.
     """
     samples = Samples(source.path, source.sha256)
     allowed = {joints, joints + ignored_columns}

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shows the JSON that mamori::table_dump wrote of a system table: `mamori table`."""
+"""Shows the JSON of a system table from mamori::table_dump: `mamori table`."""

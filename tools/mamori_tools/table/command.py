@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`mamori table FILE`: shows the JSON of a system table as text and as pictures.
 
-Exit status: 0 shown, 1 shown, but the table breaks a rule, 2 nothing to show or wrong usage.
+Exit status: 0 shown, 1 shown, but the table violates a rule, 2 nothing to show or wrong usage.
 
 @satisfies SWR-TAB-004, SWR-TAB-007, SWR-TAB-008, SWR-CLI-047      Design: docs/design/cost.md#the-command-table
 """
@@ -41,10 +41,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Raises InputError and InputError, each with one line; nothing is written then. @return the exit status."""
+    """Raises InputError with one line; nothing is written then. @return the exit status."""
     outputs = _choose_outputs(arguments)
     table = read_table(arguments.file)
-    # Everything is made before the first file is written.
+    # All outputs are created before the first file is written.
     texts = [(path, make(table)) for path, make in outputs]
     if arguments.out is not None:
         _make_folder(arguments.out)
@@ -75,7 +75,7 @@ def _choose_outputs(arguments: argparse.Namespace) -> list[tuple[Path, Callable[
     return outputs
 
 
-# Each picture brings a library or a program of its own, which the others do without.
+# Each picture needs its own library or program, which the other outputs do not need.
 
 
 def _make_text(table: Table) -> str:
@@ -116,7 +116,7 @@ def _print(table: Table) -> None:
         print_table(table)
         sys.stdout.flush()
     except BrokenPipeError:
-        # Whoever read the lines has seen enough; Python must not complain at its end.
+        # The reader of the lines has ended; Python must not print an error at its end.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The JSON of a system table as checked rows. Whoever has a `Table` need not look whether a key or an index is there.
+"""The JSON of a system table as checked rows. In a `Table`, all keys and indices are valid.
 
 @satisfies SWR-TAB-008      Design: docs/design/cost.md#schema
 """
@@ -97,7 +97,7 @@ class Table:
         return sorted({window.core for window in self.windows})
 
     def windows_of(self, core: int) -> list[int]:
-        """Indices of the windows of one core, by their first opening."""
+        """Indices of the windows of one core, sorted by their first start."""
         indices = [index for index, window in enumerate(self.windows) if window.core == core]
         return sorted(indices, key=lambda index: (self.windows[index].offset_ns, index))
 
@@ -112,7 +112,7 @@ class Table:
 
 
 def read_table(path: Path) -> Table:
-    """Raises InputError, one line with the place, for anything that is no whole table of this schema."""
+    """Raises InputError, one line with the location, for an incomplete table or one of another schema."""
     source = read_text(path, "table", MAX_BYTES)
     try:
         value = json.loads(source.text, parse_constant=_refuse_constant)
@@ -150,7 +150,7 @@ def read_table(path: Path) -> Table:
 
 
 def _refuse_untold_times(root: JsonNode) -> None:
-    """A time that the check of the kernel never passes, in a document without findings: nobody has checked it."""
+    """Rejects non-positive times in a document without findings. The check of the kernel reports such times, so this table was not checked."""
     times = [root.at("frame_ns")]
     times += [window.at(key) for window in root.at("windows").items() for key in ("length_ns", "period_ns", "budget_ns")]
     times += [reaction.at("within_ns") for reaction in root.at("reactions").items()]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Has graphviz find the places of a picture.
+"""Calls graphviz for the layout of a picture.
 
 @satisfies SWR-TAB-006, SWR-TAB-012      Design: docs/design/cost.md#graph
 """
@@ -22,9 +22,9 @@ LABEL_STYLE = ".labels text { paint-order: stroke; stroke: white; stroke-width: 
 
 
 def draw(text: str, name: str) -> str:
-    """The picture as SVG. Raises InputError where graphviz is missing or gives up.
+    """The picture as SVG. Raises InputError if graphviz is missing or fails.
 
-    @param text in the language of graphviz. @param name what the picture is called in a complaint.
+    @param text in the language of graphviz. @param name the name of the picture in an error message.
     """
     program = shutil.which("dot")
     if program is None:
@@ -41,7 +41,7 @@ def draw(text: str, name: str) -> str:
 
 
 def _raise_labels(picture: str) -> str:
-    """Labels of edges stay readable where an edge passes: dot draws edge after edge, each over the labels before it."""
+    """Draws edge labels on top. dot draws one edge after the other, each over the labels before it, which would make them unreadable."""
     root = ElementTree.fromstring(picture)
     graph = root.find(f"{SVG}g")
     if graph is None:
@@ -58,5 +58,5 @@ def _raise_labels(picture: str) -> str:
 
 
 def quote(*lines: str) -> str:
-    """Lines of text in the dot language that stand for themselves: no escapes, no HTML."""
+    """Literal lines of text in the dot language, without escapes and HTML."""
     return '"' + "\\n".join(clean(line).replace("\\", "\\\\").replace('"', '\\"') for line in lines) + '"'

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The data flow of a system table: components as boxes, grouped by core, partition and window; connections as edges. Graphviz
-finds the places.
+computes the layout.
 
 @satisfies SWR-TAB-006      Design: docs/design/cost.md#graph
 """
@@ -27,7 +27,7 @@ MODES_LENGTH_MAX = 24
 EDGE_STYLES = {
     "same_window": 'color="#1b1b1b", constraint=false',
     "later_window": 'color="#0072b2", constraint=false',
-    # Where these run side by side a label in the middle would be anybody's: it stands above the edge, near the source.
+    # If these run side by side, a label in the middle would be ambiguous: it is above the edge, near the source.
     "next_frame": 'color="#0072b2", style=dashed, labeldistance=6, labelangle=-18, constraint=false',
     "crossing": 'color="#d55e00", penwidth=2, constraint=false',
     "queue": 'color="#009e73", penwidth=2, arrowhead=normalnormal, constraint=false',
@@ -37,7 +37,7 @@ MODES_LEGEND = " · circle: only in some modes"
 
 
 def make_graph(table: Table) -> str:
-    """The picture as SVG. Raises InputError where graphviz is missing or gives up."""
+    """The picture as SVG. Raises InputError if graphviz is missing or fails."""
     return draw(make_dot(table), "graph")
 
 
@@ -48,7 +48,7 @@ def make_dot(table: Table) -> str:
 
 def _make_lines(table: Table) -> Iterator[str]:
     splines = "true" if len(table.connections) < PLAIN_FROM else "line"
-    # Labels are placed after the layout: the gap between two columns has the room for the longest one.
+    # Labels are placed after the layout: the gap between two columns fits the longest one.
     lines = (line for connection in table.connections for line in _make_label(table, connection))
     gap = max([calc_width(line, LABEL_SIZE) for line in lines], default=0.0) / 72 + 0.5
     yield "digraph table {"
@@ -78,7 +78,7 @@ def _make_core(table: Table, core: int) -> Iterator[str]:
                 yield from _make_window(table, index, COLOURS[windows.index(index) % len(COLOURS)])
         if partition:
             yield "}"
-    # Left to right in the order of their openings.
+    # Left to right in the order of their first starts.
     columns = [name for index in windows if table.components_of(index) for name in _name_columns(table, index)]
     for earlier, later in itertools.pairwise(columns):
         yield f"{earlier} -> {later} [style=invis, weight=100];"
@@ -86,7 +86,7 @@ def _make_core(table: Table, core: int) -> Iterator[str]:
 
 
 def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator[str]:
-    """In the colours that the window has in the time line."""
+    """In the colours of the window in the time line."""
     window = table.windows[index]
     label = f"{window.name}, every {format_time(window.period_ns)}"
     yield f'subgraph cluster_window_{index} {{ label={quote(label)}; labelloc=t; style="filled,solid"; bgcolor="{colours[0]}"; ' \
@@ -95,7 +95,7 @@ def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator
         yield f'{name} [shape=point, style=invis, width=0.01, height=0.01, label=""];'
     for component in table.components_of(index):
         yield _make_node(table, component)
-    # One below the other in the order in which they run.
+    # From top to bottom in execution order.
     components = table.components_of(index)
     yield f"{{ rank=same; {'; '.join(f'c{component}' for component in components)} }}"
     for earlier, later in itertools.pairwise(components):
@@ -104,10 +104,10 @@ def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator
 
 
 def _name_columns(table: Table, index: int) -> list[str]:
-    """The columns of a window from left to right, each by a node in it; the last one has the components.
+    """The columns of a window from left to right, each represented by one of its nodes; the last one contains the components.
 
-    A connection past a component between its ends makes a bow to the left. dot does not count that as part of the window's box; an
-    empty column does.
+    A connection past a component between its ends is a bow to the left. dot does not count the bow as part of the window's box, but it
+    counts an empty column.
     """
     components = table.components_of(index)
     is_past_another = any(
@@ -127,23 +127,23 @@ def _make_edge(table: Table, connection: Connection) -> Iterator[str]:
     ends = (connection.source, connection.sink)
     source, sink = ends[0].component, ends[1].component
     if source is None or sink is None:
-        return  # a finding tells of it
+        return  # a finding reports it
     age = "" if connection.fresh_within_ns is None else f", fresh within {format_time(connection.fresh_within_ns)}"
     modes = format_modes(table, connection.modes)
     hint = " → ".join(f"{table.component_name(end.component)}.{end.port}" for end in ends) + age + (f", in {modes}" if modes else "")
-    # Within a window the edge is given from below to above, as dot stacks, and drawn from above to below.
+    # Within a window the edge is declared from bottom to top, because dot stacks upwards, and drawn from top to bottom.
     pair, is_back = (f"c{sink} -> c{source}", True) if connection.way == "same_window" else (f"c{source} -> c{sink}", False)
-    # Straight down an edge leaves and arrives at a side, where nothing else does; dot would draw it twice.
+    # A vertical edge leaves and arrives at a side without other edges; otherwise dot would draw it twice.
     is_straight = connection.way in ("crossing", "queue") and _calc_column(table, source) == _calc_column(table, sink)
     ports = ", tailport=w, headport=w" if is_straight else ""
-    # A circle at the source tells of modes; dot calls the end of a reversed edge its head.
+    # A circle at the source marks modes; dot calls the end of a reversed edge its head.
     marks = {False: "dir=back" if is_back else "dir=forward", True: f"dir=both, arrow{'head' if is_back else 'tail'}=odot"}[bool(modes)]
     place = {"same_window": "label" if len(table.connections) <= LABELS_MAX else "xlabel", "next_frame": "taillabel"}.get(connection.way, "xlabel")
     yield f"{pair} [{marks}, {place}={quote(*_make_label(table, connection))}, tooltip={quote(hint)}, {EDGE_STYLES[connection.way]}{ports}];"
 
 
 def _make_label(table: Table, connection: Connection) -> list[str]:
-    """Its lines: the ports, and the modes where they are not all."""
+    """Its lines: the ports, and the modes if the component does not run in all."""
     out, into = connection.source.port, connection.sink.port
     modes = format_modes(table, connection.modes)
     if len(modes) > MODES_LENGTH_MAX:
@@ -152,6 +152,6 @@ def _make_label(table: Table, connection: Connection) -> list[str]:
 
 
 def _calc_column(table: Table, component: int) -> int:
-    """Place of the component's window among those of its core."""
+    """Index of the component's window among those of its core."""
     index = table.components[component].window
     return -1 if index is None else table.windows_of(table.windows[index].core).index(index)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The mode machine of a system table: modes as boxes, transitions as arrows with their events. Graphviz finds the places.
+"""The mode machine of a system table: modes as boxes, transitions as arrows with their events. Graphviz computes the layout.
 
 @satisfies SWR-TAB-012      Design: docs/design/cost.md#mode-machine
 """
@@ -24,7 +24,7 @@ EMPTY = "The table has no modes: all of its components run."
 
 
 def make_mode_graph(table: Table) -> str:
-    """The picture as SVG. Raises InputError where graphviz is missing or gives up."""
+    """The picture as SVG. Raises InputError if graphviz is missing or fails."""
     return draw(make_mode_dot(table), "mode machine")
 
 
@@ -59,21 +59,21 @@ def _make_node(table: Table, index: int, mode: Mode) -> str:
     hint = "runs " + (", ".join(table.component_name(number) for number in mode.components) or "nothing")
     start = f'start{index} [shape=circle, style=filled, fillcolor="{INK}", label="", width=0.15, tooltip="start"]; ' \
             f"start{index} -> m{index};" if mode.initial else ""  # fmt: skip
-    # No row of the table leads to the safe mode; the kernel does.
+    # No row of the table leads to the safe mode; the kernel enters it by itself.
     way_out = f"any{index} [label={quote(ANY_MODE)}, shape=plaintext, style=solid]; " \
               f"any{index} -> m{index} [label={quote(WAY_OUT)}, style=dashed];" if mode.safe else ""  # fmt: skip
     return f"m{index} [label={quote(*lines)}, tooltip={quote(hint)}{safe}]; {start} {way_out}"
 
 
 def _make_unknown(table: Table) -> Iterator[str]:
-    """One box for each end that is no mode of the table."""
+    """One box for each end that is not a mode of the table."""
     ends = {end: None for row in table.transitions for end in (row.source, row.target) if end.index is None}
     for end in ends:
         yield f"{_make_id(end)} [label={quote(format_reference(end))}, style=dashed, tooltip={quote('no mode of the table')}];"
 
 
 def _group_events(table: Table) -> dict[tuple[Reference, Reference], list[str]]:
-    """One arrow from a mode to another, whatever the number of events."""
+    """One arrow from a mode to another, for any number of events."""
     groups: dict[tuple[Reference, Reference], list[str]] = {}
     for row in table.transitions:
         groups.setdefault((row.source, row.target), []).append(row.event_name)

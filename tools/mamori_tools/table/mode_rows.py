@@ -19,7 +19,7 @@ Values = tuple[float | int | None, ...]
 
 @dataclass(frozen=True)
 class Reference:
-    """What a row points at."""
+    """A reference to another row."""
 
     index: int | None
     """None: there is no such row."""

@@ -27,7 +27,7 @@ def make_title(table: Table) -> str:
 
 
 def make_matrices(table: Table) -> Iterator[list[Row]]:
-    """Components by modes, the headings first; as many modes in one matrix as a line has room for."""
+    """Components by modes, the headings first; each matrix has as many modes as fit on a line."""
     rows = [("component", *(mode.name for mode in table.modes))]
     for index, component in enumerate(table.components):
         rows.append((component.name, *(RUNS if index in mode.components else RESTS for mode in table.modes)))

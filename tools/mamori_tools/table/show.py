@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the text of a table. rich keeps to NO_COLOR and leaves colours out where the output is no terminal.
+"""Prints the text of a table. rich follows NO_COLOR and omits colours if the output is not a terminal.
 
 @satisfies SWR-TAB-004      Design: docs/design/cost.md#text
 """
@@ -14,7 +14,7 @@ from mamori_tools.table.text import make_lines
 
 
 class _Console(Console):
-    """A reader who has seen enough ends the printing, not the program: rich would end that too."""
+    """A reader that ends early ends the printing, not the program; rich would also end the program."""
 
     def on_broken_pipe(self) -> None:
         raise BrokenPipeError

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a hand-made SVG needs: elements, widths of texts, colours that keep apart for every eye.
+"""Parts of a handwritten SVG: elements, widths of texts, colours that all readers can distinguish.
 
 @satisfies SWR-TAB-005      Design: docs/design/cost.md#time-line
 """
@@ -18,13 +18,13 @@ COLOURS = (("#cfe6f5", "#56b4e9"), ("#fae3b8", "#e69f00"), ("#c4e8dc", "#009e73"
 
 
 def calc_width(text: str, size: float = FONT_SIZE) -> float:
-    """An upper bound of the width of a text [px] in any of the fonts: nobody can measure the reader's."""
+    """An upper bound of the width of a text [px] in any font, because the reader's font is unknown."""
     ems = {"W": 1.0, "F": 1.0}
     return sum(ems.get(unicodedata.east_asian_width(letter), 0.64 if letter not in "WMmw@%" else 1.0) for letter in text) * size
 
 
 def shorten(text: str, width: float, size: float = FONT_SIZE) -> str:
-    """The text, or as much of its two ends as fits with three dots between: long names differ at either end."""
+    """The text, or its two ends with three dots between if it is too long, because long names differ at either end."""
     if calc_width(text, size) <= width:
         return text
     for kept in range(len(text) - 1, 1, -1):
@@ -35,12 +35,12 @@ def shorten(text: str, width: float, size: float = FONT_SIZE) -> str:
 
 
 def clean(text: str) -> str:
-    """Without letters that XML 1.0 cannot hold."""
+    """Without characters that XML 1.0 cannot represent."""
     return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 
 class Drawing:
-    """An SVG of fixed size in pixels, made element by element."""
+    """An SVG of fixed size in pixels, created element by element."""
 
     def __init__(self, width: float, height: float, title: str) -> None:
         self._root = ElementTree.Element("svg", {
@@ -50,7 +50,7 @@ class Drawing:
         self.box(0, 0, width, height, PAPER)
 
     def box(self, x: float, y: float, width: float, height: float, fill: str, edge: str = "none", hint: str = "") -> None:
-        """@param hint shown by viewers where the mouse rests."""
+        """@param hint viewers show it under the mouse pointer."""
         element = ElementTree.SubElement(self._root, "rect", {
             "x": f"{x:.2f}", "y": f"{y:.2f}", "width": f"{max(0.0, width):.2f}", "height": f"{height:.2f}", "fill": fill,
             "stroke": edge, "stroke-width": "0.8"})  # fmt: skip

@@ -20,7 +20,7 @@ RIGHT = frozenset({"offset", "length", "period", "budget", "within", "fresh with
 
 
 def make_lines(table: Table) -> Iterator[Line]:
-    """The whole text, line by line, without line ends."""
+    """The complete text, line by line, without line ends."""
     yield f"frame {format_time(table.frame_ns)}, {_count(table.cores(), 'core')}, {_count(table.windows, 'window')}, " \
           f"{_count(table.components, 'component')}, {_count(table.connections, 'connection')}", HEADING  # fmt: skip
     for core in table.cores():
@@ -105,12 +105,12 @@ def _findings(table: Table) -> Iterator[Line]:
 
 
 def _plain(name: str) -> str:
-    """A name without letters that would steer the terminal or break the line."""
+    """A name without characters that would control the terminal or break the line."""
     return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
 
 
 def _align(rows: list[tuple[str, ...]]) -> Iterator[Line]:
-    """Columns as wide as they need; one that is empty in every row is left out, its heading too."""
+    """Columns as wide as their contents; a column that is empty in every row is omitted with its heading."""
     rows = [tuple(_plain(cell) for cell in row) for row in rows]
     kept = [column for column in range(len(rows[0])) if any(row[column] for row in rows[1:])]
     widths = {column: max(len(row[column]) for row in rows) for column in kept}

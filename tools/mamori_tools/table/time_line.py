@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The time line of a system table: one major frame, a lane for each core, a row for each window, its openings as boxes.
+"""The time line of a system table: one major frame, a lane for each core, a row for each window, its instances as boxes.
 
 @satisfies SWR-TAB-005      Design: docs/design/cost.md#time-line
 """
@@ -25,19 +25,19 @@ BOXES_MAX = 4000
 
 
 class _Scale:
-    """Pixels of an instant in the frame."""
+    """Pixels of an instant in the major frame."""
 
     def __init__(self, left: float, frame_ns: int) -> None:
         self.left = left
         self._frame_ns = max(1, frame_ns)
 
     def at(self, time_ns: int) -> float:
-        """Rows that leave the frame end at its edge."""
+        """Rows that extend beyond the major frame end at its edge."""
         return self.left + TIME_WIDTH * min(max(time_ns / self._frame_ns, 0.0), 1.0)
 
 
 def make_time_line(table: Table) -> str:
-    """The whole picture as SVG."""
+    """The complete picture as SVG."""
     labels = [f"{window.name}  {_format_times(window)}" for window in table.windows]
     name_width = min(NAME_WIDTH_MAX, max([calc_width(label, SMALL + 1) for label in labels], default=0.0) + 12)
     scale = _Scale(MARGIN + name_width, table.frame_ns)
@@ -64,7 +64,7 @@ def _draw_legend(drawing: Drawing, right: float) -> None:
 
 
 def _draw_core(drawing: Drawing, scale: _Scale, table: Table, core: int, y: float, name_width: float) -> float:
-    """The lane of a core, and below it a row for each of its windows. @return where the next one begins."""
+    """The lane of a core, and below it a row for each of its windows. @return the position of the next lane."""
     indices = table.windows_of(core)
     drawing.box(MARGIN - 6, y, name_width + TIME_WIDTH + 12, LANE_HEIGHT, "#f1f3f4")
     drawing.text(MARGIN, y + 20, f"core {core}", bold=True)
@@ -84,7 +84,7 @@ def _draw_core(drawing: Drawing, scale: _Scale, table: Table, core: int, y: floa
 
 def _draw_openings(drawing: Drawing, scale: _Scale, table: Table, window: Window, colours: tuple[str, str], y: float,
                    height: float, name: str) -> None:  # fmt: skip
-    """@param name written into each box that has the room."""
+    """@param name written into each box with enough space."""
     pale, full = colours
     hint = f"{window.name}: opens at {format_time(window.offset_ns)}, every {format_time(window.period_ns)}, for " \
            f"{format_time(window.length_ns)}; budget {format_time(window.budget_ns)}"  # fmt: skip
@@ -98,7 +98,7 @@ def _draw_openings(drawing: Drawing, scale: _Scale, table: Table, window: Window
         left = scale.at(opening)
         width = scale.at(opening + window.length_ns) - left
         edge = INK if width >= 2 else "none"
-        # A window that is thinner than a pixel is still seen.
+        # A window that is thinner than a pixel stays visible.
         drawing.box(left, y, max(width, 1.0), height, pale, edge, hint)
         drawing.box(left, y, max(scale.at(opening + window.budget_ns) - left, 1.0), height, full, edge, hint)
         short = shorten(name, width - 6)

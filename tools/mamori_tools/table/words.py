@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Times and ways of a table in words, equal in text and pictures."""
+"""Texts for the times and channels of a table, equal in text and pictures."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ UNITS = ((1_000_000_000, "s"), (1_000_000, "ms"), (1_000, "µs"), (1, "ns"))
 
 
 def format_time(time_ns: int | None) -> str:
-    """In the largest unit that gives a number from 1 on, with all its digits; empty for no time."""
+    """Time in the largest unit with a value of at least 1, with all its digits; empty if no time is declared."""
     if time_ns is None:
         return ""
     factor, unit = next(((factor, unit) for factor, unit in UNITS if abs(time_ns) >= factor), (1, "ns"))
@@ -43,7 +43,7 @@ def format_kind(window: Window) -> str:
 
 
 def format_modes(table: Table, modes: tuple[int, ...]) -> str:
-    """Names of these modes, or `all but` the few others; empty where they are all."""
+    """Names of these modes, or `all but` the few others; empty if all modes are included."""
     others = [index for index in range(len(table.modes)) if index not in modes]
     if not others:
         return ""
@@ -55,7 +55,7 @@ def format_modes(table: Table, modes: tuple[int, ...]) -> str:
 
 
 def format_reference(reference: Reference | None) -> str:
-    """The name; what does not exist has a question mark; empty for none."""
+    """The name; a missing object has a question mark; empty for none."""
     if reference is None:
         return ""
     is_unknown = reference.index is None and reference.name != "?"

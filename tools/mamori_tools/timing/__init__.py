@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori timing`: how late, how long and how far through, of a system that ran in real time (docs/design/timing.md)."""
+"""`./mamori timing`: lateness, execution times and end-to-end latency of a system in real time (docs/design/timing.md)."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a measurement says about windows and components: pure functions from arrays to figures.
+"""Evaluates the measurements of windows and components: pure functions from arrays to figures.
 
 @satisfies SWR-TIM-012, SWR-TIM-013, SWR-TIM-014      Design: docs/design/timing.md#figures
 """
@@ -18,7 +18,7 @@ OPENED = (COMPLETED, OVERRUN, MISSED)
 
 @dataclass(frozen=True)
 class Distribution:
-    """Order statistics of times [ns]: each quantile is a value that was measured (nearest rank)."""
+    """Order statistics of times [ns]: each quantile is a measured value (nearest rank)."""
 
     count: int
     min: int
@@ -30,7 +30,7 @@ class Distribution:
 
 @dataclass(frozen=True)
 class Series:
-    """Values in order of time [ns], and the release [ns] of the opening that each belongs to."""
+    """Values in order of time [ns], and the release [ns] of the window instance of each."""
 
     releases: Array
     values: Array
@@ -38,8 +38,8 @@ class Series:
 
 @dataclass(frozen=True)
 class Miss:
-    """An opening that overran or was missed. `component`: the one that was not back, or had not begun; nobody, where nothing ran.
-    `is_host`: the window was released too late to have its whole budget, or did not get the processor in it."""
+    """An overrun or skipped window. `component`: the component that had not returned, or had not begun; empty if none ran.
+    `is_host`: the window was released too late for its complete budget, or did not get the processor within it."""
 
     cycle: int
     release_ns: int
@@ -53,8 +53,8 @@ class Miss:
 
 @dataclass(frozen=True)
 class WindowRow:
-    """One window: plan and measurement. `response` is closed - release, `used` is closed - woke; the margins are what is left
-    of length and of budget at the worst; None where nothing was measured."""
+    """One window: plan and measurement. `response` is closed - release, `used` is closed - woke; the margins are the minimum
+    remainders of length and of budget; None if nothing was measured."""
 
     window: str
     core: int
@@ -72,7 +72,7 @@ class WindowRow:
 
 @dataclass(frozen=True)
 class ComponentRow:
-    """One component: execution time per opening against the declared worst case. `unfinished` openings had not come back."""
+    """One component: execution time per window instance, and the declared worst case. `unfinished` instances had not returned."""
 
     component: str
     window: str
@@ -83,7 +83,7 @@ class ComponentRow:
 
 
 def describe(values: Array) -> Distribution | None:
-    """@param values [ns], any order. @return None where there is no value."""
+    """@param values [ns], any order. @return None if there is no value."""
     if not len(values):
         return None
     ordered = np.sort(values)
@@ -91,20 +91,20 @@ def describe(values: Array) -> Distribution | None:
 
 
 def _pick(ordered: Array, permille: int) -> int:
-    """The smallest value that at least `permille` thousandths of all do not exceed; in whole numbers, since 0.999 is none."""
+    """The smallest value that at least `permille` thousandths of all do not exceed; in integers, because 0.999 is not exact."""
     return int(ordered[-(-permille * len(ordered) // 1000) - 1])
 
 
 def calc_lateness(run: Measurement, window: int) -> Series:
-    """woke - release of each opening that was released."""
+    """woke - release of each released window instance."""
     rows = run.openings[run.rows_of(window)]
     rows = rows[np.isin(rows["outcome"], OPENED)]
     return Series(rows["release_ns"], rows["woke_ns"] - rows["release_ns"])
 
 
 def calc_execution(run: Measurement, component: int) -> tuple[Series, int]:
-    """Sum of the steps of one component in each opening, where all of them came back. @return it, and the number of openings
-    where one did not."""
+    """Sum of the steps of one component in each window instance in which all of them returned. @return it, and the number of
+    instances in which one did not."""
     of_it = run.steps["component"] == component
     steps, rows = run.steps[of_it], run.opening_of_step[of_it]
     if not len(steps):
@@ -112,7 +112,7 @@ def calc_execution(run: Measurement, component: int) -> tuple[Series, int]:
     first = int(rows.min())
     length = int(rows.max()) - first + 1
     is_open = np.bincount(rows - first, weights=steps["end_ns"] == NOT_BACK, minlength=length) > 0
-    # Sums of a float are exact here: instants are below 2**53 ns.
+    # Floating-point sums are exact here: instants are below 2**53 ns.
     sums = np.bincount(rows - first, weights=steps["end_ns"] - steps["start_ns"], minlength=length).astype(np.int64)
     ran = np.bincount(rows - first, minlength=length) > 0
     whole = ran & ~is_open
@@ -120,7 +120,7 @@ def calc_execution(run: Measurement, component: int) -> tuple[Series, int]:
 
 
 def count_cut(run: Measurement, component: int) -> int:
-    """Openings of the component's window that overran: what they took in all is not known."""
+    """Overruns of the component's window: their total time is unknown."""
     window = run.table.components[component].window
     return 0 if window is None else int((run.openings[run.rows_of(window)]["outcome"] == OVERRUN).sum())
 
@@ -147,7 +147,7 @@ def _make_window(run: Measurement, index: int) -> WindowRow:
 
 
 def list_components(run: Measurement) -> list[ComponentRow]:
-    """Execution times of all components that a window runs."""
+    """Execution times of all components of a window."""
     rows = []
     for index, component in enumerate(run.table.components):
         if component.window is None:
@@ -161,7 +161,7 @@ def list_components(run: Measurement) -> list[ComponentRow]:
 
 
 def list_misses(run: Measurement) -> list[Miss]:
-    """Each opening that overran or was missed, in order of time."""
+    """Each overrun and skipped window, in order of time."""
     chosen = np.flatnonzero(np.isin(run.openings["outcome"], (OVERRUN, MISSED)))
     order = np.argsort(run.openings["release_ns"][chosen], kind="stable")
     index = _index_steps(run)
@@ -170,8 +170,8 @@ def list_misses(run: Measurement) -> list[Miss]:
 
 @dataclass(frozen=True)
 class _StepIndex:
-    """Steps sorted by the row of their opening, and those of them that outlasted the period of their window: a run in which
-    everything overruns must not take minutes to judge."""
+    """Steps sorted by the row of their window instance, and those that outlasted the period of their window, so that a run
+    in which everything overruns is evaluated quickly."""
 
     steps: Array
     rows: Array
@@ -179,14 +179,14 @@ class _StepIndex:
     long_rows: Array
 
     def list_candidates(self, first: int, row: int) -> Array:
-        """Steps of opening `row`, and the last long one before it, from row `first` on: nothing else of a window runs while work
-        of it hangs."""
+        """Steps of window instance `row`, and the last long one before it, from row `first` on: while work hangs, nothing else
+        of its window runs."""
         begin, end = np.searchsorted(self.rows, [row, row + 1])
         long_begin, long_end = np.searchsorted(self.long_rows, [first, row])
         return np.concatenate((self.long_steps[max(long_begin, long_end - 1) : long_end], self.steps[begin:end]))
 
     def list_components(self, row: int) -> set[int]:
-        """Components that had a step in opening `row`."""
+        """Components with a step in window instance `row`."""
         begin, end = np.searchsorted(self.rows, [row, row + 1])
         return set(self.steps["component"][begin:end].tolist())
 
@@ -211,13 +211,13 @@ def _make_miss(run: Measurement, index: _StepIndex, row: int) -> Miss:
 
 
 def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | None, str, bool]:
-    """@return the component that was not back at the deadline of an overrun, or nobody; what happened; whether by the host."""
+    """@return the component that had not returned at the deadline of an overrun, or none; what happened; whether the host caused it."""
     opening = run.openings[row]
     number = int(opening["window"])
     window = run.table.windows[number]
-    # As the executive does: a window that opens late keeps its budget, but not beyond its planned close.
+    # As in the executive: a window that starts late keeps its budget, but not beyond its planned end.
     deadline = min(int(opening["woke_ns"]) + window.budget_ns, int(opening["release_ns"]) + window.length_ns)
-    # Also steps of earlier openings: work that hangs keeps its window closed.
+    # Also steps of earlier window instances: while work hangs, its window does not start again.
     steps = index.list_candidates(run.rows_of(number).start, row)
     late = steps[(steps["start_ns"] <= deadline) & ((steps["end_ns"] == NOT_BACK) | (steps["end_ns"] > deadline))]
     if len(late):
@@ -238,9 +238,9 @@ def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | N
 
 
 def list_findings(windows: list[WindowRow], components: list[ComponentRow], misses: list[Miss]) -> list[str]:
-    """What the code is to blame for, one line each: overruns and declared worst cases that are too low.
+    """Deviations that the code caused, one line each: overruns and declared worst cases that are too low.
 
-    What the host did is none: openings that were missed or cut short since the window was released too late.
+    Windows that were skipped or shortened after a late release are not included, because the host caused them.
     """
     findings = []
     for row in components:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The stored ratios of a system's components: written when told to, and held against a new run.
+"""The stored ratios of a system's components: written on request, and compared with a new run.
 
-A ratio is the median execution time over that of a fixed piece of work in the same run, so a slower machine or a busier hour
-does not change it as it changes times.
+A ratio is the median execution time over that of a fixed piece of work in the same run. A slower or busier host
+therefore changes it less than it changes times.
 
 @satisfies SWR-TIM-020, SWR-TIM-021      Design: docs/design/timing.md#baseline
 """
@@ -31,7 +31,7 @@ HOW_TO_MEND = "write it anew with ./mamori timing SYSTEM --accept FILE"
 
 @dataclass(frozen=True)
 class Baseline:
-    """`ratios`: of each component, in the order of the table; names may be equal, so the place counts."""
+    """`ratios`: of each component, in the order of the table; names may be equal, so the index identifies a component."""
 
     path: Path
     system: str
@@ -41,17 +41,17 @@ class Baseline:
 
 
 def make_fingerprint(table: Table) -> str:
-    """Of all that this command reads of a table; a key that is added to the format does not change it."""
+    """Hash of all keys of a table that this command reads; a new key of the format does not change it."""
     return hashlib.sha256(json.dumps(asdict(table), sort_keys=True).encode()).hexdigest()
 
 
 def list_ratios(rows: Sequence[ComponentRow], reference_ns: int) -> list[tuple[str, float]]:
-    """Components that were measured, with their ratios."""
+    """Measured components with their ratios."""
     return [(row.component, row.execution.p50 / reference_ns) for row in rows if row.execution is not None]
 
 
 def load_baseline(path: Path, system: str) -> Baseline:
-    """@raise InputError for what is no baseline, of another format, or of another system than `system`."""
+    """@raise InputError for an invalid baseline, another format, or another system than `system`."""
     try:
         data = tomllib.loads(read_text(path, "baseline", 1_000_000).text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
@@ -82,13 +82,13 @@ def _read_positive(value: object, what: str, least: float = math.ulp(0.0)) -> fl
 
 
 def check_table(baseline: Baseline, table: Table) -> None:
-    """@raise InputError when it was made of another table: figures of another system do not compare."""
+    """@raise InputError if it belongs to another table, because figures of another system are not comparable."""
     if baseline.table != make_fingerprint(table):
         raise InputError(f"was made of another table of '{baseline.system}'; {HOW_TO_MEND}", baseline.path)
 
 
 def judge_ratios(baseline: Baseline, ratios: Sequence[tuple[str, float]]) -> list[str]:
-    """@return one finding per component over its limit, and for one that the baseline has and the run has not."""
+    """@return one finding per component over its limit, and per component of the baseline that the run does not have."""
     findings = []
     if [name for name, _ in ratios] != [name for name, _ in baseline.ratios]:
         missing = [name for name, _ in baseline.ratios if name not in dict(ratios)]
@@ -103,7 +103,7 @@ def judge_ratios(baseline: Baseline, ratios: Sequence[tuple[str, float]]) -> lis
 
 
 def write_baseline(path: Path, system: str, table: Table, ratios: Sequence[tuple[str, float]]) -> None:
-    """Whole or not at all. @raise InputError where it cannot be written."""
+    """Atomic. @raise InputError if it cannot be written."""
     rows = "".join(f"\n[[component]]\nname = {_quote(name)}\nratio = {ratio!r}\n" for name, ratio in ratios)
     write_text(path, f"""# SPDX-License-Identifier: Apache-2.0
 # Median execution time of each component over that of a fixed piece of work in the same run, written by
@@ -116,5 +116,5 @@ limit_factor = {LIMIT_FACTOR}
 
 
 def _quote(text: str) -> str:
-    """A basic string of TOML: that of JSON, but for DEL."""
+    """A basic string of TOML: like that of JSON, except for DEL."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""End-to-end times of the chains as they were measured, held against what virtual time says.
+"""Measured end-to-end times of the event chains, compared with their bounds in virtual time.
 
 @satisfies SWR-TIM-017      Design: docs/design/timing.md#chains
 """
@@ -17,7 +17,7 @@ from mamori_tools.timing.reader import COMPLETED, NOT_BACK, Array, Measurement
 
 @dataclass(frozen=True)
 class Violation:
-    """A value that took longer than virtual time allows, although every window on its way completed."""
+    """A value that took longer than virtual time permits, although every window of its chain completed."""
 
     cycle: int
     measured_ns: int
@@ -26,7 +26,7 @@ class Violation:
 
 @dataclass(frozen=True)
 class ChainRow:
-    """One chain. `broken`: samples whose way was cut by an overrun, a missed opening, or one where a component did not run."""
+    """One chain. `broken`: samples that an overrun, a skipped window or a component that did not run interrupted."""
 
     name: str
     virtual: Response
@@ -37,7 +37,7 @@ class ChainRow:
 
 
 def list_chains(run: Measurement) -> tuple[list[ChainRow], str]:
-    """@return all chains of the table with their times, and a note on what is not among them."""
+    """@return all chains of the table with their times, and a note on the missing ones."""
     found: ChainSet = find_chains(run.table)
     spans: dict[int, _Spans] = {}
     for index in sorted({index for chain in found.chains for index in chain.components}):
@@ -47,14 +47,14 @@ def list_chains(run: Measurement) -> tuple[list[ChainRow], str]:
 
 @dataclass(frozen=True)
 class _Spans:
-    """From the first start to the last end of one component in each completed opening where it ran and came back."""
+    """From the first start to the last end of one component in each completed window instance in which it ran and returned."""
 
     releases: Array
     starts: Array
     ends: Array
 
     def find(self, wanted: Array) -> tuple[Array, Array]:
-        """@return row for each wanted release, and whether there is one."""
+        """@return row for each requested release, and whether there is one."""
         if not len(self.releases):
             return np.zeros(len(wanted), np.int64), np.zeros(len(wanted), bool)
         rows = np.minimum(np.searchsorted(self.releases, wanted), len(self.releases) - 1)
@@ -77,11 +77,11 @@ def _collect_spans(run: Measurement, component: int) -> _Spans:
 def _measure(run: Measurement, chain: Chain, spans: dict[int, _Spans]) -> ChainRow:
     first = run.table.components[chain.components[0]].window
     last = run.table.components[chain.components[-1]].window
-    assert first is not None and last is not None  # find_chains() takes no others
+    assert first is not None and last is not None  # find_chains() returns no others
     samples = run.openings["release_ns"][run.rows_of(first)]
     releases = follow(run.table, chain, samples)
     ended = run.openings["release_ns"][run.rows_of(last)]
-    inside = releases[-1] <= (ended[-1] if len(ended) else -1)  # the others were still on their way when the run ended
+    inside = releases[-1] <= (ended[-1] if len(ended) else -1)  # the others were not complete when the run ended
     whole = inside.copy()
     rows = []
     for component, wanted in zip(chain.components, releases, strict=True):
@@ -101,7 +101,7 @@ def _measure(run: Measurement, chain: Chain, spans: dict[int, _Spans]) -> ChainR
 
 
 def list_violations(chains: list[ChainRow]) -> list[str]:
-    """One finding for each chain that broke its bound."""
+    """One finding for each chain that violated its bound."""
     return [
         f"chain {row.name}: {len(row.violations)} of {row.measured.count if row.measured else 0} values took longer than virtual "
         f"time allows, first in cycle {row.violations[0].cycle}: {row.violations[0].measured_ns / 1e3:g} us, "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The chains of a table: which components a value passes from where it is sampled to where it acts, and when, in virtual time.
+"""The event chains of a table: the components that a value passes from its sampling to its effect, and the instants in virtual time.
 
 Source: reaction time over sampled chains as in Feiertag et al., "A compositional framework for end-to-end path delay
         calculation of automotive systems under different path semantics", 2008; strongly connected components by Tarjan, 1972,
@@ -26,7 +26,7 @@ SAME_WINDOW = "same_window"
 
 @dataclass(frozen=True)
 class Link:
-    """One connection of a chain: `is_direct` hands the value on in the same opening."""
+    """One connection of a chain: `is_direct` forwards the value within the same window instance."""
 
     source: int
     sink: int
@@ -47,17 +47,17 @@ class Chain:
 @dataclass(frozen=True)
 class ChainSet:
     chains: tuple[Chain, ...]
-    note: str = ""  # why it is not all of them, or that feedback was left out
+    note: str = ""  # why chains are missing, or that feedback was left out
 
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """What the budget of one window of a chain may still do without any effect on the response.
+    """Permitted growth of the budget of one window of a chain without any effect on the response.
 
-    Outputs are published at the planned close, whatever the work took. So a budget may grow by `budget_growth_ns` inside its
+    Outputs are published at the planned window end, for any execution time. So a budget may grow by `budget_growth_ns` within its
     length; the length by `core_gap_ns` until the next window of the core; and by `reader_gap_ns` until the next window of the
-    chain would read one opening later. `response_per_length`: growth of the response per growth of the length, 1 for the window
-    that acts and 0 for the others.
+    chain would read one window instance later. `response_per_length`: growth of the response per growth of the length, 1 for the
+    acting window and 0 for the others.
     """
 
     window: str
@@ -71,10 +71,10 @@ class Sensitivity:
 
 @dataclass(frozen=True)
 class Response:
-    """Virtual time of one chain [ns]: from the opening that samples to the planned close of the window that acts.
+    """Virtual time of one chain [ns]: from the sampling window start to the planned end of the acting window.
 
-    `reaction_max_ns`: from an event that comes just after the sample of the frame's instant `worst_phase_ns`, and so waits for
-    the next one.
+    `reaction_max_ns`: from an event directly after the sample at the instant `worst_phase_ns` of the major frame, which therefore
+    waits for the next sample.
     """
 
     min_ns: int
@@ -85,7 +85,7 @@ class Response:
 
 
 def find_chains(table: Table, limit: int = CHAINS_MAX) -> ChainSet:
-    """Simple paths from components that nothing feeds to components that feed nothing, feedback left out."""
+    """Simple paths from components without connected inputs to components without connected outputs, without feedback."""
     links = list_links(table)
     feedback = find_feedback(table, links)
     forward = [link for link in links if link not in feedback]
@@ -100,7 +100,7 @@ def find_chains(table: Table, limit: int = CHAINS_MAX) -> ChainSet:
 
 
 def list_links(table: Table) -> list[Link]:
-    """Pairs of components that are connected, once each. Where a pair has several connections the direct one counts."""
+    """Pairs of connected components, once each. If a pair has several connections, the direct one counts."""
     found: dict[tuple[int, int], Link] = {}
     for one in table.connections:
         source, sink = one.source.component, one.sink.component
@@ -114,7 +114,7 @@ def list_links(table: Table) -> list[Link]:
 
 
 def find_feedback(table: Table, links: list[Link]) -> set[Link]:
-    """Links against the order of the frame that close a loop. A link to an earlier window that closes none is no feedback."""
+    """Links to an earlier component that close a loop. A link to an earlier window that closes none is not feedback."""
     reach = _find_reachable(links)
 
     def place(index: int) -> tuple[int, int]:
@@ -125,7 +125,7 @@ def find_feedback(table: Table, links: list[Link]) -> set[Link]:
 
 
 def _find_reachable(links: list[Link]) -> dict[int, set[int]]:
-    """Components that can be reached from each one, itself only through a loop."""
+    """Components that are reachable from each one; a component reaches itself only through a loop."""
     after: dict[int, set[int]] = {}
     for link in links:
         after.setdefault(link.source, set()).add(link.sink)
@@ -146,7 +146,7 @@ def _find_reachable(links: list[Link]) -> dict[int, set[int]]:
 def _walk(links: list[Link], limit: int) -> tuple[list[Chain], bool]:
     """All paths from beginnings to ends, depth first in table order. @return at most `limit`, and whether there are more.
 
-    Without feedback there is no loop, so each path is simple and the search ends.
+    Without feedback there is no loop, so each path is simple and the search terminates.
     """
     after: dict[int, list[Link]] = {}
     for link in links:
@@ -169,8 +169,8 @@ def _walk(links: list[Link], limit: int) -> tuple[list[Chain], bool]:
 
 
 def follow(table: Table, chain: Chain, samples: Array) -> list[Array]:
-    """@param samples planned openings [ns] of the chain's first component. @return the planned openings of each component that
-    first see the values which were sampled there (logical execution time: published at the planned close)."""
+    """@param samples planned starts [ns] of the window of the chain's first component. @return the planned starts at which each component
+    first reads the values sampled there (logical execution time: published at the planned window end)."""
     releases = [samples]
     for link in chain.links:
         now = releases[-1]
@@ -186,24 +186,24 @@ def follow(table: Table, chain: Chain, samples: Array) -> list[Array]:
 def _window_of(table: Table, component: int) -> int:
     window = table.components[component].window
     if window is None:
-        raise ValueError(f"component {component} is in no window")  # chains are made of components that are
+        raise ValueError(f"component {component} is in no window")  # chains contain only components with a window
     return window
 
 
 def calc_response(table: Table, chain: Chain) -> Response:
-    """Exactly, over all samples of one frame; every later frame is the same, since all periods divide it."""
+    """Exact over all samples of one major frame; every later frame is equal, because all periods divide it."""
     first, last = (table.windows[_window_of(table, chain.components[end])] for end in (0, -1))
     samples = np.arange(first.offset_ns, table.frame_ns, first.period_ns, dtype=np.int64)
     releases = follow(table, chain, samples)
     times = releases[-1] + last.length_ns - samples
-    # An event just after sample k is seen by sample k + 1, one period later, and then takes its way.
+    # Sample k + 1, one period later, reads an event directly after sample k, which then passes along the chain.
     reaction = first.period_ns + np.roll(times, -1)
     worst = int(np.argmax(reaction))
     return Response(int(times.min()), int(times.max()), int(reaction.max()), int(samples[worst]), _list_sensitivity(table, chain, releases))
 
 
 def calc_bounds(table: Table, chain: Chain, samples: Array) -> Array:
-    """Virtual response [ns] for each sample at a planned opening."""
+    """Virtual response [ns] for each sample at a planned window start."""
     last = table.windows[_window_of(table, chain.components[-1])]
     return follow(table, chain, samples)[-1] + last.length_ns - samples
 
@@ -213,7 +213,7 @@ def _list_sensitivity(table: Table, chain: Chain, releases: list[Array]) -> tupl
     for place, component in enumerate(chain.components):
         is_last = place == len(chain.components) - 1
         if not is_last and chain.links[place].is_direct:
-            continue  # the last component of a window stands for it
+            continue  # the last component of a window represents it
         index = _window_of(table, component)
         window = table.windows[index]
         reader = None if is_last else int((releases[place + 1] - releases[place] - window.length_ns).min())
@@ -223,9 +223,9 @@ def _list_sensitivity(table: Table, chain: Chain, releases: list[Array]) -> tupl
 
 
 def calc_core_gap(table: Table, window: int) -> int:
-    """Shortest time [ns] from a planned close of `window` to the next planned opening on its core.
+    """Minimum time [ns] from a planned end of `window` to the next planned window start on its core.
 
-    Two strictly periodic windows meet at every distance that equals their first one modulo the gcd of their periods.
+    Two strictly periodic windows meet at every distance that equals their first distance modulo the gcd of their periods.
     """
     mine = table.windows[window]
     gaps = [mine.period_ns - mine.length_ns]

@@ -45,7 +45,7 @@ PROGRAM_FAILED, PROGRAM_USAGE = 1, 2
 
 @dataclass(frozen=True)
 class Request:
-    """What the user asked for."""
+    """The request of the user."""
 
     system: str
     cycles: int = CYCLES
@@ -59,7 +59,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Job:
-    """A request that was found to be in order. `folder` takes the results, `data` the files of the program."""
+    """A checked request. `folder` receives the results, `data` the files of the program."""
 
     request: Request
     system: System
@@ -81,7 +81,7 @@ class Job:
 
 
 def timing(request: Request, jobs: int) -> int:
-    """@return exit status: 0, 1 (a finding), 4 (without real-time rights) or 130 (stopped). @raise InputError."""
+    """@return exit status: 0, 1 (a finding), 4 (without real-time privileges) or 130 (stopped). @raise InputError."""
     job = check(request, jobs)
     _prepare_folder(job)
     if not build_system(job.system, job.context):
@@ -99,7 +99,7 @@ def timing(request: Request, jobs: int) -> int:
 
 
 def check(request: Request, jobs: int) -> Job:
-    """Everything that can be known before work begins. @raise InputError."""
+    """All checks that are possible before work begins. @raise InputError."""
     project = Project(ROOT)
     if request.check is not None and request.accept is not None:
         raise InputError("timing: --check and --accept exclude each other; check first, accept what you want to keep")
@@ -117,7 +117,7 @@ def check(request: Request, jobs: int) -> Job:
 
 
 def check_folder(folder: Path, command: str = "timing") -> None:
-    """@param command who asks, for its message. @raise InputError when no file can be written there."""
+    """@param command name of the command for the message. @raise InputError if no file can be written there."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -127,7 +127,7 @@ def check_folder(folder: Path, command: str = "timing") -> None:
 
 
 def _prepare_folder(job: Job) -> None:
-    """Takes earlier results away, so that none can be taken for those of this run. @raise InputError."""
+    """Removes earlier results, so that none counts for this run. @raise InputError."""
     try:
         for path in [*(job.folder / name for name in RESULTS), job.log, *(job.data / name for name in FILES)]:
             path.unlink(missing_ok=True)
@@ -138,7 +138,7 @@ def _prepare_folder(job: Job) -> None:
 
 
 def build_system(system: System, context: Context) -> bool:
-    """Builds what `system` needs to be run, if anything. @return whether it is there; what went wrong was shown."""
+    """Builds `system` if necessary. @return whether its program exists; errors were shown."""
     if not system.target:
         return True
     project = context.project
@@ -155,9 +155,9 @@ def build_system(system: System, context: Context) -> bool:
 
 
 def _probe(job: Job) -> float | None:
-    """One cycle: does the program keep the contract, is its table that of the baseline, how long is a cycle?
+    """One cycle. It checks the files of the program, its table against that of the baseline, and the duration of a cycle.
 
-    @return seconds that all cycles take, or None when the program failed, which was shown. @raise InputError.
+    @return duration of all cycles [s], or None if the program failed, which was shown. @raise InputError.
     """
     with tempfile.TemporaryDirectory(prefix="mamori-timing-") as scratch:
         ending = run_program(job.make_argv(1, Path(scratch)), job.log, PROBE_S, lambda _: None)
@@ -236,7 +236,7 @@ def _accept(job: Job, report: Report, path: Path) -> None:
 
 
 def print_result(text: str, record: dict[str, Any] | None) -> None:
-    """What was asked for, on standard output: `record` as JSON, or else `text`. All else of these commands goes to standard error."""
+    """Requested output on standard output: `record` as JSON, or else `text`. All other output goes to standard error."""
     if record is not None:
         print(json.dumps(record, indent=1))
         return
@@ -246,7 +246,7 @@ def print_result(text: str, record: dict[str, Any] | None) -> None:
 
 
 def show_failure(screen: Screen, reason: str, log: Path) -> None:
-    """The reason, the last lines of what the program said, and where the rest is."""
+    """The reason, the last output lines of the program, and the path of the complete output."""
     screen.say(f"failed: {reason}", style="bold red")
     for line in read_tail(log, TAIL_LINES):
         screen.say(f"  | {line}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the machine was and did during a run, as far as it tells: times say nothing without it.
+"""Properties and load of the host during a run, as far as available, because times are meaningless without them.
 
 @satisfies SWR-TIM-019      Design: docs/design/timing.md#environment
 """
@@ -18,14 +18,14 @@ UNKNOWN = "unknown"
 
 @dataclass(frozen=True)
 class Ticks:
-    """Ticks of all processors since boot; `steal`: those in which another machine had the processor."""
+    """Ticks of all processors since boot; `steal`: ticks in which another virtual machine had the processor."""
 
     total: int
     steal: int
 
 
 def collect_setting() -> dict[str, object]:
-    """How the machine is set: what does not change during a run."""
+    """Settings of the host that do not change during a run."""
     return {
         "kernel": platform.release(),
         "kernel_version": platform.version(),
@@ -38,7 +38,7 @@ def collect_setting() -> dict[str, object]:
 
 
 def collect_state() -> dict[str, object]:
-    """What the machine does just now."""
+    """Current load of the host."""
     ticks = read_ticks(_read(Path("/proc/stat")))
     frequency = _read(CPUS / "cpu0/cpufreq/scaling_cur_freq")
     return {
@@ -50,13 +50,13 @@ def collect_state() -> dict[str, object]:
 
 
 def calc_steal_share(before: Mapping[str, object], after: Mapping[str, object]) -> float:
-    """@param before, after what collect_state() gave. @return share of all processor time that other machines had, 0 .. 1."""
+    """@param before, after results of collect_state(). @return share of all processor time that other virtual machines had, 0 .. 1."""
     total, steal = (int(str(after[key])) - int(str(before[key])) for key in ("ticks", "steal_ticks"))
     return steal / total if total > 0 else 0.0
 
 
 def find_preemption(version: str, realtime: str) -> str:
-    """@param version as `uname -v` says it. @param realtime content of /sys/kernel/realtime, which only such a kernel has."""
+    """@param version output of `uname -v`. @param realtime content of /sys/kernel/realtime, which only a real-time kernel has."""
     words = version.replace("-", "_").split()
     for mode in ("PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT"):
         if mode in words:
@@ -65,7 +65,7 @@ def find_preemption(version: str, realtime: str) -> str:
 
 
 def read_ticks(stat: str) -> Ticks:
-    """@param stat content of /proc/stat. Guest times are part of user times already, so the first eight fields are all."""
+    """@param stat content of /proc/stat. User times include guest times, so the first eight fields are sufficient."""
     words = stat.partition("\n")[0].split()
     numbers = [int(word) for word in words[1:9]] if words[:1] == ["cpu"] else []
     return Ticks(sum(numbers), numbers[7] if len(numbers) > 7 else 0)

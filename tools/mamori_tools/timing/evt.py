@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Extreme-value estimate of an execution time, given only where the series allows one; else the reason for refusing.
+"""Extreme-value estimate of an execution time, only if the series permits one; otherwise the reason of the rejection.
 
 Block maxima with a Gumbel distribution, fitted to the even blocks and tested on the odd ones.
 
@@ -29,7 +29,7 @@ BLOCKS_MIN = 40
 BLOCKS_WANTED = 200
 DISTINCT_MIN = 10
 """Maxima with fewer values are steps of a clock, not a continuous quantity."""
-LAGS = 20  # even: the chi-squared tail has a closed form then
+LAGS = 20  # even: the chi-squared tail then has a closed form
 P_MIN = 0.05
 TAIL_Z_MAX = 1.645  # one-sided, 5 %
 EULER = 0.5772156649015329
@@ -38,7 +38,7 @@ PROBABILITIES = (1e-6, 1e-9)
 
 @dataclass(frozen=True)
 class Test:
-    """One test and what came out. `text` names the statistic."""
+    """One test and its result. `text` names the statistic."""
 
     name: str
     statistic: float
@@ -49,8 +49,8 @@ class Test:
 
 @dataclass(frozen=True)
 class Estimate:
-    """`quantiles_ns`: value [ns] that one opening exceeds with each of PROBABILITIES; empty where it was refused, with `refusal`
-    saying why in words."""
+    """`quantiles_ns`: value [ns] that one window instance exceeds with each of PROBABILITIES; empty after a rejection, with the
+    reason in `refusal`."""
 
     tests: tuple[Test, ...]
     quantiles_ns: dict[float, float]
@@ -58,7 +58,7 @@ class Estimate:
 
 
 def estimate(values: Array, cut_count: int = 0) -> Estimate:
-    """@param values [ns] in order of time, one for each opening. @param cut_count openings whose time is not whole."""
+    """@param values [ns] in order of time, one per window instance. @param cut_count instances with an incomplete time."""
     if cut_count:
         return _refuse((), f"{cut_count} openings were cut off: the longest times are not among the values")
     block = max(BLOCK, len(values) // BLOCKS_WANTED)
@@ -91,7 +91,7 @@ def _refuse(tests: tuple[Test, ...], reason: str) -> Estimate:
 
 
 def check_runs(values: Array) -> Test:
-    """Runs above and below the median, two-sided; values equal to it are left out."""
+    """Runs above and below the median, two-sided; equal values are left out."""
     median = float(np.median(values))
     above = values[values != median] > median
     n1, n2 = int(above.sum()), int((~above).sum())
@@ -106,7 +106,7 @@ def check_runs(values: Array) -> Test:
 
 
 def check_correlation(values: Array) -> Test:
-    """Ljung-Box over LAGS lags, of the ranks: with raw times one outlier would hide every correlation."""
+    """Ljung-Box over LAGS lags, of the ranks, because in raw times one outlier would hide every correlation."""
     _, inverse, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
     ranks = (last - (counts - 1) / 2.0)[inverse]
@@ -149,7 +149,7 @@ def fit_gumbel(maxima: Array) -> tuple[float, float]:
 
 
 def check_tail(maxima: Array) -> Test:
-    """Whether the tail is heavier than Gumbel's, which would make the estimate too low. A lighter one makes it too high only."""
+    """Whether the tail is heavier than Gumbel's, which would make the estimate too low. A lighter one only makes it too high."""
     _, l2, l3 = calc_l_moments(maxima)
     c = 2.0 / (3.0 + l3 / l2) - math.log(2.0) / math.log(3.0)
     shape = 7.8590 * c + 2.9554 * c * c  # negative: heavier than Gumbel
@@ -159,7 +159,7 @@ def check_tail(maxima: Array) -> Test:
 
 
 def check_fit(maxima: Array, location: float, scale: float) -> Test:
-    """Kolmogorov-Smirnov distance of maxima that took no part in the fit."""
+    """Kolmogorov-Smirnov distance of maxima that were not used for the fit."""
     ordered = np.sort(maxima)
     n = len(ordered)
     model = np.exp(-np.exp(np.clip(-(ordered - location) / scale, -700.0, 700.0)))

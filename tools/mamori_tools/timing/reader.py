@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The four files of a measured run as checked arrays. Whoever has a `Measurement` need not look whether its parts agree.
+"""The four files of a measured run as checked arrays. The parts of a `Measurement` are consistent.
 
 @satisfies SWR-TIM-010, SWR-TIM-011, SWR-TIM-028      Design: docs/design/timing.md#files
 """
@@ -38,7 +38,7 @@ Array = np.ndarray[Any, np.dtype[Any]]
 
 @dataclass(frozen=True)
 class Right:
-    """A real-time right that the program asked for. `errno` says why it was refused, 0 where it was granted."""
+    """A real-time privilege that the program requested. `errno` is the reason of the denial, 0 if it was granted."""
 
     name: str
     is_granted: bool
@@ -47,7 +47,7 @@ class Right:
 
 @dataclass(frozen=True)
 class Measurement:
-    """One run. `openings` (OPENING) is sorted by window, then by release; `opening_of_step` is the row of each step's opening.
+    """One run. `openings` (OPENING) is sorted by window, then by release; `opening_of_step` is the row of each step's window instance.
 
     All instants [ns] since the epoch of the run; frame n begins at n * table.frame_ns.
     """
@@ -66,7 +66,7 @@ class Measurement:
     """What the program itself reports: it knows whether its system left the operating state."""
 
     def rows_of(self, window: int) -> slice:
-        """The openings of one window, in order of time."""
+        """The instances of one window, in order of time."""
         first, last = np.searchsorted(self.openings["window"], [window, window + 1])
         return slice(int(first), int(last))
 
@@ -76,7 +76,7 @@ class Measurement:
 
 
 def read_measurement(folder: Path) -> Measurement:
-    """@raise InputError, one line with the file, for anything that is no whole and consistent run."""
+    """@raise InputError, one line with the file, for an incomplete or inconsistent run."""
     table = read_table(folder / "table.json")
     if table.findings:
         raise InputError(f"breaks a rule: {table.findings[0]}; ./mamori table --text shows all", folder / "table.json")
@@ -131,7 +131,7 @@ def read_right(name: str, node: JsonNode) -> Right:
 
 
 def read_rows(path: Path, kind: np.dtype[Any], what: str) -> Array:
-    """A NumPy file of version 1.0 with one dimension of `kind`, as long as its header says. @raise InputError."""
+    """A NumPy file of version 1.0 with one dimension of `kind`, of the length in its header. @raise InputError."""
     try:
         with path.open("rb") as file:
             version = np.lib.format.read_magic(file)
@@ -164,7 +164,7 @@ def _check_instants(rows: Array, names: tuple[str, ...], path: Path) -> None:
 
 
 def _check_openings(rows: Array, table: Table, path: Path) -> None:
-    """Each opening lies on the grid of its window, once, and no opening in between is left out."""
+    """Each window instance is on the schedule of its window, once, and none in between is missing."""
     if not len(rows):
         raise InputError(f"has no opening at all; let the program run for a whole cycle, or {HOW_TO_MEND}", path)
     _refuse_first(rows["window"] >= len(table.windows), rows, path, f"name a window beyond the {len(table.windows)} of the table")
@@ -182,7 +182,7 @@ def _check_openings(rows: Array, table: Table, path: Path) -> None:
 
 
 def _check_counts(rows: Array, table: Table, cycles: int, path: Path) -> None:
-    """A window has its openings in each cycle; one cycle may be missing, since a run may begin or end within one."""
+    """A window has its instances in each cycle; one cycle may be missing, because a run may begin or end within one."""
     counts = np.bincount(rows["window"], minlength=len(table.windows))
     for window, count in zip(table.windows, counts, strict=True):
         least = (cycles - 1) * (table.frame_ns // window.period_ns)
@@ -192,7 +192,7 @@ def _check_counts(rows: Array, table: Table, cycles: int, path: Path) -> None:
 
 
 def check_steps(rows: Array, table: Table, path: Path, by_clock: bool = True) -> None:
-    """@param by_clock release and start are on one time line. @raise InputError for the first row that cannot be."""
+    """@param by_clock release and start are on one time line. @raise InputError for the first impossible row."""
     count = len(table.components)
     _refuse_first(rows["component"] >= count, rows, path, f"name a component beyond the {count} of the table")
     _refuse_first(rows["pass"] >= len(PASSES), rows, path, f"have a pass beyond the {len(PASSES)} that there are")
@@ -206,7 +206,7 @@ def check_steps(rows: Array, table: Table, path: Path, by_clock: bool = True) ->
 
 
 def _match_steps(steps: Array, openings: Array, table: Table, is_partial: bool, path: Path) -> tuple[Array, Array, tuple[str, ...]]:
-    """@return steps that have an opening, the row of it for each, and a note on those that a stopped run has none for."""
+    """@return steps with a window instance, its row for each, and a note on the steps of a stopped run without one."""
     if not len(steps):
         return steps, np.zeros(0, dtype=np.int64), ()
     window_of = np.array([-1 if component.window is None else component.window for component in table.components], dtype=np.int64)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Everything that one call found, its exit status, and timing.json.
+"""All results of one call, its exit status, and timing.json.
 
 @satisfies SWR-TIM-025, SWR-TIM-026      Design: docs/design/timing.md#results
 """
@@ -41,8 +41,8 @@ VIOLATIONS_STORED = 1_000
 
 @dataclass(frozen=True)
 class Report:
-    """One call. `estimates`: one for each row of `components`. `findings`: what the code or the run is to blame for.
-    `host` holds setting and state before and after (environment.py). `was_stopped`: somebody wanted it to end early."""
+    """One call. `estimates`: one for each row of `components`. `findings`: deviations that the code or the run caused.
+    `host` contains setting and state before and after (environment.py). `was_stopped`: a user or a signal ended it early."""
 
     system: str
     run: Measurement
@@ -64,12 +64,12 @@ class Report:
 
     @property
     def host_misses(self) -> list[Miss]:
-        """Openings that were lost to the host: released too late, or without the processor."""
+        """Window instances that the host lost: released too late, or without the processor."""
         return [miss for miss in self.misses if miss.is_host]
 
     @property
     def status(self) -> int:
-        """The worst comes first: a stopped run was not judged, and a finding says more than a missing right."""
+        """In order of priority: a stopped run was not evaluated, and a finding is more important than a missing privilege."""
         if self.was_stopped:
             return EXIT_INTERRUPTED
         if self.findings:
@@ -78,7 +78,7 @@ class Report:
 
     @property
     def marks(self) -> list[str]:
-        """What nobody may overlook: on the screen, in the pictures and in the files."""
+        """Marks that must be visible on the screen, in the pictures and in the files."""
         marks = []
         if self.run.is_partial:
             marks.append(f"PARTIAL: stopped after {self.run.cycles_run} of {self.run.cycles_asked} cycles")
@@ -90,7 +90,7 @@ class Report:
 
 def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: bool, was_stopped: bool, findings: Sequence[str]
                 ) -> Report:  # fmt: skip
-    """Analyses `run`. @param findings what is known of it already, from outside of its files."""
+    """Analyses `run`. @param findings known findings from outside its files."""
     windows, components, misses = list_windows(run), list_components(run), list_misses(run)
     chains, chain_note = list_chains(run)
     indices = [index for index, one in enumerate(run.table.components) if one.window is not None]
@@ -149,7 +149,7 @@ def _make_chain(row: ChainRow) -> dict[str, Any]:
 
 
 def write_record(record: dict[str, Any], folder: Path) -> Path:
-    """Whole or not at all. @return its path."""
+    """Atomic. @return its path."""
     path = folder / "timing.json"
     write_text(path, json.dumps(record, indent=1) + "\n")
     return path

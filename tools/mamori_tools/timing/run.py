@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the measured program, with load beside it when asked, and ends both in order.
+"""Runs the measured program, with additional load on request, and ends both in order.
 
 @satisfies SWR-TIM-023, SWR-TIM-024      Design: docs/design/timing.md#run
 """
@@ -43,12 +43,12 @@ class Ending:
 
     @property
     def was_stopped(self) -> bool:
-        """Somebody wanted it to end: through us, or by a signal to the program itself."""
+        """Whether it was stopped: by this command, or by a signal to the program itself."""
         return self.was_interrupted or (self.status == INTERRUPTED and not self.was_late)
 
     @property
     def reason(self) -> str:
-        """What is wrong with it, or nothing."""
+        """The error of the program, or nothing."""
         if self.was_late:
             return f"the program did not end by itself and was stopped after {self.seconds:.0f} s"
         if self.was_stopped or self.status == 0:
@@ -59,15 +59,15 @@ class Ending:
 
 
 def run_program(argv: Sequence[str], log: Path, expected_s: float, tick: Tick) -> Ending:
-    """Runs `argv` with its output appended to `log`. Ctrl-C and SIGTERM are handed on as one SIGINT, and what the program writes
-    then is waited for. @raise InputError when it cannot be run."""
+    """Runs `argv` with its output appended to `log`. Forwards Ctrl-C and SIGTERM as one SIGINT, then waits for the files
+    of the program. @raise InputError if it cannot be run."""
     begin = time.monotonic()
     limit_s = expected_s * OVERTIME_FACTOR + OVERTIME_S
     grace_s = GRACE_S + expected_s * GRACE_SHARE
     with log.open("a", encoding="utf-8") as out:
         print("$", *argv, file=out, flush=True)
         try:
-            # A group of its own: the Ctrl-C of a terminal reaches us alone, and the program gets it once.
+            # A separate process group: the Ctrl-C of a terminal reaches only this command, and the program gets it once.
             child = subprocess.Popen(argv, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, process_group=0)
         except OSError as error:
             raise InputError(f"timing: '{argv[0]}' cannot be run: {error.strerror}") from error
@@ -88,7 +88,7 @@ def run_program(argv: Sequence[str], log: Path, expected_s: float, tick: Tick) -
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Ctrl-C and SIGTERM are not heard while results are written: it takes seconds, and would lose what an earlier one kept."""
+    """Ignores Ctrl-C and SIGTERM while results are written. Writing takes seconds; an interruption would lose the measurement."""
     handlers = {number: signal.signal(number, signal.SIG_IGN) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield
@@ -98,7 +98,7 @@ def undisturbed() -> Iterator[None]:
 
 
 def _stop(child: subprocess.Popen[bytes], number: signal.Signals, grace_s: float) -> int:
-    """Asks, waits, does not ask. A second Ctrl-C would cost the files that the first one asked for, so it is not heard.
+    """Sends a signal, waits, then kills. A second Ctrl-C is ignored, because it would lose the files that the first one requested.
 
     @return exit status.
     """
@@ -119,16 +119,16 @@ def _kill(child: subprocess.Popen[bytes]) -> None:
 
 
 def check_load() -> None:
-    """@raise InputError when there is no tool that makes load."""
+    """@raise InputError if no tool that creates load is installed."""
     if shutil.which(LOAD_TOOL) is None:
         raise InputError(f"timing: --load needs {LOAD_TOOL}; install the package {LOAD_TOOL}, or leave --load out")
 
 
 @contextmanager
 def make_load(is_wanted: bool, expected_s: float, log: Path) -> Iterator[list[str]]:
-    """Keeps all processors and some memory busy meanwhile. It stops by itself, should nobody be left to stop it.
+    """Keeps all processors and some memory busy meanwhile. It stops by itself if this command cannot stop it.
 
-    @return list that holds what went wrong with the load, filled when it ends.
+    @return list of the errors of the load, filled when it ends.
     """
     problems: list[str] = []
     if not is_wanted:

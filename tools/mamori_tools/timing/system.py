@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What SYSTEM means: a folder with a `timing.toml`, of Mamori or of a project of the user's, or a program that is there already.
+"""The meaning of SYSTEM: a folder with a `timing.toml`, in Mamori or in a user project, or an existing program.
 
 @satisfies SWR-TIM-022, SWR-TIM-029      Design: docs/design/timing.md#system
 """
@@ -25,9 +25,9 @@ _USES_MAMORI = re.compile(r"^\s*find_package\s*\(\s*mamori\b", re.MULTILINE)
 
 @dataclass(frozen=True)
 class System:
-    """A program that keeps the contract of docs/design/timing.md#files. `project` takes its build and its evidence.
-    `target`: what CMake builds it as; empty: nothing to build.
-    `cost`: what the file says for `mamori cost`, as it stands there; `file` is empty where there is none."""
+    """A program that writes the files of docs/design/timing.md#files. `project` receives its build and its evidence.
+    `target`: its CMake target; empty: nothing to build.
+    `cost`: the unchecked table of `mamori cost` in the file; `file` is empty if there is none."""
 
     name: str
     program: Path
@@ -39,7 +39,7 @@ class System:
 
 
 def find_system(text: str, project: Project, command: str = "timing") -> System:
-    """@param command who asks, for its messages. @raise InputError or InputError when `text` names no system."""
+    """@param command name of the command for the messages. @raise InputError if `text` names no system."""
     path = Path(text)
     if not path.exists() and (project.root / text).exists():
         path = project.root / text  # the command may be called from any folder
@@ -58,9 +58,9 @@ def list_systems(project: Project) -> list[str]:
 
 
 def find_project(folder: Path, shipped: Project, command: str) -> Project:
-    """The project that `folder` is part of: the shipped one, or the nearest folder above that is built against its package.
+    """The project that contains `folder`: the shipped one, or the nearest parent folder that is built against its package.
 
-    @raise InputError when there is none.
+    @raise InputError if there is none.
     """
     if folder.is_relative_to(shipped.root) and not folder.is_relative_to(shipped.root / "build"):
         return shipped
@@ -95,7 +95,7 @@ def _read_folder(folder: Path, shipped: Project, command: str) -> System:
 
 
 def read_words(value: object, what: str, project: Project, file: Path) -> tuple[str, ...]:
-    """Words of a command line, with `{root}` replaced. @raise InputError for anything else."""
+    """Arguments of a command line, with `{root}` replaced. @raise InputError for anything else."""
     if not isinstance(value, list) or not all(isinstance(word, str) and "\0" not in word for word in value):
         raise InputError(f"{what} must be a list of texts without NUL", file)
     return tuple(word.replace("{root}", str(project.root)) for word in value)

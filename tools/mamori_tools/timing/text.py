@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A report as text: one screen, or all of it for timing.txt.
+"""A report as text: one screen, or the complete text for timing.txt.
 
 @satisfies SWR-TIM-026      Design: docs/design/timing.md#results
 """
@@ -17,12 +17,12 @@ MISSES_SHOWN = 5
 CHAINS_SHOWN = 6
 ROWS_SHOWN = 12
 NAME_LENGTH = 90
-MEMBER_LENGTH_MIN = 6  # of a chain, when its name is shortened
+MEMBER_LENGTH_MIN = 6  # characters of a chain member, when the name of the chain is shortened
 FINDINGS_SHOWN = 8
 
 
 def make_text(report: Report, is_whole: bool) -> str:
-    """@param is_whole all rows and reasons; else what fits on a screen, with a word on the rest."""
+    """@param is_whole all rows and reasons; otherwise the rows that fit on a screen, and a note on the rest."""
     parts = [_make_head(report), _make_windows(report, is_whole), _make_components(report, is_whole), _make_chains(report, is_whole),
              _make_misses(report, is_whole), _make_estimates(report, is_whole), _make_verdict(report, is_whole)]  # fmt: skip
     return make_printable("\n\n".join("\n".join(part) for part in parts if part) + "\n")
@@ -154,7 +154,7 @@ def _format_quantiles(times: Distribution | None, names: tuple[str, ...]) -> tup
 
 
 def format_us(ns: int | None) -> str:
-    """Microseconds with what counts of their digits."""
+    """Microseconds with the significant digits."""
     if ns is None:
         return "-"
     us = ns / 1e3
@@ -164,13 +164,13 @@ def format_us(ns: int | None) -> str:
 
 
 def make_printable(text: str) -> str:
-    """Names come from a file, and control letters in them must not reach a terminal."""
+    """Removes control characters of names, which come from a file, before they reach a terminal."""
     return "".join(letter if letter.isprintable() or letter == "\n" else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 
 def shorten(name: str, length: int = NAME_LENGTH) -> str:
-    """At most `length` letters, an even number. Each member of a chain keeps its beginning, so that chains which differ by one still
-    do; of a single name, and of more members than fit, both ends are left."""
+    """At most `length` characters, an even number. Each member of a chain keeps its beginning, so that chains which differ in one
+    member stay different; of a single name, and of more members than fit, both ends are kept."""
     members = name.split(" > ")
     for kept in range(max(map(len, members)), MEMBER_LENGTH_MIN - 1, -1) if len(members) > 1 else ():
         short = " > ".join(one if len(one) <= kept else f"{one[: kept - 2]}.." for one in members)
@@ -180,7 +180,7 @@ def shorten(name: str, length: int = NAME_LENGTH) -> str:
 
 
 def format_columns(rows: Sequence[tuple[str, ...]]) -> list[str]:
-    """Columns as wide as they need; those of numbers end on one line."""
+    """Columns as wide as their contents; numbers are right-aligned."""
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     is_number = [all(_is_number(row[column]) for row in rows[1:]) and len(rows) > 1 for column in range(len(rows[0]))]
     return [

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: classes of inputs are read as declared, and what is not in order is refused with one line. Method: written descriptions.
+# Goal: input classes are read as declared, and an invalid description is rejected with one line. Method: written descriptions.
 from __future__ import annotations
 
 from pathlib import Path

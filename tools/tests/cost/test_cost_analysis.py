@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: figures, ratio and limits are those of the steps, and a limit that is too low is named. Method: runs whose counts and times
-# are given.
+# Goal: figures, ratio and limits agree with the steps, and a limit that is too low is named. Method: runs with given counts and
+# times.
 from __future__ import annotations
 
 from pathlib import Path
@@ -73,7 +73,7 @@ def test_step_without_instructions_of_its_own_has_a_ratio(table: Table) -> None:
 
 
 def judge(runs: list[ClassRun], margin_percent: float = 0.0) -> tuple[list[str], dict[str, float]]:
-    """@return findings, and what is left of each limit [ns]."""
+    """@return findings, and the margin of each limit [ns]."""
     ratios = list_ratios(runs)
     limits = list_limits(runs, find_pace(ratios, runs), margin_percent)
     return list_findings(limits, runs, ratios, margin_percent), {f"{row.what} {row.name}": row.left_ns for row in limits}
@@ -84,7 +84,7 @@ def test_limits_are_held_against_the_greatest_sum_of_one_opening(table: Table) -
     findings, left = judge([make_run(table)], 50.0)
 
     assert findings == []
-    # Window sense: reader and monitor of cycle 12, 500 + 2300; their own maxima never came together.
+    # Window sense: reader and monitor of cycle 12, 500 + 2300; their own maxima are in different cycles.
     assert left == {"window sense": 250_000 - 2800 * 3.0, "window control": 350_000 - 12_000 * 3.0, "window act": 80_000 - 100 * 3.0,
                     "component reader": 40_000 - 510 * 3.0, "component monitor": 60_000 - 2300 * 3.0,
                     "component controller": 200_000 - 12_000 * 3.0}  # fmt: skip
@@ -135,7 +135,7 @@ def test_component_that_never_ran_is_a_finding(table: Table) -> None:
 def test_window_that_opens_several_times_in_a_frame_is_judged_by_opening(tmp_path: Path) -> None:
     table = load_table(tmp_path)
     run = make_run(table)
-    run.steps["release_ns"][4] += 500  # the second reader opens by itself
+    run.steps["release_ns"][4] += 500  # the second reader starts alone
     _, left = judge([run])
 
     assert left["component reader"] == 40_000 - 510 * 2.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a greatest count that grew is named, and a baseline of something else is refused. Method: a baseline as it is written, changed.
+# Goal: a maximum count that grew is named, and a baseline of another system is rejected. Method: a written baseline, then changed.
 from __future__ import annotations
 
 import dataclasses

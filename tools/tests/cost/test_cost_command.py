@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: wrong words end before the work, results are whole, and the status tells how it went. Method: the command, with runs that are
-# given instead of counted.
+# Goal: invalid arguments are rejected before the work, results are complete, and the status is correct. Method: the command with
+# given runs instead of counted ones.
 from __future__ import annotations
 
 import json
@@ -37,7 +37,7 @@ cycles = 4
 
 
 class Bench:
-    """A folder with a system, and what counting it gives. Tests change that."""
+    """A folder with a system, and the result of counting it, which tests change."""
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         self.folder = folder / "arm"
@@ -96,7 +96,7 @@ def test_figures_and_their_origin_are_in_one_record_and_one_text(
     assert record["limits"][0]["name"] == "sense" and record["limits"][0]["is_kept"]
     text = (bench.out / "cost.txt").read_text(encoding="utf-8")
     shown = capsys.readouterr()
-    assert shown.out == text  # what was asked for, and nothing else
+    assert shown.out == text  # only the requested output
     assert "results: " in shown.err
     assert "not a worst-case execution time" in text and "findings: 0" in text
     assert re.search(r"^still +controller +execute +4 +9000 +9000 +12000 +13 +24$", text, re.MULTILINE)

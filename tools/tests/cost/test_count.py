@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each step has the count of its own call, and runs that do not fit together are refused. Method: files and output of callgrind
-# as they would be; that real counts are exact is shown by verification/proofs/test_cost.py.
+# Goal: each step has the count of its own call, and inconsistent runs are rejected. Method: prepared files and output of callgrind;
+# verification/proofs/test_cost.py shows that real counts are exact.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -23,7 +23,7 @@ REFERENCE = 10_000
 
 
 class FakeRuns:
-    """Leaves the files of both runs instead of running anything. Tests change what they are."""
+    """Writes the files of both runs instead of running anything. Tests change their content."""
 
     def __init__(self, folder: Path) -> None:
         self.document = make_table()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the command shows rate, distance and verdicts of a channel, says how it knows them, and refuses what is no channel.
+# Goal: the command shows rate, distance and verdicts of a channel, states the method, and rejects an invalid channel.
 # Method: the command with channels of the published table, both sides of each limit of its options, and a damaged stored file.
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def call(profile: str = "4", length: str = "16", rate: str = "1000", pe: str = "
 
 
 def ask(capsys: Capture, *words: str) -> dict[str, Any]:
-    """The answer as JSON."""
+    """The result as JSON."""
     call(*words, "--json")
     document: dict[str, Any] = json.loads(capsys.readouterr().out)
     return document

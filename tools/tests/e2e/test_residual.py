@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: residual errors and Hamming distances are the published ones, stored weights are believed only when they are whole, and the
-# compiler is told what follows from them. Method: the published table; patterns tried one by one; sums that lose nothing; damaged files.
+# Goal: residual errors and Hamming distances equal the published ones, only complete stored weights are accepted, and the figures for
+# the compiler follow from them. Method: the published table; patterns tried one by one; exact sums; damaged files.
 from __future__ import annotations
 
 import itertools
@@ -103,7 +103,7 @@ def test_bounds_hold() -> None:
     assert residual.find_least_distance(CRC64, 524_288) == 4
     assert residual.find_least_distance(CRC32_P4, 65_536) == 2  # its period is 65534 bits
     assert residual.find_least_distance(CRC32_P4, 4_194_304 * 8) == 2
-    assert residual.find_least_distance(CRC32, 256) == 6  # found, not only certain: some six bits pass
+    assert residual.find_least_distance(CRC32, 256) == 6  # found, not only a lower bound: some six bits pass
 
 
 @pytest.mark.verifies("SWR-E2E-020", technique="back_to_back")
@@ -123,7 +123,7 @@ def test_blocks_of_a_32_bit_checksum_are_the_weights_of_its_dual_words() -> None
 @pytest.mark.verifies("SWR-E2E-020", technique="back_to_back")
 @pytest.mark.parametrize(("length", "size"), [(12, 4), (16, 4), (48, 3)])
 def test_least_patterns_of_a_32_bit_checksum_are_as_many_as_trying_them_finds(length: int, size: int) -> None:
-    """Two equal sums of `size` bits are a pattern of the least weight, in as many ways as it falls into two halves."""
+    """Two equal sums of `size` bits are a pattern of the minimum weight, once for each division into two halves."""
     syndromes = np.array(residual.calc_syndromes(CRC32_P4, 8 * length), dtype=np.uint64)
     _, times = np.unique(residual._add_all(syndromes, size), return_counts=True)
     pairs = int((times * (times - 1) // 2).sum())

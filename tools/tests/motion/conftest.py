@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An arm for the tests: seven joints with round limits, and two columns that tables may have besides."""
+"""An arm for the tests: seven joints with round limits, and two additional columns that tables may have."""
 
 from __future__ import annotations
 

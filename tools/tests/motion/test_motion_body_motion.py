@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""BodyMotion files. Method: small files made here, one fault each; public files of another arm where present."""
+"""BodyMotion files. Method: small files created here, one fault each; public files of another arm if present."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ def test_the_second_format_is_read(tmp_path: Path, limits: ArmLimits) -> None:
 
 
 FAULTS = [
-    # what is replaced, by what, line of the message, words in it
+    # replaced text, replacement, line of the message, words in it
     ("type: BodyMotion", "type: Robot", 1, "type is 'Robot'"),
     ("type: BodyMotion", "formatVersion: 3\ntype: BodyMotion", 1, "formatVersion 3"),
     ("JointPosition", "JointTorque", 2, "no component with content JointPosition"),
@@ -194,7 +194,7 @@ def test_no_tag_constructs_an_object(tmp_path: Path, limits: ArmLimits) -> None:
 
 
 def needs(path: Path) -> pytest.MarkDecorator:
-    """A file beside the project is no evidence for a requirement: these tests carry no tag. They are skipped where it is absent."""
+    """A file outside the project is not evidence for a requirement: these tests have no tag. They are skipped if it is missing."""
     return pytest.mark.skipif(not path.exists(), reason=f"{path} is absent")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Counted runs that were never counted: steps, instructions and times for the analysis, and the files of the contract of
+"""Simulated counted runs: steps, instructions and times for the analysis, and the files of the contract of
 docs/design/cost.md#files."""
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def make_run(table: Table, one: InputClass | None = None, counts: Counts = COUNT
 
 
 def write_files(folder: Path, table: dict[str, Any], one: InputClass, steps: np.ndarray[Any, Any], **changed: Any) -> None:
-    """What a program leaves. @param changed keys of run.json."""
+    """Files of a program. @param changed keys of run.json."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "table.json").write_text(json.dumps(table), encoding="utf-8")
     np.save(folder / "steps.npy", steps)
@@ -73,7 +73,7 @@ def write_files(folder: Path, table: dict[str, Any], one: InputClass, steps: np.
 
 
 def make_dumps(totals: Sequence[int]) -> str:
-    """The output of callgrind for calls of so many instructions."""
+    """The output of callgrind for calls with these numbers of instructions."""
     parts = [f"part: {number}\n\ndesc: Trigger: --dump-after=mamori_counted_step\n\nevents: Ir\nsummary: {total}\n\nfn=(1) f\n0 {total}\n\n"
              f"totals: {total}\n" for number, total in enumerate(totals, start=1)]  # fmt: skip
     return "# callgrind format\nversion: 1\n" + "\n".join(parts) + "\npart: 9\n\ndesc: Trigger: Program termination\n\ntotals: 0\n"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A machine in a folder, for the tests of the launcher script. PATH holds nothing but its `bin`: programs of the system by links,
-and stand-ins for the package manager, sudo and Python that record their calls. A package is installed by copying its folder of
-`store`, so its commands and headers are there or not, and the real preprocessor finds the headers."""
+"""A simulated host in a folder, for the tests of the launcher script. PATH contains only its `bin`: programs of the system by links,
+and stand-ins for the package manager, sudo and Python that record their calls. Installing a package copies its folder of
+`store`, so its commands and headers appear, and the real preprocessor finds the headers."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ VENV_PYTHON = ('if [ "$1" = --version ]; then echo Python 3.11.2; exit 0; fi\nec
                'case "$*" in *pip*) exit "${FAKE_PIP:-0}";; '
                '*) echo "packages: $MAMORI_PACKAGES" >>"$BOX/calls"; printf %s "${FAKE_OUTPUT:-}";; esac')  # fmt: skip
 
-# What each Debian package brings that the launcher may look for. A script where its text matters, else a name alone.
+# The files of each Debian package that the launcher may search. A script if its text matters, otherwise only a name.
 STORE: dict[str, dict[str, str]] = {
     "python3": {"bin/python3": PYTHON},
     "python3-venv": {"share/python3-venv": ""},
@@ -73,7 +73,7 @@ def list_errors(done: subprocess.CompletedProcess[str]) -> list[str]:
 
 @dataclass
 class Box:
-    """A machine without any package."""
+    """A host without any package."""
 
     folder: Path
 
@@ -119,6 +119,6 @@ class Box:
 
 
 def listen_to_ctrl_c() -> None:
-    """In a child before it becomes the launcher: bash cannot take back that its parent ignores or blocks the signal."""
+    """Runs in a child before it becomes the launcher, because bash cannot undo that its parent ignores or blocks the signal."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

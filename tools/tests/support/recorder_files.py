@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recorder files made by hand, apart from the code that reads and writes them."""
+"""Handwritten recorder files, independent of the code that reads and writes them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def make_record(sequence: int, session: int = 1, severity: int = 0, source: int 
 
 
 def make_file(capacity: int, records: Sequence[bytes], **header: int) -> bytes:
-    """A file with `records` in the slots of their numbers; the rest was never written."""
+    """A file with `records` in the slots of their numbers; the other slots were never written."""
     slots = [bytes(RECORD_BYTES)] * capacity
     for record in records:
         slots[(struct.unpack_from("<Q", record)[0] - 1) % capacity] = record
@@ -38,7 +38,7 @@ def make_file(capacity: int, records: Sequence[bytes], **header: int) -> bytes:
 
 def make_crash(session: int = 1, number: int = 11, is_sent: int = 0, address: int = 0, window: int = 0xFFFF,
                component: int = 0xFFFF, time_ns: int = 0) -> bytes:  # fmt: skip
-    """What stands behind the last slot of a file of the real-time port."""
+    """The bytes after the last slot of a file of the real-time port."""
     covered = struct.pack("<qQIHHBB", time_ns, address, session, window, component, number, is_sent)
     return covered + struct.pack("<I", zlib.crc32(covered))
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: figures, misses and their guilty component are what they are by hand.
-# Method: a run of a few openings whose instants are written down, one fault at a time.
+# Goal: figures, misses and their responsible components equal values calculated by hand.
+# Method: a run of a few window instances with given instants, one fault at a time.
 from __future__ import annotations
 
 from pathlib import Path
@@ -22,7 +22,7 @@ Instants = tuple[int, int, int, float, float | None]
 
 
 class Rows:
-    """A run of four openings in frames 1 .. 4, each late by 10 us, with two steps of 30 us and 40 us; one table of instants [us]
+    """A run of four window instances in frames 1 .. 4, each late by 10 us, with two steps of 30 us and 40 us; one table of instants [us]
     from the release."""
 
     def __init__(self) -> None:
@@ -133,7 +133,7 @@ def test_component_that_is_not_back_at_the_deadline_is_guilty(rows: Rows, tmp_pa
 
     assert (misses[0].cycle, misses[0].window, misses[0].outcome, misses[0].component, misses[0].late_ns) == (3, "work", "overrun", guilty, 10 * US)
     assert misses[0].reason == said
-    if end is None:  # the work hangs on, and the next opening says since when
+    if end is None:  # the work still hangs, and the next window instance states since when
         assert (misses[1].cycle, misses[1].component, misses[1].reason) == (4, "first", "never came back; it began in cycle 3")
 
 
@@ -148,7 +148,7 @@ def test_step_that_ends_on_the_deadline_is_not_the_guilty_one(rows: Rows, tmp_pa
 @pytest.mark.verifies("SWR-TIM-014", technique="error_guessing")
 @pytest.mark.parametrize(("end", "is_host"), [(450, True), (451, False), (None, False)])
 def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Path, end: int | None, is_host: bool) -> None:
-    rows.openings[2] = [250, 301, OVERRUN]  # with its whole budget it would have had until 450 us
+    rows.openings[2] = [250, 301, OVERRUN]  # with its complete budget it would have had until 450 us
     rows.steps[2] = [(2, 0, 0, 252, 290), (2, 1, 0, 291, end)]
     rows.steps[3] = [] if end is None else rows.steps[3]
 

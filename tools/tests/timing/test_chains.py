@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: chains are the ways that values take, their virtual times are exact, and what was measured is held against them.
-# Method: small tables whose answers are found on paper; measured runs with one fault.
+# Goal: event chains follow the values, their virtual times are exact, and measurements are compared with them.
+# Method: small tables with results calculated on paper; measured runs with one fault.
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -43,7 +43,7 @@ def test_chain_leads_from_what_nothing_feeds_to_what_feeds_nothing(tmp_path: Pat
 @pytest.mark.parametrize(
     ("connections", "names"),
     [((), []),
-     (((3, 0, "next_frame"),), ["drive > reader"]),  # against the order of the frame, but no feedback
+     (((3, 0, "next_frame"),), ["drive > reader"]),  # to an earlier component, but not feedback
      (((0, 2, "later_window"), (1, 2, "later_window"), (2, 3, "queue")), ["reader > controller > drive", "monitor > controller > drive"]),
      (((0, 1, "same_window"), (0, 3, "crossing"), (1, 3, "later_window")), ["reader > monitor > drive", "reader > drive"]),
      (((0, 0, "next_frame"), (0, 3, "later_window")), ["reader > drive"]),
@@ -62,7 +62,7 @@ def test_connection_that_works_in_no_mode_is_no_way(tmp_path: Path) -> None:
 @pytest.mark.verifies("SWR-TIM-015", technique="boundary_values", polarity="violation")
 @pytest.mark.parametrize(("limit", "is_cut"), [(64, False), (63, True)])
 def test_number_of_chains_is_bounded_and_a_cut_is_told(tmp_path: Path, limit: int, is_cut: bool) -> None:
-    layers = [(f"l{layer}_{place}", 0, None, 1) for layer in range(6) for place in range(2)]  # 2^6 ways
+    layers = [(f"l{layer}_{place}", 0, None, 1) for layer in range(6) for place in range(2)]  # 2^6 paths
     wires = [(2 * layer + a, 2 * layer + 2 + b, "same_window") for layer in range(5) for a in range(2) for b in range(2)]
     found = find_chains(load(tmp_path, components=layers, connections=wires), limit)
 
@@ -78,8 +78,8 @@ def test_response_is_from_the_opening_that_samples_to_the_planned_close_that_act
     assert (found.min_ns, found.max_ns, found.reaction_max_ns, found.worst_phase_ns) == (900 * US, 900 * US, 1900 * US, 0)
 
 
-# A slow sampler feeds a fast actor: frame 2000, sampler each 1000 at 0 (length 300), actor each 400 at 100 (length 50) on core 1.
-# Sample 0 is published at 300 and seen at 500: 550 in all. Sample 1000 is published at 1300 and seen at 1300, on the dot: 350.
+# A slow sampler supplies a fast actor: major frame 2000; sampler every 1000 at 0 (length 300); actor every 400 at 100 (length 50), core 1.
+# Sample 0 is published at 300 and read at 500: 550 in total. Sample 1000 is published at 1300 and read at exactly 1300: 350.
 RATES = (("slow", 0, 0, 300, 1000, 300), ("fast", 1, 100, 50, 400, 50))
 
 
@@ -89,7 +89,7 @@ def test_response_over_two_rates_is_that_of_each_sample(tmp_path: Path) -> None:
     found = calc_response(table, find_chains(table).chains[0])
 
     assert (found.min_ns, found.max_ns) == (350 * US, 550 * US)
-    # An event just after 1000 waits for the sample at 2000, which takes 550.
+    # An event directly after 1000 waits for the sample at 2000, which takes 550.
     assert (found.reaction_max_ns, found.worst_phase_ns) == (1550 * US, 1000 * US)
     sampler, actor = found.sensitivity
     assert (sampler.reader_gap_ns, sampler.budget_growth_ns, sampler.response_per_length) == (0, 0, 0)

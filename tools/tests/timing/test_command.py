@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the command checks everything before it runs, keeps and marks what was measured, and its status tells how it went.
-# Method: a program that writes what it would have measured (timing_run.py), also one that fails, hangs or is stopped.
+# Goal: the command checks everything before it runs, keeps and marks the measured data, and its status is correct.
+# Method: a program that writes prepared measurements (timing_run.py), also one that fails, hangs or is stopped.
 from __future__ import annotations
 
 import json
@@ -34,13 +34,13 @@ sys.exit(main(sys.argv[2:]))
 
 @pytest.fixture
 def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A program whose pictures are left out: they take most of the time of a call, and are tested for themselves."""
+    """A program without pictures, which take most of the time of a call and have their own tests."""
     monkeypatch.setattr("mamori_tools.timing.picture.draw_report", lambda report, folder: [])
     return make_program(tmp_path)
 
 
 def measure(program: Path, *words: str, own: tuple[str, ...] = (), **measured: Any) -> int:
-    """Runs the command on a program that is given `words`. @param measured see prepare()."""
+    """Runs the command on a program with the arguments `words`. @param measured see prepare()."""
     prepare(program.parent, **measured)
     return main(["timing", str(program), "--cycles", "100", "--out", str(program.parent / "out"), *own, *(("--", *words) if words else ())])
 
@@ -225,7 +225,7 @@ def test_what_is_in_the_way_of_a_result_is_named(program: Path, name: str, capsy
 
 
 def stop_while_measuring(program: Path, number: signal.Signals, grace_s: float, *words: str) -> tuple[int, str]:
-    """@return exit status and output of a command that was sent `number` while its program measured."""
+    """@return exit status and output of a command that got the signal `number` while its program measured."""
     out = program.parent / "out"
     prepare(program.parent, 60_000)
     argv = [sys.executable, "-P", "-c", RUNNER, str(grace_s), "timing", str(program), "--out", str(out), "--", "wait", *words]
@@ -248,7 +248,7 @@ def test_stopped_run_is_kept_and_marked_partial(program: Path, number: signal.Si
     assert "PARTIAL: stopped after 100 of 60000 cycles" in said
     record = load_record(program)
     assert (record["is_partial"], record["exit_status"], record["components"][0]["execution"]["count"]) == (True, 130, 100)
-    assert all((program.parent / "out" / name).exists() for name in RESULTS)  # pictures as well
+    assert all((program.parent / "out" / name).exists() for name in RESULTS)  # including the pictures
 
 
 @pytest.mark.verifies("SWR-TIM-024", technique="fault_injection", polarity="violation")
@@ -336,7 +336,7 @@ def test_wrong_description_ends_before_the_build(project: Path, capsys: pytest.C
 
 @pytest.fixture
 def users(project: Path) -> Path:
-    """A project of the user's outside of Mamori, whose arm is in a folder of its own. @return its root."""
+    """A user project outside Mamori, with its arm in a separate folder. @return its root."""
     root = project.parent / "robot"
     (root / "arm").mkdir(parents=True)
     (root / "CMakeLists.txt").write_text("project(robot)\nfind_package(mamori 0.1 CONFIG REQUIRED)\n", encoding="utf-8")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: pictures can be read whatever was measured, their curves are exact, and marks and limits are in them.
-# Method: rows of every kind drawn, and the texts of the SVG looked at.
+# Goal: pictures are readable for any measurement, their curves are exact, and they contain marks and limits.
+# Method: rows of every kind are drawn, and the texts of the SVG are checked.
 from __future__ import annotations
 
 import re
@@ -26,7 +26,7 @@ def report(tmp_path: Path) -> Report:
 
 
 def count_rows(rows: list[Row]) -> tuple[int, list[str]]:
-    """@return axes of the figure, and its texts outside of them."""
+    """@return axes of the figure, and its texts outside them."""
     figure = make_figure("title", rows, "subtitle", ["MARK"])
     return len(figure.axes), [text.get_text() for text in figure.texts]
 
@@ -76,7 +76,7 @@ def test_tail_is_the_exact_share_above_each_value() -> None:
     times, share = calc_tail(np.array([40, 10, 20, 20]))
 
     assert times.tolist() == [10, 20, 40]
-    assert share.tolist() == [0.75, 0.25, 0.25]  # none is above 40: it has the share of itself
+    assert share.tolist() == [0.75, 0.25, 0.25]  # none is above 40: it has its own share
 
 
 @pytest.mark.verifies("SWR-TIM-027", technique="boundary_values")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a run is read whole and fast, and nothing that is cut, edited or contradicts itself is taken for a measurement.
-# Method: runs made by timing_run.py, one thing wrong at a time.
+# Goal: a run is read completely and quickly, and truncated, edited or inconsistent files are rejected.
+# Method: runs from timing_run.py, with one fault at a time.
 from __future__ import annotations
 
 import json
@@ -68,7 +68,7 @@ def test_whole_run_is_read_with_its_steps_at_their_openings(tmp_path: Path) -> N
 def test_a_minute_of_a_thousand_cycles_a_second_is_read_in_about_a_second(tmp_path: Path) -> None:
     write(tmp_path, 60_000)
 
-    begin = time.process_time()  # time that other programs take does not count
+    begin = time.process_time()  # the time of other programs does not count
     run = read_measurement(tmp_path)
 
     assert len(run.steps) == 240_000

@@ -43,7 +43,7 @@ def make_environment() -> jinja2.Environment:
     environment.globals["style"] = Markup(_read_templates(_STYLES))
     environment.globals["first_script"] = Markup(_FIRST_SCRIPT)
     environment.globals["script"] = Markup(script)
-    # Only the two scripts of the page may run, so a text that passed the escaping could still not run.
+    # Only the two scripts of the page may run. A script in an unescaped text would therefore not run.
     environment.globals["script_hashes"] = Markup(" ".join(map(_calc_script_hash, (_FIRST_SCRIPT, script))))
     return environment
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A small layer with one mutant of each fate: its test never looks at the limit itself."""
+"""A small layer with one mutant of each outcome: its test never checks the limit itself."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from verification.mutation.sources import Sources, Unit
 from verification.mutation.trial import Result, judge_together, screen
 from verification.mutation.workbench import Bench
 
-# Of a test that needs a few milliseconds. The loop that a mutant lets run the wrong way counts in 64 bits, so it never ends in time.
+# For a test of a few milliseconds. A mutant lets the loop run in the wrong direction; it counts in 64 bits, so it never ends in time.
 TIMEOUT_S = 2.0
 
 HEADER = "kernel/include/limit.hpp"
@@ -54,7 +54,7 @@ LIMIT_LINE = 2
 
 
 def make_sources(root: Path) -> Sources:
-    """A project with one header, one source and a test that never looks at the limit itself."""
+    """A project with one header, one source and a test that never checks the limit itself."""
     for name, text in FILES.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(text, encoding="utf-8")
@@ -81,7 +81,7 @@ def try_alone(bench: Bench, mutant: Mutant, source: bytes) -> Result:
 
 
 def find(report: Report, before: str, after: str) -> Result:
-    """The result of the mutant whose changed line holds `after` in place of `before`."""
+    """The result of the mutant whose changed line contains `after` instead of `before`."""
     for result in report.results:
         change = result.mutant.get_change(report.plan.sources[result.mutant.file])
         if change[0].replace(before, after, 1) == change[1]:
