@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Fuzz target for the CDR decoder. The first byte chooses type and byte order, the rest is the encoding.
-/// A refusal must leave the object as it was; what is taken must come back from an encoding of its own, byte
-/// for byte but for padding. Seeds: corpus/cdr_decode.txt. Design: docs/design/data_flow.md#fuzzing
+/// Fuzz target for the CDR decoder. The first byte selects type and byte order, the rest is the encoding. A
+/// rejection must leave the object unchanged. An accepted object, when encoded again, must give the same
+/// bytes except for padding. Seeds: corpus/cdr_decode.txt. Design: docs/design/data_flow.md#fuzzing
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -49,7 +49,7 @@ void require(bool condition) {
     }
 }
 
-/// Encodes into a buffer of exactly the promised size, where the sanitizer sees each byte too many.
+/// Encodes into a buffer of exactly the promised size, so that the sanitizer detects each excess byte.
 template <typename T>
 std::vector<std::byte> encode_exactly(const T& value, ByteOrder order) {
     const Result<std::size_t> size = mamori::calc_encoded_size(value);
@@ -73,7 +73,7 @@ void check(const std::vector<std::byte>& input, ByteOrder order) {
     const std::vector<std::byte> first = encode_exactly(value, order);
     require(first.size() == input.size());
     for (std::size_t i = 0U; i < first.size(); ++i) {
-        // Padding is the only thing that an encoding may change, and it changes to zero.
+        // Padding is the only part that an encoding may change, and it becomes zero.
         require(first[i] == input[i] || first[i] == std::byte{0});
     }
     T again{};

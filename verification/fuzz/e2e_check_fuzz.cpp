@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Fuzz target for the receiving ends of end-to-end protection: a checker and a port of every profile, in
-/// both orders and on both kinds of input, get what the bytes say. Nothing may be accepted that a
-/// recomputation, which shares no code with them, does not find good; a value may only be what its frame
-/// holds, the one of before, or the substitute; every check has one cause and every reading one outcome.
-/// First byte: which ends. Then steps, see Step. Seeds: corpus/e2e_check.txt.
+/// both orders and on both kinds of input, receive the bytes of the fuzzer. They may accept only messages
+/// that an independent recomputation accepts. A value may only be that of its message, the previous one, or
+/// the fail-safe value. Every check has one cause and every reading one outcome. First byte: selects the
+/// ends. Then steps, see Step. Seeds: corpus/e2e_check.txt.
 /// Design: docs/design/e2e.md#fuzzing
 #include <cstdint>
 #include <cstring>
@@ -55,7 +55,7 @@ void demand(bool condition) {
 
 // ---- Recomputation ----
 
-/// Register of `width` bits, bit by bit, most significant first; reflected ones are turned on the way.
+/// Register of `width` bits, bit by bit, most significant first; reflected registers are reversed.
 std::uint64_t divide(const Bytes& bytes, unsigned width, std::uint64_t polynomial, std::uint64_t start,
                      bool turns) {
     const std::uint64_t mask = ~std::uint64_t{0U} >> (64U - width);
@@ -94,7 +94,7 @@ constexpr std::uint32_t kLongId = 0x0A0B0C0DU;
 constexpr std::uint64_t kOnes = ~std::uint64_t{0U};
 constexpr std::uint64_t kOnes32 = 0xFFFFFFFFU;
 
-/// True for a frame that a sender of the channel below writes with some counter.
+/// True for a message that a sender of the channel below writes with some counter.
 bool is_good(unsigned profile, const Bytes& frame, std::size_t shortest, std::size_t longest) {
     if (frame.size() < shortest || frame.size() > longest) {
         return false;
@@ -155,7 +155,7 @@ using M11 = E2eMessage<Fixed, E2eProfile11<>, kNibbles>;
 using M22 = E2eMessage<Fixed, E2eProfile22<>, kListed>;
 using M44 = E2eMessage<Varying, E2eProfile44<>, kSent12, mamori::ByteOrder::kBig>;
 
-/// Longer than every message, so that too long ones can come.
+/// Longer than every message, so that too long messages are possible.
 using Frame = E2eFrame<64U>;
 using Latest = mamori::InPort<Frame>;
 using Queue = mamori::QueueInPort<Frame, 3U>;
@@ -164,16 +164,16 @@ template <typename Order>
 constexpr E2eInLimits<Order> kLimits{35_ms, {1U}, 5U, {{1U, 3U}, {1U, 3U}, {2U, 2U}}};
 constexpr Instant kStart{1000};
 
-/// What a step of the input does. Frames arrive; then there is a cycle, but for kQueueUp.
+/// Actions of a step of the input. Messages arrive; then a cycle follows, except for kQueueUp.
 enum class Step : std::uint8_t {
-    kArbitrary,  ///< a frame of the bytes that follow: length, bytes
+    kArbitrary,  ///< a message of the following bytes: length, bytes
     kGood,       ///< the same, with the header that the sender writes with its next counter
-    kDamaged,    ///< the same, with one byte changed: length, bytes, place, change
-    kRepeated,   ///< the last frame once more
-    kSilent,     ///< no frame
-    kSkip,       ///< the sender's counter goes on by as much as the next byte says
-    kWait,       ///< so many milliseconds pass
-    kQueueUp,    ///< the last frame once more, without a cycle
+    kDamaged,    ///< the same, with one byte changed: length, bytes, index, change
+    kRepeated,   ///< the last message again
+    kSilent,     ///< no message
+    kSkip,       ///< the sender's counter increases by the next byte
+    kWait,       ///< that many milliseconds pass
+    kQueueUp,    ///< the last message again, without a cycle
     kRestart,    ///< a deliberate reset
     kNewMode,    ///< the connection is restarted
 };
@@ -183,7 +183,7 @@ class Input final {
   public:
     Input(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
     bool is_at_end() const { return next_ == size_; }
-    /// 0 behind the end.
+    /// 0 after the end.
     std::uint8_t take() { return is_at_end() ? std::uint8_t{0U} : data_[next_++]; }
 
   private:
@@ -282,7 +282,7 @@ class Run final {
         return is_good(Profile::kNumber, frame_, Message::kLengthMin, Message::kLengthMax);
     }
 
-    /// The bare checker.
+    /// The checker alone.
     void check() {
         ++check_count_;
         const CheckStatus status =
@@ -305,7 +305,8 @@ class Run final {
             in_.take({frame, revision_, now_});
         }
     }
-    /// A cycle of the port; queued frames are read in further ones. @param[in] has_frame one was delivered.
+    /// A cycle of the port; queued messages are read in further cycles. @param[in] has_frame one was
+    /// delivered.
     void read(bool has_frame) {
         demand(!has_frame || port_.has_frame());
         do {
@@ -321,7 +322,7 @@ class Run final {
         const bool is_accepted = port_.get_outcome() == E2eOutcome::kAccepted;
         demand((worth == E2eWorth::kNew) == is_accepted);
         if (worth == E2eWorth::kNew) {
-            // A queue holds this frame, or others that were the last one in their turn.
+            // A queue contains this message, or others that were the last one when they were queued.
             demand(Port::kIsQueue || is_known_good());
             demand(port_.get_state() == ChannelState::kValid);
             held_ = value;

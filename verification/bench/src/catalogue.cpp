@@ -4,7 +4,7 @@
 namespace mamori::verification::bench {
 namespace {
 
-/// The first words that a reader sees are 0, 1, 0, 1 ...; a value that is lost or stale changes their sum.
+/// The first words that a reader reads are 0, 1, 0, 1 ...; a lost or stale value changes their sum.
 std::uint64_t calc_sum_of_words(std::uint64_t count, std::size_t) {
     return count / 2U;
 }

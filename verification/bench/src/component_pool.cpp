@@ -19,7 +19,7 @@ class Counting : public Component {
     ~Counting() = default;
 };
 
-/// Each class has a function of its own, and work that differs, so that a linker does not fold them into one.
+/// Each class has its own function with different work, so that a linker does not fold them into one.
 template <std::size_t kClass>
 class CountingOf final : public Counting {
   public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Components that do next to nothing, for the scheduler cases. Their classes are known in one source file
-/// only, so no caller's compiler can replace a virtual call by what it would do.
+/// Components with minimal work, for the scheduler cases. Their classes are known in one source file only, so
+/// that no caller's compiler can replace a virtual call by its body.
 #ifndef MAMORI_VERIFICATION_BENCH_COMPONENT_POOL_HPP
 #define MAMORI_VERIFICATION_BENCH_COMPONENT_POOL_HPP
 
@@ -13,11 +13,11 @@
 
 namespace mamori::verification::bench {
 
-/// In which order components of different classes come: always the same one of eight, or each eight of them
-/// in an order of their own, in which a processor finds nothing that returns.
+/// Order of components of different classes: always the same order of eight, or a different order for each
+/// eight, which a processor cannot predict.
 enum class ClassOrder : std::uint8_t { kInTurn, kMixed };
 
-/// Components of several classes, as a system has them, side by side in memory.
+/// Components of several classes, adjacent in memory.
 class ComponentPool {
   public:
     /// @param[in] count components, > 0.

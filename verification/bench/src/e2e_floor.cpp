@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Floors of the cases of end-to-end protection, written by hand around the checksum that ours has: a frame
-/// of profile 4 that is protected and checked where it lies, without ports, and the two checksums alone.
+/// Lower bounds of the end-to-end protection cases, written by hand around the checksum of Mamori: a message
+/// of profile 4 that is protected and checked in place, without ports, and the two checksums alone.
 ///
 /// @satisfies SWR-BEN-010      Design: docs/design/bench.md#method
 #include <cstring>
@@ -20,7 +20,7 @@ std::uint32_t calc_checksum(const std::byte* first, std::size_t first_size, cons
     return crc.get_value();
 }
 
-/// Header of profile 4 with what is known beforehand in place.
+/// Header of profile 4 with the constant fields in place.
 constexpr std::uint64_t kDataId = 0x0A0B0C0DU;
 constexpr std::size_t kHeaderSize = 12U;
 constexpr std::size_t kCrcAt = 8U;
@@ -74,7 +74,7 @@ class CrcFrame final : public Subject {
     std::uint16_t last_{0xFFFFU};
 };
 
-/// Of as many bytes as profile 4 covers.
+/// Over the bytes that profile 4 covers.
 template <std::size_t kSize>
 class CrcTwice final : public Subject {
   public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A protected message from a component's output to another one's input: profile 4, which has the checksum of
-/// the floor.
+/// A protected message from the output of one component to the input of another: profile 4, which has the
+/// checksum of the lower bound.
 #ifndef MAMORI_VERIFICATION_BENCH_E2E_RIG_HPP
 #define MAMORI_VERIFICATION_BENCH_E2E_RIG_HPP
 
@@ -19,7 +19,7 @@ inline constexpr safety::SentIdChannel kE2eChannel{0x0A0B0C0DU, E2eProfile::kHea
 inline constexpr safety::E2eInLimits<safety::HardenedSequence> kE2eLimits{
     Duration{1000}, {1U}, 4U, {{1U, 0U}, {1U, 0U}, {1U, 0U}}};
 
-/// Both ports with the ends of the channel, in use: the order is found and the channel valid.
+/// Both ports with the ends of the channel, in use: the channel is synchronised and valid.
 template <std::size_t kSize>
 class E2eRig {
     using Message = safety::E2eMessage<bench::Message<kSize>, E2eProfile, kE2eChannel<kSize>>;
@@ -32,7 +32,7 @@ class E2eRig {
         }
     }
 
-    /// A component writes, the window closes, the next window opens, a component reads.
+    /// A component writes, the window ends, the next window starts, a component reads.
     void exchange(const bench::Message<kSize>& value) noexcept {
         now_ = now_ + Duration{1};
         static_cast<void>(sender_.write(value));
@@ -43,7 +43,7 @@ class E2eRig {
         static_cast<void>(receiver_.read(now_, read_));
         in_.mark_read();
     }
-    /// What was read last.
+    /// The last value read.
     const bench::Message<kSize>& get_read() const noexcept { return read_; }
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Does one operation a given number of times, for callgrind to count. Only what runs inside the functions
-/// measured_... counts: callgrind collects while one of them is running, and zeroes what it has when
+/// Executes one operation a given number of times, for callgrind to count. Only instructions inside the
+/// functions measured_... count: callgrind collects while one of them runs, and clears its counts when
 /// begin_counting() is called, after a warm-up.
 ///
 ///     mamori_exact --about                     operations, compiler and C library as JSON
@@ -25,7 +25,7 @@
 namespace mamori::verification::bench {
 namespace {
 
-/// A port with a value to write; the value that was read last is kept so that reading is not left out.
+/// A port with a value to write; the last value read is stored so that the compiler keeps the read.
 template <std::size_t kSize>
 struct PortRig {
     Message<kSize> value{};
@@ -49,7 +49,7 @@ struct SeqlockRig {
     Seqlock<Message<64U>> lock;
 };
 
-/// A frame of 64 bytes that is protected and checked, in order.
+/// A message of 64 bytes that is protected and then checked.
 template <typename Profile>
 struct FrameRig {
     static constexpr safety::SentIdChannel kChannel{0x0A0B0C0DU, 64U, 64U};
@@ -86,7 +86,7 @@ void* volatile g_leftover;
 
 }  // namespace
 
-// The names are what callgrind is told; C linkage keeps them as they are written.
+// callgrind gets these names as arguments; C linkage keeps them unchanged.
 extern "C" {
 [[gnu::noinline]] void measured_port_8() {
     g_port_8.exchange();
@@ -137,7 +137,7 @@ extern "C" {
 [[gnu::noinline]] void measured_clocked_cycle_20() {
     g_clocked_twenty.run_supervised_cycle();
 }
-// Two faults on purpose: the checks over the others must find them.
+// Two intentional faults: the checks of the other operations must find them.
 [[gnu::noinline]] void measured_seeded_heap() {
     g_leftover = std::malloc(8U);
     std::free(g_leftover);
@@ -146,7 +146,7 @@ extern "C" {
     syscall(SYS_getppid);
 }
 
-/// callgrind zeroes its counts here.
+/// callgrind clears its counts here.
 [[gnu::noinline]] void begin_counting() {
     asm volatile("" : : : "memory");
 }

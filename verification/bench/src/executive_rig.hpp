@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A running system of `kCount` components that do next to nothing, in one window: what is left is the cost
-/// of the executive.
+/// A running system of `kCount` components with minimal work, in one window: the remaining cost is that of
+/// the executive.
 #ifndef MAMORI_VERIFICATION_BENCH_EXECUTIVE_RIG_HPP
 #define MAMORI_VERIFICATION_BENCH_EXECUTIVE_RIG_HPP
 
@@ -16,7 +16,7 @@
 
 namespace mamori::verification::bench {
 
-/// Executive over `kCount` components, started. `Clock` is what its host reads.
+/// Executive over `kCount` components, started. Its host reads `Clock`.
 template <std::size_t kCount, typename Clock, ClassOrder kOrder = ClassOrder::kInTurn>
 class ExecutiveRig {
   public:
@@ -26,7 +26,7 @@ class ExecutiveRig {
         }
     }
 
-    /// Lets a supervisor listen that judges every component. Call once.
+    /// Adds a supervisor that checks every component. Call once.
     void supervise() {
         for (std::size_t i = 0U; i < kCount; ++i) {
             if (supervisor_.watch(i, kLimits) != Status::kOk) {
@@ -39,24 +39,24 @@ class ExecutiveRig {
     /// One cycle of the window.
     void run_cycle() noexcept { static_cast<void>(executive_.run_window(0U, host_)); }
 
-    /// One cycle, then the judgement over all components, as a supervision window does it.
+    /// One cycle, then the evaluation of all components, as in a supervision window.
     void run_supervised_cycle() noexcept {
         run_cycle();
         is_healthy_ = supervisor_.step(host_.get_now()) == safety::GlobalStatus::kOk && is_healthy_;
     }
 
-    /// @return runs of all components so far; 0 when a supervised cycle was not judged healthy.
+    /// @return runs of all components so far; 0 if a supervised cycle was not healthy.
     std::uint64_t count_runs() const noexcept { return is_healthy_ ? pool_.count_runs() : 0U; }
 
   private:
-    /// Wide enough for a machine that is busy with other work: nothing may expire here.
+    /// Wide enough for a busy host: nothing may expire here.
     static constexpr Duration kFrame = Duration{3'600'000'000'000};
     static constexpr safety::ComponentLimits kLimits{{1U, 2U}, {Duration{0}, kFrame}};
 
     using Table = SystemTable<1U, kCount, 0U, 0U>;
 
-    /// The rows of a window of one component, as the kernel makes them, repeated for all: a list of a
-    /// thousand arguments would be more than a compiler takes.
+    /// The rows of a window of one component, as the kernel creates them, repeated for all: a list of a
+    /// thousand arguments would exceed the capacity of a compiler.
     static Table make_table(ComponentPool& pool) noexcept {
         const auto one =
             system(frame(kFrame), window("bench", Duration{0}, kFrame, budget(kFrame), run(pool.at(0U))));
@@ -64,7 +64,7 @@ class ExecutiveRig {
         table.frame = one.frame;
         table.windows[0] = one.windows[0];
         table.windows[0].component_count = kCount;
-        // The table cannot see through the references of the pool that no component has a second pass.
+        // The table cannot determine through the references of the pool that no component has a second pass.
         table.windows[0].has_second_pass = false;
         table.component_rows.fill(one.component_rows[0]);
         for (std::size_t i = 0U; i < kCount; ++i) {

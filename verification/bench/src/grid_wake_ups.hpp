@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Wake-ups of the real-time port on a grid of 1 kHz: how long after each planned instant the runner reads
-/// the clock first. A distribution, so it is measured apart from the batches of the other cases.
+/// Wake-ups of the real-time port on a schedule of 1 kHz: the time from each planned instant to the first
+/// reading of the clock. It is a distribution, so it is measured separately from the batches of the other
+/// cases.
 ///
 /// @satisfies SWR-BEN-009      Design: docs/design/bench.md#grid
 #ifndef MAMORI_VERIFICATION_BENCH_GRID_WAKE_UPS_HPP
@@ -19,10 +20,10 @@ struct GridRequest {
     int processor{0};
 };
 
-/// Runs a system with one window and one idle component, all on one processor, in locked memory. To be called
-/// once per process.
+/// Runs a system with one window and one idle component, all on one processor, in locked memory. Call once
+/// per process.
 /// @return lateness of each wake-up [ns], in the order of the cycles.
-/// @throw std::runtime_error when the machine refuses the priority or the processor, with the reason.
+/// @throw std::runtime_error with the reason if the host denies the priority or the processor.
 std::vector<std::int64_t> measure_grid(const GridRequest& request);
 
 }  // namespace mamori::verification::bench

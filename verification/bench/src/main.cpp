@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The benchmark program: measures what is asked and writes the samples as JSON. It judges nothing;
+/// The benchmark program: measures the requested cases and writes the samples as JSON. It evaluates nothing;
 /// verification/bench does.
 ///
 /// @satisfies SWR-BEN-001, SWR-BEN-002      Design: docs/design/bench.md#method

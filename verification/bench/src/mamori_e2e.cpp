@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Ours in the cases of end-to-end protection: the port case with a protected message.
+/// Mamori in the end-to-end protection cases: the port case with a protected message.
 ///
 /// @satisfies SWR-BEN-010      Design: docs/design/bench.md#method
 #include "catalogue.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Ours in the scheduler cases: components run by the executive, without supervision and with it.
+/// Mamori in the scheduler cases: the executive runs components, without supervision and with it.
 #include "catalogue.hpp"
 #include "executive_rig.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Ours in the port cases: a component writes, the window closes, the next window opens, a component reads.
+/// Mamori in the port cases: a component writes, the window ends, the next window starts, a component reads.
 #include "catalogue.hpp"
 #include "mamori/kernel/dataflow/data_port.hpp"
 

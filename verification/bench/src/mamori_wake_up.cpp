@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Ours in the wake-up case: the host of the real-time port hands a message to the thread of a window as a
+/// Mamori in the wake-up case: the host of the real-time port passes a message to the thread of a window as a
 /// piece of work and waits for it until a deadline. An operation is one round trip: two wake-ups.
 #include <pthread.h>
 #include <sched.h>
@@ -25,7 +25,7 @@ class WindowHandOver final : public Subject {
             throw std::runtime_error("no thread for a window");
         }
     }
-    /// The work is a copy: it has come back whenever run() has.
+    /// The work is a copy: it has returned whenever run() has.
     ~WindowHandOver() override { static_cast<void>(host_.close()); }
     WindowHandOver(const WindowHandOver&) = delete;
     WindowHandOver& operator=(const WindowHandOver&) = delete;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The cheapest host there can be, so that the executive is measured and not a port: it calls the work and
-/// asks the clock.
+/// The cheapest possible host, so that the executive is measured and not a port: it calls the work and reads
+/// the clock.
 #ifndef MAMORI_VERIFICATION_BENCH_MINIMAL_HOST_HPP
 #define MAMORI_VERIFICATION_BENCH_MINIMAL_HOST_HPP
 
@@ -20,7 +20,7 @@ inline Instant read_clock() noexcept {
     return Instant{static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec};
 }
 
-/// A clock that costs nothing: each reading is one nanosecond after the last.
+/// A clock without cost: each reading is one nanosecond after the previous one.
 class CountingClock {
   public:
     Instant read() const noexcept { return Instant{++now_ns_}; }

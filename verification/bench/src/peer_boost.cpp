@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Peer: the single-producer single-consumer queue of Boost.Lockfree.
+/// Reference implementation: the single-producer single-consumer queue of Boost.Lockfree.
 #include <boost/lockfree/spsc_queue.hpp>
 
 #include "catalogue.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Peer: CycloneDDS through its C API, writer and reader in one participant, so that no network is in the
-/// path.
+/// Reference implementation: CycloneDDS through its C API, writer and reader in one participant, so that the
+/// path contains no network.
 #include <dds/dds.h>
 
 #include <stdexcept>
@@ -33,7 +33,7 @@ const dds_topic_descriptor_t& get_descriptor<65536U>() {
     return mamori_bench_Message65536_desc;
 }
 
-/// Only this machine's loopback, no multicast: a benchmark must not speak to anybody's network.
+/// Only the loopback of this host, no multicast: a benchmark must send nothing to a network.
 constexpr const char* kConfiguration =
     "<General><Interfaces><NetworkInterface name='lo' multicast='false'/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast></General>";
@@ -78,7 +78,7 @@ class Topic final {
 
     dds_entity_t get_reader() const noexcept { return reader_; }
     void write(const Message<kSize>& message) { dds_write(writer_, message.data()); }
-    /// @return true when there was one.
+    /// @return true if there was one.
     bool take(Message<kSize>& message) {
         void* samples[1] = {message.data()};
         dds_sample_info_t info;
@@ -111,7 +111,7 @@ class CycloneDds final : public Subject {
     Topic<kSize> topic_{("bench" + std::to_string(kSize)).c_str()};
 };
 
-/// A topic of its own; the reader sleeps in a wait set.
+/// A separate topic; the reader sleeps in a wait set.
 class DdsMailbox final {
   public:
     explicit DdsMailbox(const char* name)

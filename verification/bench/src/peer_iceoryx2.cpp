@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Peer: iceoryx2 with its process-local service. The loop is in Rust (folder iceoryx2), since a call per
-/// operation from here would be a cost that its users do not have.
+/// Reference implementation: iceoryx2 with its process-local service. The loop is in Rust (folder iceoryx2),
+/// because a call per operation from here would add a cost that its users do not have.
 #include <stdexcept>
 
 #include "catalogue.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Peer: LCM with its in-process transport memq, raw messages.
+/// Reference implementation: LCM with its in-process transport memq, raw messages.
 #include <lcm/lcm.h>
 
 #include <cstring>
@@ -47,7 +47,7 @@ class LcmMemq final : public Subject {
     lcm_t* lcm_;
 };
 
-/// A channel of its own; the reader sleeps in lcm_handle().
+/// A separate channel; the reader sleeps in lcm_handle().
 class LcmMailbox final {
   public:
     explicit LcmMailbox(const char* name) : lcm_(lcm_create("memq://")), name_(name) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Floors of the port cases: two copies of the bytes, and a seqlock around them.
+/// Lower bounds of the port cases: two copies of the bytes, and a seqlock around them.
 #include <cstring>
 
 #include "catalogue.hpp"

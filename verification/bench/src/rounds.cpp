@@ -9,7 +9,7 @@
 namespace mamori::verification::bench {
 namespace {
 
-/// A subject that was made, with what it has shown so far.
+/// A created subject, with its results so far.
 struct Runner {
     std::unique_ptr<Subject> subject;
     std::uint64_t batch_count{1U};
@@ -28,14 +28,14 @@ double time_batch(Subject& subject, const Case& of, const std::string& name, std
     return taken.count();
 }
 
-/// Finds a number of operations that takes at least `batch_ns`. Warms the subject up as well.
+/// Finds a number of operations that takes at least `batch_ns`, and warms up the subject.
 void calibrate(Runner& runner, const Case& of, const std::string& name, std::uint64_t batch_ns) {
     constexpr std::uint64_t kCountMax = std::uint64_t{1} << 40U;
     constexpr int kAttempts = 5;
     double shortest = 0.0;
     while (runner.batch_count < kCountMax && shortest < static_cast<double>(batch_ns)) {
         runner.batch_count *= 2U;
-        // The shortest of several: one that was interrupted would pass a few operations off as a batch.
+        // The minimum of several runs, because an interrupted run would make a batch too small.
         shortest = time_batch(*runner.subject, of, name, runner.batch_count);
         for (int i = 1; i < kAttempts; ++i) {
             shortest = std::min(shortest, time_batch(*runner.subject, of, name, runner.batch_count));
@@ -49,7 +49,7 @@ double calc_median(std::vector<double> values) {
     return values.size() % 2U == 1U ? values[middle] : (values[middle - 1U] + values[middle]) / 2.0;
 }
 
-/// Makes the subjects of a case and finds their batch sizes.
+/// Creates the subjects of a case and finds their batch sizes.
 std::vector<Runner> prepare(const Case& of, const Effort& effort, Measured& result) {
     std::vector<Runner> runners;
     for (const Candidate& candidate : of.candidates) {
@@ -67,7 +67,7 @@ std::vector<Runner> prepare(const Case& of, const Effort& effort, Measured& resu
     return runners;
 }
 
-/// One visit of a case: the subjects take turns, and each batch begins with another one.
+/// One visit of a case: the subjects alternate, and each batch begins with another one.
 void visit(const Case& of, std::vector<Runner>& runners, const Effort& effort, Measured& result) {
     for (std::uint32_t batch = 0U; batch < effort.batches; ++batch) {
         for (std::size_t turn = 0U; turn < runners.size(); ++turn) {

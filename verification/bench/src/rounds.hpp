@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Measures cases in rounds. In a round each case is visited once, and within a case its subjects take turns
-/// batch by batch, so that whatever disturbs the machine for longer than a few batches disturbs all of them
-/// alike.
+/// Measures cases in rounds. A round visits each case once. Within a case, the subjects alternate batch by
+/// batch, so that a disturbance of the host that lasts longer than a few batches affects all of them alike.
 ///
 /// @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
 #ifndef MAMORI_VERIFICATION_BENCH_ROUNDS_HPP
@@ -17,11 +16,11 @@
 
 namespace mamori::verification::bench {
 
-/// How much is measured.
+/// Extent of a measurement.
 struct Effort {
     std::uint32_t rounds{9U};
     std::uint32_t batches{21U};  ///< of each subject in a round
-    /// Least time of one batch: far below the time slice of a scheduler, so that most batches are not
+    /// Minimum time of one batch: far below the time slice of a scheduler, so that most batches are not
     /// interrupted.
     std::uint64_t batch_ns{400'000U};
 };
@@ -33,7 +32,7 @@ struct Series {
     std::vector<double> rounds;
 };
 
-/// A measured case, and the subjects that could not be made, with the reason.
+/// A measured case, and the subjects that could not be created, with the reason.
 struct Measured {
     std::string metric;
     std::size_t size;
@@ -42,8 +41,8 @@ struct Measured {
     std::vector<AbsentPeer> absent;
 };
 
-/// Measures `cases`. @param[in] tell takes a line of progress.
-/// @throw std::runtime_error when a subject's sum shows that it did not do its work.
+/// Measures `cases`. @param[in] tell receives a line of progress.
+/// @throw std::runtime_error if a subject's sum shows that it did not do its work.
 std::vector<Measured> measure(const std::vector<Case>& cases, const Effort& effort,
                               const std::function<void(const std::string&)>& tell);
 

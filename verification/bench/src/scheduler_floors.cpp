@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Floors of the scheduler cases: one virtual call per component, and one call with one reading of the clock.
+/// Lower bounds of the scheduler cases: one virtual call per component, and one call with one clock reading.
 #include "catalogue.hpp"
 #include "component_pool.hpp"
 #include "minimal_host.hpp"
@@ -8,7 +8,7 @@
 namespace mamori::verification::bench {
 namespace {
 
-/// The bare loop over the components; `kReadsClock`: with a start time noted for each.
+/// The plain loop over the components; `kReadsClock`: with a recorded start time for each.
 template <std::size_t kCount, bool kReadsClock, ClassOrder kOrder = ClassOrder::kInTurn>
 class BareLoop final : public Subject {
   public:

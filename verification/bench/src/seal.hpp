@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Takes every system call away from this process but its own end: the operating system itself then proves
-/// that none is made.
+/// Forbids this process every system call except its exit: the operating system itself then proves that none
+/// is made.
 #ifndef MAMORI_VERIFICATION_BENCH_SEAL_HPP
 #define MAMORI_VERIFICATION_BENCH_SEAL_HPP
 
@@ -16,8 +16,8 @@
 
 namespace mamori::verification::bench {
 
-/// From here on any system call but exit_group ends the process with SIGSYS.
-/// @return false when the system does not offer it; nothing is sealed then.
+/// After this call, any system call except exit_group ends the process with SIGSYS.
+/// @return false if the system does not support it; nothing is sealed then.
 inline bool seal_process() noexcept {
     std::array<sock_filter, 4> program{{
         {BPF_LD | BPF_W | BPF_ABS, 0U, 0U, offsetof(seccomp_data, nr)},
@@ -30,7 +30,7 @@ inline bool seal_process() noexcept {
            prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
-/// Ends the process by the one call that is left. @param[in] status exit status.
+/// Ends the process by the only permitted call. @param[in] status exit status.
 [[noreturn]] inline void leave_sealed(int status) noexcept {
     for (;;) {
         syscall(SYS_exit_group, status);

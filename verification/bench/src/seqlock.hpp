@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The floor for a latest-value exchange: a sequence lock and two copies, nothing else.
+/// The lower bound of a latest-value exchange: a sequence lock and two copies.
 ///
 /// Source: H.-J. Boehm, "Can seqlocks get along with programming language memory models?", MSPC 2012
 #ifndef MAMORI_VERIFICATION_BENCH_SEQLOCK_HPP
@@ -11,8 +11,8 @@
 
 namespace mamori::verification::bench {
 
-/// Latest value of one writer. The copy itself is not atomic, as in the seqlocks that people use: a torn copy
-/// is recognised and thrown away.
+/// Latest value of one writer. The copy itself is not atomic, as in common seqlocks: a torn copy is detected
+/// and discarded.
 template <typename T>
 class Seqlock {
   public:
@@ -24,7 +24,7 @@ class Seqlock {
         sequence_.store(sequence + 2U, std::memory_order_release);
     }
 
-    /// @return false when a write came in between; `value` is without meaning then.
+    /// @return false if a write came in between; `value` is then undefined.
     bool try_read(T& value) const noexcept {
         const std::uint32_t before = sequence_.load(std::memory_order_acquire);
         value = value_;

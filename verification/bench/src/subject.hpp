@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a benchmark program measures: subjects, gathered in cases. The subjects of one case do the same work
-/// in different ways, so their times may be divided by one another; the subjects of different cases may not.
+/// Subjects of a benchmark program, grouped in cases. The subjects of one case do the same work in different
+/// ways, so the ratio of their times is meaningful; for subjects of different cases it is not.
 ///
 /// @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
 #ifndef MAMORI_VERIFICATION_BENCH_SUBJECT_HPP
@@ -16,27 +16,28 @@
 
 namespace mamori::verification::bench {
 
-/// One way to do a case's operation.
+/// One implementation of the operation of a case.
 class Subject {
   public:
     virtual ~Subject() = default;
 
-    /// Does the operation `count` times.
-    /// @return a sum that only done work can give: see calc_expected() of the case's kind.
+    /// Executes the operation `count` times.
+    /// @return a sum that only completed work can give: see calc_expected() of the case's kind.
     virtual std::uint64_t run(std::uint64_t count) = 0;
 };
 
-/// Proof that the work was done: the sum that a run of `count` operations returns.
+/// Evidence of the work: the sum that a run of `count` operations returns.
 using CalcExpected = std::uint64_t (*)(std::uint64_t count, std::size_t size);
 
-/// A subject that can be made; making it may throw, and then the subject is reported as absent with the
-/// exception's text.
+/// A subject that can be created. If its creation throws, the subject is reported as absent with the text of
+/// the exception.
 struct Candidate {
     std::string name;
     std::unique_ptr<Subject> (*make)();
 };
 
-/// Subjects to compare. `size` is what the case is repeated over: payload [byte] or number of components.
+/// Subjects to compare. `size` varies between the repetitions of the case: payload [byte] or number of
+/// components.
 struct Case {
     std::string metric;
     std::size_t size;
@@ -46,7 +47,7 @@ struct Case {
     std::vector<Candidate> candidates;
 };
 
-/// A peer that this program was built without.
+/// A reference implementation that this build does not include.
 struct AbsentPeer {
     std::string name;
     std::string reason;
@@ -56,9 +57,9 @@ struct AbsentPeer {
 template <std::size_t kSize>
 using Message = std::array<std::uint64_t, kSize / sizeof(std::uint64_t)>;
 
-/// What operation number `i` writes: two messages in turn, with 0 and 1 as first word. They are made
-/// beforehand: a word stored just before the copy that reads it in wider pieces would stall the processor,
-/// and hide what is to be measured.
+/// The value of operation number `i`: two alternating messages, with 0 and 1 as first word. They are created
+/// beforehand: a word stored just before a wider copy reads it would stall the processor and hide the
+/// measured effect.
 template <std::size_t kSize>
 class WrittenValues {
   public:
@@ -78,7 +79,8 @@ inline constexpr std::array<std::size_t, 3> kE2eSizes{8U, 64U, 1024U};
 /// Sizes of the scheduler cases [components].
 inline constexpr std::array<std::size_t, 3> kComponentCounts{10U, 100U, 1000U};
 
-/// Tells the compiler that `object` may be read and written here, so that no work on it is left out or moved.
+/// Tells the compiler that `object` may be read and written here, so that it neither removes nor moves work
+/// on it.
 template <typename T>
 inline void touch(T& object) noexcept {
     asm volatile("" : : "r"(&object) : "memory");
@@ -99,7 +101,7 @@ void add_to_ports(std::vector<Case>& cases, const std::string& name) {
     cases[3].candidates.push_back({name, &make_subject<kSubject<kPortSizes[3]>>});
 }
 
-/// Adds `kSubject<kSize>` to the case of end-to-end protection of each size, as add_to_ports().
+/// Adds `kSubject<kSize>` to the end-to-end protection case of each size, like add_to_ports().
 template <template <std::size_t> class kSubject>
 void add_to_e2e(std::vector<Case>& cases, const std::string& name) {
     cases[0].candidates.push_back({name, &make_subject<kSubject<kE2eSizes[0]>>});
@@ -107,7 +109,7 @@ void add_to_e2e(std::vector<Case>& cases, const std::string& name) {
     cases[2].candidates.push_back({name, &make_subject<kSubject<kE2eSizes[2]>>});
 }
 
-/// Adds `kSubject<kCount>` to the scheduler case of each size, as add_to_ports().
+/// Adds `kSubject<kCount>` to the scheduler case of each size, like add_to_ports().
 template <template <std::size_t> class kSubject>
 void add_to_schedulers(std::vector<Case>& cases, const std::string& name) {
     cases[0].candidates.push_back({name, &make_subject<kSubject<kComponentCounts[0]>>});

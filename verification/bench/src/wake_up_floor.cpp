@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Floor of the wake-up case: two seqlocks, whose reader is woken with a futex.
+/// Lower bound of the wake-up case: two seqlocks, whose reader is woken with a futex.
 #include <linux/futex.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@
 namespace mamori::verification::bench {
 namespace {
 
-/// Seqlock with a bell: the reader waits until something newer is there.
+/// Seqlock with notification: the reader waits until there is a newer value.
 class RungSeqlock final {
   public:
     explicit RungSeqlock(const char* /*name*/) noexcept {}

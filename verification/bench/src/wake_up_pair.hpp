@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The wake-up case: two threads on one processor hand a message to and fro, and each sleeps until the
-/// other's message is there. An operation is one round trip: two wake-ups.
+/// The wake-up case: two threads on one processor exchange a message, and each sleeps until the message of
+/// the other arrives. An operation is one round trip: two wake-ups.
 ///
 /// @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
 #ifndef MAMORI_VERIFICATION_BENCH_WAKE_UP_PAIR_HPP
@@ -17,7 +17,8 @@
 
 namespace mamori::verification::bench {
 
-/// A wake-up on one processor is a switch and no journey: both threads of the pair stay where the caller is.
+/// Both threads of the pair stay on the processor of the caller, so that a wake-up is a switch without a
+/// migration.
 inline void pin(pthread_t thread, int processor) {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -27,8 +28,8 @@ inline void pin(pthread_t thread, int processor) {
     }
 }
 
-/// @tparam Mailbox made with a name that no other one has; post(message) from one thread, and await() in
-///                 another one, which sleeps until a message is there.
+/// @tparam Mailbox created with a unique name; post(message) from one thread, and await() in another one,
+/// which sleeps until there is a message.
 template <typename Mailbox>
 class WakeUpPair final : public Subject {
   public:

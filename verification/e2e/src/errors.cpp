@@ -19,7 +19,7 @@ namespace {
 
 std::size_t g_differences = 0U;
 
-/// @return number of patterns that pass, shown with what they are; "-" for none.
+/// @return number of passing patterns and their description; "-" for none.
 template <typename Case, typename Count>
 void try_one(const char* what, std::size_t length, Count count) {
     RealTrial<Case> real{length};

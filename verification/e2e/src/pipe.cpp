@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Protects and reads frames for another process: requests on standard input, answers on standard output,
-/// binary, until the input ends. Exit status 1 for a request that is cut off or names no profile.
+/// Protects and reads messages for another process: requests on standard input, replies on standard output,
+/// binary, until the input ends. Exit status 1 for a request that is truncated or names no profile.
 ///
 ///     request: profile u8, data id mode u8, operation u8 (0 protect, 1 read), 0 u8, offset u16, length u16,
 ///              data id u32, counter u32, 16 data ids u8, frame of `length` bytes; numbers least significant
@@ -41,7 +41,7 @@ std::uint32_t get_number(const std::array<std::uint8_t, kRequestSize>& bytes, st
     return value;
 }
 
-/// @return 1 for a request, 0 at the end of the input, -1 for one that is cut off.
+/// @return 1 for a request, 0 at the end of the input, -1 for a truncated request.
 int receive(Request& request) {
     std::array<std::uint8_t, kRequestSize> head{};
     const std::size_t got = std::fread(head.data(), 1U, head.size(), stdin);
@@ -61,7 +61,7 @@ int receive(Request& request) {
     return std::fread(request.frame.data(), 1U, request.frame.size(), stdin) == request.frame.size() ? 1 : -1;
 }
 
-/// Does what is asked. @return the first byte of the answer.
+/// Executes the request. @return the first byte of the reply.
 template <typename Profile>
 std::uint8_t serve(Request& request, const typename Profile::Channel& channel) {
     if (Profile::find_fault(channel) != ChannelFault::kNone || request.counter > Profile::kCounterMax) {
@@ -76,7 +76,7 @@ std::uint8_t serve(Request& request, const typename Profile::Channel& channel) {
     return static_cast<std::uint8_t>(cause);
 }
 
-/// @return false where there is no such profile.
+/// @return false for an unknown profile.
 bool serve(Request& request, std::uint8_t& cause) {
     const std::size_t length = request.frame.size();
     const auto short_id = static_cast<std::uint16_t>(request.data_id);

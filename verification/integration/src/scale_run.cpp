@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Runs the system of scale_system.hpp and says what came of it:
+/// Runs the system of scale_system.hpp and prints the results:
 ///
 ///     scale_run [--cycles N] [--watched] [--hash]
 ///
 ///     --cycles N   cycles at 1 kHz, a multiple of 10 from 10 on (default 10000)
-///     --watched    read the whole introspection 1000 times per second of virtual time
+/// --watched    read the complete introspection 1000 times per second of virtual time
 ///     --hash       print the trace hash only
 ///
 /// @satisfies SWR-INS-006      Design: docs/design/kernel.md#scale
@@ -30,7 +30,7 @@ int fail(const char* text, const char* word) {
     return 2;
 }
 
-/// @return 0 for a text that is no number of cycles.
+/// @return 0 for a text that is not a number of cycles.
 std::uint64_t parse_cycles(const char* text) {
     char* end = nullptr;
     errno = 0;

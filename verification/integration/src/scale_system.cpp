@@ -13,7 +13,7 @@
 
 namespace mamori::verification::integration {
 
-/// What components pass on.
+/// The values that components exchange.
 struct Sample {
     std::uint64_t mix{0U};
     double level{0.0};
@@ -32,7 +32,7 @@ using ports::virtual_time::FrameRunner;
 using ports::virtual_time::SimulatedCore;
 using ports::virtual_time::VirtualHost;
 
-/// A value that depends on every bit of what came before, in integers and in real numbers.
+/// A value that depends on every bit of the previous values, in integers and in real numbers.
 class Mixture {
   public:
     constexpr explicit Mixture(std::uint64_t seed) noexcept { sample_.mix = seed; }
@@ -51,7 +51,7 @@ class Mixture {
     Sample sample_{};
 };
 
-/// Mixes the latest values of two others into its own.
+/// Combines the latest values of two other components into its own.
 class Stage final : public Component {
   public:
     constexpr explicit Stage(std::uint64_t seed) noexcept : Component("stage"), mixture_(seed) {}
@@ -73,7 +73,7 @@ class Stage final : public Component {
     Mixture mixture_;
 };
 
-/// Mixes what waits in its queue, at most three values in a cycle.
+/// Combines the values in its queue, at most three in a cycle.
 template <FullPolicy kFull>
 class Collector final : public Component {
   public:
@@ -130,7 +130,7 @@ constexpr auto run_stages(Others&... others) noexcept {
     return run_stages<kFirst>(std::make_index_sequence<kCount>{}, others...);
 }
 
-/// Each stage feeds the next one of its core.
+/// Each stage supplies the next one of its core.
 template <std::size_t... kLinks>
 constexpr auto make_system(std::index_sequence<kLinks...>) noexcept {
     return system(
@@ -173,7 +173,8 @@ MAMORI_CONSTINIT ExecutiveFor<Table> g_core_0{kSystem, 0U};
 MAMORI_CONSTINIT ExecutiveFor<Table> g_core_1{kSystem, 1U};
 MAMORI_CONSTINIT IntrospectionFor<Table> g_introspection{kSystem};
 
-/// No device; looks at the whole system `kCyclesPerFrame` times in a frame of as many milliseconds, if asked.
+/// Not a device; on request reads the complete introspection `kCyclesPerFrame` times in a major frame of as
+/// many milliseconds.
 class Watcher final : public FrameDevices {
   public:
     explicit Watcher(bool is_watching) noexcept : is_watching_(is_watching) {}

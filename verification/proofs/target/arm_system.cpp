@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The static table of the target image: read it as a drawing.
+// The static table of the target image, laid out like a drawing.
 #include "arm_system.hpp"
 
 #include "arm_assumptions.hpp"
@@ -27,7 +27,7 @@ constexpr std::size_t kControllerIndex = 3U;
 constexpr std::size_t kComponentCount = 6U;
 constexpr double kCountsPerRad = 100000.0;
 
-// The course of the run: start, an encoder that jumps, reset and start, a controller that hangs.
+// The sequence of the run: start, an encoder that jumps, reset and start, a controller that hangs.
 constexpr Instant kFirstStart{100000000};
 constexpr Instant kEncoderJumps{300000000};
 constexpr Instant kReset{900000000};
@@ -59,7 +59,7 @@ HoldController controller;
 virtual_time::SimulatedChannel<safe_arm::TorqueCommand, 4U> channel{"channel"};
 safe_arm::DriveGate gate{outputs};
 
-// The controller is no part of the safety software: a partition of its own, reached through buffers.
+// The controller is not part of the safety software: it has its own partition, reached through buffers.
 mamori::Crossing<safe_arm::JointState> state_crossing;
 mamori::Crossing<safe_arm::StopCommand> stop_crossing;
 mamori::Crossing<safe_arm::TorqueCommand> command_crossing;
@@ -115,7 +115,7 @@ void ObedientDevices::begin_frame(std::uint64_t, Instant now) noexcept {
     inputs.start_button = is_pushed(kFirstStart, now) || is_pushed(kSecondStart, now);
     inputs.reset_button = is_pushed(kReset, now);
     const Duration controller_time = now < kControllerHangs ? kControllerTime : virtual_time::kNever;
-    // The controller is in the model's table, so this cannot be refused.
+    // The controller is in the model's table, so this cannot be rejected.
     static_cast<void>(host_.set_duration(kControllerIndex, controller_time));
 }
 

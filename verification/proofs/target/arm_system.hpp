@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A small but whole system: the protecting components of the safe arm, a controller that holds the arm, the
-/// channel between them, and devices that obey. No plant and no heap, so it runs on a bare controller.
+/// A small but complete system: the protecting components of the safe arm, a controller that holds the arm,
+/// the channel between them, and devices that follow it. No plant and no heap, so it runs on a bare
+/// controller.
 ///
 /// @satisfies SWR-PRF-024      Design: docs/design/proofs.md#watermark
 #ifndef VERIFICATION_PROOFS_TARGET_ARM_SYSTEM_HPP
@@ -17,12 +18,12 @@ namespace proof {
 /// Runs the static table, which is in arm_system.cpp.
 extern mamori::Executive& executive;
 
-/// Sets everything up that must be there before the executive is initialised.
-/// @return kOk; else what a component or the supervision refused.
+/// Creates all objects that must exist before the executive is initialised.
+/// @return kOk; otherwise the status of the component or the supervision that rejected its setup.
 mamori::Status prepare() noexcept;
 
-/// Devices that obey at once, an operator who starts and resets, and one fault after the other: an encoder
-/// that jumps, then a controller that hangs.
+/// Devices that follow immediately, an operator who starts and resets, and one fault after the other: an
+/// encoder that jumps, then a controller that hangs.
 class ObedientDevices final : public mamori::ports::virtual_time::FrameDevices {
   public:
     explicit ObedientDevices(mamori::ports::virtual_time::VirtualHost& host) noexcept : host_(host) {}
@@ -34,9 +35,9 @@ class ObedientDevices final : public mamori::ports::virtual_time::FrameDevices {
     mamori::ports::virtual_time::VirtualHost& host_;
 };
 
-/// What became of the run.
+/// Results of the run.
 struct Facts {
-    std::uint32_t latched_count{0U};       ///< events of a fault that was latched
+    std::uint32_t latched_count{0U};       ///< events of a latched fault
     std::uint32_t operational_frames{0U};  ///< frames with torque on
 };
 Facts get_facts() noexcept;

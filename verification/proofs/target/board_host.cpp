@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's side of board.hpp.
+// The host version of board.hpp.
 #include <unistd.h>
 
 #include "board.hpp"
@@ -11,7 +11,7 @@ void write_text(const char* text) noexcept {
     while (text[size] != '\0') {
         ++size;
     }
-    // A text that does not reach the reader is found missing there.
+    // The reader detects a text that does not arrive.
     static_cast<void>(!::write(STDERR_FILENO, text, size));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The controller's side of board.hpp: Arm semihosting, which QEMU turns into text and an exit status.
+// The controller version of board.hpp: Arm semihosting, which QEMU converts to text and an exit status.
 // Source: Arm Semihosting for AArch32 and AArch64, SYS_WRITE0, SYS_EXIT_EXTENDED.
 #include "board.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The controller of the target image: asks each joint to stay where it is.
+/// The controller of the target image: commands each joint to hold its position.
 ///
 /// @satisfies SWR-PRF-024      Design: docs/design/proofs.md#watermark
 #ifndef VERIFICATION_PROOFS_TARGET_HOLD_CONTROLLER_HPP

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the system through its whole life and writes what became of it as one line of JSON.
+// Runs the system through its complete life and writes its results as one line of JSON.
 #include <array>
 
 #include "arm_system.hpp"

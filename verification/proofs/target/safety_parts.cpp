@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clock, a provision and a watchdog that asks, as a platform would have them: what the safety layer calls
-// through an interface needs somebody who answers. And the check of the processor that runs the image.
+// A clock, a platform property and a watchdog with queries, as a platform would provide them: the safety
+// layer calls them through interfaces. And the test of the processor that runs the image.
 #include "safety_parts.hpp"
 
 #include "mamori/safety/assumptions/assumption_checks.hpp"
@@ -15,7 +15,7 @@ using mamori::Duration;
 using mamori::Instant;
 using mamori::Status;
 
-/// Moves on by as much with each reading.
+/// Increases by the same amount at each reading.
 class SteppingClock final : public mamori::safety::ClockSource {
   public:
     explicit constexpr SteppingClock(Duration step) noexcept : step_(step) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Parts of the safety layer that the arm does not use, in the image so that the proofs look at them too.
+/// Parts of the safety layer that the arm does not use, in the image so that the proofs cover them too.
 #ifndef MAMORI_VERIFICATION_PROOFS_TARGET_SAFETY_PARTS_HPP
 #define MAMORI_VERIFICATION_PROOFS_TARGET_SAFETY_PARTS_HPP
 
@@ -8,8 +8,8 @@
 
 namespace proof {
 
-/// Asks each of them once, and tests the processor. @return kOk; kError (one of them did not answer as it
-/// must).
+/// Calls each of them once, and tests the processor. @return kOk; kError (one of them returned a wrong
+/// result).
 mamori::Status prepare_safety_parts() noexcept;
 
 }  // namespace proof

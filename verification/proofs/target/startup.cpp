@@ -7,7 +7,7 @@
 #include "board.hpp"
 
 extern "C" {
-// Of the linker script; only their addresses mean anything.
+// Symbols of the linker script; only their addresses have a meaning.
 extern std::uint32_t stack_bottom;
 extern std::uint32_t stack_top;
 extern std::uint32_t data_begin;
@@ -16,7 +16,7 @@ extern const std::uint32_t data_image;
 extern std::uint32_t bss_begin;
 extern std::uint32_t bss_end;
 
-// What a call of a pure virtual function ends in.
+// The target of a call of a pure virtual function.
 [[noreturn]] void __cxa_pure_virtual() {  // NOLINT: name of the C++ ABI
     proof::end_program(proof::kFaulted);
 }
@@ -38,7 +38,7 @@ extern std::uint32_t bss_end;
     proof::end_program(proof::run_program());
 }
 
-// No frame of its own: the whole stack is painted before anything uses it.
+// Without a stack frame: the complete stack is painted before anything uses it.
 [[gnu::naked, noreturn]] void reset_handler() {
     asm volatile(
         "ldr r0, =stack_bottom\n"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Calls the compiled functions of a brake sequence in every situation that its calls lead to, in whatever
-/// order, and notes what they answer: the whole relation of the sequence, from which models for provers are
-/// made.
+/// Calls the compiled functions of a brake sequence in every reachable situation, in any order, and records
+/// their results: the complete relation of the sequence, from which models for provers are created.
 ///
 /// @satisfies SWR-FSM-032, SWR-FSM-033      Design: docs/design/safe_state.md#brakes-in-the-models
 #ifndef MAMORI_VERIFICATION_SAFE_STATE_BRAKE_EXPLORER_HPP
@@ -27,18 +26,18 @@ using safety::BrakeLimits;
 using safety::SafeState;
 using safety::StopOutputs;
 
-/// Where the time since the command to close lies: before it, within the closing time, at it, beyond it.
+/// Classes of the time since the command to close: before it, within the closing time, at it, beyond it.
 enum class ClosingTime : std::uint8_t { kBeforeCommand, kWithin, kAtBound, kBeyond };
 inline constexpr std::size_t kClosingTimeCount = 4U;
 
-/// The states, and one number that is none.
+/// The states, and one invalid number.
 inline constexpr std::size_t kCallStateCount = safety::kSafeStateCount + 1U;
 
-/// Letters of the calls; the time is the last digit, before it stand state, standstill and contacts.
+/// Letters of the calls; the time is the last digit, preceded by state, standstill and contacts.
 inline constexpr std::size_t kConfirmLetters = kCallStateCount * 4U * kClosingTimeCount;
 inline constexpr std::size_t kApplyLetters = kCallStateCount * kClosingTimeCount;
 
-/// What a call answers, apart from the time of the command, which is told by `is_told_now` alone.
+/// Results of a call, except the time of the command, which `is_told_now` represents.
 struct CallAnswer {
     bool is_confirmed{false};  ///< confirm() only
     StopOutputs outputs{};     ///< apply() only
@@ -51,7 +50,7 @@ inline bool operator==(const CallAnswer& a, const CallAnswer& b) {
            a.next == b.next;
 }
 
-/// A situation of the sequence: everything that it remembers, apart from when the brakes were told to close.
+/// A situation of the sequence: its complete memory, except the time of the command to close.
 struct BrakeSituation {
     std::vector<CallAnswer> confirm;
     std::vector<CallAnswer> apply;
@@ -62,7 +61,7 @@ inline bool operator==(const BrakeSituation& a, const BrakeSituation& b) {
     return a.confirm == b.confirm && a.apply == b.apply && a.is_overdue == b.is_overdue;
 }
 
-/// What the sequence does. Situation 0 is that after power-up with contacts.
+/// The behaviour of the sequence. Situation 0 is that after power-up with contacts.
 struct BrakeRelation {
     std::vector<BrakeSituation> situations;
     std::size_t first_without_contacts{0U};
@@ -76,8 +75,8 @@ class BrakeExplorer final {
     static_assert(std::is_trivially_copyable_v<Sequence>, "situations are compared by their bytes");
 
   public:
-    /// @param[in] closes_within >= 2, so that a time later than the command lies within it.
-    /// @param[in] invalid       number that stands for the states that are none.
+    /// @param[in] closes_within >= 2, so that a time later than the command is within it.
+    /// @param[in] invalid       number that represents all invalid states.
     BrakeExplorer(Duration closes_within, std::uint8_t invalid)
         : closes_within_(closes_within),
           invalid_(invalid),
@@ -88,9 +87,9 @@ class BrakeExplorer final {
         elapsed_ = {-kFar, -1, 1, bound - 1, bound, bound + 1, kFar, 0};
     }
 
-    /// @return all situations that calls lead to from power-up.
+    /// @return all situations that are reachable from power-up by calls.
     /// @throw std::runtime_error for a sequence that depends on time in another way than by its closing time,
-    ///        and for one with more than kSituationsMax situations.
+    /// and for one with more than kSituationsMax situations.
     const BrakeRelation& explore() {
         static_cast<void>(find_or_add(copy(sequences_[0])));
         explore_from(0U);
@@ -115,8 +114,7 @@ class BrakeExplorer final {
         return image;
     }
 
-    /// The one object that is worked with: bytes between its members stay what they are, unlike those of a
-    /// local copy.
+    /// The only working object: bytes between its members keep their values, unlike those of a local copy.
     Sequence& load(const Image& image) {
         std::memcpy(static_cast<void*>(&sequence_), image.data(), image.size());
         return sequence_;
@@ -203,7 +201,7 @@ class BrakeExplorer final {
                                               : ClosingTime::kBeyond;
     }
 
-    /// Appends one answer per class of times, the same for all times of a class.
+    /// Appends one result per class of times, equal for all times of a class.
     template <typename Call>
     void add_answers(std::size_t number, std::vector<CallAnswer>& list, Call call) {
         const Image image = images_[number];  // a copy: the list grows meanwhile
@@ -236,8 +234,8 @@ class BrakeExplorer final {
         return answer;
     }
 
-    /// @param[in] is_at_command the call came at the time of the command before it, where a new command looks
-    ///                          like the old one. It comes after others of its class.
+    /// @param[in] is_at_command the call came at the time of the previous command, where a new command is
+    /// indistinguishable from the old one. It comes after other calls of its class.
     static void note(ClosingTime time, CallAnswer answer, bool is_at_command, Answers& answers) {
         std::optional<CallAnswer>& known = answers[static_cast<std::size_t>(time)];
         if (is_at_command && known.has_value()) {
@@ -249,7 +247,7 @@ class BrakeExplorer final {
         known = answer;
     }
 
-    /// @return what is_overdue() says in each class of times.
+    /// @return the result of is_overdue() in each class of times.
     std::array<bool, kClosingTimeCount> ask_overdue(const Image& image) {
         std::array<std::optional<bool>, kClosingTimeCount> answers;
         for (const std::int64_t elapsed : elapsed_) {
@@ -279,8 +277,8 @@ class BrakeExplorer final {
 };
 
 /// Explores with several closing times and several invalid numbers.
-/// @return the relation, the same for all of them.
-/// @throw std::runtime_error when it is not the same, and what BrakeExplorer throws.
+/// @return the relation, which is equal for all of them.
+/// @throw std::runtime_error if the relations differ, and the errors of BrakeExplorer.
 template <typename Sequence>
 BrakeRelation explore_all_brakes() {
     const std::vector<std::pair<Duration, unsigned>> cases{

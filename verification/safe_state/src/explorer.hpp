@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Calls the compiled step of a safe-state machine for every situation that it can be in and every
-/// combination of its inputs, and notes what it does: its whole step relation, from which models for provers
-/// are made.
+/// Calls the compiled step of a safe-state machine for every possible situation and every combination of its
+/// inputs, and records the results: the complete step relation, from which models for provers are created.
 ///
 /// @satisfies SWR-FSM-020, SWR-FSM-021      Design: docs/design/safe_state.md#step-relation
 #ifndef MAMORI_VERIFICATION_SAFE_STATE_EXPLORER_HPP
@@ -31,21 +30,21 @@ using safety::SafeStateInputs;
 using safety::SelfTestStatus;
 using safety::StopBounds;
 
-/// Values of one input. A letter, one combination of all inputs, is a number whose digits they are; the time
-/// is its last digit.
+/// Values of one input. A letter is one combination of all inputs: a number whose digits are the values; the
+/// time is the last digit.
 struct InputKind {
     const char* name;
     std::vector<const char*> values;
 };
 
-/// Where the time since the entry into the state lies.
+/// Classes of the time since the entry into the state.
 enum class TimeClass : std::uint8_t { kBeforeEntry, kWithin, kAtBound, kBeyond };
 inline constexpr std::size_t kTimeClassCount = 4U;
 
-/// Which bound the answer of a situation depends on.
+/// The bound that the reaction of a situation depends on.
 enum class Limit : std::uint8_t { kNone, kSs2, kSs1 };
 
-/// A situation of the machine: everything that it remembers, apart from when the state was entered.
+/// A situation of the machine: its complete memory, except the entry time of the state.
 struct Situation {
     SafeState state{};
     bool is_consistent{true};
@@ -57,14 +56,14 @@ inline bool operator==(const Situation& a, const Situation& b) {
     return a.state == b.state && a.is_consistent == b.is_consistent && a.limit == b.limit && a.next == b.next;
 }
 
-/// What the machine does. Situation 0 is that after power-up.
+/// The behaviour of the machine. Situation 0 is that after power-up.
 struct Relation {
     std::vector<Situation> situations;
     std::uint64_t steps{0U};              ///< calls of the compiled step
     std::uint64_t corrupted_objects{0U};  ///< tried ones; they stand at the end of `situations`
 };
 
-/// The inputs but time; `Invalid` stands for each number that is no enumerator.
+/// The inputs except time; `Invalid` represents each number that is not an enumerator.
 inline std::vector<InputKind> make_input_kinds() {
     const std::vector<const char*> levels{"no", "yes"};
     return {{"demand", {"None", "Degrade", "Ss2", "Ss1", "Sto", "Invalid"}},
@@ -79,7 +78,7 @@ inline std::vector<InputKind> make_input_kinds() {
 }
 
 /// One input row per letter without its time, in the order of make_input_kinds().
-/// @param[in] invalid number that stands for the values that are no enumerators, > Reaction::kSto.
+/// @param[in] invalid number that represents all values that are not enumerators, > Reaction::kSto.
 inline std::vector<SafeStateInputs> make_all_inputs(std::uint8_t invalid) {
     std::vector<SafeStateInputs> all;
     for (unsigned demand = 0U; demand <= 5U; ++demand) {
@@ -101,15 +100,15 @@ inline std::vector<SafeStateInputs> make_all_inputs(std::uint8_t invalid) {
     return all;
 }
 
-/// Explores one machine with one pair of bounds. Situations are told apart by the bytes of the object, so
-/// nothing that the machine remembers can be overlooked.
+/// Explores one machine with one pair of bounds. Situations are distinguished by the bytes of the object, so
+/// that no part of the memory of the machine is overlooked.
 /// @tparam Machine SafeStateMachine, or a machine with its interface.
 template <typename Machine>
 class Explorer final {
     static_assert(std::is_trivially_copyable_v<Machine>, "situations are compared by their bytes");
 
   public:
-    /// @param[in] bounds both > 0; more than 1 apart, so that it shows which of them a situation looks at.
+    /// @param[in] bounds both > 0; more than 1 apart, so that it is visible which of them a situation uses.
     explicit Explorer(StopBounds bounds, std::uint8_t invalid = 0xFFU)
         : bounds_(bounds), inputs_(make_all_inputs(invalid)), machine_(bounds) {
         find_entry_time();
@@ -118,9 +117,9 @@ class Explorer final {
         elapsed_ = {-kFar, -1, 0, 1, ss2 - 1, ss2, ss2 + 1, ss1 - 1, ss1, ss1 + 1, kFar};
     }
 
-    /// @return all situations that inputs lead to from power-up.
+    /// @return all situations that are reachable from power-up by inputs.
     /// @throw std::runtime_error for a machine that depends on time in another way than by one bound per
-    ///        situation, and for one with more than kSituationsMax situations.
+    /// situation, and for one with more than kSituationsMax situations.
     const Relation& explore() {
         static_cast<void>(find_or_add(store()));
         for (std::size_t i = 0U; i < images_.size(); ++i) {
@@ -130,8 +129,8 @@ class Explorer final {
         return relation_;
     }
 
-    /// Adds what the object does after one of its bits was flipped and it noticed: one situation for all
-    /// objects that behave alike. Call after explore().
+    /// Adds the behaviour of the object after a detected flip of one of its bits: one situation for all
+    /// objects with equal behaviour. Call after explore().
     const Relation& explore_corrupted() {
         std::vector<Situation> found;
         const std::size_t count = images_.size();
@@ -140,7 +139,7 @@ class Explorer final {
                 Image image = images_[i];
                 image[bit / 8U] = static_cast<unsigned char>(image[bit / 8U] ^ (1U << (bit % 8U)));
                 if (load(image).is_consistent()) {
-                    continue;  // a flip that the machine cannot see; safe_state.md#corruption names them
+                    continue;  // a flip that the machine cannot detect; safe_state.md#corruption names them
                 }
                 ++relation_.corrupted_objects;
                 const Situation situation = answer_corrupted(image);
@@ -165,8 +164,7 @@ class Explorer final {
     static constexpr std::int64_t kLateBase = 4'000'000'000'000'000'000;  // the year 2096
     static constexpr std::array<std::int64_t, 2U> kBases{0, kLateBase};   // entries into the state
 
-    /// The one object that is worked with: bytes between its members stay what they are, unlike those of a
-    /// local copy.
+    /// The only working object: bytes between its members keep their values, unlike those of a local copy.
     Machine& load(const Image& image) {
         std::memcpy(static_cast<void*>(&machine_), image.data(), image.size());
         return machine_;
@@ -237,7 +235,7 @@ class Explorer final {
         return find_or_add(with_entry(store(), 0));
     }
 
-    /// Tries the bounds one after the other until the answers agree within each class of times.
+    /// Tries the bounds one after the other until the results agree within each class of times.
     void explore_situation(std::size_t number) {
         for (const Limit limit : {Limit::kNone, Limit::kSs2, Limit::kSs1}) {
             const Image image = images_[number];  // a copy: the list grows meanwhile
@@ -251,8 +249,8 @@ class Explorer final {
                                  ": the step depends on time in another way than by one bound");
     }
 
-    /// Numbers the situations as a walk through the letters meets them: the order in which they were found
-    /// depends on the bounds.
+    /// Numbers the situations in the order of a traversal of the letters, because the order of their
+    /// discovery depends on the bounds.
     void renumber() {
         std::vector<std::size_t> order{0U};
         std::vector<std::size_t> place(images_.size(), 0U);
@@ -289,7 +287,7 @@ class Explorer final {
                                   : TimeClass::kBeyond;
     }
 
-    /// @return the next situation for each letter; nothing when two times of one class give two answers.
+    /// @return the next situation for each letter; nothing if two times of one class give two results.
     std::optional<std::vector<std::size_t>> try_limit(const Image& image, Limit limit) {
         std::vector<std::size_t> next;
         for (const SafeStateInputs& inputs : inputs_) {
@@ -309,7 +307,7 @@ class Explorer final {
         return next;
     }
 
-    /// @return false when an answer was noted before that differs.
+    /// @return false if a different result was recorded before.
     static bool note(Limit limit, TimeClass time, std::size_t answer,
                      std::array<std::optional<std::size_t>, kTimeClassCount>& answers) {
         for (std::size_t i = 0U; i < kTimeClassCount; ++i) {
@@ -349,8 +347,8 @@ class Explorer final {
 };
 
 /// Explores with several bounds and several invalid numbers.
-/// @return the relation, the same for all of them.
-/// @throw std::runtime_error when it is not the same, and what Explorer throws.
+/// @return the relation, which is equal for all of them.
+/// @throw std::runtime_error if the relations differ, and the errors of Explorer.
 template <typename Machine>
 Relation explore_all() {
     const std::vector<std::pair<StopBounds, unsigned>> cases{

@@ -23,12 +23,12 @@ using ports::posix_rt::FrameClock;
 using ports::virtual_time::FrameRunner;
 using ports::virtual_time::SimulatedCore;
 
-/// From the first call of the clock to the first frame.
+/// From the first call of the clock to the first major frame.
 constexpr Duration kLead{10'000'000};
-/// Steps of mode switches and late stops are no part of a cycle.
+/// Steps of mode switches and late stops are not part of a cycle.
 constexpr std::size_t kSpareSteps = 4096U;
 constexpr std::size_t kStackSize = 256U * 1024U;
-/// Far more than anybody counts; keeps the sums below in range.
+/// Far above any realistic count; keeps the sums below in range.
 constexpr std::uint64_t kCyclesMax = 100'000'000U;
 
 void do_nothing(void*, std::size_t, std::size_t) noexcept {}
@@ -39,7 +39,7 @@ void do_reference(void* argument, std::size_t, std::size_t) noexcept {
 
 using Times = std::array<std::int64_t, kReferenceCount>;
 
-/// Times of a counted piece of work that is no step, by the same two readings as a step's.
+/// Times of a counted piece of work that is not a step, by the same two readings as for a step.
 /// @param[in] count 1 .. kReferenceCount times; the others stay 0.
 Times calibrate(const FrameClock& clock, void (*work)(void*, std::size_t, std::size_t) noexcept,
                 void* argument, std::size_t count) noexcept {
@@ -69,7 +69,7 @@ std::string check(const std::vector<CostCore>& cores, const CostOptions& options
     return {};
 }
 
-/// Room for all steps of the counted frames.
+/// Memory for all steps of the counted frames.
 std::size_t calc_room(const SystemView& view, const CostOptions& options) {
     const std::uint64_t counted =
         (options.cycles - options.counted.first + options.counted.every - 1U) / options.counted.every;
@@ -81,7 +81,7 @@ std::size_t calc_room(const SystemView& view, const CostOptions& options) {
     return kSpareSteps + static_cast<std::size_t>(steps * counted);
 }
 
-/// Everything that the run uses, taken before it begins.
+/// All memory of the run, allocated before it begins.
 class CostSession final {
   public:
     CostSession(const std::vector<CostCore>& cores, ports::virtual_time::FrameDevices& devices,
@@ -96,12 +96,12 @@ class CostSession final {
         facts_.counted = options.counted;
         facts_.is_paced = options.is_paced;
         facts_.frame = get_view(cores).frame;
-        // Under the tool each call takes milliseconds, and one tells as much as many.
+        // Under the tool each call takes milliseconds, and one call is sufficient.
         facts_.calibration_count = options.is_paced ? kReferenceCount : 1U;
     }
 
-    /// By the clock on a thread of its own, so that the rights of real time end with the run.
-    /// @throw std::system_error there is no thread to be had.
+    /// In real time on a separate thread, so that the real-time privileges end with the run.
+    /// @throw std::system_error no thread is available.
     void run() {
         if (options_.is_paced) {
             facts_.memory = ports::posix_rt::lock_memory(kStackSize);
@@ -123,7 +123,8 @@ class CostSession final {
 
   private:
     void run_frames() noexcept {
-        // The least, since it is taken off each step: a machine that was slow here would make all short.
+        // The minimum, because it is subtracted from each step: a disturbed reading would make all steps too
+        // short.
         const Times empty = calibrate(clock_, &do_nothing, nullptr, facts_.calibration_count);
         facts_.empty = Duration{*std::min_element(
             empty.begin(), empty.begin() + static_cast<std::ptrdiff_t>(facts_.calibration_count))};

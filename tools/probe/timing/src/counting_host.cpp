@@ -5,14 +5,14 @@
                                                        std::size_t end) noexcept,
                                            void* argument, std::size_t step) noexcept {
     run(argument, step, step + 1U);
-    // Else the call becomes a jump, and this function is over before the step begins.
+    // Otherwise the call becomes a jump, and this function ends before the step begins.
     asm volatile("" : : : "memory");
 }
 
 namespace mamori::timing {
 namespace {
 
-/// Planned opening of the window in which the instant `now` lies.
+/// Planned start of the window that contains the instant `now`.
 Instant calc_release(const WindowRow& window, Instant now) noexcept {
     const Duration since = now - (Instant{} + window.offset);
     return Instant{} + window.offset + Duration{since.ns / window.period.ns * window.period.ns};

@@ -9,7 +9,8 @@ void MeasuringHost::measure(void* argument, std::size_t begin, std::size_t end) 
         StepRow& row = piece.rows[step - piece.work.first];
         row.start_ns.store(piece.clock->get_now().ns, std::memory_order_relaxed);
         piece.work.run(piece.work.argument, step, step + 1U);
-        // Whoever sees an end sees its begin, also in a row that is still out when the run is written.
+        // A reader that sees an end also sees its begin, also in a row that is still open when the run is
+        // written.
         row.end_ns.store(piece.clock->get_now().ns, std::memory_order_release);
     }
 }

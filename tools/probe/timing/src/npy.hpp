@@ -12,7 +12,7 @@
 
 namespace mamori::timing {
 
-/// Table of whole numbers, in memory as in the file: little endian, rows without gaps.
+/// Table of integers, in memory as in the file: little endian, rows without gaps.
 class NpyTable final {
   public:
     struct Field {
@@ -24,7 +24,7 @@ class NpyTable final {
 
     /// The next cell of the row, in the order of the fields.
     void add(std::int64_t value);
-    /// @return the whole file. @pre every row is complete.
+    /// @return the complete file. @pre every row is complete.
     std::string make() const;
 
   private:

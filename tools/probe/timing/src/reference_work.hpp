@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A fixed piece of work that tells what a machine is worth just now: a checksum over 4 KiB.
+/// A fixed piece of work that measures the current speed of the host: a checksum over 4 KiB.
 #ifndef MAMORI_TIMING_REFERENCE_WORK_HPP
 #define MAMORI_TIMING_REFERENCE_WORK_HPP
 
@@ -13,7 +13,7 @@
 
 namespace mamori::timing {
 
-/// The work and what it works on. Calling context: any. Time: microseconds. Memory: 4 KiB of its own.
+/// The work and its data. Calling context: any. Time: microseconds. Memory: 4 KiB of its own.
 class ReferenceWork final {
   public:
     ReferenceWork() noexcept;
@@ -24,10 +24,10 @@ class ReferenceWork final {
     volatile std::uint32_t sink_{0U};
 };
 
-/// Repetitions whose median counts.
+/// Number of repetitions for the median.
 inline constexpr std::size_t kReferenceCount = 201U;
 
-/// @return the middle one of `times`, which are put in another order.
+/// @return the median of `times`, which are reordered.
 Duration take_median(std::array<std::int64_t, kReferenceCount>& times) noexcept;
 
 /// Median time of the work.

@@ -32,14 +32,14 @@ using ports::posix_rt::OpeningObserver;
 using ports::posix_rt::Right;
 using ports::posix_rt::ThreadPlace;
 
-/// From the first thread to the first frame: longer than a busy machine takes to start them.
+/// From the first thread to the first major frame: longer than a busy host takes to start them.
 constexpr Duration kLead{500'000'000};
-/// Work that was cut off at the end of the run gets so much longer to come back.
+/// Time in which work that was aborted at the end of the run can return.
 constexpr Duration kPatience{1'000'000'000};
 constexpr Duration kPoll{5'000'000};
-/// Windows run below the thread that guards them.
+/// Windows run below the priority of the thread that guards them.
 constexpr int kPriorityGap = 10;
-/// Steps of mode switches and late stops are no part of a cycle.
+/// Steps of mode switches and late stops are not part of a cycle.
 constexpr std::size_t kSpareSteps = 4096U;
 constexpr std::size_t kStackSize = 256U * 1024U;
 
@@ -49,7 +49,7 @@ extern "C" void note_signal(int) {
     is_interrupted.store(true, std::memory_order_relaxed);
 }
 
-/// Ends the run of a core once a signal has come.
+/// Ends the run of a core after a signal.
 class Stopper final : public OpeningObserver {
   public:
     Stopper(OpeningObserver& next, CoreRunner& runner) noexcept : next_(next), runner_(runner) {}
@@ -68,7 +68,7 @@ class Stopper final : public OpeningObserver {
     CoreRunner& runner_;
 };
 
-/// Everything of one core that the threads of its windows may still touch when the run is over.
+/// All data of one core that the threads of its windows may still use after the run.
 struct CoreSession {
     CoreSession(const TimedCore& core, RunLog& rows, const FrameClock& clock, ThreadPlace place)
         : log{rows},
@@ -94,7 +94,7 @@ struct Session {
     std::vector<std::unique_ptr<CoreSession>> cores;
 };
 
-/// SIGINT and SIGTERM only set a flag as long as it lives.
+/// SIGINT and SIGTERM only set a flag during its lifetime.
 class SignalGuard final {
   public:
     SignalGuard() noexcept {
@@ -136,7 +136,7 @@ struct Room {
     std::size_t steps{kSpareSteps};
 };
 
-/// @return nothing when so many cycles cannot be counted.
+/// @return nothing if so many cycles cannot be counted.
 std::optional<Room> calc_room(const Executive& executive, std::uint64_t cycles) {
     const SystemView& view = executive.get_view();
     const auto cycles_max =
@@ -157,7 +157,7 @@ std::optional<Room> calc_room(const Executive& executive, std::uint64_t cycles) 
     return room;
 }
 
-/// What the rows of all cores need [byte], while they are gathered and written.
+/// Memory of the rows of all cores [byte], while they are collected and written.
 double calc_memory(const std::vector<TimedCore>& cores, std::uint64_t cycles) {
     double bytes = 0.0;
     for (const TimedCore& core : cores) {
@@ -171,7 +171,7 @@ double calc_memory(const std::vector<TimedCore>& cores, std::uint64_t cycles) {
     return bytes;
 }
 
-/// Half of what the machine has free, so that others can go on.
+/// Half of the free memory of the host, so that other programs can continue.
 double get_memory() {
     return 0.5 * static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
@@ -206,7 +206,7 @@ void run_core(CoreSession& core, std::uint64_t cycles, ThreadPlace place) {
     core.runner.run(cycles);
 }
 
-/// @return false when there are no threads for the windows: those that were started have ended.
+/// @return false if no threads are available for the windows: the started ones have ended.
 bool open_guards(Session& session, int runner_priority) {
     for (std::size_t i = 0U; i < session.cores.size(); ++i) {
         if (session.cores[i]->guard.open(runner_priority) != Status::kOk) {
@@ -219,7 +219,7 @@ bool open_guards(Session& session, int runner_priority) {
     return true;
 }
 
-/// Work that is merely late is waited for. @return false when work of a window still hangs.
+/// Waits for work that is merely late. @return false if work of a window still hangs.
 bool close_guards(Session& session) {
     const Instant last = session.clock->get_now() + kPatience;
     bool is_closed = false;
@@ -239,7 +239,7 @@ bool close_guards(Session& session) {
     return true;
 }
 
-/// @throw std::system_error no thread to be had: those that had begun have ended.
+/// @throw std::system_error no thread available: the started ones have ended.
 void run_all(Session& session, const TimingOptions& options, const std::vector<int>& processors) {
     std::vector<std::thread> threads;
     const auto join = [&threads] {
@@ -285,7 +285,7 @@ RunFacts collect(const Session& session, const TimingOptions& options, Duration 
     return facts;
 }
 
-/// Everything that the threads of the run use, before the first of them begins.
+/// All data of the threads of the run, before the first of them begins.
 std::unique_ptr<Session> make_session(const std::vector<TimedCore>& cores, const TimingOptions& options,
                                       const std::vector<int>& processors) {
     auto session = std::make_unique<Session>();
@@ -310,7 +310,7 @@ std::string write_all(const Session& session, const TimingOptions& options, cons
     return write_run(options.out, logs, facts);
 }
 
-/// Work that hangs uses it for as long as the process lives: nothing may destroy it, not even at the exit.
+/// Hanging work uses it for the lifetime of the process: nothing may destroy it, not even at the exit.
 void keep_for_ever(std::unique_ptr<Session> session) {
     static auto* const kept = new std::vector<std::unique_ptr<Session>>;
     kept->push_back(std::move(session));

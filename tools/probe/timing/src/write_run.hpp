@@ -14,7 +14,7 @@
 
 namespace mamori::timing {
 
-/// What run.json tells beside the rows.
+/// Content of run.json besides the rows.
 struct RunFacts {
     std::uint64_t asked_cycles{0U};
     std::uint64_t run_cycles{0U};
@@ -28,15 +28,15 @@ struct RunFacts {
     std::vector<std::string> findings{};  ///< likewise
 };
 
-/// What run.json of a cost run tells beside the rows.
+/// Content of run.json of a cost run besides the rows.
 struct CostFacts {
     std::uint64_t cycles{0U};
     CountedCycles counted{};
     bool is_paced{false};
     Duration frame{};
     std::size_t calibration_count{1U};  ///< calls of each of the two pieces of work before the first row
-    Duration empty{};                   ///< least time of counted work that does nothing
-    Duration reference{};               ///< median time of the reference work, counted
+    Duration empty{};                   ///< minimum time of empty counted work
+    Duration reference{};               ///< median time of the counted reference work
     ports::posix_rt::Right priority{};
     ports::posix_rt::Right processor{};
     ports::posix_rt::Right memory{};
@@ -46,18 +46,18 @@ struct CostFacts {
     std::vector<std::string> notes{};  ///< of the application
 };
 
-/// Takes the files of an earlier run away, so that none can pass for one of this run.
-/// @return empty when done, else one sentence with the path and the cause.
+/// Removes the files of an earlier run, so that none counts for this run.
+/// @return empty on success, otherwise one sentence with the path and the cause.
 std::string remove_files(const std::string& folder);
 
-/// Writes openings.npy, steps.npy and run.json, each whole or not at all, run.json last: a folder with it is
-/// complete. Rows of all cores, in the order of their planned instants.
-/// @return empty when done, else one sentence with the path and the cause.
+/// Atomically writes openings.npy, steps.npy and run.json; run.json is last and marks a complete folder. Rows
+/// of all cores, in the order of their planned instants.
+/// @return empty on success, otherwise one sentence with the path and the cause.
 std::string write_run(const std::string& folder, const std::vector<const RunLog*>& logs,
                       const RunFacts& facts);
 
-/// Writes steps.npy and run.json of a cost run, likewise. Rows in the order in which the steps ran.
-/// @return empty when done, else one sentence with the path and the cause.
+/// Writes steps.npy and run.json of a cost run, likewise. Rows in execution order.
+/// @return empty on success, otherwise one sentence with the path and the cause.
 std::string write_cost(const std::string& folder, const RunLog& log, const CostFacts& facts);
 
 }  // namespace mamori::timing

@@ -21,7 +21,8 @@ enum class Technique {
     kBackToBack,
 };
 
-/// kNominal shows that the wanted thing happens; kViolation shows that the unwanted thing is stopped.
+/// kNominal shows that the required behaviour happens; kViolation shows that the protection prevents the
+/// unwanted one.
 enum class Polarity { kNominal, kViolation };
 
 constexpr const char* get_name(Technique technique) noexcept {
@@ -50,7 +51,7 @@ constexpr const char* get_name(Polarity polarity) noexcept {
     return polarity == Polarity::kNominal ? "nominal" : "violation";
 }
 
-/// Call once, first thing in a test. @param[in] requirement id of one requirement, for example "SWR-KRN-001".
+/// Call first in a test. @param[in] requirement id of one requirement, for example "SWR-KRN-001".
 inline void verifies(const char* requirement, Technique technique = Technique::kRequirementsBased,
                      Polarity polarity = Polarity::kNominal) {
     ::testing::Test::RecordProperty("requirement", requirement);

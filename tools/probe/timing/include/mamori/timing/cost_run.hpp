@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Runs a system in virtual time so that the cost of each single step can be told, for `mamori cost`. For
+/// Runs a system in virtual time so that `mamori cost` can count the instructions of each single step. For
 /// hosts: link mamori::timing into your program and offer
 /// `cost --by count|clock --cycles N --first A --every K --out DIR`.
 ///
@@ -19,7 +19,7 @@
 
 namespace mamori::timing {
 
-/// One core of the system. The executive is initialised and started by whoever calls, and stopped.
+/// One core of the system. The caller initialises, starts and stops the executive.
 struct CostCore {
     Executive& executive;
     ports::virtual_time::VirtualHost& clock;
@@ -27,26 +27,26 @@ struct CostCore {
 
 struct CostOptions {
     std::uint64_t cycles{1000U};  ///< major frames, > 0
-    CountedCycles counted{};      ///< of these; the first one is below `cycles`
-    /// True: by the clock, each window at its planned instant, with the rights of real time where they are
-    /// granted. False: as fast as it goes, for a tool that counts.
+    CountedCycles counted{};      ///< of these; `first` is below `cycles`
+    /// True: in real time, each window at its planned instant, with the real-time privileges that are
+    /// granted. False: as fast as possible, for a counting tool.
     bool is_paced{false};
-    std::string out;   ///< folder of the results; is made
+    std::string out;   ///< folder of the results; is created
     int priority{80};  ///< of SCHED_FIFO, 1 .. 99, when it is paced
-    /// Writes table.json to the path that it is given; empty: the table without names. @return what is wrong.
+    /// Writes table.json to the given path; empty: the table without names. @return the error, or empty.
     std::function<std::string(const std::string&)> save_table{};
-    /// Asked when the run is over: what whoever reads the figures should know of it. Empty: nothing.
+    /// Called after the run: notes for the readers of the figures. Empty: none.
     std::function<std::vector<std::string>()> tell_notes{};
 };
 
-/// Runs the frames and writes table.json, steps.npy and run.json (docs/design/cost.md#files) into the folder,
-/// each whole or not at all. mamori_counted_step() is called first for empty work, then for the reference
-/// work, as often as run.json says, and then once for each row of steps.npy, in their order.
+/// Runs the major frames and atomically writes table.json, steps.npy and run.json (docs/design/cost.md#files)
+/// to the folder. mamori_counted_step() is called first for empty work, then for the reference work, as often
+/// as run.json states, and then once for each row of steps.npy, in their order.
 ///
 /// Calling context: the main thread of a program. Memory: heap; locked when it is paced.
-/// @param[in] cores one per core of the table, in their order. @param[in] devices around the frames.
-/// @return kWhole, kRefused (bad options) or kFailed; never kInterrupted: a signal ends the program, and
-///         leaves nothing.
+/// @param[in] cores one per core of the table, in their order. @param[in] devices around the major frames.
+/// @return kWhole, kRefused (invalid options) or kFailed; never kInterrupted: a signal ends the program
+/// without results.
 TimingResult run_cost(const std::vector<CostCore>& cores, ports::virtual_time::FrameDevices& devices,
                       const CostOptions& options);
 

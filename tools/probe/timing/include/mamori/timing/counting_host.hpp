@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Runs each step of chosen cycles inside one function with a fixed name, so that a tool which counts per
-/// function (callgrind) can tell each single step, and puts a clock around it for a run without the tool.
+/// Runs each step of selected cycles inside one function with a fixed name, so that a tool that counts per
+/// function (callgrind) can distinguish the steps. Reads the clock before and after each step for a run
+/// without the tool.
 ///
 /// @satisfies SWR-TIM-030      Design: docs/design/cost.md#counting
 #ifndef MAMORI_TIMING_COUNTING_HOST_HPP
@@ -16,14 +17,14 @@
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/timing/run_log.hpp"
 
-/// The function that the tool looks for; C linkage keeps its name as it is written. Runs step `step`, and
-/// costs the same few instructions each time.
+/// The function that the tool counts; C linkage keeps its name unchanged. Runs step `step`, and adds the same
+/// few instructions each time.
 extern "C" void mamori_counted_step(void (*run)(void* argument, std::size_t begin, std::size_t end) noexcept,
                                     void* argument, std::size_t step) noexcept;
 
 namespace mamori::timing {
 
-/// Which frames are counted: `first`, `first + every`, ... The others run without anything around them.
+/// The counted major frames: `first`, `first + every`, ... The others run without counting.
 struct CountedCycles {
     std::uint64_t first{0U};
     std::uint64_t every{1U};  ///< > 0
@@ -33,17 +34,17 @@ struct CountedCycles {
     }
 };
 
-/// Host of one core in virtual time; hands everything on to the host behind it.
+/// Host of one core in virtual time; forwards everything to the inner host.
 ///
-/// Calling context: that of the host behind it, whose work runs and returns on the calling thread. Memory:
-/// heap, in the constructor.
+/// Calling context: that of the inner host, whose work runs and returns on the calling thread. Memory: heap,
+/// in the constructor.
 class CountingHost final : public WindowHost {
   public:
     /// @param[in] inner, log, clock, view must outlive it. The time line of `inner` begins with frame 0.
-    /// @param[in] log takes a row for each counted step, in the order in which they run.
+    /// @param[in] log receives a row for each counted step, in execution order.
     /// @param[in] clock reads the instants of the rows.
-    /// @param[in] is_paced work waits until the clock has come to the time of `inner`: the run goes by the
-    ///            clock, and its inputs are still those of virtual time.
+    /// @param[in] is_paced work waits until the clock reaches the time of `inner`: the run is in real time,
+    /// and its inputs are still those of virtual time.
     CountingHost(WindowHost& inner, RunLog& log, const SystemView& view, CountedCycles cycles,
                  const ports::posix_rt::FrameClock& clock, bool is_paced)
         : inner_(inner),
@@ -63,7 +64,7 @@ class CountingHost final : public WindowHost {
     bool has_returned(std::size_t window) const noexcept override { return inner_.has_returned(window); }
 
   private:
-    /// Work of one window that is counted.
+    /// Work of one counted window.
     struct Piece {
         const ports::posix_rt::FrameClock* clock{nullptr};
         Work work{};

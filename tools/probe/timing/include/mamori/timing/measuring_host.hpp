@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Puts a clock around each step that a host runs, and nothing else: the windows, budgets and consequences
-/// are those of the host behind it.
+/// Reads the clock before and after each step of a host, and changes nothing else: the windows, budgets and
+/// consequences are those of the inner host.
 ///
 /// @satisfies SWR-TIM-001      Design: docs/design/timing.md#log
 #ifndef MAMORI_TIMING_MEASURING_HOST_HPP
@@ -16,16 +16,15 @@
 
 namespace mamori::timing {
 
-/// Host and listener of one core. A step costs two more readings of the clock than without it.
+/// Host and listener of one core. A step takes two additional readings of the clock.
 ///
-/// Calling context: that of the host behind it. Memory: heap, in the constructor.
+/// Calling context: that of the inner host. Memory: heap, in the constructor.
 class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningObserver {
   public:
-    /// @param[in] inner, log must outlive it, and for ever when work hangs for ever; so must this object.
+    /// @param[in] inner, log must outlive it, and permanently if work hangs; so must this object.
     /// @param[in] window_count of the system table.
-    /// @param[in] next told of every opening as well, before and after; nullptr: nobody. What it takes before
-    /// a
-    ///            window counts as lateness of the window.
+    /// @param[in] next also called before and after every window; nullptr: none. Its time before a window
+    /// counts as lateness of the window.
     MeasuringHost(WindowHost& inner, RunLog& log, std::size_t window_count,
                   ports::posix_rt::OpeningObserver* next)
         : inner_(inner), log_(log), next_(next), pieces_(window_count) {}
@@ -42,7 +41,7 @@ class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningOb
     void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override;
 
   private:
-    /// Work of one window that is measured; it is not given out again before it has returned.
+    /// Work of one measured window; it is not passed again before it has returned.
     struct Piece {
         const WindowHost* clock{nullptr};
         Work work{};

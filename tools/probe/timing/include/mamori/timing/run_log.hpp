@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What is noted of a run in real time: each opening of a window and each step of a component, with its
-/// instants. All memory is taken before the run, so that noting costs two readings of the clock and a few
-/// stores.
+/// Records of a real-time run: each window instance and each step of a component, with its instants. All
+/// memory is allocated before the run, so that a record costs two readings of the clock and a few stores.
 ///
 /// @satisfies SWR-TIM-001      Design: docs/design/timing.md#log
 #ifndef MAMORI_TIMING_RUN_LOG_HPP
@@ -18,48 +17,48 @@
 
 namespace mamori::timing {
 
-/// Stands for an instant that never came.
+/// Represents an instant that never came.
 inline constexpr Instant kNoInstant{-1};
 
-/// One opening of a window.
+/// One window instance.
 struct OpeningRow {
     Instant release{};  ///< planned
-    Instant woke{};     ///< reading of the clock when everything was ready for the window
-    Instant closed{};   ///< the window was over
+    Instant woke{};     ///< reading of the clock when the window was ready
+    Instant closed{};   ///< window end
     std::size_t window{0U};
     WindowOutcome outcome{WindowOutcome::kCompleted};
 };
 
-/// One step of a component. The thread that does the work writes `start` and `end`, maybe long after the
-/// window was given up.
+/// One step of a component. The thread that does the work writes `start` and `end`, possibly long after the
+/// window was aborted.
 struct StepRow {
-    Instant release{};  ///< of the opening that it belongs to
+    Instant release{};  ///< of its window instance
     std::size_t component{0U};
     WindowHost::Pass pass{WindowHost::Pass::kExecute};
     std::atomic<std::int64_t> start_ns{kNoInstant.ns};  ///< kNoInstant: it never began
-    std::atomic<std::int64_t> end_ns{kNoInstant.ns};    ///< kNoInstant: it has not come back
+    std::atomic<std::int64_t> end_ns{kNoInstant.ns};    ///< kNoInstant: it has not returned
 };
 
 /// Rows of one core.
 ///
-/// Thread safety: add_opening() and take_steps() from the thread that runs the windows, the rest of a step's
-///                row from the thread that does it; reading once the run is over. Memory: heap, all of it in
-///                the constructor, and touched there.
+/// Thread safety: add_opening() and take_steps() from the thread that runs the windows, the other fields of a
+/// step's row from the thread that does the step; reading after the run. Memory: heap, all of it allocated
+/// and touched in the constructor.
 class RunLog final {
   public:
-    /// @param[in] opening_count, step_count room for so many; what comes after is counted, and lost.
+    /// @param[in] opening_count, step_count capacities; further rows are counted and lost.
     RunLog(std::size_t opening_count, std::size_t step_count)
         : openings_(opening_count), steps_(step_count) {}
 
     void add_opening(const OpeningRow& row) noexcept;
-    /// Room for the steps of one piece of work, whose rows are prepared: `component` and on, one each.
-    /// @return the first of `count` rows; nullptr when there is no room.
+    /// Rows for the steps of one piece of work, for `component` and the following components, one each.
+    /// @return the first of `count` rows; nullptr if the capacity is exhausted.
     StepRow* take_steps(Instant release, std::size_t component, std::size_t count,
                         WindowHost::Pass pass) noexcept;
 
     Span<const OpeningRow> get_openings() const noexcept { return {openings_.data(), opening_count_}; }
     Span<const StepRow> get_steps() const noexcept { return {steps_.data(), step_count_}; }
-    /// Rows for which there was no room.
+    /// Number of rows that exceeded the capacity.
     std::uint64_t get_lost_count() const noexcept { return lost_count_; }
 
   private:

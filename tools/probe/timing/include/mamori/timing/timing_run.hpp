@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Runs a system in real time for a number of frames and writes what was measured, for `mamori timing`. For
-/// hosts: link mamori::timing into your program and offer `timing --cycles N --out DIR`.
+/// Runs a system in real time for a number of major frames and writes the measurements, for `mamori timing`.
+/// For hosts: link mamori::timing into your program and offer `timing --cycles N --out DIR`.
 ///
 /// @satisfies SWR-TIM-002, SWR-TIM-003, SWR-TIM-005      Design: docs/design/timing.md#measured-run
 #ifndef MAMORI_TIMING_TIMING_RUN_HPP
@@ -18,50 +18,51 @@
 
 namespace mamori::timing {
 
-/// One core of the system. The executive is initialised and started by whoever calls, and stopped.
+/// One core of the system. The caller initialises, starts and stops the executive.
 struct TimedCore {
     Executive& executive;
     /// One per window of the system table, static storage: see WindowThread.
     Span<ports::posix_rt::WindowThread> threads;
-    /// Devices around the windows of this core; nullptr: none.
+    /// Devices before and after the windows of this core; nullptr: none.
     ports::posix_rt::OpeningObserver* devices{nullptr};
 };
 
 struct TimingOptions {
     std::uint64_t cycles{60000U};  ///< major frames, > 0
-    std::string out;               ///< folder of the results; is made
-    int priority{80};  ///< of SCHED_FIFO for the threads that wait; those of the windows get 10 less
-    /// Writes table.json to the path that it is given; empty: the table without names. @return what is wrong.
+    std::string out;               ///< folder of the results; is created
+    int priority{80};              ///< of SCHED_FIFO for the runner threads; window threads get 10 less
+    /// Writes table.json to the given path; empty: the table without names. @return the error, or empty.
     std::function<std::string(const std::string&)> save_table{};
-    /// Asked when the run is over: what whoever reads the times should know of it. Empty: nothing.
+    /// Called after the run: notes for the readers of the times. Empty: none.
     std::function<std::vector<std::string>()> tell_notes{};
-    /// Asked when the run is over: what the system itself did wrong, for example that it left its operating
-    /// state. Each text is a finding of `mamori timing`. Empty: nothing.
+    /// Called after the run: errors of the system itself, for example that it left its operating state. Each
+    /// text is a finding of `mamori timing`. Empty: none.
     std::function<std::vector<std::string>()> tell_findings{};
 };
 
-/// How a run ended.
+/// Outcome of a run.
 enum class TimingOutcome : std::uint8_t {
     kWhole,        ///< all frames, all files written
-    kInterrupted,  ///< by SIGINT or SIGTERM: what there was is written, and marked as partial
-    kRefused,      ///< bad options, fewer processors than cores, or not enough memory; nothing ran
-    kFailed,       ///< no threads to be had, or a file could not be written or removed
+    kInterrupted,  ///< by SIGINT or SIGTERM: the existing data is written and marked as partial
+    kRefused,      ///< invalid options, fewer processors than cores, or not enough memory; nothing ran
+    kFailed,       ///< no threads available, or a file could not be written or removed
 };
 
 struct TimingResult {
     TimingOutcome outcome{TimingOutcome::kRefused};
-    std::string message;  ///< what is wrong, where, and what to do; empty when nothing is
+    std::string message;  ///< what is wrong, where, and how to fix it; empty without an error
 };
 
-/// Exit status that `mamori timing` expects of the program: 0, 130, 2, 1 in the order of TimingOutcome.
+/// Exit status of the program for `mamori timing`: 0, 130, 2, 1 in the order of TimingOutcome.
 int get_exit_status(TimingOutcome outcome) noexcept;
 
-/// Runs all cores at once, each on a processor of its own, and writes table.json, openings.npy, steps.npy and
-/// run.json (docs/design/timing.md#files) into the folder. SIGINT and SIGTERM end it early, and are not
-/// heard while it writes. Work that is still out when the windows are over is waited for, a second at most.
+/// Runs all cores in parallel, each on its own processor, and writes table.json, openings.npy, steps.npy and
+/// run.json (docs/design/timing.md#files) to the folder. SIGINT and SIGTERM end the run early and are ignored
+/// while it writes. After the last window, outstanding work has at most one second to return.
 ///
-/// Calling context: the main thread of a program, once per process; work that hangs for ever keeps its
-/// memory. Memory: heap, locked if the process has the right; about 30 bytes per opening and 40 per step.
+/// Calling context: the main thread of a program, once per process; work that hangs permanently keeps its
+/// memory. Memory: heap, locked if the process has the privilege; about 30 bytes per window instance and 40
+/// per step.
 /// @param[in] cores one per core of the table, in their order.
 TimingResult run_timing(const std::vector<TimedCore>& cores, const TimingOptions& options);
 
