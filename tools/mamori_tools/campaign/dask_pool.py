@@ -118,7 +118,7 @@ def _connect(distributed: Any, stack: contextlib.ExitStack, address: str, worker
         # The threads of the cluster and its workers inherit the mask: Ctrl-C reaches the main thread of this process only.
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
-            cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None,
+            cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0",
                                                silence_logs=logging.CRITICAL)  # fmt: skip
             stack.enter_context(cluster)
             return stack.enter_context(distributed.Client(cluster))

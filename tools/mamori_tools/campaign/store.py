@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING
 from mamori_tools.campaign.case import Case, Check, Evaluation
 from mamori_tools.campaign.result import CaseResult
 from mamori_trace.base.errors import InputError, MissingError
-from mamori_trace.base.whole_file import whole_file
+from mamori_trace.base.whole_file import remove_parts, whole_file
 
 if TYPE_CHECKING:
     import pyarrow
@@ -82,8 +82,7 @@ class Store:
                     shutil.rmtree(self._results)
                 self._results.mkdir()
                 write_durably(path, (json.dumps({"schema": KEY_SCHEMA, **key}, indent=1) + "\n").encode("utf-8"))
-            for unfinished in self._results.glob(".*.part"):
-                unfinished.unlink()
+            remove_parts(self._results)
         except OSError as error:
             raise _refuse_folder(self._results, error) from error
 

@@ -54,3 +54,9 @@ def find_target(path: Path) -> Path:
 def name_part(target: Path) -> Path:
     """A temporary name in the folder of `target` for an incomplete file."""
     return target.with_name(f".{target.name}.{os.getpid()}.part")
+
+
+def remove_parts(folder: Path) -> None:
+    """Removes the temporary files that a killed process left in `folder`. The caller knows that no other process writes there. Raises OSError."""
+    for part in folder.glob(".*.part"):
+        part.unlink()
