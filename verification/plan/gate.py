@@ -13,7 +13,6 @@ from mamori_tools.host.steps import Action, Step, Tier
 
 PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
 PARALLEL = ("-n", "{jobs}", "--dist", "worksteal")
-REPEAT = (*PYTHON, "verification.real_time.repeat")
 FUZZ_S, LONG_FUZZ_S = 5, 600  # time for each harness
 
 
@@ -21,7 +20,7 @@ def ctest_step(preset: str, tier: Tier = Tier.QUICK, *options: str) -> Step:
     """@param options of ctest that select tests."""
     return Step(
         name=f"tests {preset}",
-        commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error", *options), (*REPEAT, preset)),
+        commands=(("ctest", "--preset", preset, "--parallel", "{jobs}", "--no-tests=error", *options),),
         needs=(f"build {preset}",),
         junit=f"build/{preset}/evidence/junit",
         tier=tier,
@@ -55,7 +54,7 @@ def race_steps() -> tuple[Step, ...]:
     )
     run = Step(
         name=f"tests {preset}",
-        commands=(("ctest", "--preset", preset, "--no-tests=error", "--tests-regex", "|".join(targets)), (*REPEAT, preset, *targets)),
+        commands=(("ctest", "--preset", preset, "--no-tests=error", "--tests-regex", "|".join(targets)),),
         needs=(build.name,),
         junit=f"build/{preset}/evidence/junit",
     )

