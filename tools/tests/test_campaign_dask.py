@@ -33,7 +33,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Bench:
 
 
 def wait_for_stored(bench: Bench, count: int, process: subprocess.Popen[str]) -> None:
-    deadline = time.monotonic() + 60.0
+    deadline = time.monotonic() + 300.0
     while len(bench.list_stored()) < count and process.poll() is None and time.monotonic() < deadline:
         time.sleep(0.02)
 

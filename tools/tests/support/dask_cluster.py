@@ -10,7 +10,7 @@ import sys
 import time
 from pathlib import Path
 
-START_S = 60.0
+START_S = 300.0
 
 
 class Cluster:
@@ -42,13 +42,19 @@ class Cluster:
                 self.address = json.loads(file.read_text())["address"]
 
     def add_worker(self) -> subprocess.Popen[bytes]:
-        """Without a nanny: a worker that was ended is not started again."""
+        """Without a nanny: a worker that was ended is not started again. Returns when the scheduler knows the worker."""
         from distributed import Client
 
-        worker = self._start("worker", self.address, "--nthreads", "1", "--nworkers", "1", "--no-nanny", "--local-directory", str(self._folder))
+        name = f"worker{len(self._processes)}"
+        worker = self._start("worker", self.address, "--nthreads", "1", "--nworkers", "1", "--no-nanny", "--name", name,
+                             "--local-directory", str(self._folder))  # fmt: skip
+        deadline = time.monotonic() + START_S
         with Client(self.address) as client:
-            client.wait_for_workers(1, timeout=START_S)
-        return worker
+            while time.monotonic() < deadline:
+                if name in (each["name"] for each in client.scheduler_info(n_workers=-1)["workers"].values()):
+                    return worker
+                time.sleep(0.05)
+        raise TimeoutError(f"{name} did not start within {START_S:g} s")
 
     def kill(self, process: subprocess.Popen[bytes]) -> None:
         process.send_signal(signal.SIGKILL)
