@@ -5,7 +5,7 @@
 /// that an independent recomputation accepts. A value may only be that of its message, the previous one, or
 /// the fail-safe value. Every check has one cause and every reading one outcome. First byte: selects the
 /// ends. Then steps, see Step. Seeds: corpus/e2e_check.txt.
-/// Design: docs/design/e2e.md#fuzzing
+/// Design: docs/design/test_strength.md#fuzzing
 #include <cstdint>
 #include <cstring>
 #include <vector>
