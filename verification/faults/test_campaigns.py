@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from mamori_tools.host.project import Project
+from mamori_tools.host.project import SANITIZED, Project
 from verification.faults.evaluation.evaluator import Result
 from verification.faults.reporting import record_finding
 from verification.faults.run import CAMPAIGNS, run_short
@@ -33,7 +33,7 @@ def report(project: Project, request: pytest.FixtureRequest) -> Report:
     def report_part(campaign: str, part: str) -> Result:
         result, repeats = get_result(campaign, project.build)
         request.node.user_properties += [("seed", SEED), ("repetitions", repeats)]
-        record_finding(request.node.user_properties, result, part)
+        record_finding(request.node.user_properties, result, part, is_timed=project.preset != SANITIZED)
         return result
 
     return report_part

@@ -196,12 +196,12 @@ def test_a_program_that_fails_or_hangs_is_an_error_with_its_last_words(tmp_path:
             run_campaign(CAMPAIGNS["service"], tmp_path, ["1", "1"], timeout_s=0.1 if "sleep" in script else None)
 
 
-def record(**change: object) -> tuple[str, list[tuple[str, object]]]:
+def record(is_timed: bool = True, **change: object) -> tuple[str, list[tuple[str, object]]]:
     """@return result of a test of a changed run, and its properties."""
     properties: list[tuple[str, object]] = []
     result = CAMPAIGNS["time"].evaluate(Course("time", read("time") | change))
     try:
-        record_finding(properties, result, "reports")
+        record_finding(properties, result, "reports", is_timed)
     except (pytest.skip.Exception, AssertionError) as outcome:
         return f"{type(outcome).__name__}: {outcome}".split(";")[0], properties
     return "passed", properties
@@ -220,3 +220,10 @@ def test_an_inconclusive_run_is_skipped_with_its_figures_and_a_failed_one_fails(
     outcome, properties = record(requested=100, host=read("time")["host"] | {"stalls": 0})
     assert outcome == "AssertionError: 10 of 100 faults took effect" and properties[0] == ("verdict", "failed")
     assert record(has_priority=False)[0].startswith("Skipped: verdict=no-privilege")
+
+
+@pytest.mark.verifies("SWR-VER-023", technique="equivalence_classes", polarity="violation")
+def test_a_failed_run_of_a_build_with_sanitizers_is_not_shown_and_a_passed_one_passes() -> None:
+    outcome, properties = record(is_timed=False, requested=100, host=read("time")["host"] | {"stalls": 0})
+    assert outcome == "Skipped: verdict=not-shown: sanitizers change execution times" and properties[0] == ("verdict", "not-shown")
+    assert record(is_timed=False) == ("passed", [("verdict", "passed")])
