@@ -66,8 +66,8 @@ def test_a_killed_campaign_continues_without_a_lost_or_repeated_case(bench: Benc
     check_kills(bench, 3, seed=1)
 
 
+# No `verifies`: a result that the gate lacks would be a missing one.
 @pytest.mark.long
-@pytest.mark.verifies("SWR-CMP-009", technique="fault_injection", polarity="violation")
 def test_a_campaign_that_is_killed_at_20_random_instants_loses_and_repeats_nothing(bench: Bench) -> None:
     check_kills(bench, 20, seed=2)
 
