@@ -19,7 +19,7 @@ bool ExecutionContext::take_tick() noexcept {
 }
 
 /// Whether the steps `first` .. `end` - 1 may begin. Work that was abandoned before it began finds out here;
-/// outside of a cycle nobody else has any.
+/// outside of a cycle no other work exists.
 bool ExecutionContext::admits_steps(std::size_t first, std::size_t end) const noexcept {
     const Phase phase = phase_.load(std::memory_order_acquire);
     MAMORI_REQUIRE(1, phase != Phase::kIdle);
@@ -91,7 +91,7 @@ void ExecutionContext::end_step(StepObserver* observer, std::size_t position, bo
     if (observer->records != nullptr && was_active) {
         used = observer->measure(observer->records[position]);
     } else if (observer->records != nullptr) {
-        // A step in Error or Inactive is no alive indication.
+        // A step in Error or Inactive does not indicate that the component is alive.
         observer->step_start = observer->host->get_step_end();
     }
     if (observer->after_step != nullptr) {

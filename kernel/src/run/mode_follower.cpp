@@ -179,7 +179,7 @@ void ModeFollower::take_plan(ModePlan plan, bool is_late) noexcept {
     }
     switch (step_) {
         case ModeStep::kSet:
-            // A rejected set changes nothing and is no reason to leave a mode.
+            // A rejected set changes nothing, so the mode remains.
             static_cast<void>(take_set(index));
             return;
         case ModeStep::kLeave:

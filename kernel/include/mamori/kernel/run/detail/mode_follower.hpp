@@ -59,7 +59,7 @@ class ModeFollower final {
     /// At the first start of the window in a major frame, gives it the parameters and connections of the
     /// plan.
     void cross_boundary(WindowState& state) noexcept;
-    /// Deactivates the components that leave. Each is called once, whatever it returns.
+    /// Deactivates the components that leave. Each is called once, regardless of its result.
     /// @return the component that exhausted the budget; kNoIndex: none.
     std::size_t leave_components(WindowState& state, Instant deadline, WindowHost& host) noexcept;
     /// Activates the components that enter; none after a failure.
