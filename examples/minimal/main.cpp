@@ -14,8 +14,8 @@ using namespace mamori::literals;  // NOLINT: units of the times below
 class Wheel final : public mamori::Component {
   public:
     constexpr Wheel() noexcept : Component("wheel") {}
-    mamori::InPort<bool, mamori::Need::kOptional> brake{"brake"};
-    mamori::OutPort<double> speed{"speed"};  // [rad/s]
+    mamori::InPort<bool, mamori::Need::kOptional> brake{*this, "brake"};
+    mamori::OutPort<double> speed{*this, "speed"};  // [rad/s]
     using Ports = mamori::Ports<&Wheel::brake, &Wheel::speed>;
 
     Status on_execute(mamori::ContextHandle) noexcept override {
@@ -32,8 +32,8 @@ class Wheel final : public mamori::Component {
 class Monitor final : public mamori::Component {
   public:
     constexpr Monitor() noexcept : Component("monitor") {}
-    mamori::InPort<double> speed{"speed"};
-    mamori::OutPort<bool> brake{"brake"};
+    mamori::InPort<double> speed{*this, "speed"};
+    mamori::OutPort<bool> brake{*this, "brake"};
     using Ports = mamori::Ports<&Monitor::speed, &Monitor::brake>;
 
     Status on_execute(mamori::ContextHandle) noexcept override {
@@ -48,7 +48,8 @@ static constexpr auto kSystem =
     mamori::system(mamori::frame(10_ms),  // everything repeats after it
                    mamori::window("drive", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(wheel)),
                    mamori::window("watch", 2_ms, 2_ms, mamori::budget(1_ms), mamori::run(monitor)),
-                   mamori::connect(wheel.speed, monitor.speed), mamori::connect(monitor.brake, wheel.brake));
+                   mamori::connect(wheel.speed, monitor.speed, mamori::any_age()),
+                   mamori::connect(monitor.brake, wheel.brake, mamori::any_age()));
 MAMORI_CHECK(kSystem);
 static mamori::ExecutiveFor executive{kSystem};
 

@@ -24,7 +24,7 @@ class ArmReader final : public mamori::Component {
     constexpr explicit ArmReader(const mamori::safety::ArmInputs& inputs) noexcept
         : Component("arm_reader"), inputs_(inputs) {}
 
-    mamori::OutPort<JointReading> reading{"reading"};
+    mamori::OutPort<JointReading> reading{*this, "reading"};
     using Ports = mamori::Ports<&ArmReader::reading>;
 
     /// @return kOk; kBadParameter (a resolution that is not positive: nothing is taken over).

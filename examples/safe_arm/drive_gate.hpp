@@ -19,9 +19,9 @@ class DriveGate final : public mamori::Component {
     constexpr explicit DriveGate(mamori::safety::ArmOutputs& outputs) noexcept
         : Component("drive_gate"), outputs_(outputs) {}
 
-    mamori::InPort<StopCommand> stop{"stop"};
-    mamori::InPort<TorqueCommand> command{"command"};
-    mamori::OutPort<DriveCommand> drive{"drive"};
+    mamori::InPort<StopCommand> stop{*this, "stop"};
+    mamori::InPort<TorqueCommand> command{*this, "command"};
+    mamori::OutPort<DriveCommand> drive{*this, "drive"};
     using Ports = mamori::Ports<&DriveGate::stop, &DriveGate::command, &DriveGate::drive>;
 
     mamori::Status on_execute(mamori::ContextHandle context) noexcept override;

@@ -23,10 +23,10 @@ class JointMonitor final : public mamori::Component {
   public:
     constexpr JointMonitor() noexcept : Component("joint_monitor") {}
 
-    mamori::InPort<JointReading> reading{"reading"};
-    mamori::InPort<TorqueCommand> command{"command"};
-    mamori::InPort<DriveCommand> drive{"drive"};
-    mamori::OutPort<JointState> state{"state"};
+    mamori::InPort<JointReading> reading{*this, "reading"};
+    mamori::InPort<TorqueCommand> command{*this, "command"};
+    mamori::InPort<DriveCommand> drive{*this, "drive"};
+    mamori::OutPort<JointState> state{*this, "state"};
     using Ports = mamori::Ports<&JointMonitor::reading, &JointMonitor::command, &JointMonitor::drive,
                                 &JointMonitor::state>;
 

@@ -24,9 +24,9 @@ class MotionController final : public mamori::Component {
   public:
     constexpr MotionController() noexcept : Component("motion_controller") {}
 
-    mamori::InPort<JointState> state{"state"};
-    mamori::InPort<StopCommand> stop{"stop"};
-    mamori::OutPort<TorqueCommand> command{"command"};
+    mamori::InPort<JointState> state{*this, "state"};
+    mamori::InPort<StopCommand> stop{*this, "stop"};
+    mamori::OutPort<TorqueCommand> command{*this, "command"};
     using Ports =
         mamori::Ports<&MotionController::state, &MotionController::stop, &MotionController::command>;
 

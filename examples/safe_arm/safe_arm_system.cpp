@@ -35,11 +35,16 @@ static constexpr auto kSafeArm = mamori::system(
     mamori::window("control", 300_us, 400_us, mamori::budget(350_us), mamori::run(controller)),
     mamori::window("transport", 700_us, 100_us, mamori::budget(80_us), mamori::run(channel)),
     mamori::window("act", 800_us, 100_us, mamori::budget(80_us), mamori::run(gate)),
-    mamori::connect(reader.reading, monitor.reading), mamori::connect(channel.out, monitor.command),
-    mamori::connect(gate.drive, monitor.drive), mamori::connect(reader.reading, supervisor.reading),
-    mamori::connect(monitor.state, supervisor.arm_state), mamori::connect(monitor.state, controller.state),
-    mamori::connect(supervisor.stop, controller.stop), mamori::connect(controller.command, channel.in),
-    mamori::connect(supervisor.stop, gate.stop), mamori::connect(channel.out, gate.command));
+    mamori::connect(reader.reading, monitor.reading, mamori::any_age()),
+    mamori::connect(channel.out, monitor.command, mamori::any_age()),
+    mamori::connect(gate.drive, monitor.drive, mamori::any_age()),
+    mamori::connect(reader.reading, supervisor.reading, mamori::any_age()),
+    mamori::connect(monitor.state, supervisor.arm_state, mamori::any_age()),
+    mamori::connect(monitor.state, controller.state, mamori::any_age()),
+    mamori::connect(supervisor.stop, controller.stop, mamori::any_age()),
+    mamori::connect(controller.command, channel.in, mamori::any_age()),
+    mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
+    mamori::connect(channel.out, gate.command, mamori::any_age()));
 MAMORI_CHECK(kSafeArm);
 
 static_assert(kSafeArm.kWindowCount == kWindowCount && kSafeArm.components.size() == kComponentCount &&

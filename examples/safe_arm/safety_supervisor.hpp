@@ -60,9 +60,9 @@ class SafetySupervisor final : public mamori::Component {
           assumptions_(assumptions),
           flow_(flow) {}
 
-    mamori::InPort<JointReading> reading{"reading"};
-    mamori::InPort<JointState> arm_state{"arm_state"};
-    mamori::OutPort<StopCommand> stop{"stop"};
+    mamori::InPort<JointReading> reading{*this, "reading"};
+    mamori::InPort<JointState> arm_state{*this, "arm_state"};
+    mamori::OutPort<StopCommand> stop{*this, "stop"};
     using Ports =
         mamori::Ports<&SafetySupervisor::reading, &SafetySupervisor::arm_state, &SafetySupervisor::stop>;
 

@@ -34,7 +34,7 @@ using Pair = std::array<std::int64_t, 2U>;
 class Writer final : public Component {
   public:
     explicit Writer() noexcept : Component("writer") {}
-    OutPort<Pair> out{"out"};
+    OutPort<Pair> out{*this, "out"};
     using Ports = mamori::Ports<&Writer::out>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -55,7 +55,7 @@ class Writer final : public Component {
 class Reader final : public Component {
   public:
     explicit Reader(const char* name) noexcept : Component(name) {}
-    InPort<Pair> in{"in"};
+    InPort<Pair> in{*this, "in"};
     using Ports = mamori::Ports<&Reader::in>;
     std::int64_t last{0};
     bool is_whole{true};
@@ -151,8 +151,8 @@ TEST(AbandonStressTest, WorkThatIsGivenUpAtAnyMomentSharesNothingThatItMayNot) {
     Reader outside{"outside"};
     const auto table =
         system(frame(1000_ns), window("worker", 0_ns, 400_ns, budget(300_ns), run(writer, inside)),
-               window("reader", 400_ns, 600_ns, budget(500_ns), run(outside)), connect(writer.out, inside.in),
-               connect(writer.out, outside.in));
+               window("reader", 400_ns, 600_ns, budget(500_ns), run(outside)),
+               connect(writer.out, inside.in, any_age()), connect(writer.out, outside.in, any_age()));
     ExecutiveFor sut{table};
     RecordingObserver observer;
     std::int64_t completed = 0;

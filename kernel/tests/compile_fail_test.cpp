@@ -264,5 +264,44 @@ TEST(CompileFailTest, AStatusThatIsDroppedIsRefused) {
     expect_refused("payloads", "status_ignored", "nodiscard");
 }
 
+TEST(CompileFailTest, APortThatItsComponentDoesNotListIsNamed) {
+    verifies("SWR-KRN-045", Technique::kInterface, Polarity::kViolation);
+    expect_refused("ports", "port_not_listed",
+                   "PortIsListed<port_not_listed::Monitor, mamori::Name<'s', 'p', 'e', 'e', 'd'>");
+    expect_refused("ports", "no_port_listed",
+                   "PortIsListed<no_port_listed::Monitor, mamori::Name<'s', 'p', 'e', 'e', 'd'>");
+}
+
+TEST(CompileFailTest, AListedPortWithoutItsComponentIsRefused) {
+    verifies("SWR-KRN-045", Technique::kInterface, Polarity::kViolation);
+    expect_refused("ports", "port_not_owned",
+                   "PortIsOwned<port_not_owned::Monitor, &port_not_owned::Monitor::speed, 0>");
+    expect_refused("ports", "port_without_owner", "OutPort<double>");
+}
+
+TEST(CompileFailTest, TwoPortsOfOneNameAndAPortListedTwiceAreRefused) {
+    verifies("SWR-KRN-046", Technique::kInterface, Polarity::kViolation);
+    expect_refused("ports", "port_named_twice",
+                   "PortHasANameOfItsOwn<port_named_twice::Monitor, &port_named_twice::Monitor::right, 0>");
+    expect_refused("ports", "port_listed_twice",
+                   "PortHasANameOfItsOwn<port_listed_twice::Monitor, &port_listed_twice::Monitor::speed, 0>");
+}
+
+TEST(CompileFailTest, AConnectionWithoutAnAgeLimitOrWithTwoIsRefused) {
+    verifies("SWR-KRN-047", Technique::kInterface, Polarity::kViolation);
+    expect_refused("connections", "age_limit_not_stated", "InputCanBeFresh<Consumer, &Consumer::in, 0>");
+    expect_refused("connections", "two_age_limits", "fresh_within(...) or any_age(), not both");
+}
+
+TEST(CompileFailTest, ADelayThatIsNotStatedOrNotThereIsRefused) {
+    verifies("SWR-KRN-048", Technique::kInterface, Polarity::kViolation);
+    expect_refused("connections", "delay_not_stated", "ConnectionStatesItsDelay<Consumer, &Consumer::in, 0>");
+    expect_refused("connections", "delay_stated_without_delay",
+                   "ConnectionStatesItsDelay<Consumer, &Consumer::in, 0>");
+    expect_refused("connections", "own_output_without_delay",
+                   "ConnectionStatesItsDelay<own_output_without_delay::Filter, "
+                   "&own_output_without_delay::Filter::last, 0>");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -38,8 +38,8 @@ class DataPortTest : public ::testing::Test {
         return hash.get_value();
     }
 
-    OutPort<std::int32_t> out_{"out"};
-    InPort<std::int32_t> in_{"in"};
+    OutPort<std::int32_t> out_{kNoOwner, "out"};
+    InPort<std::int32_t> in_{kNoOwner, "in"};
 };
 
 TEST_F(DataPortTest, AnOutputHasNothingToPublishBeforeTheFirstWrite) {
@@ -137,7 +137,7 @@ TEST_F(DataPortTest, ADiscardedValueIsNeverPublished) {
 
 TEST_F(DataPortTest, TheHashCoversValueSequenceAndInstant) {
     verifies("SWR-KRN-015", Technique::kErrorGuessing);
-    OutPort<std::int32_t> other{"other"};
+    OutPort<std::int32_t> other{kNoOwner, "other"};
     const auto hash_other = [&other] {
         TraceHash hash;
         other.hash_into(hash);
@@ -356,8 +356,8 @@ TEST(PortAlignmentTest, PayloadsFromOneKibibyteOnBeginWithACacheLineAndSmallerOn
     static_assert(alignof(OutPort<Small>) == alignof(double) && alignof(InPort<Small>) == alignof(double));
     static_assert(alignof(OutPort<Large>) == 64U && alignof(InPort<Large>) == 64U);
     static_assert(alignof(OutPort<testing_support::Wide>) == 128U, "a type's own alignment is kept");
-    OutPort<Odd> out{"out"};
-    InPort<Odd> in{"in"};
+    OutPort<Odd> out{kNoOwner, "out"};
+    InPort<Odd> in{kNoOwner, "in"};
     out.write(Odd{1.0});
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&out.get_published()) % 64U, 0U);
     ASSERT_TRUE(out.publish(Instant{100}));

@@ -40,9 +40,9 @@ constexpr bool is_empty(const ComponentRow& row) noexcept {
 }
 constexpr bool is_empty(const ConnectionRow& row) noexcept {
     return row.source == nullptr && row.sink == nullptr && row.crossing == nullptr &&
-           row.age_max == kNoAgeLimit && row.source_window == kNoIndex && row.sink_window == kNoIndex &&
-           row.source_component == kNoIndex && row.sink_component == kNoIndex && !row.is_forward_in_window &&
-           row.modes == kEveryMode;
+           row.age_max == Duration{0} && !row.is_delayed_by_a_frame && row.source_window == kNoIndex &&
+           row.sink_window == kNoIndex && row.source_component == kNoIndex &&
+           row.sink_component == kNoIndex && !row.is_forward_in_window && row.modes == kEveryMode;
 }
 constexpr bool is_empty(const ModeTransitionRow& row) noexcept {
     return row.source == kNoIndex && row.target == kNoIndex && row.event == 0U;

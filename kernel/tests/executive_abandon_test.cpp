@@ -26,7 +26,7 @@ using Pass = WindowHost::Pass;
 class HangingComponent final : public Component {
   public:
     explicit HangingComponent() noexcept : Component("hanging") {}
-    OutPort<std::int64_t> out{"out"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&HangingComponent::out>;
 
     std::promise<void> entered;
@@ -120,8 +120,8 @@ TEST(ExecutiveAbandonedWorkTest, WorkThatHangsIsNamedEachFrameAndNeverPublishesW
 /// Writes in both passes, and into a second window.
 class TwoPasses final : public Component {
   public:
-    explicit TwoPasses() noexcept : Component("two passes") {}
-    OutPort<std::int64_t> out{"out"};
+    explicit TwoPasses(const char* name = "two passes") noexcept : Component(name) {}
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&TwoPasses::out>;
     int executed{0};
     int updated{0};
@@ -272,8 +272,8 @@ TEST_P(ExecutiveLateEntryTest, AStopThatComesLateHasTheBudgetOfItsWindow) {
 /// Two components whose stop takes longer than the budget, on a clock that the test sets.
 TEST(ExecutiveLateStopTest, AStopThatTakesTooLongGoesOnInTheNextOpening) {
     verifies("SWR-KRN-033", Technique::kFaultInjection, Polarity::kViolation);
-    TwoPasses first;
-    TwoPasses second;
+    TwoPasses first{"first"};
+    TwoPasses second{"second"};
     const auto table = system(frame(1000_ns), window("w", 0_ns, 400_ns, budget(300_ns), run(first, second)));
     ExecutiveFor sut{table};
     FakeHost host;

@@ -23,6 +23,8 @@ class ExecutiveCoresTest : public ::testing::Test {
     void SetUp() override {
         for (Executive* core : {static_cast<Executive*>(&writer_), static_cast<Executive*>(&reader_)}) {
             ASSERT_EQ(core->initialize(), Status::kOk);
+        }
+        for (Executive* core : {static_cast<Executive*>(&writer_), static_cast<Executive*>(&reader_)}) {
             ASSERT_EQ(core->start(), Status::kOk);
         }
     }
@@ -114,6 +116,24 @@ TEST_F(ExecutiveCoresTest, EachExecutiveStartsStopsAndFinalizesItsOwnCoreOnly) {
     read(0);
     EXPECT_EQ(reader_.stop(), Status::kOk);
     EXPECT_EQ(reader_.finalize(), Status::kOk);
+}
+
+TEST_F(ExecutiveCoresTest, ACoreWithoutAnInitialisedExecutiveKeepsTheOtherFromStarting) {
+    verifies("SWR-KRN-049", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(writer_.stop(), Status::kOk);
+    ASSERT_EQ(reader_.stop(), Status::kOk);
+    ASSERT_EQ(reader_.finalize(), Status::kOk);
+
+    EXPECT_EQ(writer_.start(), Status::kPreconditionNotMet);
+    EXPECT_EQ(writer_.get_failed_component(), 1U) << "sink, on core 1";
+    EXPECT_FALSE(writer_.get_context(0U).is_running());
+
+    ASSERT_EQ(reader_.initialize(), Status::kOk);
+    EXPECT_EQ(writer_.start(), Status::kOk) << "an initialised executive need not be started";
+    EXPECT_EQ(writer_.get_failed_component(), kNoIndex);
+    ASSERT_EQ(reader_.start(), Status::kOk);
+    EXPECT_EQ(writer_.stop(), Status::kOk);
+    EXPECT_EQ(reader_.stop(), Status::kOk);
 }
 
 TEST(ExecutiveStartTest, WhatWasWrittenOnTheWayToTheLastStopIsNotPublishedByTheNextRun) {

@@ -22,7 +22,7 @@ class FailingSink final : public Component {
   public:
     constexpr FailingSink() noexcept : Component("failing_sink") {}
 
-    InPort<std::int64_t> in{"in"};
+    InPort<std::int64_t> in{*this, "in"};
     using Ports = mamori::Ports<&FailingSink::in>;
 
     Status on_execute(ContextHandle) noexcept override { return Status::kError; }
@@ -39,7 +39,7 @@ class ExecutiveCornerTest : public ::testing::Test {
     FailingSink sink_;
     SystemTable<1U, 2U, 2U, 1U> table_ =
         system(frame(1000_ns), window("all", 0_ns, 400_ns, budget(300_ns), mamori::run(counter_, sink_)),
-               connect(counter_.out, sink_.in));
+               connect(counter_.out, sink_.in, any_age()));
     FakeHost host_;
     ExecutiveFor<decltype(table_)> sut_{table_};
 };

@@ -18,7 +18,7 @@ using namespace verification;
 
 class Beat final : public Component {
   public:
-    Beat() : Component("beat") {}
+    explicit Beat(const char* name) : Component(name) {}
     std::vector<std::int64_t> cycles;
     int rate_changes{0};
     Status rate_answer{Status::kOk};
@@ -46,8 +46,8 @@ class ExecutiveRateTest : public ::testing::Test {
     }
     using Times = std::vector<std::int64_t>;
 
-    Beat fast_;
-    Beat slow_;
+    Beat fast_{"fast"};
+    Beat slow_{"slow"};
     SystemTable<2U, 2U, 0U, 0U> table_ = system(
         frame(40_ns),
         window("fast", 0_ns, 5_ns, every(10_ns), rate(Rate{1.0e8}, Rate{5.0e7}), budget(5_ns), run(fast_)),

@@ -35,7 +35,7 @@ class Watcher final : public Component {
 
     Watcher() noexcept : Component("watcher") {}
 
-    In in{"in"};
+    In in{*this, "in"};
     using Ports = mamori::Ports<&Watcher::in>;
 
     std::vector<Note> notes;
@@ -80,15 +80,15 @@ struct Rig {
         if constexpr (kWay == Way::kHandOn) {
             return system(frame(1000_ns), window("both", 0_ns, 400_ns, budget(300_ns), run(counter, watcher)),
                           window("idle", 400_ns, 500_ns, budget(300_ns), run(other_)),
-                          connect(counter.out, watcher.in));
+                          connect(counter.out, watcher.in, any_age()));
         } else if constexpr (kWay == Way::kNextWindow || In::kIsQueue) {
             return system(frame(1000_ns), window("write", 0_ns, 400_ns, budget(300_ns), run(counter, other_)),
                           window("read", 400_ns, 500_ns, core(kWatcherCore), budget(300_ns), run(watcher)),
-                          connect(counter.out, watcher.in));
+                          connect(counter.out, watcher.in, any_age()));
         } else {
             return system(frame(1000_ns), window("write", 0_ns, 400_ns, budget(300_ns), run(counter, other_)),
                           window("read", 400_ns, 500_ns, core(1), budget(300_ns), run(watcher)),
-                          connect(counter.out, watcher.in, through(crossing)));
+                          connect(counter.out, watcher.in, through(crossing), any_age()));
         }
     }
 
@@ -253,8 +253,8 @@ TEST(ExecutiveRestartModesTest, AConnectionThatBeginsLaterBringsNoValueOfTheRunB
     const auto table =
         system(frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), run(planner)),
                window("second", 400_ns, 500_ns, budget(400_ns), run(drive)),
-               connect(planner.out, drive.in, only_in("halt")), system_mode("work", runs(planner, drive)),
-               safe_mode("halt", runs(drive, planner)));
+               connect(planner.out, drive.in, only_in("halt"), any_age()),
+               system_mode("work", runs(planner, drive)), safe_mode("halt", runs(drive, planner)));
     SystemModes modes{make_view(table)};
     ExecutiveFor<std::decay_t<decltype(table)>> sut{table, modes};
     const auto run_frame = [&](std::int64_t start) {

@@ -45,8 +45,8 @@ class ExecutiveTest : public ::testing::Test {
     Sink sink_;
     SystemTable<2U, 3U, 4U, 2U> table_ =
         system(frame(kFrame), window("first", 0_ns, 400_ns, budget(300_ns), run(counter_, relay_)),
-               window("second", 400_ns, 600_ns, budget(600_ns), run(sink_)), connect(counter_.out, relay_.in),
-               connect(relay_.out, sink_.in));
+               window("second", 400_ns, 600_ns, budget(600_ns), run(sink_)),
+               connect(counter_.out, relay_.in, any_age()), connect(relay_.out, sink_.in, any_age()));
     FakeHost host_;
     ExecutiveFor<decltype(table_)> sut_{table_};
 };
@@ -75,7 +75,7 @@ TEST_F(ExecutiveTest, DataAndHashDoNotDependOnHowLongTheCodeTook) {
         const auto table =
             system(frame(kFrame), window("first", 0_ns, 400_ns, budget(300_ns), run(counter, relay)),
                    window("second", 400_ns, 600_ns, budget(600_ns), run(sink)),
-                   connect(counter.out, relay.in), connect(relay.out, sink.in));
+                   connect(counter.out, relay.in, any_age()), connect(relay.out, sink.in, any_age()));
         ExecutiveFor executive{table};
         FakeHost host;
         host.durations[{0U, WindowHost::Pass::kExecute}] = Duration{slow};
@@ -263,8 +263,8 @@ TEST_F(ExecutiveTest, WithoutAnObserverNothingChanges) {
     Sink sink;
     const auto table =
         system(frame(kFrame), window("first", 0_ns, 400_ns, budget(300_ns), run(counter, relay)),
-               window("second", 400_ns, 600_ns, budget(600_ns), run(sink)), connect(counter.out, relay.in),
-               connect(relay.out, sink.in));
+               window("second", 400_ns, 600_ns, budget(600_ns), run(sink)),
+               connect(counter.out, relay.in, any_age()), connect(relay.out, sink.in, any_age()));
     ExecutiveFor observed{table};
     FakeHost host;
     SpyObserver observer;
@@ -312,7 +312,7 @@ TEST_F(ExecutiveTest, AChainInOneWindowNeedsNoExtraCycle) {
     Sink sink;
     const auto table =
         system(frame(kFrame), window("w", 0_ns, 400_ns, budget(300_ns), run(counter, relay, sink)),
-               connect(counter.out, relay.in), connect(relay.out, sink.in));
+               connect(counter.out, relay.in, any_age()), connect(relay.out, sink.in, any_age()));
     ExecutiveFor executive{table};
     ASSERT_EQ(executive.initialize(), Status::kOk);
     ASSERT_EQ(executive.start(), Status::kOk);
@@ -336,7 +336,7 @@ TEST_F(ExecutiveTest, AConnectionAgainstTheOrderArrivesOneFrameLater) {
     Counter counter;
     Sink sink;
     const auto table = system(frame(kFrame), window("w", 0_ns, 400_ns, budget(300_ns), run(sink, counter)),
-                              connect(counter.out, sink.in));
+                              connect(counter.out, sink.in, any_age(), delayed_by_a_frame()));
     ExecutiveFor executive{table};
     ASSERT_EQ(executive.initialize(), Status::kOk);
     ASSERT_EQ(executive.start(), Status::kOk);
@@ -355,7 +355,7 @@ TEST_F(ExecutiveTest, AValueWrittenInTheSecondPassReachesALaterComponentInTheNex
     Counter counter;
     Sink sink;
     const auto table = system(frame(kFrame), window("w", 0_ns, 400_ns, budget(300_ns), run(counter, sink)),
-                              connect(counter.out, sink.in));
+                              connect(counter.out, sink.in, any_age()));
     ExecutiveFor executive{table};
     ASSERT_EQ(executive.initialize(), Status::kOk);
     ASSERT_EQ(executive.start(), Status::kOk);

@@ -27,8 +27,8 @@ using Values = std::vector<std::int64_t>;
 class Switch final : public Component {
   public:
     Switch() : Component("switch") {}
-    OutPort<std::int64_t> left{"left"};
-    OutPort<std::int64_t> right{"right"};
+    OutPort<std::int64_t> left{*this, "left"};
+    OutPort<std::int64_t> right{*this, "right"};
     using Ports = mamori::Ports<&Switch::left, &Switch::right>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -43,7 +43,7 @@ class Switch final : public Component {
 class Queue final : public Component {
   public:
     explicit Queue(const char* name) : Component(name) {}
-    QueueInPort<std::int64_t, 8U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> in{"in"};
+    QueueInPort<std::int64_t, 8U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> in{*this, "in"};
     using Ports = mamori::Ports<&Queue::in>;
     Values values;
 
@@ -73,7 +73,8 @@ TEST(FlowLimitsTest, AValueIsDeliveredToTheConnectionsOfItsOwnOutputOnly) {
     Queue left{"left"};
     Queue right{"right"};
     const auto table = system(frame(40_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(left, right, source)),
-                              connect(source.left, left.in), connect(source.right, right.in));
+                              connect(source.left, left.in, any_age(), delayed_by_a_frame()),
+                              connect(source.right, right.in, any_age(), delayed_by_a_frame()));
     ExecutiveFor sut{table};
     run_frames(sut);
 
@@ -89,7 +90,8 @@ TEST(FlowLimitsTest, AValueThroughACrossingArrivesAtTheNextOpeningWithinAWindowT
     Crossing<std::int64_t> crossing;
     const auto table =
         system(frame(40_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(counter, buffered, direct)),
-               connect(counter.out, buffered.in, through(crossing)), connect(counter.out, direct.in));
+               connect(counter.out, buffered.in, through(crossing), any_age()),
+               connect(counter.out, direct.in, any_age()));
     ExecutiveFor sut{table};
     run_frames(sut);
 
@@ -99,7 +101,7 @@ TEST(FlowLimitsTest, AValueThroughACrossingArrivesAtTheNextOpeningWithinAWindowT
 
 TEST(FlowLimitsTest, AnOutputTellsWhenItWasPublishedLast) {
     verifies("SWR-KRN-015", Technique::kStateTransition);
-    OutPort<std::int64_t> sut{"out"};
+    OutPort<std::int64_t> sut{kNoOwner, "out"};
     sut.write(1);
     ASSERT_TRUE(sut.publish(Instant{5}));
     sut.write(2);

@@ -23,7 +23,7 @@ constexpr std::int64_t kFrames = 20'000;
 class Source final : public Component {
   public:
     constexpr Source() noexcept : Component("source") {}
-    OutPort<std::int64_t> out{"out"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Source::out>;
 
     Status on_execute(ContextHandle context) noexcept override {
@@ -35,7 +35,7 @@ class Source final : public Component {
 class Drain final : public Component {
   public:
     constexpr Drain() noexcept : Component("drain") {}
-    QueueInPort<std::int64_t, 4U> in{"in"};
+    QueueInPort<std::int64_t, 4U> in{*this, "in"};
     using Ports = mamori::Ports<&Drain::in>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -62,7 +62,7 @@ Source g_source;
 Drain g_drain;
 constexpr auto kSystem = system(frame(1000_ns), window("source", 0_ns, 400_ns, budget(400_ns), run(g_source)),
                                 window("drain", 500_ns, 400_ns, core(1), budget(400_ns), run(g_drain)),
-                                connect(g_source.out, g_drain.in));
+                                connect(g_source.out, g_drain.in, any_age()));
 ExecutiveFor<decltype(kSystem)> g_source_core{kSystem};
 ExecutiveFor<decltype(kSystem)> g_drain_core{kSystem, 1U};
 IntrospectionFor<decltype(kSystem)> g_introspection{kSystem};
@@ -109,8 +109,9 @@ TEST(IntrospectionStressTest, ReadersOfRunningCoresSeeWholeRowsThatNeverGoBack) 
          {static_cast<Executive*>(&g_source_core), static_cast<Executive*>(&g_drain_core)}) {
         core->set_introspection(&g_introspection);
         ASSERT_EQ(core->initialize(), Status::kOk);
-        ASSERT_EQ(core->start(), Status::kOk);
     }
+    ASSERT_EQ(g_source_core.start(), Status::kOk);
+    ASSERT_EQ(g_drain_core.start(), Status::kOk);
 
     std::array<std::thread, 2U> readers;
     for (std::size_t i = 0U; i < readers.size(); ++i) {
@@ -141,8 +142,9 @@ TEST(IntrospectionStressTest, ReadersOfRunningCoresSeeWholeRowsThatNeverGoBack) 
 class Endless final : public Component {
   public:
     Endless() noexcept : Component("endless") {}
-    QueueInPort<std::int64_t, 4U, FullPolicy::kOverwrite, EmptyPolicy::kReadback, Need::kOptional> in{"in"};
-    OutPort<std::int64_t> out{"out"};
+    QueueInPort<std::int64_t, 4U, FullPolicy::kOverwrite, EmptyPolicy::kReadback, Need::kOptional> in{*this,
+                                                                                                      "in"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Endless::in, &Endless::out>;
     std::atomic<bool> is_let_go{false};
     std::atomic<std::uint32_t> rounds{0U};

@@ -26,7 +26,7 @@ using namespace verification;
 class Taker final : public Component {
   public:
     constexpr Taker() noexcept : Component("taker") {}
-    QueueInPort<std::int64_t, 2U> in{"in"};
+    QueueInPort<std::int64_t, 2U> in{*this, "in"};
     using Ports = mamori::Ports<&Taker::in>;
     bool is_reading{true};
 
@@ -83,10 +83,10 @@ class IntrospectionTest : public ::testing::Test {
     Counter counter_;
     Relay relay_;
     Taker taker_;
-    SystemTable<2U, 3U, 4U, 2U> table_ =
-        system(frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), run(counter_, relay_)),
-               window("second", 500_ns, 400_ns, budget(400_ns), run(taker_)),
-               connect(counter_.out, relay_.in, fresh_within(100_ns)), connect(relay_.out, taker_.in));
+    SystemTable<2U, 3U, 4U, 2U> table_ = system(
+        frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), run(counter_, relay_)),
+        window("second", 500_ns, 400_ns, budget(400_ns), run(taker_)),
+        connect(counter_.out, relay_.in, fresh_within(100_ns)), connect(relay_.out, taker_.in, any_age()));
     FakeHost host_;
     ExecutiveFor<decltype(table_)> executive_{table_};
     IntrospectionFor<decltype(table_)> sut_{table_};
@@ -365,7 +365,7 @@ Course run_three_frames(bool is_shown) {
     const auto table =
         system(frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), run(counter, relay)),
                window("second", 500_ns, 400_ns, budget(400_ns), run(taker)),
-               connect(counter.out, relay.in, fresh_within(100_ns)), connect(relay.out, taker.in));
+               connect(counter.out, relay.in, fresh_within(100_ns)), connect(relay.out, taker.in, any_age()));
     ExecutiveFor executive{table};
     IntrospectionFor introspection{table};
     const auto ignore = [](std::size_t, const auto&) noexcept {};

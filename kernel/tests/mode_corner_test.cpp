@@ -211,10 +211,11 @@ TEST(ModeCornerTest, NamesThatDoNotExistAreFoundInATableMadeAtRunTime) {
     SmallParts p;
     const auto table = system(
         frame(1000_ns), window("all", 0_ns, 400_ns, budget(300_ns), run(p.first, p.second)),
-        connect(p.first.out, p.second.in, only_in("nowhere", "work")), connect(p.stranger.out, p.first.in),
-        connect(p.second.out, p.stranger.in), system_mode(nullptr, runs(p.first, p.second)),
-        system_mode("work", runs(p.first)), safe_mode("halt", runs(p.first)),
-        mode_transition(nullptr, Command::kStart, "work"), mode_transition("work", Command::kStop, "void"));
+        connect(p.first.out, p.second.in, only_in("nowhere", "work"), any_age()),
+        connect(p.stranger.out, p.first.in, any_age()), connect(p.second.out, p.stranger.in, any_age()),
+        system_mode(nullptr, runs(p.first, p.second)), system_mode("work", runs(p.first)),
+        safe_mode("halt", runs(p.first)), mode_transition(nullptr, Command::kStart, "work"),
+        mode_transition("work", Command::kStop, "void"));
     const SystemView view = make_view(table);
 
     EXPECT_TRUE(has_finding(view, Rule::kModeRowInvalid, 0U));
@@ -336,17 +337,18 @@ TEST(ModeCornerTest, AnInputThatGetsAnotherSourceInTheSafeModeTakesNoOldValueOfI
         ASSERT_EQ(sut.stop(), Status::kOk);
         ASSERT_EQ(sut.finalize(), Status::kOk);
     };
-    run_both(make_table(connect(p.first.out, reader.in, only_in("halt")),
-                        connect(p.second.out, reader.in, only_in("work"))));
-    run_both(make_table(connect(p.second.out, reader.in, only_in("work")),
-                        connect(p.first.out, reader.in, only_in("halt"))));
+    run_both(make_table(connect(p.first.out, reader.in, only_in("halt"), any_age(), delayed_by_a_frame()),
+                        connect(p.second.out, reader.in, only_in("work"), any_age(), delayed_by_a_frame())));
+    run_both(make_table(connect(p.second.out, reader.in, only_in("work"), any_age(), delayed_by_a_frame()),
+                        connect(p.first.out, reader.in, only_in("halt"), any_age(), delayed_by_a_frame())));
 }
 
 class QueueReader final : public Component {
   public:
     explicit QueueReader() noexcept : Component("reader") {}
 
-    QueueInPort<std::int64_t, 2U, FullPolicy::kOverwrite, EmptyPolicy::kDoNothing, Need::kOptional> in{"in"};
+    QueueInPort<std::int64_t, 2U, FullPolicy::kOverwrite, EmptyPolicy::kDoNothing, Need::kOptional> in{*this,
+                                                                                                       "in"};
     using Ports = mamori::Ports<&QueueReader::in>;
     std::vector<std::int64_t> reads;
 
@@ -363,12 +365,13 @@ TEST(ModeCornerTest, AQueueForgetsWhatWaitedInAnotherMode) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues, Polarity::kViolation);
     SmallParts p;
     QueueReader reader;
-    const auto table = system(
-        frame(1000_ns), window("write", 0_ns, 400_ns, budget(300_ns), run(p.first)),
-        window("read", 400_ns, 400_ns, budget(300_ns), run(reader)),
-        connect(p.first.out, reader.in, only_in("work")), system_mode("idle", runs(p.first, reader)),
-        system_mode("work", runs(p.first, reader)), safe_mode("halt", runs(p.first, reader)),
-        mode_transition("idle", Command::kStart, "work"), mode_transition("work", Command::kStop, "idle"));
+    const auto table =
+        system(frame(1000_ns), window("write", 0_ns, 400_ns, budget(300_ns), run(p.first)),
+               window("read", 400_ns, 400_ns, budget(300_ns), run(reader)),
+               connect(p.first.out, reader.in, only_in("work"), any_age()),
+               system_mode("idle", runs(p.first, reader)), system_mode("work", runs(p.first, reader)),
+               safe_mode("halt", runs(p.first, reader)), mode_transition("idle", Command::kStart, "work"),
+               mode_transition("work", Command::kStop, "idle"));
     ASSERT_EQ(check(make_view(table)).rule, Rule::kNone);
     SystemModes modes{make_view(table)};
     ExecutiveFor<std::remove_const_t<decltype(table)>> sut{table, modes};
@@ -396,7 +399,7 @@ TEST(ModeCornerTest, AQueueForgetsWhatWaitedInAnotherMode) {
 
 TEST(ModeCornerTest, AQueueDropsWhatIsOlderThanItsRestartAndNothingElse) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues, Polarity::kViolation);
-    QueueInPort<std::int64_t, 2U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut{"in"};
+    QueueInPort<std::int64_t, 2U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut{kNoOwner, "in"};
     std::int64_t value = 0;
     ASSERT_EQ(sut.push({11, 1U, Instant{9}}), Status::kOk);
     ASSERT_EQ(sut.push({12, 2U, Instant{9}}), Status::kOk);

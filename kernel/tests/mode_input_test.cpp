@@ -51,24 +51,24 @@ struct ModeInputTest : ::testing::Test {
 
 TEST_F(ModeInputTest, AValueOfTheNewModeCountsFromTheFrameOfTheStepOn) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues);
-    EXPECT_EQ(read_around_the_safe_step(connect(planner.out, drive.in, only_in("work")),
-                                        connect(watcher.out, drive.in, only_in("halt"))),
+    EXPECT_EQ(read_around_the_safe_step(connect(planner.out, drive.in, only_in("work"), any_age()),
+                                        connect(watcher.out, drive.in, only_in("halt"), any_age())),
               (Values{2001, 2002, 2003, 1004, 1005, 1006}));
 }
 
 TEST_F(ModeInputTest, ItIsTheSameInTheOtherOrderOfTheTable) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues);
-    EXPECT_EQ(read_around_the_safe_step(connect(watcher.out, drive.in, only_in("halt")),
-                                        connect(planner.out, drive.in, only_in("work"))),
+    EXPECT_EQ(read_around_the_safe_step(connect(watcher.out, drive.in, only_in("halt"), any_age()),
+                                        connect(planner.out, drive.in, only_in("work"), any_age())),
               (Values{2001, 2002, 2003, 1004, 1005, 1006}));
 }
 
 TEST_F(ModeInputTest, ItIsTheSameThroughCrossings) {
     verifies("SWR-MOD-009", Technique::kBoundaryValues);
-    EXPECT_EQ(
-        read_around_the_safe_step(connect(planner.out, drive.in, through(from_planner), only_in("work")),
-                                  connect(watcher.out, drive.in, through(from_watcher), only_in("halt"))),
-        (Values{2001, 2002, 2003, 1004, 1005, 1006}));
+    EXPECT_EQ(read_around_the_safe_step(
+                  connect(planner.out, drive.in, through(from_planner), only_in("work"), any_age()),
+                  connect(watcher.out, drive.in, through(from_watcher), only_in("halt"), any_age())),
+              (Values{2001, 2002, 2003, 1004, 1005, 1006}));
 }
 
 TEST(ModeInputValueTest, AnInputWithoutValueReadsAsAFreshOne) {

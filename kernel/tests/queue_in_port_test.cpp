@@ -39,8 +39,8 @@ class Queue {
         }
         return values;
     }
-    OutPort<std::int64_t> out{"out"};
-    QueueInPort<std::int64_t, 2U, kFull, kEmpty> in{"in"};
+    OutPort<std::int64_t> out{kNoOwner, "out"};
+    QueueInPort<std::int64_t, 2U, kFull, kEmpty> in{kNoOwner, "in"};
 };
 
 TEST(QueueInPortTest, ValuesComeInOrderAndOnce) {
@@ -264,7 +264,7 @@ TEST(QueueInPortTest, AnEmptyQueueReadsTheLastValueBackWhenToldToAndOnlyOnceTher
 class Asker final : public Component {
   public:
     Asker() : Component("asker") {}
-    QueueInPort<std::int64_t, 8U> in{"in"};
+    QueueInPort<std::int64_t, 8U> in{*this, "in"};
     using Ports = mamori::Ports<&Asker::in>;
     Values values;
 
@@ -295,7 +295,7 @@ TEST(QueueSystemTest, AReaderThatAsksForTheStatusFirstGetsEveryValueThatWasPubli
     Counter counter;
     Asker asker;
     const auto table = system(frame(10_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(asker, counter)),
-                              connect(counter.out, asker.in, fresh_within(10_ns)));
+                              connect(counter.out, asker.in, fresh_within(10_ns), delayed_by_a_frame()));
 
     EXPECT_EQ(run_four_frames(table, asker), (Values{10, 20, 30}));
 }
@@ -314,7 +314,7 @@ TEST(QueueSystemTest, AReaderThatAsksForTheStatusFirstGetsEveryValueThatIsHanded
 class Collector final : public Component {
   public:
     Collector() : Component("collector") {}
-    QueueInPort<std::int64_t, 8U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> in{"in"};
+    QueueInPort<std::int64_t, 8U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> in{*this, "in"};
     using Ports = mamori::Ports<&Collector::in>;
     std::vector<Values> cycles;
 
@@ -335,7 +335,8 @@ TEST(QueueSystemTest, ASlowReaderGetsEveryValueOfAFastWriter) {
     Collector collector;
     const auto table =
         system(frame(40_ns), window("fast", 0_ns, 5_ns, every(10_ns), budget(5_ns), run(counter)),
-               window("slow", 5_ns, 5_ns, budget(5_ns), run(collector)), connect(counter.out, collector.in));
+               window("slow", 5_ns, 5_ns, budget(5_ns), run(collector)),
+               connect(counter.out, collector.in, any_age()));
     ExecutiveFor sut{table};
     FakeHost host;
     ASSERT_EQ(sut.initialize(), Status::kOk);
@@ -357,7 +358,7 @@ template <FullPolicy kFull>
 class Sleeper final : public Component {
   public:
     Sleeper() : Component("sleeper") {}
-    QueueInPort<std::int64_t, 2U, kFull> in{"in"};
+    QueueInPort<std::int64_t, 2U, kFull> in{*this, "in"};
     using Ports = mamori::Ports<&Sleeper::in>;
     bool is_reading{false};
 
@@ -391,7 +392,7 @@ TEST(QueueSystemTest, TheWriterIsToldOfEachValueThatAFullQueueRefused) {
     Counter counter;
     Sleeper<FullPolicy::kDoNothing> reader;
     const auto table = system(frame(10_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(reader, counter)),
-                              connect(counter.out, reader.in));
+                              connect(counter.out, reader.in, any_age(), delayed_by_a_frame()));
 
     EXPECT_EQ(run_and_ask_the_writer(table, counter, reader),
               (std::vector<PortStatus>{kIn, kIn, kIn, kIn, kRefused, kRefused, kIn}))
@@ -404,7 +405,7 @@ TEST(QueueSystemTest, TheWriterIsToldOfAValueThatWasRefusedWhenItWasHandedOn) {
     Counter counter;
     Sleeper<FullPolicy::kDoNothing> reader;
     const auto table = system(frame(10_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(counter, reader)),
-                              connect(counter.out, reader.in));
+                              connect(counter.out, reader.in, any_age()));
 
     EXPECT_EQ(run_and_ask_the_writer(table, counter, reader),
               (std::vector<PortStatus>{kIn, kIn, kIn, kIn, kRefused, kRefused, kIn}))
@@ -417,7 +418,7 @@ TEST(QueueSystemTest, AQueueThatGivesUpItsOldestTakesEachValue) {
     Counter counter;
     Sleeper<FullPolicy::kOverwrite> reader;
     const auto table = system(frame(10_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(reader, counter)),
-                              connect(counter.out, reader.in));
+                              connect(counter.out, reader.in, any_age(), delayed_by_a_frame()));
 
     EXPECT_EQ(run_and_ask_the_writer(table, counter, reader), std::vector<PortStatus>(7U, kIn));
     EXPECT_GT(reader.in.get_overwritten_count(), 0U) << "counted at the input";
@@ -428,7 +429,7 @@ TEST(QueueSystemTest, AQueueWithinAWindowGetsAValueOnceInTheSameCycle) {
     Counter counter;
     Collector collector;
     const auto table = system(frame(40_ns), window("w", 0_ns, 5_ns, budget(5_ns), run(counter, collector)),
-                              connect(counter.out, collector.in));
+                              connect(counter.out, collector.in, any_age()));
     ExecutiveFor sut{table};
     FakeHost host;
     ASSERT_EQ(sut.initialize(), Status::kOk);
@@ -451,7 +452,7 @@ TEST(QueueSystemTest, AQueueBetweenCoresNeedsNoCrossingAndNoOrder) {
     Collector collector;
     const auto table = system(frame(40_ns), window("w", 0_ns, 10_ns, budget(5_ns), run(counter)),
                               window("r", 5_ns, 5_ns, core(1), budget(5_ns), run(collector)),
-                              connect(counter.out, collector.in));
+                              connect(counter.out, collector.in, any_age()));
     ExecutiveFor writer{table};
     ExecutiveFor reader{table, 1U};
     FakeHost host;

@@ -190,7 +190,7 @@ TEST_F(RtcRulesTest, D15_ActionsCannotThrow) {
 class Writer final : public Component {
   public:
     constexpr Writer() noexcept : Component("writer") {}
-    OutPort<std::int32_t> out{"out"};
+    OutPort<std::int32_t> out{*this, "out"};
     using Ports = mamori::Ports<&Writer::out>;
 
     Status answer{Status::kOk};

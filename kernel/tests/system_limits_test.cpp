@@ -28,7 +28,7 @@ Counter g_counter;
 Relay g_constant_relay;
 constexpr auto kConstantTable =
     system(frame(1_ms), window("only", 0_us, 1_ms, budget(1_ms), run(g_counter, g_constant_relay)),
-           connect(g_counter.out, g_constant_relay.in));
+           connect(g_counter.out, g_constant_relay.in, any_age()));
 MAMORI_CHECK(kConstantTable);
 
 Rules list_rules(const SystemView& view) {
@@ -94,9 +94,9 @@ TEST(SystemLimitsTest, OnlyAConnectionToALaterComponentOfItsWindowIsForward) {
     Relay third{"third"};
     Relay stranger{"stranger"};
     const auto is_forward = [&](Relay& source, Relay& sink) {
-        const auto table =
-            system(frame(2_ms), window("a", 0_ms, 1_ms, budget(1_ms), run(first, second)),
-                   window("b", 1_ms, 1_ms, budget(1_ms), run(third)), connect(source.out, sink.in));
+        const auto table = system(frame(2_ms), window("a", 0_ms, 1_ms, budget(1_ms), run(first, second)),
+                                  window("b", 1_ms, 1_ms, budget(1_ms), run(third)),
+                                  connect(source.out, sink.in, any_age()));
         EXPECT_EQ(table.windows[0].has_hand_on, table.connections[0].is_forward_in_window);
         return table.connections[0].is_forward_in_window;
     };
@@ -114,12 +114,13 @@ TEST(SystemLimitsTest, ConnectionsAreSortedWhateverTheOrderTheyAreListedIn) {
     Counter counter;
     std::array<Relay, 3U> relays{Relay{"0"}, Relay{"1"}, Relay{"2"}};
     const auto sort = [&](std::size_t a, std::size_t b, std::size_t c) {
-        const auto table =
-            system(frame(4_ms), window("s", 0_ms, 1_ms, budget(1_ms), run(counter)),
-                   window("0", 1_ms, 1_ms, budget(1_ms), run(relays[0])),
-                   window("1", 2_ms, 1_ms, budget(1_ms), run(relays[1])),
-                   window("2", 3_ms, 1_ms, budget(1_ms), run(relays[2])), connect(counter.out, relays[a].in),
-                   connect(counter.out, relays[b].in), connect(counter.out, relays[c].in));
+        const auto table = system(frame(4_ms), window("s", 0_ms, 1_ms, budget(1_ms), run(counter)),
+                                  window("0", 1_ms, 1_ms, budget(1_ms), run(relays[0])),
+                                  window("1", 2_ms, 1_ms, budget(1_ms), run(relays[1])),
+                                  window("2", 3_ms, 1_ms, budget(1_ms), run(relays[2])),
+                                  connect(counter.out, relays[a].in, any_age()),
+                                  connect(counter.out, relays[b].in, any_age()),
+                                  connect(counter.out, relays[c].in, any_age()));
         EXPECT_EQ(table.outgoing_order, (std::array<std::size_t, 3U>{0U, 1U, 2U})) << "equal keys stay";
         return table.latch_order;
     };
@@ -154,7 +155,7 @@ TEST(SystemLimitsTest, EachConditionOnThePlaceOfAWindowCountsByItself) {
         const auto table = system(
             frame(1000_ns), window("a", 50_ns, 50_ns, budget(50_ns), run(counter)),
             window("b", Duration{one.offset}, Duration{one.length}, budget(Duration{one.limit}), run(relay)),
-            connect(counter.out, relay.in));
+            connect(counter.out, relay.in, any_age()));
         EXPECT_EQ(list_rules_of(table), one.expected) << one.offset << " " << one.length << " " << one.limit;
     }
 }
@@ -181,8 +182,8 @@ TEST(SystemLimitsTest, ACoreOrAPartitionIsLeftThroughABufferOnly) {
             frame(2_ms), window("w", 0_ms, 1_ms, partition("motion"), budget(1_ms), run(counter)),
             window("r", 1_ms, 1_ms, core(core_index), partition(name), budget(1_ms), run(relay)), wiring));
     };
-    const auto direct = connect(counter.out, relay.in);
-    const auto buffered = connect(counter.out, relay.in, through(crossing));
+    const auto direct = connect(counter.out, relay.in, any_age());
+    const auto buffered = connect(counter.out, relay.in, through(crossing), any_age());
     std::string same_name{"motion"};
 
     EXPECT_EQ(check_wired(direct, 0U, same_name.c_str()), Rules{}) << "equal letters are one partition";
@@ -205,10 +206,10 @@ TEST(SystemLimitsTest, ACrossingServesOneConnection) {
                                     window("w", 0_ms, 1_ms, budget(1_ms), run(counter, first, second)),
                                     to_first, to_second));
     };
-    const auto direct = connect(counter.out, second.in);
-    const auto own = connect(counter.out, second.in, through(crossings[1]));
-    const auto shared = connect(counter.out, second.in, through(crossings[0]));
-    const auto of_first = connect(counter.out, first.in, through(crossings[0]));
+    const auto direct = connect(counter.out, second.in, any_age());
+    const auto own = connect(counter.out, second.in, through(crossings[1]), any_age());
+    const auto shared = connect(counter.out, second.in, through(crossings[0]), any_age());
+    const auto of_first = connect(counter.out, first.in, through(crossings[0]), any_age());
 
     EXPECT_EQ(check_pair(of_first, direct), Rules{});
     EXPECT_EQ(check_pair(of_first, own), Rules{});

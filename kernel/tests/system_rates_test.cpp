@@ -249,7 +249,7 @@ TEST(SystemRatesTest, AReaderOnAnotherCoreOpensOutsideOfItsWritersWindow) {
     const auto check_offset = [](Duration offset) {
         return list_rules(system(frame(1_ms), window("w", 100_us, 200_us, budget(1_us), run(g_counter)),
                                  window("r", offset, 1_us, core(1), budget(1_us), run(g_relay)),
-                                 connect(g_counter.out, g_relay.in, through(g_crossing))));
+                                 connect(g_counter.out, g_relay.in, through(g_crossing), any_age())));
     };
 
     EXPECT_EQ(check_offset(100_us - 1_ns), Rules{});
@@ -280,7 +280,7 @@ TEST(RunTimeTableTest, AllFindingsAreToldAtOnce) {
     EXPECT_EQ(
         list_rules(system(frame(1_ms), window("a", 0_us, 100_us, budget(101_us), run(g_relay)),
                           window("b", 50_us, 100_us, every(300_us), budget(1_us), run(g_relay)),
-                          connect(g_counter.out, g_relay.in), faults<Fault::kHot>())),
+                          connect(g_counter.out, g_relay.in, any_age()), faults<Fault::kHot>())),
         (Rules{Rule::kBudgetExceedsWindow, Rule::kPeriodNotInFrame, Rule::kWindowsOverlap,
                Rule::kComponentInTwoPlaces, Rule::kPortOfUnknownComponent, Rule::kFaultWithoutReaction}));
 }
@@ -298,7 +298,7 @@ TEST(RunTimeTableTest, FindingsBeyondTheRoomAreCounted) {
 TEST(RunTimeTableTest, RowsThatAreInvalidInThemselvesHideWhatReliesOnThem) {
     verifies("SWR-KRN-025", Technique::kErrorGuessing, Polarity::kViolation);
     const auto good = system(frame(1_ms), window("a", 0_us, 1_us, budget(1_us), run(g_counter, g_relay)),
-                             connect(g_counter.out, g_relay.in));
+                             connect(g_counter.out, g_relay.in, any_age()));
     const auto list_broken = [&good](auto&& spoil) {
         auto table = good;
         spoil(table);

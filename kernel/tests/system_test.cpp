@@ -21,7 +21,7 @@ using namespace verification;
 class Listener final : public Component {
   public:
     constexpr Listener() noexcept : Component("listener") {}
-    InPort<std::int64_t, Need::kOptional> in{"in"};
+    InPort<std::int64_t, Need::kOptional> in{*this, "in"};
     using Ports = mamori::Ports<&Listener::in>;
 };
 class Portless final : public Component {
@@ -31,15 +31,15 @@ class Portless final : public Component {
 
 Counter g_counter;
 Relay g_relay;
-Relay g_second_relay;
+Relay g_second_relay{"second relay"};
 Listener g_listener;
 Portless g_portless;
 
 constexpr auto kSystem =
     system(frame(1_ms), window("sense", 0_us, 100_us, budget(50_us), run(g_portless, g_counter, g_relay)),
            window("act", 100_us, 900_us, budget(900_us), run(g_second_relay, g_listener)),
-           connect(g_counter.out, g_relay.in), connect(g_relay.out, g_second_relay.in),
-           connect(g_second_relay.out, g_listener.in));
+           connect(g_counter.out, g_relay.in, any_age()), connect(g_relay.out, g_second_relay.in, any_age()),
+           connect(g_second_relay.out, g_listener.in, any_age()));
 MAMORI_CHECK(kSystem);
 
 TEST(SystemTest, WindowsHoldTheirPlaceBudgetAndComponents) {
@@ -88,9 +88,11 @@ TEST(SystemTest, AConnectionAgainstTheOrderOrOntoItselfIsNotForward) {
     verifies("SWR-KRN-017", Technique::kBoundaryValues);
     static constexpr auto kBackward =
         system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_relay, g_second_relay)),
-               connect(g_second_relay.out, g_relay.in), connect(g_relay.out, g_second_relay.in));
-    static constexpr auto kOntoItself = system(
-        frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_relay)), connect(g_relay.out, g_relay.in));
+               connect(g_second_relay.out, g_relay.in, any_age(), delayed_by_a_frame()),
+               connect(g_relay.out, g_second_relay.in, any_age()));
+    static constexpr auto kOntoItself =
+        system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_relay)),
+               connect(g_relay.out, g_relay.in, any_age(), delayed_by_a_frame()));
     MAMORI_CHECK(kBackward);
     MAMORI_CHECK(kOntoItself);
 
@@ -192,10 +194,10 @@ TEST(SystemCheckTest, AConnectionOfAComponentThatIsNotInTheTableIsNamed) {
     verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
     const Finding source =
         check_table(system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_listener)),
-                           connect(g_counter.out, g_listener.in)));
+                           connect(g_counter.out, g_listener.in, any_age())));
     const Finding sink =
         check_table(system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_counter)),
-                           connect(g_counter.out, g_listener.in)));
+                           connect(g_counter.out, g_listener.in, any_age())));
 
     EXPECT_EQ(source.rule, Rule::kPortOfUnknownComponent);
     EXPECT_EQ(sink.rule, Rule::kPortOfUnknownComponent);
@@ -215,10 +217,10 @@ TEST(SystemCheckTest, AMandatoryInputWithoutASourceIsNamedAndAnOptionalOneIsNot)
 
 TEST(SystemCheckTest, ASecondWriterOfAnInputIsNamed) {
     verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
-    const Finding finding = check_table(
-        system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_counter, g_relay, g_listener)),
-               connect(g_counter.out, g_relay.in), connect(g_counter.out, g_listener.in),
-               connect(g_relay.out, g_listener.in)));
+    const Finding finding = check_table(system(
+        frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_counter, g_relay, g_listener)),
+        connect(g_counter.out, g_relay.in, any_age()), connect(g_counter.out, g_listener.in, any_age()),
+        connect(g_relay.out, g_listener.in, any_age())));
 
     EXPECT_EQ(finding.rule, Rule::kInputHasTwoWriters);
     EXPECT_EQ(finding.element, 3U) << "port row of the listener's input";

@@ -34,8 +34,8 @@ enum class Reaction : std::uint32_t { kStop };
 class Node final : public Component {
   public:
     explicit Node(const char* name) noexcept : Component(name) {}
-    InPort<std::int64_t, Need::kOptional> in{"in"};
-    OutPort<std::int64_t> out{"out"};
+    InPort<std::int64_t, Need::kOptional> in{*this, "in"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Node::in, &Node::out>;
     Parameter<double> speed{"speed", 1.0, between(0.1, 3.0)};
     using Parameters = mamori::Parameters<&Node::speed>;
@@ -48,7 +48,7 @@ class Node final : public Component {
 class Log final : public Component {
   public:
     explicit Log(const char* name) noexcept : Component(name) {}
-    QueueInPort<std::int64_t, 4U> in{"in"};
+    QueueInPort<std::int64_t, 4U> in{*this, "in"};
     using Ports = mamori::Ports<&Log::in>;
 };
 
@@ -70,8 +70,8 @@ auto make_table(Parts& p) {
                   window("tick", 300_ns, 100_ns, triggered_by(p.trigger), partition("io"), budget(100_ns),
                          run(p.ticked)),
                   window("act", 500_ns, 400_ns, core(1U), budget(300_ns), run(p.drive)),
-                  connect(p.source.out, p.filter.in), connect(p.filter.out, p.log.in),
-                  connect(p.filter.out, p.drive.in, through(p.to_drive), only_in("work", "idle")),
+                  connect(p.source.out, p.filter.in, any_age()), connect(p.filter.out, p.log.in, any_age()),
+                  connect(p.filter.out, p.drive.in, through(p.to_drive), only_in("work", "idle"), any_age()),
                   configuration_set("slow", assign(p.drive.speed, 0.5), assign(p.source.speed, 0.5)),
                   configuration_set("fast", assign(p.drive.speed, 2.0), assign(p.source.speed, 2.0)),
                   system_mode("idle", runs(p.source, p.filter, p.log, p.drive)),

@@ -122,7 +122,7 @@ TEST(TimedTypesTest, EachTypeIsOneOfItsOwnAndTravelsThroughAPort) {
     static_assert(!std::is_same_v<TimedPoint2D, TimedVector2D>, "one form, two meanings");
     static_assert(!std::is_same_v<TimedOctet, TimedBoolean> && !std::is_same_v<TimedOctet, TimedChar>);
     static_assert(is_payload<TimedStringSeq<2, 3>>() && is_payload<TimedOAP>());
-    OutPort<TimedDoubleSeq<4>> port("torques");
+    OutPort<TimedDoubleSeq<4>> port(kNoOwner, "torques");
 
     port.write({{1U, 0U}, std::array{0.5, 0.25}});
     ASSERT_TRUE(port.publish(Instant{0}));

@@ -11,7 +11,7 @@ namespace safe_arm {
 template <typename T>
 void feed(mamori::InPort<T>& input, const T& value, mamori::Instant now = {}) {
     // One source for all calls: an input takes only what is newer than what it has.
-    static mamori::OutPort<T> source{"source"};
+    static mamori::OutPort<T> source{mamori::kNoOwner, "source"};
     source.write(value);
     input.take(source.get_staged_sample(now));
 }

@@ -96,6 +96,17 @@ Status SystemLife::initialize() noexcept {
     return result;
 }
 
+/// First component of the table that no executive has attached; kNoIndex: there is none.
+std::size_t SystemLife::find_component_without_context() const noexcept {
+    const Span<Component* const> components = get_core().view.components;
+    for (std::size_t i = 0U; i < components.size(); ++i) {
+        if (components[i]->get_participating_contexts().empty()) {
+            return i;
+        }
+    }
+    return kNoIndex;
+}
+
 Status SystemLife::start_contexts() noexcept {
     CoreState& core = get_core();
     for (std::size_t w = 0U; w < core.view.windows.size(); ++w) {
@@ -132,7 +143,10 @@ Status SystemLife::activate_components() noexcept {
 }
 
 Status SystemLife::start() noexcept {
-    failed_component_ = kNoIndex;
+    failed_component_ = find_component_without_context();
+    if (failed_component_ != kNoIndex) {
+        return Status::kPreconditionNotMet;
+    }
     Status result = runner_.get_modes().join();
     if (result != Status::kOk) {
         return result;

@@ -6,9 +6,11 @@
 // A connection joins ports of two payload types.
 namespace payload_mismatch {
 #ifdef MAMORI_BREAK_PAYLOAD_MISMATCH
-[[maybe_unused]] constexpr auto kConnection = mamori::connect(g_producer.whole, g_consumer.in);
+[[maybe_unused]] constexpr auto kConnection =
+    mamori::connect(g_producer.whole, g_consumer.in, mamori::any_age());
 #else
-[[maybe_unused]] constexpr auto kConnection = mamori::connect(g_producer.real, g_consumer.in);
+[[maybe_unused]] constexpr auto kConnection =
+    mamori::connect(g_producer.real, g_consumer.in, mamori::any_age());
 #endif
 }  // namespace payload_mismatch
 
@@ -19,7 +21,7 @@ constexpr auto kSystem = mamori::system(
     mamori::window("w", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer, g_consumer))
 #ifndef MAMORI_BREAK_INPUT_NOT_CONNECTED
         ,
-    mamori::connect(g_producer.real, g_consumer.in)
+    mamori::connect(g_producer.real, g_consumer.in, mamori::any_age())
 #endif
 );
 MAMORI_CHECK(kSystem);
@@ -31,10 +33,10 @@ constexpr auto kSystem =
     mamori::system(mamori::frame(1_ms),
                    mamori::window("w", 0_us, 100_us, mamori::budget(50_us),
                                   mamori::run(g_producer, g_second_producer, g_consumer)),
-                   mamori::connect(g_producer.real, g_consumer.in)
+                   mamori::connect(g_producer.real, g_consumer.in, mamori::any_age())
 #ifdef MAMORI_BREAK_TWO_WRITERS
                        ,
-                   mamori::connect(g_second_producer.real, g_consumer.in)
+                   mamori::connect(g_second_producer.real, g_consumer.in, mamori::any_age())
 #endif
     );
 MAMORI_CHECK(kSystem);
@@ -50,7 +52,7 @@ constexpr auto kSystem =
                    mamori::window("a", 0_us, 100_us, mamori::budget(50_us),
                                   mamori::run(g_producer, g_consumer)),
 #endif
-                   mamori::connect(g_producer.real, g_consumer.in));
+                   mamori::connect(g_producer.real, g_consumer.in, mamori::any_age()));
 MAMORI_CHECK(kSystem);
 }  // namespace unknown_component
 
@@ -61,9 +63,9 @@ constexpr auto kSystem = mamori::system(
     mamori::window("sense", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
     mamori::window("plan", 100_us, 100_us, mamori::core(1), mamori::budget(50_us), mamori::run(g_consumer)),
 #ifdef MAMORI_BREAK_CROSSING_WITHOUT_BUFFER
-    mamori::connect(g_producer.real, g_consumer.in));
+    mamori::connect(g_producer.real, g_consumer.in, mamori::any_age()));
 #else
-    mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing)));
+    mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing), mamori::any_age()));
 #endif
 MAMORI_CHECK(kSystem);
 }  // namespace crossing_without_buffer
@@ -80,7 +82,7 @@ constexpr auto kSystem = mamori::system(mamori::frame(1_ms),
                                                        mamori::budget(50_us), mamori::run(g_producer)),
                                         mamori::window("plan", 100_us, 100_us, mamori::partition(kPartition),
                                                        mamori::budget(50_us), mamori::run(g_consumer)),
-                                        mamori::connect(g_producer.real, g_consumer.in));
+                                        mamori::connect(g_producer.real, g_consumer.in, mamori::any_age()));
 MAMORI_CHECK(kSystem);
 }  // namespace partition_without_buffer
 
@@ -93,13 +95,14 @@ constexpr mamori::Crossing<double>& kSecondCrossing = g_crossing;
 #else
 constexpr mamori::Crossing<double>& kSecondCrossing = g_second_crossing;
 #endif
-constexpr auto kSystem =
-    mamori::system(mamori::frame(1_ms),
-                   mamori::window("sense", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
-                   mamori::window("plan", 100_us, 100_us, mamori::core(1), mamori::budget(50_us),
-                                  mamori::run(g_consumer, g_second_consumer)),
-                   mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing)),
-                   mamori::connect(g_producer.real, g_second_consumer.in, mamori::through(kSecondCrossing)));
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("sense", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::window("plan", 100_us, 100_us, mamori::core(1), mamori::budget(50_us),
+                   mamori::run(g_consumer, g_second_consumer)),
+    mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing), mamori::any_age()),
+    mamori::connect(g_producer.real, g_second_consumer.in, mamori::through(kSecondCrossing),
+                    mamori::any_age()));
 MAMORI_CHECK(kSystem);
 }  // namespace crossing_used_twice
 
@@ -114,7 +117,7 @@ constexpr auto kSystem = mamori::system(
     mamori::frame(1_ms),
     mamori::window("sense", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
     mamori::window("plan", kOffset, 100_us, mamori::core(1), mamori::budget(50_us), mamori::run(g_consumer)),
-    mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing)));
+    mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing), mamori::any_age()));
 MAMORI_CHECK(kSystem);
 }  // namespace crossing_not_ordered
 
@@ -152,7 +155,7 @@ namespace port_is_no_port {
 class Odd final : public mamori::Component {
   public:
     constexpr Odd() noexcept : Component("odd") {}
-    mamori::OutPort<double> out{"out"};
+    mamori::OutPort<double> out{*this, "out"};
     double number{0.0};
 #ifdef MAMORI_BREAK_PORT_IS_NO_PORT
     using Ports = mamori::Ports<&Odd::out, &Odd::number>;
@@ -163,3 +166,70 @@ class Odd final : public mamori::Component {
 Odd g_odd;
 [[maybe_unused]] constexpr auto kRunList = mamori::run(g_odd);
 }  // namespace port_is_no_port
+
+// A connection states no age limit.
+namespace age_limit_not_stated {
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer, g_consumer)),
+#ifdef MAMORI_BREAK_AGE_LIMIT_NOT_STATED
+    mamori::connect(g_producer.real, g_consumer.in));
+#else
+    mamori::connect(g_producer.real, g_consumer.in, mamori::any_age()));
+#endif
+MAMORI_CHECK(kSystem);
+}  // namespace age_limit_not_stated
+
+// A connection states two age limits.
+namespace two_age_limits {
+#ifdef MAMORI_BREAK_TWO_AGE_LIMITS
+[[maybe_unused]] constexpr auto kConnection =
+    mamori::connect(g_producer.real, g_consumer.in, mamori::fresh_within(1_ms), mamori::any_age());
+#endif
+}  // namespace two_age_limits
+
+// The reader runs before its writer in one window.
+namespace delay_not_stated {
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_consumer, g_producer)),
+#ifdef MAMORI_BREAK_DELAY_NOT_STATED
+    mamori::connect(g_producer.real, g_consumer.in, mamori::any_age()));
+#else
+    mamori::connect(g_producer.real, g_consumer.in, mamori::any_age(), mamori::delayed_by_a_frame()));
+#endif
+MAMORI_CHECK(kSystem);
+}  // namespace delay_not_stated
+
+// A connection in the order of its window states a delay that it does not have.
+namespace delay_stated_without_delay {
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer, g_consumer)),
+#ifdef MAMORI_BREAK_DELAY_STATED_WITHOUT_DELAY
+    mamori::connect(g_producer.real, g_consumer.in, mamori::any_age(), mamori::delayed_by_a_frame()));
+#else
+    mamori::connect(g_producer.real, g_consumer.in, mamori::any_age()));
+#endif
+MAMORI_CHECK(kSystem);
+}  // namespace delay_stated_without_delay
+
+// A component reads its own output.
+namespace own_output_without_delay {
+class Filter final : public mamori::Component {
+  public:
+    constexpr Filter() noexcept : Component("filter") {}
+    mamori::InPort<double> last{*this, "last"};
+    mamori::OutPort<double> out{*this, "out"};
+    using Ports = mamori::Ports<&Filter::last, &Filter::out>;
+};
+inline Filter g_filter;
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms), mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_filter)),
+#ifdef MAMORI_BREAK_OWN_OUTPUT_WITHOUT_DELAY
+    mamori::connect(g_filter.out, g_filter.last, mamori::any_age()));
+#else
+    mamori::connect(g_filter.out, g_filter.last, mamori::any_age(), mamori::delayed_by_a_frame()));
+#endif
+MAMORI_CHECK(kSystem);
+}  // namespace own_output_without_delay

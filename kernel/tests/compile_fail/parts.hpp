@@ -9,14 +9,14 @@
 class Producer final : public mamori::Component {
   public:
     constexpr Producer() noexcept : Component("producer") {}
-    mamori::OutPort<double> real{"real"};
-    mamori::OutPort<int> whole{"whole"};
+    mamori::OutPort<double> real{*this, "real"};
+    mamori::OutPort<int> whole{*this, "whole"};
     using Ports = mamori::Ports<&Producer::real, &Producer::whole>;
 };
 class Consumer final : public mamori::Component {
   public:
     constexpr Consumer() noexcept : Component("consumer") {}
-    mamori::InPort<double> in{"in"};
+    mamori::InPort<double> in{*this, "in"};
     using Ports = mamori::Ports<&Consumer::in>;
 };
 

@@ -21,7 +21,7 @@ struct Sample {
 MAMORI_FIELDS(payload_without_fields::Sample, value)
 #endif
 namespace payload_without_fields {
-mamori::OutPort<Sample> g_port{"port"};
+mamori::OutPort<Sample> g_port{mamori::kNoOwner, "port"};
 }  // namespace payload_without_fields
 
 // A field list leaves the last field out.

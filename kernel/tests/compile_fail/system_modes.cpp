@@ -9,7 +9,7 @@
 class Axis final : public mamori::Component {
   public:
     constexpr Axis() noexcept : Component("axis") {}
-    mamori::InPort<double> in{"in"};
+    mamori::InPort<double> in{*this, "in"};
     using Ports = mamori::Ports<&Axis::in>;
     mamori::Parameter<double> speed{"speed", 1.0, mamori::between(0.5, 3.0)};
     using Parameters = mamori::Parameters<&Axis::speed>;
@@ -29,11 +29,12 @@ constexpr auto kSystem = mamori::system(
     mamori::frame(1_ms),
     mamori::window("all", 0_us, 100_us, mamori::budget(50_us),
                    mamori::run(g_producer, g_second_producer, g_axis, g_spare)),
-    mamori::connect(g_producer.real, g_axis.in, mamori::only_in(kBreak == 1 ? "tech" : "work")),
+    mamori::connect(g_producer.real, g_axis.in, mamori::only_in(kBreak == 1 ? "tech" : "work"),
+                    mamori::any_age()),
 #if MAMORI_BREAK == 2
-    mamori::connect(g_second_producer.real, g_axis.in, mamori::only_in("teach", "work")),
+    mamori::connect(g_second_producer.real, g_axis.in, mamori::only_in("teach", "work"), mamori::any_age()),
 #elif MAMORI_BREAK != 3
-    mamori::connect(g_second_producer.real, g_axis.in, mamori::only_in("teach")),
+    mamori::connect(g_second_producer.real, g_axis.in, mamori::only_in("teach"), mamori::any_age()),
 #endif
     mamori::configuration_set("slow", mamori::assign(g_axis.speed, kBreak == 4 ? 0.4 : 0.5)),
     mamori::system_mode("work",

@@ -15,7 +15,7 @@ class Counter final : public Component {
   public:
     constexpr explicit Counter(const char* name = "counter") noexcept : Component(name) {}
 
-    OutPort<std::int64_t> out{"out"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Counter::out>;
 
     std::int64_t step{10};
@@ -44,8 +44,8 @@ class Relay final : public Component {
   public:
     constexpr explicit Relay(const char* name = "relay") noexcept : Component(name) {}
 
-    InPort<std::int64_t> in{"in"};
-    OutPort<std::int64_t> out{"out"};
+    InPort<std::int64_t> in{*this, "in"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Relay::in, &Relay::out>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -66,7 +66,7 @@ class Sink final : public Component {
 
     explicit Sink(const char* name = "sink") noexcept : Component(name) {}
 
-    InPort<std::int64_t> in{"in"};
+    InPort<std::int64_t> in{*this, "in"};
     using Ports = mamori::Ports<&Sink::in>;
 
     std::vector<Note> notes;

@@ -81,8 +81,8 @@ class Part final : public Component {
     Part(const char* name, std::int64_t id, ModeHost& host, const TroublePlan& plan) noexcept
         : Component(name), id_(id), host_(host), plan_(plan) {}
 
-    InPort<std::int64_t, Need::kOptional> in{"in"};
-    OutPort<std::int64_t> out{"out"};
+    InPort<std::int64_t, Need::kOptional> in{*this, "in"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Part::in, &Part::out>;
     Parameter<double> speed{"speed", 1.0, between(0.1, 3.0)};
     using Parameters = mamori::Parameters<&Part::speed>;
@@ -204,8 +204,9 @@ inline auto make_robot_table(RobotParts& p) {
     return system(
         frame(1000_ns), window("plan", 0_ns, 400_ns, budget(300_ns), run(p.monitor, p.planner, p.viewer)),
         window("act", 400_ns, 500_ns, core(1), budget(400_ns), run(p.hand, p.drive, p.guard)),
-        connect(p.planner.out, p.drive.in, through(p.to_drive)), connect(p.hand.out, p.drive.in),
-        connect(p.drive.out, p.viewer.in, through(p.to_viewer), only_in("work")),
+        connect(p.planner.out, p.drive.in, through(p.to_drive), any_age()),
+        connect(p.hand.out, p.drive.in, any_age()),
+        connect(p.drive.out, p.viewer.in, through(p.to_viewer), only_in("work"), any_age()),
         configuration_set("slow", assign(p.drive.speed, 0.5), assign(p.planner.speed, 0.5)),
         configuration_set("fast", assign(p.drive.speed, 2.0), assign(p.planner.speed, 2.0)),
         system_mode("idle", runs(p.monitor, p.guard)),

@@ -32,7 +32,7 @@ using literals::operator""_s;
 class Actor final : public Component {
   public:
     explicit Actor(const char* name) noexcept : Component(name) {}
-    OutPort<std::int64_t> out{"out"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Actor::out>;
 
     std::atomic<bool> is_to_hang{false};

@@ -66,7 +66,7 @@ class PartitionLinkTest : public ::testing::Test {
     FrameReader reader_{};
     PartitionSender<Message> sender_{"sender", writer_};
     PartitionReceiver<Message> receiver_{"receiver", reader_};
-    OutPort<Message> source_{"source"};
+    OutPort<Message> source_{kNoOwner, "source"};
 };
 
 TEST_F(PartitionLinkTest, AMessageOfAnEarlierRunDoesNotComeOut) {

@@ -47,7 +47,7 @@ std::vector<std::string> take_backtrace() {
 class Probe final : public Component {
   public:
     constexpr Probe() noexcept : Component("probe") {}
-    OutPort<double> out{"out"};
+    OutPort<double> out{*this, "out"};
     using Ports = mamori::Ports<&Probe::out>;
     std::vector<std::string>* chain{nullptr};
 
@@ -70,7 +70,7 @@ class Probe final : public Component {
 class Sink final : public Component {
   public:
     constexpr Sink() noexcept : Component("sink") {}
-    InPort<double> in{"in"};
+    InPort<double> in{*this, "in"};
     using Ports = mamori::Ports<&Sink::in>;
 };
 class Listener final : public ExecutionObserver {
@@ -99,8 +99,8 @@ class LongerHost final : public WindowHost {
 Probe probe;
 Sink sink;
 constexpr auto kAlone = system(frame(1_ms), window("w", 0_ms, 1_ms, budget(1_ms), run(probe)));
-constexpr auto kForward =
-    system(frame(1_ms), window("w", 0_ms, 1_ms, budget(1_ms), run(probe, sink)), connect(probe.out, sink.in));
+constexpr auto kForward = system(frame(1_ms), window("w", 0_ms, 1_ms, budget(1_ms), run(probe, sink)),
+                                 connect(probe.out, sink.in, any_age()));
 
 /// Runs one window. @return the functions from run_window to on_execute, both included.
 template <typename Table>

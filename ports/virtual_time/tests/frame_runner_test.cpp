@@ -24,7 +24,7 @@ using namespace verification;
 class Sensor final : public Component {
   public:
     constexpr Sensor() noexcept : Component("sensor") {}
-    OutPort<double> out{"out"};
+    OutPort<double> out{*this, "out"};
     using Ports = mamori::Ports<&Sensor::out>;
     double measured{0.0};
 
@@ -37,8 +37,8 @@ class Sensor final : public Component {
 class Doubler final : public Component {
   public:
     constexpr Doubler() noexcept : Component("doubler") {}
-    InPort<double> in{"in"};
-    OutPort<double> out{"out"};
+    InPort<double> in{*this, "in"};
+    OutPort<double> out{*this, "out"};
     using Ports = mamori::Ports<&Doubler::in, &Doubler::out>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -77,7 +77,7 @@ struct Plant {
     SystemTable<2U, 3U, 5U, 2U> table =
         system(frame(1000_ns), window("sense", 0_ns, 300_ns, budget(200_ns), run(sensor, channel)),
                window("decide", 400_ns, 500_ns, budget(500_ns), run(doubler)),
-               connect(sensor.out, channel.in), connect(channel.out, doubler.in));
+               connect(sensor.out, channel.in, any_age()), connect(channel.out, doubler.in, any_age()));
     std::array<Duration, 3> durations{};
     ExecutiveFor<decltype(table)> executive{table};
     VirtualHost host{durations};

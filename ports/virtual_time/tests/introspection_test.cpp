@@ -23,9 +23,9 @@ constexpr int kFrames = 5000;
 /// A value that depends on all that came before.
 class Mixer final : public Component {
   public:
-    constexpr Mixer() noexcept : Component("mixer") {}
-    InPort<std::uint64_t, Need::kOptional> in{"in"};
-    OutPort<std::uint64_t> out{"out"};
+    constexpr explicit Mixer(const char* name) noexcept : Component(name) {}
+    InPort<std::uint64_t, Need::kOptional> in{*this, "in"};
+    OutPort<std::uint64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Mixer::in, &Mixer::out>;
 
     Status on_execute(ContextHandle context) noexcept override {
@@ -82,11 +82,12 @@ struct Course {
 
 /// Runs kFrames frames of 1 ms: two mixers in a ring, one window each.
 Course run(Tool tool) {
-    Mixer first;
-    Mixer second;
-    const auto table = system(frame(1_ms), window("first", 0_us, 400_us, budget(300_us), run(first)),
-                              window("second", 500_us, 400_us, budget(300_us), run(second)),
-                              connect(first.out, second.in), connect(second.out, first.in));
+    Mixer first{"first"};
+    Mixer second{"second"};
+    const auto table =
+        system(frame(1_ms), window("first", 0_us, 400_us, budget(300_us), run(first)),
+               window("second", 500_us, 400_us, budget(300_us), run(second)),
+               connect(first.out, second.in, any_age()), connect(second.out, first.in, any_age()));
     ExecutiveFor executive{table};
     IntrospectionFor introspection{table};
     if (tool != Tool::kNone) {

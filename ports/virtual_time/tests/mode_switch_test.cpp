@@ -23,7 +23,7 @@ enum class Command { kStart, kTeach };
 class Supervisor final : public Component {
   public:
     Supervisor() noexcept : Component("supervisor") {}
-    OutPort<std::int64_t> out{"out"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Supervisor::out>;
 
     SystemModes* modes{nullptr};
@@ -42,7 +42,7 @@ class Supervisor final : public Component {
 class Source final : public Component {
   public:
     Source(const char* name, std::int64_t step) noexcept : Component(name), step_(step) {}
-    OutPort<std::int64_t> out{"out"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Source::out>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -59,8 +59,8 @@ class Source final : public Component {
 class Drive final : public Component {
   public:
     Drive() noexcept : Component("drive") {}
-    InPort<std::int64_t> in{"in"};
-    OutPort<double> out{"out"};
+    InPort<std::int64_t> in{*this, "in"};
+    OutPort<double> out{*this, "out"};
     using Ports = mamori::Ports<&Drive::in, &Drive::out>;
     Parameter<double> scale{"scale", 1.0, between(above(0.0), at_most(2.0))};
     using Parameters = mamori::Parameters<&Drive::scale>;
@@ -89,8 +89,8 @@ auto make_machine_table(MachineParts& p) {
     return system(frame(1000_ns),
                   window("ask", 0_ns, 400_ns, budget(400_ns), run(p.supervisor, p.planner, p.hand)),
                   window("act", 400_ns, 400_ns, core(1), budget(400_ns), run(p.drive)),
-                  connect(p.planner.out, p.drive.in, through(p.from_planner)),
-                  connect(p.hand.out, p.drive.in, through(p.from_hand)),
+                  connect(p.planner.out, p.drive.in, through(p.from_planner), any_age()),
+                  connect(p.hand.out, p.drive.in, through(p.from_hand), any_age()),
                   configuration_set("fast", assign(p.drive.scale, 2.0)),
                   configuration_set("slow", assign(p.drive.scale, 0.5)),
                   system_mode("work", runs(p.supervisor, p.planner, p.drive), parameters("fast")),
@@ -116,8 +116,9 @@ struct Machine : MachineParts {
         supervisor.modes = &modes;
         for (Executive* core : {static_cast<Executive*>(&ask), static_cast<Executive*>(&act)}) {
             EXPECT_EQ(core->initialize(), Status::kOk);
-            EXPECT_EQ(core->start(), Status::kOk);
         }
+        EXPECT_EQ(ask.start(), Status::kOk);
+        EXPECT_EQ(act.start(), Status::kOk);
     }
     void run_frames(int count) {
         for (int i = 0; i < count; ++i) {

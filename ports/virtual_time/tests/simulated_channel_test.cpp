@@ -40,7 +40,7 @@ class SimulatedChannelTest : public ::testing::Test {
     }
 
     SimulatedChannel<int, 3U> sut_{"channel"};
-    OutPort<int> source_{"source"};
+    OutPort<int> source_{kNoOwner, "source"};
     Instant now_{};
 };
 

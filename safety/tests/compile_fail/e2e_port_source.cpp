@@ -115,8 +115,8 @@ using InFrame = E2eFrame<27U>;
 using InFrame = E2eFrame<28U>;
 #endif
 
-MAMORI_CONSTINIT mamori::OutPort<OutFrame> g_out{"out"};
-MAMORI_CONSTINIT mamori::InPort<InFrame> g_in{"in"};
+MAMORI_CONSTINIT mamori::OutPort<OutFrame> g_out{mamori::kNoOwner, "out"};
+MAMORI_CONSTINIT mamori::InPort<InFrame> g_in{mamori::kNoOwner, "in"};
 MAMORI_CONSTINIT E2eOutPort<SafeSpeed, OutFrame> g_sender{g_out};
 #if defined(MAMORI_DEFECT_PORT_WITHOUT_SUBSTITUTE)
 MAMORI_CONSTINIT E2eInPort<SafeSpeed, kPortLimits, mamori::InPort<InFrame>> g_receiver{g_in};

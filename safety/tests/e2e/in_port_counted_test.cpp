@@ -81,7 +81,7 @@ struct BrokenQueue {
 
 TEST(E2eSourceTest, FrameThatAQueueCannotGiveIsNone) {
     verifies("SWR-E2E-036", Technique::kFaultInjection, Polarity::kViolation);
-    mamori::OutPort<M04::Frame> out{"out"};
+    mamori::OutPort<M04::Frame> out{mamori::kNoOwner, "out"};
     E2eOutPort<M04> sender{out};
     BrokenQueue queue;
     E2eInPort<M04, kLoose<PlainSequence>, BrokenQueue> sut{queue, kSafe};

@@ -281,7 +281,7 @@ TEST(E2eRestartTest, SenderThatBeganAnewIsHeardAfterADeliberateResetOnly) {
     Ends<M04, kLoose<HardenedSequence>> ends{kSafe, 1000U};
     ends.synchronise();
     ASSERT_EQ(ends.send({1.0, Gear::kDrive}), E2eWorth::kNew);
-    mamori::OutPort<M04::Frame> out{"out"};
+    mamori::OutPort<M04::Frame> out{mamori::kNoOwner, "out"};
     E2eOutPort<M04> sender{out};
     const auto send = [&]() {
         static_cast<void>(sender.write({2.0, Gear::kDrive}));

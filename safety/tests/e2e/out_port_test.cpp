@@ -24,7 +24,7 @@ std::vector<std::byte> to_bytes(const Frame& frame) {
 template <typename Message>
 class E2eOutPortTest : public ::testing::Test {
   protected:
-    mamori::OutPort<typename Message::Frame> out_{"out"};
+    mamori::OutPort<typename Message::Frame> out_{mamori::kNoOwner, "out"};
     E2eOutPort<Message> sut_{out_};
 
     std::vector<std::byte> send(const Speed& value) {
@@ -81,7 +81,7 @@ TYPED_TEST(E2eOutPortTest, SecondWriteInACycleReplacesTheFirstUnderItsCounter) {
 
 TEST(E2eOutPortTest, DiscardedFrameIsALostOne) {
     verifies("SWR-E2E-038", Technique::kFaultInjection, Polarity::kViolation);
-    mamori::OutPort<M04::Frame> out{"out"};
+    mamori::OutPort<M04::Frame> out{mamori::kNoOwner, "out"};
     E2eOutPort<M04> sut{out};
     ASSERT_EQ(sut.write({}), Status::kOk);
 
@@ -92,7 +92,7 @@ TEST(E2eOutPortTest, DiscardedFrameIsALostOne) {
 
 TEST(E2eOutPortTest, ValueWithoutAnEncodingIsNotSent) {
     verifies("SWR-E2E-030", Technique::kErrorGuessing, Polarity::kViolation);
-    mamori::OutPort<M04::Frame> out{"out"};
+    mamori::OutPort<M04::Frame> out{mamori::kNoOwner, "out"};
     E2eOutPort<M04> sut{out};
 
     EXPECT_EQ(sut.write({1.0, static_cast<Gear>(2U)}), Status::kBadParameter);
@@ -112,7 +112,7 @@ TEST(E2eOutPortTest, ValueWithoutAnEncodingIsNotSent) {
 
 TEST(E2eOutPortTest, FirstCounterOutsideTheProfileSendsNothing) {
     verifies("SWR-E2E-030", Technique::kBoundaryValues, Polarity::kViolation);
-    mamori::OutPort<M01::Frame> out{"out"};
+    mamori::OutPort<M01::Frame> out{mamori::kNoOwner, "out"};
     E2eOutPort<M01> last{out, 14U};
     E2eOutPort<M01> none{out, 15U};
 
@@ -130,7 +130,7 @@ using MixedMessage = E2eMessage<Mixed, E2eProfile04<>, kMixedChannel, mamori::By
 
 TEST(E2eMessageTest, FramesAreAsLongAsTheirValues) {
     verifies("SWR-E2E-030", Technique::kBoundaryValues);
-    mamori::OutPort<NoteMessage::Frame> out{"out"};
+    mamori::OutPort<NoteMessage::Frame> out{mamori::kNoOwner, "out"};
     E2eOutPort<NoteMessage> sut{out};
     const auto calc_length = [&](const Note& note) {
         EXPECT_EQ(sut.write(note), Status::kOk);
@@ -146,7 +146,7 @@ TEST(E2eMessageTest, FramesAreAsLongAsTheirValues) {
 
 TEST(E2eMessageTest, LengthsOfEveryKindOfPayloadAreThoseOfItsEncodings) {
     verifies("SWR-E2E-030", Technique::kBackToBack);
-    mamori::OutPort<MixedMessage::Frame> out{"out"};
+    mamori::OutPort<MixedMessage::Frame> out{mamori::kNoOwner, "out"};
     E2eOutPort<MixedMessage> sut{out};
     Mixed longest{};
     for (auto& row : longest.rows) {

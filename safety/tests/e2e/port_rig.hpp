@@ -83,8 +83,8 @@ struct Ends {
     explicit Ends(const Value& substitute = Value{}, std::uint32_t counter = Message::Profile::kFirstCounter)
         : sender(out, counter), sut(in, substitute) {}
 
-    mamori::OutPort<Frame> out{"out"};
-    Port in{"in"};
+    mamori::OutPort<Frame> out{mamori::kNoOwner, "out"};
+    Port in{mamori::kNoOwner, "in"};
     E2eOutPort<Message, Frame> sender;
     E2eInPort<Message, kLimits, Port> sut;
     Instant now{1000};

@@ -47,8 +47,8 @@ class E2eRig {
     const bench::Message<kSize>& get_read() const noexcept { return read_; }
 
   private:
-    OutPort<typename Message::Frame> out_{"out"};
-    InPort<typename Message::Frame> in_{"in"};
+    OutPort<typename Message::Frame> out_{kNoOwner, "out"};
+    InPort<typename Message::Frame> in_{kNoOwner, "in"};
     safety::E2eOutPort<Message> sender_{out_};
     safety::E2eInPort<Message, kE2eLimits> receiver_{in_, {}};
     bench::Message<kSize> read_{};

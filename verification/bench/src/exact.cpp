@@ -30,8 +30,8 @@ template <std::size_t kSize>
 struct PortRig {
     Message<kSize> value{};
     Message<kSize> read{};
-    OutPort<Message<kSize>> out{"out"};
-    InPort<Message<kSize>> in{"in"};
+    OutPort<Message<kSize>> out{kNoOwner, "out"};
+    InPort<Message<kSize>> in{kNoOwner, "in"};
 
     void exchange() noexcept {
         out.write(value);

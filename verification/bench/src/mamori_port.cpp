@@ -26,8 +26,8 @@ class MamoriPort final : public Subject {
 
   private:
     WrittenValues<kSize> values_;
-    OutPort<Message<kSize>> out_{"out"};
-    InPort<Message<kSize>> in_{"in"};
+    OutPort<Message<kSize>> out_{kNoOwner, "out"};
+    InPort<Message<kSize>> in_{kNoOwner, "in"};
     Instant now_{};
 };
 

@@ -24,7 +24,7 @@ using SafeSpeed = safety::E2eMessage<safety::Stamped<Speed>, safety::E2eProfile0
 class Planner final : public mamori::Component {
   public:
     constexpr Planner() noexcept : Component("planner") {}
-    mamori::OutPort<SafeSpeed::Frame> out{"speed"};
+    mamori::OutPort<SafeSpeed::Frame> out{*this, "speed"};
     using Ports = mamori::Ports<&Planner::out>;
 
     mamori::Status on_execute(mamori::ContextHandle context) noexcept override {
@@ -48,7 +48,7 @@ inline constexpr safety::E2eInLimits<safety::HardenedSequence> kSpeedLimits{
 class Drive final : public mamori::Component {
   public:
     constexpr Drive() noexcept : Component("drive") {}
-    mamori::InPort<SafeSpeed::Frame> in{"speed"};
+    mamori::InPort<SafeSpeed::Frame> in{*this, "speed"};
     using Ports = mamori::Ports<&Drive::in>;
 
     mamori::Status on_execute(mamori::ContextHandle context) noexcept override {
@@ -72,7 +72,7 @@ static Drive drive;
 static constexpr auto kSystem = mamori::system(
     mamori::frame(10_ms), mamori::window("drive", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(drive)),
     mamori::window("plan", 5_ms, 2_ms, mamori::budget(1_ms), mamori::run(planner)),
-    mamori::connect(planner.out, drive.in));
+    mamori::connect(planner.out, drive.in, mamori::any_age()));
 MAMORI_CHECK(kSystem);
 
 }  // namespace mamori::protected_speed

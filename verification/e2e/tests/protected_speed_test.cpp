@@ -61,7 +61,7 @@ class Machine {
 auto make_speed_table(Planner& planner, Drive& drive) {
     return system(frame(10_ms), window("drive", 0_ms, 2_ms, budget(1_ms), mamori::run(drive)),
                   window("plan", 5_ms, 2_ms, budget(1_ms), mamori::run(planner)),
-                  connect(planner.out, drive.in));
+                  connect(planner.out, drive.in, any_age()));
 }
 
 /// The system of the page, with components of its own for each test.
@@ -173,8 +173,8 @@ using Way = SimulatedChannel<SafeSpeed::Frame, 8U>;
 auto make_way_table(Planner& planner, Way& way, Drive& drive) {
     return system(frame(10_ms), window("drive", 0_ms, 2_ms, budget(1_ms), mamori::run(drive)),
                   window("plan", 5_ms, 2_ms, budget(1_ms), mamori::run(planner)),
-                  window("way", 8_ms, 1_ms, budget(1_ms), mamori::run(way)), connect(planner.out, way.in),
-                  connect(way.out, drive.in));
+                  window("way", 8_ms, 1_ms, budget(1_ms), mamori::run(way)),
+                  connect(planner.out, way.in, any_age()), connect(way.out, drive.in, any_age()));
 }
 
 /// The same with a transport between the two.

@@ -54,10 +54,10 @@ class Mixture {
 /// Combines the latest values of two other components into its own.
 class Stage final : public Component {
   public:
-    constexpr explicit Stage(std::uint64_t seed) noexcept : Component("stage"), mixture_(seed) {}
-    InPort<Sample, Need::kOptional> in{"in"};
-    InPort<Sample, Need::kOptional> second{"second"};
-    OutPort<Sample> out{"out"};
+    constexpr Stage(const char* name, std::uint64_t seed) noexcept : Component(name), mixture_(seed) {}
+    InPort<Sample, Need::kOptional> in{*this, "in"};
+    InPort<Sample, Need::kOptional> second{*this, "second"};
+    OutPort<Sample> out{*this, "out"};
     using Ports = mamori::Ports<&Stage::in, &Stage::second, &Stage::out>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -77,9 +77,9 @@ class Stage final : public Component {
 template <FullPolicy kFull>
 class Collector final : public Component {
   public:
-    constexpr Collector() noexcept : Component("collector") {}
-    QueueInPort<Sample, 8U, kFull, EmptyPolicy::kDoNothing> in{"in"};
-    OutPort<Sample> out{"out"};
+    constexpr explicit Collector(const char* name) noexcept : Component(name) {}
+    QueueInPort<Sample, 8U, kFull, EmptyPolicy::kDoNothing> in{*this, "in"};
+    OutPort<Sample> out{*this, "out"};
     using Ports = mamori::Ports<&Collector::in, &Collector::out>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -95,9 +95,14 @@ class Collector final : public Component {
     Mixture mixture_{1U};
 };
 
+/// `stage 00`, `stage 01`, ...
+template <std::size_t kSeed>
+inline constexpr std::array<char, 9U> kStageName{
+    's', 't', 'a', 'g', 'e', ' ', '0' + kSeed / 10U, '0' + kSeed % 10U, '\0'};
+
 template <std::size_t... kSeeds>
 constexpr std::array<Stage, sizeof...(kSeeds)> make_stages(std::index_sequence<kSeeds...>) noexcept {
-    return {{Stage(kSeeds)...}};
+    return {{Stage(kStageName<kSeeds>.data(), kSeeds)...}};
 }
 
 // Stages 0 .. 47 run on core 0, 48 .. 95 on core 1, each half in four windows.
@@ -112,10 +117,10 @@ constexpr std::size_t kPlanFirst = kControlFirst + kControlCount;
 constexpr std::size_t kWatchFirst = kPlanFirst + kPlanCount;
 
 MAMORI_CONSTINIT std::array<Stage, 2U * kHalf> g_stages = make_stages(std::make_index_sequence<2U * kHalf>{});
-MAMORI_CONSTINIT Collector<FullPolicy::kOverwrite> g_near_0;
-MAMORI_CONSTINIT Collector<FullPolicy::kOverwrite> g_near_1;
-MAMORI_CONSTINIT Collector<FullPolicy::kDoNothing> g_far_0;
-MAMORI_CONSTINIT Collector<FullPolicy::kOverwrite> g_far_1;
+MAMORI_CONSTINIT Collector<FullPolicy::kOverwrite> g_near_0{"near 0"};
+MAMORI_CONSTINIT Collector<FullPolicy::kOverwrite> g_near_1{"near 1"};
+MAMORI_CONSTINIT Collector<FullPolicy::kDoNothing> g_far_0{"far 0"};
+MAMORI_CONSTINIT Collector<FullPolicy::kOverwrite> g_far_1{"far 1"};
 MAMORI_CONSTINIT Crossing<Sample> g_fast_to_1;
 MAMORI_CONSTINIT Crossing<Sample> g_fast_to_0;
 MAMORI_CONSTINIT Crossing<Sample> g_slow_to_1;
@@ -133,36 +138,39 @@ constexpr auto run_stages(Others&... others) noexcept {
 /// Each stage supplies the next one of its core.
 template <std::size_t... kLinks>
 constexpr auto make_system(std::index_sequence<kLinks...>) noexcept {
-    return system(
-        frame(10_ms),
-        window("fast 0", 0_us, 200_us, every(1_ms), rate(1000_hz), budget(150_us),
-               run_stages<0U, kFastCount>()),
-        window("control 0", 200_us, 200_us, every(2_ms), rate(500_hz), budget(150_us),
-               run_stages<kControlFirst, kControlCount>(g_near_0)),
-        window("plan 0", 400_us, 200_us, every(5_ms), rate(200_hz), budget(150_us),
-               run_stages<kPlanFirst, kPlanCount>(g_far_0)),
-        window("watch 0", 600_us, 300_us, rate(100_hz), budget(250_us),
-               run_stages<kWatchFirst, kWatchCount>()),
-        window("fast 1", 0_us, 200_us, every(1_ms), rate(1000_hz), core(1), budget(150_us),
-               run_stages<kHalf, kFastCount>()),
-        window("control 1", 200_us, 200_us, every(2_ms), rate(500_hz), core(1), budget(150_us),
-               run_stages<kHalf + kControlFirst, kControlCount>(g_near_1)),
-        window("plan 1", 400_us, 200_us, every(5_ms), rate(200_hz), core(1), budget(150_us),
-               run_stages<kHalf + kPlanFirst, kPlanCount>(g_far_1)),
-        window("watch 1", 600_us, 300_us, rate(100_hz), core(1), budget(250_us),
-               run_stages<kHalf + kWatchFirst, kWatchCount>()),
-        connect(g_stages[kLinks].out, g_stages[kLinks + 1U].in)...,
-        connect(g_stages[kHalf + kLinks].out, g_stages[kHalf + kLinks + 1U].in)...,
-        connect(g_stages[kHalf - 1U].out, g_stages[kHalf].in, through(g_slow_to_1)),
-        connect(g_stages[2U * kHalf - 1U].out, g_stages[0].in, through(g_slow_to_0)),
-        connect(g_stages[kFastCount - 1U].out, g_stages[kHalf + kControlFirst].second, through(g_fast_to_1)),
-        connect(g_stages[kHalf + kFastCount - 1U].out, g_stages[kControlFirst].second, through(g_fast_to_0)),
-        connect(g_stages[0].out, g_near_0.in), connect(g_stages[kHalf].out, g_near_1.in),
-        connect(g_stages[kHalf + 1U].out, g_far_0.in), connect(g_stages[1].out, g_far_1.in),
-        connect(g_near_0.out, g_stages[kWatchFirst].second),
-        connect(g_far_0.out, g_stages[kWatchFirst + 1U].second),
-        connect(g_near_1.out, g_stages[kHalf + kWatchFirst].second),
-        connect(g_far_1.out, g_stages[kHalf + kWatchFirst + 1U].second));
+    return system(frame(10_ms),
+                  window("fast 0", 0_us, 200_us, every(1_ms), rate(1000_hz), budget(150_us),
+                         run_stages<0U, kFastCount>()),
+                  window("control 0", 200_us, 200_us, every(2_ms), rate(500_hz), budget(150_us),
+                         run_stages<kControlFirst, kControlCount>(g_near_0)),
+                  window("plan 0", 400_us, 200_us, every(5_ms), rate(200_hz), budget(150_us),
+                         run_stages<kPlanFirst, kPlanCount>(g_far_0)),
+                  window("watch 0", 600_us, 300_us, rate(100_hz), budget(250_us),
+                         run_stages<kWatchFirst, kWatchCount>()),
+                  window("fast 1", 0_us, 200_us, every(1_ms), rate(1000_hz), core(1), budget(150_us),
+                         run_stages<kHalf, kFastCount>()),
+                  window("control 1", 200_us, 200_us, every(2_ms), rate(500_hz), core(1), budget(150_us),
+                         run_stages<kHalf + kControlFirst, kControlCount>(g_near_1)),
+                  window("plan 1", 400_us, 200_us, every(5_ms), rate(200_hz), core(1), budget(150_us),
+                         run_stages<kHalf + kPlanFirst, kPlanCount>(g_far_1)),
+                  window("watch 1", 600_us, 300_us, rate(100_hz), core(1), budget(250_us),
+                         run_stages<kHalf + kWatchFirst, kWatchCount>()),
+                  connect(g_stages[kLinks].out, g_stages[kLinks + 1U].in, any_age())...,
+                  connect(g_stages[kHalf + kLinks].out, g_stages[kHalf + kLinks + 1U].in, any_age())...,
+                  connect(g_stages[kHalf - 1U].out, g_stages[kHalf].in, through(g_slow_to_1), any_age()),
+                  connect(g_stages[2U * kHalf - 1U].out, g_stages[0].in, through(g_slow_to_0), any_age()),
+                  connect(g_stages[kFastCount - 1U].out, g_stages[kHalf + kControlFirst].second,
+                          through(g_fast_to_1), any_age()),
+                  connect(g_stages[kHalf + kFastCount - 1U].out, g_stages[kControlFirst].second,
+                          through(g_fast_to_0), any_age()),
+                  connect(g_stages[0].out, g_near_0.in, any_age()),
+                  connect(g_stages[kHalf].out, g_near_1.in, any_age()),
+                  connect(g_stages[kHalf + 1U].out, g_far_0.in, any_age()),
+                  connect(g_stages[1].out, g_far_1.in, any_age()),
+                  connect(g_near_0.out, g_stages[kWatchFirst].second, any_age()),
+                  connect(g_far_0.out, g_stages[kWatchFirst + 1U].second, any_age()),
+                  connect(g_near_1.out, g_stages[kHalf + kWatchFirst].second, any_age()),
+                  connect(g_far_1.out, g_stages[kHalf + kWatchFirst + 1U].second, any_age()));
 }
 constexpr auto kSystem = make_system(std::make_index_sequence<kHalf - 1U>{});
 MAMORI_CHECK(kSystem);
@@ -194,10 +202,9 @@ class Watcher final : public FrameDevices {
     bool is_watching_;
 };
 
-void start(Executive& executive, bool is_watched) {
+void initialize(Executive& executive, bool is_watched) {
     executive.set_introspection(is_watched ? &g_introspection : nullptr);
     MAMORI_REQUIRE(1, executive.initialize() == Status::kOk);
-    MAMORI_REQUIRE(2, executive.start() == Status::kOk);
 }
 
 std::uint64_t count_lost() noexcept {
@@ -218,8 +225,9 @@ ScaleResult run_scale(std::uint64_t frames, bool is_watched) {
     durations.fill(2_us);
     VirtualHost host_0{durations};
     VirtualHost host_1{durations};
-    start(g_core_0, is_watched);
-    start(g_core_1, is_watched);
+    initialize(g_core_0, is_watched);
+    initialize(g_core_1, is_watched);
+    MAMORI_REQUIRE(2, g_core_0.start() == Status::kOk && g_core_1.start() == Status::kOk);
     std::array<SimulatedCore, 2U> cores{SimulatedCore{g_core_0, host_0}, SimulatedCore{g_core_1, host_1}};
     Watcher watcher{is_watched};
     FrameRunner runner{cores, watcher};

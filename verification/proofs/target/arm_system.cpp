@@ -71,13 +71,16 @@ constexpr auto kSystem = mamori::system(
                    mamori::run(controller)),
     mamori::window("transport", 700_us, 100_us, mamori::budget(80_us), mamori::run(channel)),
     mamori::window("act", 800_us, 100_us, mamori::budget(80_us), mamori::run(gate)),
-    mamori::connect(reader.reading, monitor.reading), mamori::connect(channel.out, monitor.command),
-    mamori::connect(gate.drive, monitor.drive), mamori::connect(reader.reading, supervisor.reading),
-    mamori::connect(monitor.state, supervisor.arm_state),
-    mamori::connect(monitor.state, controller.state, mamori::through(state_crossing)),
-    mamori::connect(supervisor.stop, controller.stop, mamori::through(stop_crossing)),
-    mamori::connect(controller.command, channel.in, mamori::through(command_crossing)),
-    mamori::connect(supervisor.stop, gate.stop), mamori::connect(channel.out, gate.command));
+    mamori::connect(reader.reading, monitor.reading, mamori::any_age()),
+    mamori::connect(channel.out, monitor.command, mamori::any_age()),
+    mamori::connect(gate.drive, monitor.drive, mamori::any_age()),
+    mamori::connect(reader.reading, supervisor.reading, mamori::any_age()),
+    mamori::connect(monitor.state, supervisor.arm_state, mamori::any_age()),
+    mamori::connect(monitor.state, controller.state, mamori::through(state_crossing), mamori::any_age()),
+    mamori::connect(supervisor.stop, controller.stop, mamori::through(stop_crossing), mamori::any_age()),
+    mamori::connect(controller.command, channel.in, mamori::through(command_crossing), mamori::any_age()),
+    mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
+    mamori::connect(channel.out, gate.command, mamori::any_age()));
 MAMORI_CHECK(kSystem);
 static_assert(kSystem.components.size() == kComponentCount &&
               kSystem.components[kControllerIndex] == &controller);

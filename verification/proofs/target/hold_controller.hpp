@@ -17,9 +17,9 @@ class HoldController final : public mamori::Component {
   public:
     constexpr HoldController() noexcept : Component("hold_controller") {}
 
-    mamori::InPort<safe_arm::JointState> state{"state"};
-    mamori::InPort<safe_arm::StopCommand> stop{"stop"};
-    mamori::OutPort<safe_arm::TorqueCommand> command{"command"};
+    mamori::InPort<safe_arm::JointState> state{*this, "state"};
+    mamori::InPort<safe_arm::StopCommand> stop{*this, "stop"};
+    mamori::OutPort<safe_arm::TorqueCommand> command{*this, "command"};
     using Ports = mamori::Ports<&HoldController::state, &HoldController::stop, &HoldController::command>;
 
     mamori::Status on_execute(mamori::ContextHandle context) noexcept override {

@@ -70,6 +70,26 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
     }
 }
 
+/// The rules of names and of the list of ports.
+std::string describe_names(const Finding& finding, const SystemView& view) {
+    const std::string component = "component " + quote(get_component_name(view, finding.element));
+    const std::string port = "port " + quote(get_input_name(view, finding.element));
+    switch (finding.rule) {
+        case Rule::kComponentNamedTwice:
+            return component + ": row " + std::to_string(finding.element) + " has the name of row " +
+                   std::to_string(finding.other);
+        case Rule::kPortNotListed:
+            return component + " does not list port " + quote(get_unlisted_name(view, finding));
+        case Rule::kPortNotOwned:
+            return port + " is not constructed with its component";
+        case Rule::kPortNamedTwice:
+            return port + ": row " + std::to_string(finding.element) + " has the name of row " +
+                   std::to_string(finding.other);
+        default:
+            return {};
+    }
+}
+
 /// The rules over inputs and connections.
 std::string describe_wiring(const Finding& finding, const SystemView& view) {
     const std::string connection = "connection " + quote(get_connection_name(view, finding.element));
@@ -86,7 +106,12 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
             return "input " + quote(get_input_name(view, finding.element)) +
                    " is fed by more than one connection";
         case Rule::kAgeLimitNotPositive:
-            return connection + ": no value is fresh within " + format(row.age_max);
+            return connection + (row.age_max == Duration{0}
+                                     ? ": its age limit is not stated"
+                                     : ": no value is fresh within " + format(row.age_max));
+        case Rule::kDelayNotStated:
+            return connection + (row.is_delayed_by_a_frame ? " states a delay that it does not have"
+                                                           : " is delayed and does not state it");
         case Rule::kCrossingWithoutBuffer:
             return connection + " leaves its core or partition without a Crossing or a queue";
         case Rule::kCrossingUsedTwice:
@@ -145,6 +170,11 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kPortRowInvalid:
             return "port " + quote(get_input_name(view, finding.element)) + ": row " +
                    std::to_string(finding.element) + " is invalid";
+        case Rule::kComponentNamedTwice:
+        case Rule::kPortNotListed:
+        case Rule::kPortNotOwned:
+        case Rule::kPortNamedTwice:
+            return describe_names(finding, view);
         case Rule::kComponentInTwoPlaces:
             return "component " + quote(get_component_name(view, finding.element)) + " runs in window " +
                    quote(get_window_name(view, get_row(view.component_rows, finding.other).window)) +
@@ -155,6 +185,7 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kInputNotConnected:
         case Rule::kInputHasTwoWriters:
         case Rule::kAgeLimitNotPositive:
+        case Rule::kDelayNotStated:
         case Rule::kCrossingWithoutBuffer:
         case Rule::kCrossingUsedTwice:
         case Rule::kCrossingNotOrdered:

@@ -4,8 +4,10 @@
 #ifndef MAMORI_TABLE_DUMP_SRC_ELEMENT_NAMES_HPP
 #define MAMORI_TABLE_DUMP_SRC_ELEMENT_NAMES_HPP
 
+#include <cstddef>
 #include <string>
 
+#include "mamori/kernel/table/system_finding.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori::table_dump {
@@ -44,6 +46,17 @@ inline std::string get_port_name(const PortRow& row) {
 inline std::string get_input_name(const SystemView& view, std::size_t port) {
     const PortRow row = get_row(view.ports, port);
     return (row.owner == nullptr ? "?" : to_text(row.owner->get_name())) + "." + get_port_name(row);
+}
+
+/// Port of component `finding.element` that was constructed before `finding.other` others.
+inline std::string get_unlisted_name(const SystemView& view, const Finding& finding) {
+    const Component* component =
+        finding.element < view.components.size() ? view.components[finding.element] : nullptr;
+    const PortBase* port = component == nullptr ? nullptr : component->get_first_port();
+    for (std::size_t i = 0U; i < finding.other && port != nullptr; ++i) {
+        port = port->get_next();
+    }
+    return port == nullptr ? "?" : to_text(port->get_name());
 }
 
 /// `component.port -> component.port`

@@ -28,7 +28,8 @@ constexpr auto kSound =
            window("sense", 0_us, 200_us, every(1_ms), rate(1000_hz, 500_hz), budget(150_us),
                   run(worst_case(g_encoder, 40_us), worst_case(g_monitor, 60_us))),
            window("plan", 1200_us, 8_ms, core(1U), budget(7_ms), run(g_planner)),
-           connect(g_encoder.out, g_monitor.in), connect(g_monitor.out, g_planner.in, through(g_crossing)),
+           connect(g_encoder.out, g_monitor.in, any_age()),
+           connect(g_monitor.out, g_planner.in, through(g_crossing), any_age()),
            faults<Fault::kOverspeed, Fault::kTrackingLost>(),
            react(Fault::kOverspeed, Reaction::kSs1, within(20_ms)),
            react(Fault::kTrackingLost, Reaction::kSto, within(5_ms)));
@@ -63,6 +64,46 @@ TEST_F(DescribeTest, TheFrameIsNamedWithItsLength) {
     EXPECT_EQ(describe_table(), Sentences{"the frame of -1 ns is not positive"});
 }
 
+TEST_F(DescribeTest, AConnectionIsNamedWithTheAgeLimitOrDelayThatItDoesNotState) {
+    verifies("SWR-TAB-003");
+    table_.connections[0].age_max = {0};
+    table_.connections[0].is_delayed_by_a_frame = true;
+    EXPECT_EQ(describe_table(),
+              (Sentences{"connection 'encoder.out -> monitor.in' states a delay that it does not have",
+                         "connection 'encoder.out -> monitor.in': its age limit is not stated"}));
+    table_ = kSound;
+    table_.connections[0].age_max = {-1};
+    EXPECT_EQ(describe_table(),
+              Sentences{"connection 'encoder.out -> monitor.in': no value is fresh within -1 ns"});
+}
+
+/// Its second port has the name of the first, is listed, and belongs to `owner`; a third one is not listed.
+class Faulty final : public Component {
+  public:
+    Faulty(const char* name, Component* owner) noexcept
+        : Component(name), second(owner == nullptr ? *this : *owner, "first") {}
+    InPort<double, Need::kOptional> first{*this, "first"};
+    InPort<double, Need::kOptional> second;
+    OutPort<double> third{*this, "third"};
+    using Ports = mamori::Ports<&Faulty::first, &Faulty::second>;
+};
+
+TEST_F(DescribeTest, ComponentsAndPortsAreNamedWithTheNamesAndListsThatDisagree) {
+    verifies("SWR-TAB-003");
+    Faulty one{"axis", nullptr};
+    Faulty other{"axis", &one};
+    const auto table = system(frame(1_ms), window("w", 0_us, 100_us, budget(50_us), run(one, other)));
+
+    EXPECT_EQ(
+        describe_elements(make_view(table)),
+        (Sentences{
+            "component 'axis' does not list port 'first'", "component 'axis' does not list port 'third'",
+            "port 'axis.first': row 1 has the name of row 0", "component 'axis': row 1 has the name of row 0",
+            "component 'axis' does not list port 'third'",
+            "port 'axis.first' is not constructed with its component",
+            "port 'axis.first': row 3 has the name of row 2"}));
+}
+
 TEST_F(DescribeTest, WindowsAreNamedWithTheTimesThatDisagree) {
     verifies("SWR-TAB-003");
     table_.windows[0].period = 3_ms;
@@ -93,7 +134,7 @@ TEST_F(DescribeTest, AnAgeLimitIsNamedWithItsConnection) {
     verifies("SWR-TAB-003");
     table_.connections[0].age_max = {0};
     EXPECT_EQ(describe_table(),
-              Sentences{"connection 'encoder.out -> monitor.in': no value is fresh within 0 ns"});
+              Sentences{"connection 'encoder.out -> monitor.in': its age limit is not stated"});
 }
 
 TEST_F(DescribeTest, ABudgetIsComparedWithItsWindow) {
@@ -130,9 +171,9 @@ TEST_F(DescribeTest, AComponentInTwoPlacesIsNamedWithBothWindows) {
 
 TEST_F(DescribeTest, ConnectionsAndInputsAreNamedByComponentAndPort) {
     verifies("SWR-TAB-003");
-    const auto table =
-        system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_encoder, g_monitor, g_planner)),
-               connect(g_encoder.out, g_monitor.in), connect(g_encoder.out, g_monitor.in));
+    const auto table = system(
+        frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_encoder, g_monitor, g_planner)),
+        connect(g_encoder.out, g_monitor.in, any_age()), connect(g_encoder.out, g_monitor.in, any_age()));
     EXPECT_EQ(describe_elements(make_view(table)),
               (Sentences{"input 'monitor.in' is fed by more than one connection",
                          "input 'planner.in' is mandatory and nothing feeds it"}));
@@ -141,7 +182,7 @@ TEST_F(DescribeTest, ConnectionsAndInputsAreNamedByComponentAndPort) {
 TEST_F(DescribeTest, AConnectionOfAStrangerIsNamedAsFarAsItIsKnown) {
     verifies("SWR-TAB-003");
     const auto table = system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_monitor)),
-                              connect(g_second_encoder.out, g_monitor.in));
+                              connect(g_second_encoder.out, g_monitor.in, any_age()));
     EXPECT_EQ(describe_elements(make_view(table)),
               Sentences{"connection '?.out -> monitor.in': one end belongs to no component "
                         "that a window runs"});

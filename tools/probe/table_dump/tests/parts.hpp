@@ -12,21 +12,21 @@ namespace mamori::table_dump::testing_support {
 class Source final : public Component {
   public:
     constexpr explicit Source(const char* name) noexcept : Component(name) {}
-    OutPort<double> out{"out"};
+    OutPort<double> out{*this, "out"};
     using Ports = mamori::Ports<&Source::out>;
 };
 class Filter final : public Component {
   public:
     constexpr explicit Filter(const char* name) noexcept : Component(name) {}
-    InPort<double> in{"in"};
-    InPort<double, Need::kOptional> hint{"hint"};
-    OutPort<double> out{"out"};
+    InPort<double> in{*this, "in"};
+    InPort<double, Need::kOptional> hint{*this, "hint"};
+    OutPort<double> out{*this, "out"};
     using Ports = mamori::Ports<&Filter::in, &Filter::hint, &Filter::out>;
 };
 class Logger final : public Component {
   public:
     constexpr explicit Logger(const char* name) noexcept : Component(name) {}
-    QueueInPort<double, 4U> in{"in"};
+    QueueInPort<double, 4U> in{*this, "in"};
     using Ports = mamori::Ports<&Logger::in>;
 };
 

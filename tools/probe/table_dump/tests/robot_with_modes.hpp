@@ -15,14 +15,14 @@ namespace mamori::table_dump::robot {
 class Encoder final : public mamori::Component {
   public:
     constexpr Encoder() noexcept : Component("encoder") {}
-    mamori::OutPort<double> angle{"angle"};
+    mamori::OutPort<double> angle{*this, "angle"};
     using Ports = mamori::Ports<&Encoder::angle>;
 };
 
 class Monitor final : public mamori::Component {
   public:
     constexpr Monitor() noexcept : Component("monitor") {}
-    mamori::InPort<double> angle{"angle"};
+    mamori::InPort<double> angle{*this, "angle"};
     using Ports = mamori::Ports<&Monitor::angle>;
     mamori::Parameter<double> limit{"limit_rad_s", 1.0, mamori::between(0.1, 3.0)};
     using Parameters = mamori::Parameters<&Monitor::limit>;
@@ -32,15 +32,15 @@ class Monitor final : public mamori::Component {
 class Guide final : public mamori::Component {
   public:
     constexpr explicit Guide(const char* name) noexcept : Component(name) {}
-    mamori::InPort<double> angle{"angle"};
-    mamori::OutPort<double> setpoint{"setpoint"};
+    mamori::InPort<double> angle{*this, "angle"};
+    mamori::OutPort<double> setpoint{*this, "setpoint"};
     using Ports = mamori::Ports<&Guide::angle, &Guide::setpoint>;
 };
 
 class Drive final : public mamori::Component {
   public:
     constexpr Drive() noexcept : Component("drive") {}
-    mamori::InPort<double> setpoint{"setpoint"};
+    mamori::InPort<double> setpoint{*this, "setpoint"};
     using Ports = mamori::Ports<&Drive::setpoint>;
     mamori::Parameter<std::int32_t> gain{"gain", 10, mamori::between(1, 40)};
     using Parameters = mamori::Parameters<&Drive::gain>;
@@ -59,10 +59,11 @@ static constexpr auto kSystem = mamori::system(
     mamori::window("sense", 0_us, 300_us, mamori::budget(200_us), mamori::run(encoder, monitor)),
     mamori::window("guide", 300_us, 300_us, mamori::budget(200_us), mamori::run(planner, hand)),
     mamori::window("drive", 600_us, 300_us, mamori::budget(200_us), mamori::run(drive)),
-    mamori::connect(encoder.angle, monitor.angle), mamori::connect(encoder.angle, planner.angle),
-    mamori::connect(encoder.angle, hand.angle),
-    mamori::connect(planner.setpoint, drive.setpoint, mamori::only_in("work")),
-    mamori::connect(hand.setpoint, drive.setpoint),
+    mamori::connect(encoder.angle, monitor.angle, mamori::any_age()),
+    mamori::connect(encoder.angle, planner.angle, mamori::any_age()),
+    mamori::connect(encoder.angle, hand.angle, mamori::any_age()),
+    mamori::connect(planner.setpoint, drive.setpoint, mamori::only_in("work"), mamori::any_age()),
+    mamori::connect(hand.setpoint, drive.setpoint, mamori::any_age()),
     mamori::configuration_set("fast", mamori::assign(monitor.limit, 2.0), mamori::assign(drive.gain, 25)),
     mamori::configuration_set("slow", mamori::assign(monitor.limit, 0.25), mamori::assign(drive.gain, 5)),
     mamori::system_mode("idle", mamori::runs(encoder, monitor)),

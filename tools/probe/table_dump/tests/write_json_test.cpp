@@ -26,20 +26,22 @@ Filter g_planner{"planner"};
 Logger g_logger{"logger"};
 Crossing<double> g_crossing;
 
-constexpr auto kSystem =
-    system(frame(10_ms),
-           window("sense", 0_us, 200_us, every(1_ms), rate(1000_hz, 500_hz), budget(150_us),
-                  run(g_encoder, worst_case(g_monitor, 40_us))),
-           window("report", 300_us, 100_us, budget(50_us), run(g_reporter)),
-           window("plan", 1200_us, 8_ms, core(1U), partition("open"), budget(7_ms), event_driven(3U),
-                  run(g_planner, g_logger)),
-           connect(g_encoder.out, g_monitor.in, fresh_within(2_ms)),
-           connect(g_monitor.out, g_planner.in, through(g_crossing)), connect(g_monitor.out, g_logger.in),
-           connect(g_monitor.out, g_monitor.hint), connect(g_planner.out, g_planner.hint),
-           connect(g_reporter.out, g_reporter.hint), connect(g_monitor.out, g_reporter.in),
-           faults<Fault::kOverspeed, Fault::kTrackingLost>(),
-           react(Fault::kOverspeed, Reaction::kSs1, within(20_ms)),
-           react(Fault::kTrackingLost, Reaction::kSto, within(5_ms)));
+constexpr auto kSystem = system(frame(10_ms),
+                                window("sense", 0_us, 200_us, every(1_ms), rate(1000_hz, 500_hz),
+                                       budget(150_us), run(g_encoder, worst_case(g_monitor, 40_us))),
+                                window("report", 300_us, 100_us, budget(50_us), run(g_reporter)),
+                                window("plan", 1200_us, 8_ms, core(1U), partition("open"), budget(7_ms),
+                                       event_driven(3U), run(g_planner, g_logger)),
+                                connect(g_encoder.out, g_monitor.in, fresh_within(2_ms)),
+                                connect(g_monitor.out, g_planner.in, through(g_crossing), any_age()),
+                                connect(g_monitor.out, g_logger.in, any_age()),
+                                connect(g_monitor.out, g_monitor.hint, any_age(), delayed_by_a_frame()),
+                                connect(g_planner.out, g_planner.hint, any_age(), delayed_by_a_frame()),
+                                connect(g_reporter.out, g_reporter.hint, any_age(), delayed_by_a_frame()),
+                                connect(g_monitor.out, g_reporter.in, any_age()),
+                                faults<Fault::kOverspeed, Fault::kTrackingLost>(),
+                                react(Fault::kOverspeed, Reaction::kSs1, within(20_ms)),
+                                react(Fault::kTrackingLost, Reaction::kSto, within(5_ms)));
 
 json dump(const SystemView& view, const Names& names = {}) {
     std::ostringstream out;

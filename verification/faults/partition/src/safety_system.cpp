@@ -62,7 +62,7 @@ class Witness final : public Component {
 class Asker final : public Component {
   public:
     constexpr Asker() noexcept : Component("asker") {}
-    OutPort<Request> request{"request"};
+    OutPort<Request> request{*this, "request"};
     using Ports = mamori::Ports<&Asker::request>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -78,9 +78,9 @@ class Asker final : public Component {
 class Guard final : public Component {
   public:
     constexpr Guard() noexcept : Component("guard") {}
-    InPort<Answer> answer{"answer"};
-    InPort<PartitionNews> news{"news"};
-    OutPort<StopOrder> stop{"stop"};
+    InPort<Answer> answer{*this, "answer"};
+    InPort<PartitionNews> news{*this, "news"};
+    OutPort<StopOrder> stop{*this, "stop"};
     using Ports = mamori::Ports<&Guard::answer, &Guard::news, &Guard::stop>;
 
     Status on_initialize() noexcept override {
@@ -134,7 +134,7 @@ class Guard final : public Component {
 class Drive final : public Component {
   public:
     constexpr Drive() noexcept : Component("drive") {}
-    InPort<StopOrder> stop{"stop"};
+    InPort<StopOrder> stop{*this, "stop"};
     using Ports = mamori::Ports<&Drive::stop>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -190,8 +190,8 @@ constexpr auto kSystem =
            window("protect", 240_us, 240_us, budget(230_us), mamori::run(protect_witness, receiver, guard)),
            window("act", 480_us, 240_us, budget(230_us), mamori::run(act_witness, drive)),
            window("tell", 720_us, 240_us, budget(230_us), mamori::run(tell_witness, sender)),
-           connect(receiver.out, guard.answer), connect(receiver.news, guard.news),
-           connect(guard.stop, drive.stop), connect(asker.request, sender.in));
+           connect(receiver.out, guard.answer, any_age()), connect(receiver.news, guard.news, any_age()),
+           connect(guard.stop, drive.stop, any_age()), connect(asker.request, sender.in, any_age()));
 MAMORI_CHECK(kSystem);
 static_assert(kSystem.kWindowCount == kWindowCount);
 ExecutiveFor executive_of_table{kSystem};

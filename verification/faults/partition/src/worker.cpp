@@ -31,8 +31,8 @@ std::atomic<bool> is_wild{false};
 class Worker final : public Component {
   public:
     constexpr Worker() noexcept : Component("worker") {}
-    InPort<Request> request{"request"};
-    OutPort<Answer> answer{"answer"};
+    InPort<Request> request{*this, "request"};
+    OutPort<Answer> answer{*this, "answer"};
     using Ports = mamori::Ports<&Worker::request, &Worker::answer>;
 
     Status on_execute(ContextHandle) noexcept override {
@@ -57,7 +57,7 @@ PartitionSender<Answer> sender{"sender", answer_writer};
 constexpr auto kSystem =
     system(frame(1_ms), window("listen", 0_us, 450_us, budget(400_us), mamori::run(receiver, worker)),
            window("tell", 450_us, 450_us, budget(400_us), mamori::run(sender)),
-           connect(receiver.out, worker.request), connect(worker.answer, sender.in));
+           connect(receiver.out, worker.request, any_age()), connect(worker.answer, sender.in, any_age()));
 MAMORI_CHECK(kSystem);
 ExecutiveFor executive{kSystem};
 std::array<WindowThread, 2U> threads;

@@ -36,7 +36,7 @@ const FrameClock& get_clock() {
 class Starter final : public Component {
   public:
     constexpr explicit Starter(const char* name) noexcept : Component(name) {}
-    OutPort<std::int64_t> out{"out"};
+    OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Starter::out>;
 
     Status on_execute(ContextHandle handle) noexcept override {

@@ -33,6 +33,7 @@ class Component;
 class ExecutionContext;
 class FsmMachine;
 class ModeSwitch;
+class PortBase;
 
 /// Where a component stands in its context. Only the component and its context write it.
 class LifecycleRegion {
@@ -72,13 +73,28 @@ class LifecycleRegion {
     std::size_t position_{0U};  ///< its place there
 };
 
+/// List of the ports that were constructed with a component.
+class PortOwner {
+  public:
+    /// The port that was constructed last; nullptr: there is none. PortBase::get_next() leads to the others.
+    constexpr const PortBase* get_first_port() const noexcept { return first_port_; }
+
+  protected:
+    constexpr PortOwner() noexcept = default;
+    ~PortOwner() = default;
+
+  private:
+    friend class PortBase;
+    const PortBase* first_port_{nullptr};
+};
+
 /// Base of every component. Derive, add ports, override the actions you need; each defaults to kOk.
 ///
 /// Thread safety: none; actions are called by one context, never reentrantly, and what calls them is to be
 ///                called from the core that runs the component. is_alive() and get_name() from anywhere.
 /// Time:          an action must return within its window's budget; O(1) beside the actions.
 /// Memory:        no heap; instances are static and constant-initialised.
-class Component : public LifecycleRegion {
+class Component : public LifecycleRegion, public PortOwner {
   public:
     Component(const Component&) = delete;
     Component& operator=(const Component&) = delete;

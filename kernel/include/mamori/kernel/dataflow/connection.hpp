@@ -27,7 +27,7 @@ class CrossingBase {
 
 /// Storage of one connection between two cores or two partitions:
 ///     static mamori::Crossing<JointState> to_planner;
-///     mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner))
+///     mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner), mamori::any_age())
 /// What counts at a reader's opening is decided by the planned instants, not by who was faster.
 ///
 /// Thread safety: one core writes, one core reads, neither waits. Time: O(sizeof(T)). Memory: three T.

@@ -14,6 +14,8 @@
 #include <limits>
 
 #include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/dataflow/port_base.hpp"
 #include "mamori/kernel/payload/fields.hpp"
 #include "mamori/kernel/payload/trace_hash.hpp"
 
@@ -29,7 +31,7 @@ enum class PortStatus : std::uint32_t {
     kBufferTimeout = 4U,  ///< BUFFER_TIMEOUT, of an input: the data is too old, or of an instant to come
 };
 
-/// Age limit of an input whose connection declares none.
+/// Age limit of an input whose connection states any_age().
 inline constexpr Duration kNoAgeLimit{std::numeric_limits<std::int64_t>::max()};
 
 /// An instant before every other one.
@@ -52,13 +54,8 @@ struct QueueCounts {
 /// Thread safety: none; all from the core of its component. Time: O(1), hash_into() O(payload). Nothing
 ///                blocks.
 /// Memory:        no heap.
-class OutPortBase {
+class OutPortBase : public PortBase {
   public:
-    OutPortBase(const OutPortBase&) = delete;
-    OutPortBase& operator=(const OutPortBase&) = delete;
-
-    /// Name given at construction; static storage, never nullptr.
-    const char* get_name() const noexcept { return name_; }
     /// Number of publications so far (wraps at 2^32).
     std::uint32_t get_sequence() const noexcept { return sequence_; }
     /// Instant of the last publication; without meaning before the first.
@@ -102,8 +99,9 @@ class OutPortBase {
   protected:
     using HashPublished = void (*)(const OutPortBase&, TraceHash&) noexcept;
 
-    constexpr OutPortBase(const char* name, HashPublished hash) noexcept
-        : name_(name), hash_published_(hash) {}
+    template <typename Owner>
+    constexpr OutPortBase(Owner& owner, const char* name, HashPublished hash) noexcept
+        : PortBase(owner, name), hash_published_(hash) {}
     ~OutPortBase() = default;
 
     /// Slot of the published value. Each publication exchanges the two, so their parity tells which it is,
@@ -111,7 +109,6 @@ class OutPortBase {
     std::size_t get_published_slot() const noexcept { return sequence_ & 1U; }
     std::size_t get_staged_slot() const noexcept { return (sequence_ + 1U) & 1U; }
 
-    const char* name_;
     HashPublished hash_published_;
     std::uint64_t revision_{0U};  ///< writes so far
     /// Stands between the two revisions: side by side, a compiler stores both as one vector, and then each
@@ -126,13 +123,8 @@ class OutPortBase {
 /// Type-free part of an input.
 ///
 /// Thread safety: none; all from the core of its component. Time: O(1). Memory: no heap.
-class InPortBase {
+class InPortBase : public PortBase {
   public:
-    InPortBase(const InPortBase&) = delete;
-    InPortBase& operator=(const InPortBase&) = delete;
-
-    /// Name given at construction; static storage, never nullptr.
-    const char* get_name() const noexcept { return name_; }
     /// False until the first value has arrived, and again from a restart() to the next one.
     bool has_value() const noexcept { return has_value_; }
     /// True when the value arrived since the last cycle in which its owner was Active or in Error and came
@@ -170,7 +162,8 @@ class InPortBase {
     }
 
   protected:
-    constexpr explicit InPortBase(const char* name) noexcept : name_(name) {}
+    template <typename Owner>
+    constexpr InPortBase(Owner& owner, const char* name) noexcept : PortBase(owner, name) {}
     ~InPortBase() = default;
 
     /// For connections: another one feeds this input from `boundary` on, or none. It has no value until one
@@ -185,7 +178,6 @@ class InPortBase {
         is_new_ = false;
     }
 
-    const char* name_;
     Instant published_at_{};
     Duration age_max_{kNoAgeLimit};
     Duration lead_max_{};
@@ -228,8 +220,13 @@ class OutPort final : public OutPortBase {
   public:
     using Payload = T;
 
-    /// @param[in] name port name with static storage, not nullptr.
-    constexpr explicit OutPort(const char* name) noexcept : OutPortBase(name, &hash_published) {}
+    /// @param[in] owner the component that has this port as a member: `OutPort<double> speed{*this,
+    /// "speed"}`.
+    /// @param[in] name  port name with static storage, not nullptr.
+    constexpr OutPort(Component& owner, const char* name) noexcept
+        : OutPortBase(owner, name, &hash_published) {}
+    /// A port that belongs to no component and to no table.
+    constexpr OutPort(NoOwner owner, const char* name) noexcept : OutPortBase(owner, name, &hash_published) {}
 
     /// Stages a value for the close of the window; a second write in one cycle replaces the first. For the
     /// actions of its component.
@@ -281,8 +278,11 @@ class InPort final : public InPortBase {
     static constexpr bool kIsMandatory = kNeed == Need::kMandatory;
     static constexpr bool kIsQueue = false;
 
-    /// @param[in] name port name with static storage, not nullptr.
-    constexpr explicit InPort(const char* name) noexcept : InPortBase(name) {}
+    /// @param[in] owner the component that has this port as a member: `InPort<double> speed{*this, "speed"}`.
+    /// @param[in] name  port name with static storage, not nullptr.
+    constexpr InPort(Component& owner, const char* name) noexcept : InPortBase(owner, name) {}
+    /// A port that belongs to no component and to no table.
+    constexpr InPort(NoOwner owner, const char* name) noexcept : InPortBase(owner, name) {}
 
     /// Latched value; a value-initialised T while has_value() is false. Stays as it is within an action; the
     /// reference is valid as long as the port.

@@ -42,8 +42,11 @@ class QueueInPort final : public InPortBase {
     static constexpr bool kIsQueue = true;
     static constexpr bool kMayLeaveCore = true;
 
-    /// @param[in] name port name with static storage, not nullptr.
-    constexpr explicit QueueInPort(const char* name) noexcept : InPortBase(name) {}
+    /// @param[in] owner the component that has this port as a member. @param[in] name static storage, not
+    /// nullptr.
+    constexpr QueueInPort(Component& owner, const char* name) noexcept : InPortBase(owner, name) {}
+    /// A port that belongs to no component and to no table.
+    constexpr QueueInPort(NoOwner owner, const char* name) noexcept : InPortBase(owner, name) {}
 
     /// Takes the oldest value whose publication is not after the opening of the window.
     /// @param[out] value written on kOk only.

@@ -59,8 +59,11 @@ class Executive {
     /// Empties every input of its core, with queues and buffers before it: only values that are published
     /// from then on reach the inputs. Then starts every context and activates every component that the
     /// current mode runs, in table order. After a failure everything is stopped again, as by stop().
-    /// @return kOk; kPreconditionNotMet (not initialised, a context is running, a component is not alive, in
-    ///         Error or Active already, other cores are switching modes, or called from an action);
+    /// Initialise the executives of all cores before the first start.
+    /// @return kOk; kPreconditionNotMet (not initialised, a component of any core has no context since its
+    ///         core has no initialised executive, see get_failed_component(), a context is running, a
+    ///         component is not alive, in Error or Active already, other cores are switching modes, or called
+    ///         from an action);
     ///         kBadParameter (a value is rejected of the current set, or of a requested one: that request is
     ///         discarded then); else the code of the on_startup or on_activated that failed.
     Status start() noexcept;
@@ -106,7 +109,7 @@ class Executive {
     /// Core whose windows it runs, as WindowRow::core.
     std::size_t get_core() const noexcept { return life_.get_core().core; }
     /// Component whose failure ended the last initialize() or start(); the first of its window if a context
-    /// could not take its participants; kNoIndex if no component failed.
+    /// could not take its participants; the first one without a context; kNoIndex if no component failed.
     std::size_t get_failed_component() const noexcept { return life_.get_failed_component(); }
 
     /// @param[in] observer observes the execution, or nullptr; must outlive the executive, or be replaced

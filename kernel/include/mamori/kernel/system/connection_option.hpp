@@ -3,7 +3,8 @@
 /// The words that say more of one connection: how old its value may be, what carries it across cores, and in
 /// which modes it holds. Each stands beside what it writes into the row.
 ///
-/// @satisfies SWR-KRN-017, SWR-MOD-001      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-047, SWR-KRN-048, SWR-MOD-001      Design:
+/// docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_CONNECTION_OPTION_HPP
 #define MAMORI_KERNEL_CONNECTION_OPTION_HPP
 
@@ -27,6 +28,22 @@ struct FreshWithin {
 /// @param[in] lead_max how far its instant may be after now, >= 0; 0 on one time line.
 constexpr FreshWithin fresh_within(Duration age_max, Duration lead_max = {}) noexcept {
     return {age_max, lead_max};
+}
+
+/// Made by any_age().
+struct AnyAge {};
+/// The value of an input stays fresh however old it is.
+constexpr AnyAge any_age() noexcept {
+    return {};
+}
+
+/// Made by delayed_by_a_frame().
+struct DelayedByAFrame {};
+/// States that the reader runs before the writer in one window, or is the writer itself: it reads a value one
+/// start of the window after the write. MAMORI_CHECK rejects such a connection without this option, and any
+/// other with it.
+constexpr DelayedByAFrame delayed_by_a_frame() noexcept {
+    return {};
 }
 
 /// Made by through().
@@ -64,6 +81,15 @@ template <typename T, typename Sink, typename Part>
 constexpr void apply(Part& part, FreshWithin option) noexcept {
     part.row.age_max = option.age_max;
     part.row.lead_max = option.lead_max;
+}
+template <typename T, typename Sink, typename Part>
+constexpr void apply(Part& part, AnyAge) noexcept {
+    part.row.age_max = kNoAgeLimit;
+    part.row.lead_max = Duration{0};
+}
+template <typename T, typename Sink, typename Part>
+constexpr void apply(Part& part, DelayedByAFrame) noexcept {
+    part.row.is_delayed_by_a_frame = true;
 }
 template <typename T, typename Sink, typename Part, std::size_t kCount>
 constexpr void apply(Part& part, const OnlyIn<kCount>& option) noexcept {

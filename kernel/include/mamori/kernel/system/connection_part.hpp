@@ -33,13 +33,17 @@ struct ConnectionPart {
 /// Feeds `sink` from `source`; their payload types must be the same.
 /// @param[in] source  must outlive the table.
 /// @param[in] sink    InPort or QueueInPort; must outlive the table.
-/// @param[in] options fresh_within(...), through(...), only_in(...); each is said once.
+/// @param[in] options fresh_within(...) or any_age(); through(...), only_in(...), delayed_by_a_frame(); each
+/// is
+///                    stated once.
 template <typename T, typename Sink, typename... Options>
 constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(OutPort<T>& source, Sink& sink,
                                                                               Options... options) noexcept {
     static_assert(std::is_base_of_v<InPortBase, Sink>, "connect() joins an output to an input");
     static_assert(std::is_same_v<T, typename Sink::Payload>, "connect() joins ports of one payload type");
     static_assert(detail::kIsEachSaidOnce<Options...>, "each option of a connection is said once");
+    static_assert(detail::kTimesSaid<FreshWithin, Options...> + detail::kTimesSaid<AnyAge, Options...> <= 1U,
+                  "a connection states fresh_within(...) or any_age(), not both");
     ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> part{};
     part.row.source = &source;
     part.row.sink = &sink;

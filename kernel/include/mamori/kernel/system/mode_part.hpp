@@ -7,8 +7,9 @@
 ///     mamori::system_mode("teach", mamori::runs(encoder, drive, hand), mamori::parameters("slow")),
 ///     mamori::safe_mode("halt", mamori::runs(encoder)),
 ///     mamori::mode_transition("idle", Command::kTeach, "teach"), ...
-///     mamori::connect(planner.setpoint, drive.setpoint, mamori::only_in("work")),
-///     mamori::connect(hand.setpoint, drive.setpoint),                        // hand runs in "teach" only
+///     mamori::connect(planner.setpoint, drive.setpoint, mamori::only_in("work"), mamori::any_age()),
+///     mamori::connect(hand.setpoint, drive.setpoint, mamori::any_age()),                        // hand runs
+///     in "teach" only
 ///
 /// @satisfies SWR-MOD-001      Design: docs/design/modes.md#the-table
 #ifndef MAMORI_KERNEL_MODE_PART_HPP

@@ -11,7 +11,7 @@
 ///                        mamori::run(planner)),
 ///         mamori::configuration_set("slow", mamori::assign(monitor.limit_rad_s, 0.5)),
 ///         mamori::connect(encoder.joints, monitor.joints, mamori::fresh_within(2_ms)),
-///         mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner)),
+///         mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner), mamori::any_age()),
 ///         mamori::faults<Fault::kOverspeed>(),
 ///         mamori::react(Fault::kOverspeed, Reaction::kSs1, mamori::within(20_ms)));
 ///     MAMORI_CHECK(kSystem);

@@ -35,8 +35,8 @@ struct ConnectionRow {
     InPortBase* sink{nullptr};
     CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
     ConnectionOperations operations{};
-    Duration age_max{kNoAgeLimit};  ///< of a value that is still fresh, > 0
-    Duration lead_max{};            ///< of a fresh value of an instant to come, >= 0
+    Duration age_max{};   ///< of a value that is still fresh, > 0; 0: not stated
+    Duration lead_max{};  ///< of a fresh value of an instant to come, >= 0
     /// Places of the ends in the table; kNoIndex: the port belongs to no component of it.
     std::size_t source_window{kNoIndex};
     std::size_t sink_window{kNoIndex};
@@ -44,7 +44,8 @@ struct ConnectionRow {
     std::size_t sink_component{kNoIndex};
     /// Source and sink run in one window, the source first: the value is handed on within the window.
     bool is_forward_in_window{false};
-    ModeMask modes{kEveryMode};  ///< in which it holds and both of its components run
+    bool is_delayed_by_a_frame{false};  ///< as its options state
+    ModeMask modes{kEveryMode};         ///< in which it holds and both of its components run
 };
 
 }  // namespace mamori

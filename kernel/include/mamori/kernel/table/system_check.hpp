@@ -13,6 +13,7 @@
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/parameter/configuration_check.hpp"
 #include "mamori/kernel/parameter/configuration_finding.hpp"
+#include "mamori/kernel/table/detail/component_check.hpp"
 #include "mamori/kernel/table/detail/connection_check.hpp"
 #include "mamori/kernel/table/detail/finding_list.hpp"
 #include "mamori/kernel/table/detail/input_check.hpp"
@@ -25,21 +26,6 @@
 #include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori {
-
-namespace detail {
-
-constexpr void check_components(const SystemView& view, FindingList& findings) noexcept {
-    for (std::size_t i = 0U; i < view.components.size(); ++i) {
-        for (std::size_t j = 0U; j < i; ++j) {
-            if (view.components[i] == view.components[j]) {
-                findings.add(Rule::kComponentInTwoPlaces, i, j);
-                break;
-            }
-        }
-    }
-}
-
-}  // namespace detail
 
 /// Finds every rule that a table breaks, in the order of `Rule` groups: windows, components, modes,
 /// inputs, connections, reactions, configuration. Rows that are invalid in themselves hide the rest, and so

@@ -46,7 +46,7 @@ struct E2eInLimits {
 };
 
 /// Receives values of a message. The input stands in the component's list of ports, this beside it:
-///     mamori::InPort<SafeSpeed::Frame> in{"speed"};
+///     mamori::InPort<SafeSpeed::Frame> in{*this, "speed"};
 ///     mamori::safety::E2eInPort<SafeSpeed, kLimits> speed{in, kStandstill};
 ///
 /// Call read() in every cycle of the component, as this is how silence is seen.

@@ -20,7 +20,7 @@
 namespace mamori::safety {
 
 /// Sends values of a message. The output stands in the component's list of ports, this beside it:
-///     mamori::OutPort<SafeSpeed::Frame> out{"speed"};
+///     mamori::OutPort<SafeSpeed::Frame> out{*this, "speed"};
 ///     mamori::safety::E2eOutPort<SafeSpeed> speed{out};
 ///
 /// @tparam Message  an E2eMessage.

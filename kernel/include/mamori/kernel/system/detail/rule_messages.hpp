@@ -12,6 +12,7 @@
 #include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/parameter/configuration_check.hpp"
 #include "mamori/kernel/parameter/configuration_table.hpp"
+#include "mamori/kernel/system/detail/component_constant.hpp"
 #include "mamori/kernel/system/detail/spelled_name.hpp"
 #include "mamori/kernel/system/detail/table_element.hpp"
 #include "mamori/kernel/table/system_check.hpp"
@@ -37,6 +38,8 @@ struct Row {};
 #define MAMORI_PARAMETERS_OF_Component typename, std::size_t
 #define MAMORI_PARAMETERS_OF_Input typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_Sink typename, auto, std::size_t
+#define MAMORI_PARAMETERS_OF_UnlistedPort typename...
+#define MAMORI_PARAMETERS_OF_Port typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_Fault auto
 #define MAMORI_PARAMETERS_OF_Mode typename...
 #define MAMORI_PARAMETERS_OF_ModeMember typename...
@@ -78,6 +81,12 @@ using Input = OfPort<R, kTable, kElement>;
 template <template <typename, auto, std::size_t> class R, const auto& kTable, std::size_t kElement,
           std::size_t>
 using Sink = OfSink<R, kTable, kElement>;
+template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
+using UnlistedPort =
+    R<ComponentAt<kTable, kElement>, NameOf<kTable, OfUnlistedPort<ComponentAt<kTable, kElement>>, kOther>>;
+template <template <typename, auto, std::size_t> class R, const auto& kTable, std::size_t kElement,
+          std::size_t>
+using Port = OfPort<R, kTable, kElement>;
 template <template <auto> class R, const auto& kTable, std::size_t kElement, std::size_t>
 using Fault = R<At<typename TypesOf<kTable>::Faults, kElement>::kValue>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
@@ -119,7 +128,9 @@ MAMORI_TABLE_RULES(MAMORI_MESSAGE)
 /// Asking for the size of the message of a violated rule ends the compilation.
 template <const auto& kTable>
 constexpr bool keeps_rules() noexcept {
-    constexpr Finding kFinding = check(make_view(kTable));
+    // Ports first: a port that is listed twice also makes rows that do not fit together.
+    constexpr Finding kOfPorts = find_faulty_port(kTable, typename TypesOf<kTable>::Components{});
+    constexpr Finding kFinding = kOfPorts.rule != Rule::kNone ? kOfPorts : check(make_view(kTable));
     if constexpr (kFinding.rule != Rule::kNone) {
         return sizeof(typename MessageOf<kFinding.rule>::template Type<kTable, kFinding.element,
                                                                        kFinding.other>) == 0U;

@@ -3,7 +3,8 @@
 /// Rules of connections: both ends are in the table, a value can be fresh, and what leaves a core or a
 /// partition goes through storage that was made for it, in an order that holds. Not for users.
 ///
-/// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-047, SWR-KRN-048      Design:
+/// docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_CONNECTION_CHECK_HPP
 #define MAMORI_KERNEL_CONNECTION_CHECK_HPP
 
@@ -37,12 +38,22 @@ constexpr void check_crossing(const SystemView& view, std::size_t i, FindingList
     }
 }
 
+/// The executive forwards a value within a window to later components only.
+constexpr void check_delay(const ConnectionRow& row, std::size_t i, FindingList& findings) noexcept {
+    const bool is_delayed =
+        row.source_window == row.sink_window && row.source_component >= row.sink_component;
+    if (is_delayed != row.is_delayed_by_a_frame) {
+        findings.add(Rule::kDelayNotStated, i);
+    }
+}
+
 constexpr void check_connections(const SystemView& view, FindingList& findings) noexcept {
     for (std::size_t i = 0U; i < view.connections.size(); ++i) {
         const ConnectionRow& row = view.connections[i];
         if (row.source_window == kNoIndex || row.sink_window == kNoIndex) {
             findings.add(Rule::kPortOfUnknownComponent, i);
         } else {
+            check_delay(row, i, findings);
             if (row.age_max <= Duration{0} || row.lead_max < Duration{0}) {
                 findings.add(Rule::kAgeLimitNotPositive, i);
             }

@@ -38,7 +38,7 @@ class PartitionSender final : public Component {
     constexpr PartitionSender(const char* name, FrameWriter& writer) noexcept
         : Component(name), writer_(writer) {}
 
-    InPort<T> in{"in"};
+    InPort<T> in{*this, "in"};
     using Ports = mamori::Ports<&PartitionSender::in>;
 
     /// @return kOk; kPreconditionNotMet (the writer is not open, or for another capacity).
@@ -79,8 +79,8 @@ class PartitionReceiver final : public Component {
     constexpr PartitionReceiver(const char* name, FrameReader& reader, Duration lead_max = {}) noexcept
         : Component(name), reader_(reader), lead_max_(lead_max) {}
 
-    OutPort<T> out{"out"};
-    OutPort<PartitionNews> news{"news"};
+    OutPort<T> out{*this, "out"};
+    OutPort<PartitionNews> news{*this, "news"};
     using Ports = mamori::Ports<&PartitionReceiver::out, &PartitionReceiver::news>;
 
     /// @return kOk; kPreconditionNotMet (the reader is not open, or for another capacity).

@@ -34,8 +34,8 @@ class SimulatedChannel final : public Component {
   public:
     constexpr explicit SimulatedChannel(const char* name) noexcept : Component(name) {}
 
-    InPort<T> in{"in"};
-    OutPort<T> out{"out"};
+    InPort<T> in{*this, "in"};
+    OutPort<T> out{*this, "out"};
     using Ports = mamori::Ports<&SimulatedChannel::in, &SimulatedChannel::out>;
 
     /// Takes effect on messages that arrive from the next cycle on.

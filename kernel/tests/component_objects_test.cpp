@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: what the compiler cannot see of the objects of a table, initialize() rejects: names that occur twice,
+// and ports that are not listed or belong to another component.
+// Method: components that are no constants; each test breaks one thing of a table that is valid otherwise.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/trace/verifies.hpp"
+
+namespace mamori {
+namespace {
+
+using namespace literals;
+using namespace verification;
+
+class Axis final : public Component {
+  public:
+    Axis(const char* name, const char* second_name) noexcept : Component(name), second(*this, second_name) {}
+    InPort<double, Need::kOptional> first{*this, "first"};
+    OutPort<double> second;
+    using Ports = mamori::Ports<&Axis::first, &Axis::second>;
+};
+/// Lists one of its three ports.
+class Careless final : public Component {
+  public:
+    explicit Careless(const char* name) noexcept : Component(name) {}
+    InPort<double, Need::kOptional> first{*this, "first"};
+    OutPort<double> listed{*this, "listed"};
+    InPort<double, Need::kOptional> third{*this, "third"};
+    using Ports = mamori::Ports<&Careless::listed>;
+};
+/// Its port is constructed with `owner`.
+class Confused final : public Component {
+  public:
+    Confused(const char* name, Component& owner) noexcept : Component(name), speed(owner, "speed") {}
+    OutPort<double> speed;
+    using Ports = mamori::Ports<&Confused::speed>;
+};
+
+template <typename... Cs>
+auto make_table(Cs&... components) {
+    return system(frame(1_ms), window("w", 0_us, 100_us, budget(50_us), run(components...)));
+}
+
+template <typename Table>
+std::vector<Finding> find_all(const Table& table) {
+    std::vector<Finding> findings(check_all(make_view(table), {}));
+    static_cast<void>(check_all(make_view(table), {findings.data(), findings.size()}));
+    return findings;
+}
+
+template <typename Table>
+Status initialize(const Table& table) {
+    ExecutiveFor executive{table};
+    const Status result = executive.initialize();
+    if (result == Status::kOk) {
+        EXPECT_EQ(executive.finalize(), Status::kOk);
+    }
+    return result;
+}
+
+TEST(ComponentObjectsTest, EqualPortNamesOfTwoComponentsAreNoFinding) {
+    verifies("SWR-KRN-046");
+    Axis left{"left", "second"};
+    Axis right{"right", "second"};
+    const auto table = make_table(left, right);
+
+    EXPECT_TRUE(find_all(table).empty());
+    EXPECT_EQ(initialize(table), Status::kOk);
+}
+
+TEST(ComponentObjectsTest, TwoComponentsOfOneNameAreRejected) {
+    verifies("SWR-KRN-046", Technique::kInterface, Polarity::kViolation);
+    Axis first{"axis", "second"};
+    Axis other{"other", "second"};
+    Axis second{"axis", "second"};
+    const auto table = make_table(first, other, second);
+    const std::vector<Finding> findings = find_all(table);
+
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].rule, Rule::kComponentNamedTwice);
+    EXPECT_EQ(findings[0].element, 2U);
+    EXPECT_EQ(findings[0].other, 0U);
+    EXPECT_EQ(initialize(table), Status::kBadParameter);
+}
+
+TEST(ComponentObjectsTest, TwoPortsOfOneNameAreRejected) {
+    verifies("SWR-KRN-046", Technique::kInterface, Polarity::kViolation);
+    Axis good{"good", "second"};
+    Axis bad{"bad", "first"};
+    const auto table = make_table(good, bad);
+    const std::vector<Finding> findings = find_all(table);
+
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].rule, Rule::kPortNamedTwice);
+    EXPECT_EQ(findings[0].element, 3U);
+    EXPECT_EQ(findings[0].other, 2U);
+    EXPECT_EQ(initialize(table), Status::kBadParameter);
+}
+
+TEST(ComponentObjectsTest, EachPortThatIsNotListedIsFound) {
+    verifies("SWR-KRN-045", Technique::kInterface, Polarity::kViolation);
+    Axis axis{"axis", "second"};
+    Careless careless{"careless"};
+    const auto table = make_table(axis, careless);
+    const std::vector<Finding> findings = find_all(table);
+
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_EQ(findings[0].rule, Rule::kPortNotListed);
+    EXPECT_EQ(findings[0].element, 1U);
+    EXPECT_EQ(findings[0].other, 0U) << "third: constructed last";
+    EXPECT_EQ(findings[1].rule, Rule::kPortNotListed);
+    EXPECT_EQ(findings[1].other, 2U) << "first: two ports are constructed after it";
+    EXPECT_EQ(initialize(table), Status::kBadParameter);
+}
+
+TEST(ComponentObjectsTest, APortOfAnotherComponentIsFoundAtBoth) {
+    verifies("SWR-KRN-045", Technique::kInterface, Polarity::kViolation);
+    Axis axis{"axis", "second"};
+    Confused confused{"confused", axis};
+    const auto table = make_table(axis, confused);
+    const std::vector<Finding> findings = find_all(table);
+
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_EQ(findings[0].rule, Rule::kPortNotListed);
+    EXPECT_EQ(findings[0].element, 0U);
+    EXPECT_EQ(findings[1].rule, Rule::kPortNotOwned);
+    EXPECT_EQ(findings[1].element, 2U);
+    EXPECT_EQ(initialize(table), Status::kBadParameter);
+}
+
+TEST(ComponentObjectsTest, AComponentLeadsToItsPortsFromTheLastToTheFirst) {
+    verifies("SWR-KRN-045");
+    const Axis axis{"axis", "second"};
+    const PortBase* port = axis.get_first_port();
+
+    ASSERT_EQ(port, &axis.second);
+    ASSERT_EQ(port->get_next(), &axis.first);
+    EXPECT_EQ(port->get_next()->get_next(), nullptr);
+    const OutPort<double> alone{kNoOwner, "alone"};
+    EXPECT_EQ(alone.get_next(), nullptr);
+    EXPECT_STREQ(alone.get_name(), "alone");
+}
+
+}  // namespace
+}  // namespace mamori
