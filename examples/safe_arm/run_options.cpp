@@ -20,8 +20,8 @@ std::string check_not_negative(const std::string& text) {
 }
 
 const std::vector<std::string_view> kWords{
-    "run",     "table",  "timing", "cost",     "--model", "--motion",   "--out",    "--fault",
-    "--first", "--seed", "--by",   "--frames", "--every", "--recorder", "--cycles", "--help"};
+    "run",    "table", "timing",   "cost",    "--model",    "--motion", "--out",      "--fault", "--first",
+    "--seed", "--by",  "--frames", "--every", "--recorder", "--cycles", "--requests", "--help"};
 
 /// @return the first word that is neither known nor the value of an option.
 std::string find_unknown_word(int argc, const char* const* argv) {
@@ -32,7 +32,7 @@ std::string find_unknown_word(int argc, const char* const* argv) {
         if (!is_known) {
             return std::string{word};
         }
-        if (word.substr(0U, 2U) == "--" && word.find('=') == std::string_view::npos) {
+        if (word.substr(0U, 2U) == "--" && word != "--requests" && word.find('=') == std::string_view::npos) {
             ++i;
         }
     }
@@ -95,6 +95,8 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
     timing->add_option("--cycles", options.frames, "Frames of 1 ms to run")
         ->required()
         ->check(CLI::PositiveNumber);
+    timing->add_flag("--requests", options.with_requests,
+                     "Request introspection in some blocks of frames, and record in which");
     std::string pace;
     CLI::App* cost = add_cost(app, options, pace);
     try {

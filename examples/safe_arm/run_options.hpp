@@ -23,6 +23,7 @@ struct RunOptions {
     std::uint64_t first_counted{0U};  ///< frame from which on a cost run counts
     std::uint64_t count_every{1U};    ///< of which frames then
     bool is_by_clock{false};          ///< a cost run goes by the clock
+    bool with_requests{false};        ///< a timing run requests introspection
 };
 
 /// What the command line asks for. exit_code < 0: go on with the options; else end with it (help was printed,

@@ -60,6 +60,8 @@ static_assert(kSafeArm.windows[kFirstWindow].offset == 0_us &&
 
 static mamori::ExecutiveFor executive_of_table{kSafeArm};
 mamori::Executive& executive = executive_of_table;
+static mamori::IntrospectionFor introspection_of_table{kSafeArm};
+mamori::Introspection& introspection = introspection_of_table;
 
 std::array<mamori::Duration, kComponentCount> make_modelled_times() noexcept {
     std::array<mamori::Duration, kComponentCount> times{};

@@ -14,6 +14,7 @@
 #include "joint_monitor.hpp"
 #include "mamori/kernel/record/event_log.hpp"
 #include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
@@ -53,6 +54,8 @@ extern DriveGate gate;
 
 /// Runs the static table, which is in safe_arm_system.cpp.
 extern mamori::Executive& executive;
+/// Of the same table; shows nothing until it is attached to the executive.
+extern mamori::Introspection& introspection;
 
 /// Modelled execution times.
 inline constexpr mamori::Duration kSafetyComponentTime = 30_us;

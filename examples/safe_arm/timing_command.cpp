@@ -60,11 +60,16 @@ int run_timing_command(const RunOptions& options) {
     if (!obstacle.empty()) {
         return fail(kExitFailed, obstacle);
     }
+    if (options.with_requests) {
+        executive.set_introspection(&introspection);
+    }
     static std::array<mamori::ports::posix_rt::WindowThread, kWindowCount> threads;
     RealTimeMachine machine{plant};
     mamori::timing::TimingOptions timing;
     timing.cycles = options.frames;
     timing.out = options.out;
+    timing.with_requests = options.with_requests;
+    timing.introspection = &introspection;
     timing.save_table = save_table;
     timing.tell_notes = [&machine] { return make_notes(machine); };
     timing.tell_findings = [] { return make_findings(supervisor.get_state(), supervisor.get_first_fault()); };

@@ -329,12 +329,15 @@ TEST_F(RunTest, FolderThatCannotBeWrittenGivesOneLine) {
 TEST_F(RunTest, TimingLeavesTheTimesOfEveryWindowOfEveryFrame) {
     verifies("SWR-TIM-004");
     const std::string place = "--model '" SAFE_ARM_MODEL_FILE "' --out '" + (folder_ / "out").string() + "' ";
-    ASSERT_EQ(run("timing --cycles 300 " + place + "--motion '" + (folder_ / "motion.dat").string() + "'"), 0)
+    ASSERT_EQ(run("timing --cycles 300 --requests " + place + "--motion '" +
+                  (folder_ / "motion.dat").string() + "'"),
+              0)
         << messages_;
 
     const nlohmann::json facts = read_summary();
     EXPECT_EQ(facts["schema"], "mamori.timing_run/1");
     EXPECT_EQ(facts["cycles"]["run"], 300);
+    EXPECT_EQ(facts["requests"]["block_cycles"], 500);
     EXPECT_GT(fs::file_size(folder_ / "out" / "openings.npy"), 300U * 4U * 32U);
     EXPECT_GT(fs::file_size(folder_ / "out" / "steps.npy"), 32U);
     EXPECT_EQ(nlohmann::json::parse(std::ifstream{folder_ / "out" / "table.json"})["reactions"].size(),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Evaluates the measurements of windows and components: pure functions from arrays to figures.
 
-@satisfies SWR-TIM-012, SWR-TIM-013, SWR-TIM-014      Design: docs/design/timing.md#figures
+@satisfies SWR-TIM-012, SWR-TIM-013, SWR-TIM-014, SWR-TIM-040      Design: docs/design/timing.md#figures
 """
 
 from __future__ import annotations
@@ -14,6 +14,9 @@ from mamori_tools.timing.reader import COMPLETED, MISSED, NOT_BACK, OUTCOMES, OV
 
 OPENED = (COMPLETED, OVERRUN, MISSED)
 """Outcomes that tell how late a window was; the others had nothing to be late for."""
+
+TENTH_MIN = 100
+"""Smallest tenth of a run with a median that a few late releases do not change."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +55,20 @@ class Miss:
 
 
 @dataclass(frozen=True)
+class Drift:
+    """Drift of one window [ns]. `planned_ns`: largest distance of a planned instant from the schedule; a missing instance is a distance of
+    a period. The others: median lateness in the first and the last tenth of the run, None if a tenth has fewer than TENTH_MIN values."""
+
+    planned_ns: int
+    first_ns: int | None
+    last_ns: int | None
+
+    @property
+    def shift_ns(self) -> int | None:
+        return None if self.first_ns is None or self.last_ns is None else self.last_ns - self.first_ns
+
+
+@dataclass(frozen=True)
 class WindowRow:
     """One window: plan and measurement. `response` is closed - release, `used` is closed - woke; the margins are the minimum
     remainders of length and of budget; None if nothing was measured."""
@@ -64,6 +81,7 @@ class WindowRow:
     budget_ns: int
     outcomes: dict[str, int]
     lateness: Distribution | None
+    drift: Drift
     response: Distribution | None
     used_max_ns: int | None
     budget_margin_ns: int | None
@@ -100,6 +118,18 @@ def calc_lateness(run: Measurement, window: int) -> Series:
     rows = run.openings[run.rows_of(window)]
     rows = rows[np.isin(rows["outcome"], OPENED)]
     return Series(rows["release_ns"], rows["woke_ns"] - rows["release_ns"])
+
+
+def calc_drift(run: Measurement, index: int) -> Drift:
+    """Planned instants relative to the first one plus whole periods, and the change of the lateness during the run."""
+    window = run.table.windows[index]
+    releases = run.openings["release_ns"][run.rows_of(index)]
+    first = releases[:1] - (releases[:1] - window.offset_ns) % window.period_ns
+    planned = int(np.abs(releases - first - np.arange(len(releases)) * window.period_ns).max(initial=0))
+    late = calc_lateness(run, index).values
+    tenth = -(-len(late) // 10)
+    ends = [describe(part) if tenth >= TENTH_MIN else None for part in (late[:tenth], late[len(late) - tenth :])]
+    return Drift(planned, *(None if part is None else part.p50 for part in ends))
 
 
 def calc_execution(run: Measurement, component: int) -> tuple[Series, int]:
@@ -140,7 +170,7 @@ def _make_window(run: Measurement, index: int) -> WindowRow:
     return WindowRow(
         window.name, window.core, window.offset_ns, window.length_ns, window.period_ns, window.budget_ns,
         {name: int(count) for name, count in zip(OUTCOMES, counts, strict=True)},
-        describe(calc_lateness(run, index).values), response, used,
+        describe(calc_lateness(run, index).values), calc_drift(run, index), response, used,
         None if used is None else window.budget_ns - used,
         None if response is None else window.length_ns - response.max,
     )  # fmt: skip
@@ -238,7 +268,7 @@ def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | N
 
 
 def list_findings(windows: list[WindowRow], components: list[ComponentRow], misses: list[Miss]) -> list[str]:
-    """Deviations that the code caused, one line each: overruns and declared worst cases that are too low.
+    """One line each: overruns that the code caused, declared worst cases that are too low, and drift.
 
     Windows that were skipped or shortened after a late release are not included, because the host caused them.
     """
@@ -252,4 +282,10 @@ def list_findings(windows: list[WindowRow], components: list[ComponentRow], miss
         if overran:
             findings.append(f"window '{window.window}': {len(overran)} overran, first in cycle {overran[0].cycle} by "
                             f"'{overran[0].component}', which {overran[0].reason}")  # fmt: skip
+        drift, shift = window.drift, window.drift.shift_ns
+        if drift.planned_ns:
+            findings.append(f"window '{window.window}': planned instants are up to {drift.planned_ns / 1e3:g} us off the schedule")
+        if shift is not None and abs(shift) * 10 > window.period_ns:
+            findings.append(f"window '{window.window}': the median lateness changed by {shift / 1e3:g} us from the first to the last tenth of the "
+                            f"run, limit {window.period_ns / 1e4:g} us")  # fmt: skip
     return findings

@@ -28,6 +28,7 @@ from mamori_tools.timing.baseline import Baseline, check_table, judge_ratios, li
 from mamori_tools.timing.environment import collect_setting, collect_state
 from mamori_tools.timing.reader import FILES, Measurement, read_measurement
 from mamori_tools.timing.report import Report, make_record, make_report, write_record
+from mamori_tools.timing.request_shift import check_requests
 from mamori_tools.timing.run import Ending, check_load, make_load, run_program, undisturbed
 from mamori_tools.timing.system import System, find_system
 from mamori_tools.timing.text import make_text
@@ -51,6 +52,7 @@ class Request:
     cycles: int = CYCLES
     out: Path | None = None
     with_load: bool = False
+    with_requests: bool = False
     check: Path | None = None
     accept: Path | None = None
     arguments: tuple[str, ...] = ()
@@ -76,7 +78,7 @@ class Job:
         return self.folder / "program.log"
 
     def make_argv(self, cycles: int, folder: Path) -> list[str]:
-        words = [*self.system.arguments, *self.request.arguments]
+        words = [*(("--requests",) if self.request.with_requests else ()), *self.system.arguments, *self.request.arguments]
         return [str(self.system.program), "timing", "--cycles", str(cycles), "--out", str(folder), *words]
 
 
@@ -171,6 +173,8 @@ def _probe(job: Job) -> float | None:
         run = read_measurement(Path(scratch))
     if job.baseline is not None:
         check_table(job.baseline, run.table)
+    if job.request.with_requests:
+        check_requests(run, job.request.cycles)
     return job.request.cycles * run.table.frame_ns / 1e9
 
 
@@ -264,6 +268,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--cycles", type=at_least_one, default=CYCLES, metavar="N", help="major frames to run (at least 1); default: %(default)s")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder for the results; default: build/host-release/evidence/timing/NAME")
     parser.add_argument("--load", action="store_true", help="keep all processors busy with stress-ng during the run")
+    parser.add_argument("--requests", action="store_true",
+                        help="measure how far requests of introspection from outside shift the start of each window, if the program offers it")  # fmt: skip
     parser.add_argument("--check", type=Path, metavar="BASELINE",
                         help="end with status 1 when the ratio of a component to the reference work exceeds the limit in this file")  # fmt: skip
     parser.add_argument("--accept", type=Path, metavar="BASELINE",
@@ -274,8 +280,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """@return exit status."""
-    request = Request(arguments.system, arguments.cycles, arguments.out, arguments.load, arguments.check, arguments.accept, arguments.passed_on,
-                      arguments.json)  # fmt: skip
+    request = Request(arguments.system, arguments.cycles, arguments.out, arguments.load, arguments.requests, arguments.check,
+                      arguments.accept, arguments.passed_on, arguments.json)  # fmt: skip
     return timing(request, arguments.jobs)
 
 
@@ -284,7 +290,7 @@ COMMAND = Command(
     "Runs a system in real time. Shows release lateness, execution time and end-to-end latency for each window, component and event chain, "
     "next to the values in virtual time. Shows each overrun and skipped window with its cycle and the responsible component, and the margins "
     "of budgets. Writes timing.json, timing.txt and pictures. ARGUMENTS are passed on to the program.",
-    {0: "measured", 1: "a finding (overrun, declared worst case exceeded, --check, program failed)",
+    {0: "measured", 1: "a finding (overrun, declared worst case exceeded, drift, --requests, --check, program failed)",
      4: "measured without all real-time privileges", 130: "stopped by Ctrl-C; the measurements so far are kept and marked partial"},
     usage_end="[-- ARGUMENTS]",
     examples=("timing examples/safe_arm --cycles 10000 --load",))  # fmt: skip

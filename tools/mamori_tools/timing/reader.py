@@ -23,6 +23,8 @@ FILES = ("table.json", "openings.npy", "steps.npy", "run.json")
 RIGHTS = ("priority", "processor", "memory")
 COMPLETED, OVERRUN, MISSED, STOPPED, NOT_DUE = range(5)
 OUTCOMES = ("completed", "overrun", "missed", "stopped", "not due")
+PACES = ("none", "steady", "burst")
+"""Requests from outside in a block of major frames."""
 PASSES = ("execute", "state update", "mode step")
 NOT_BACK = -1
 """End of a step that had not come back when the run ended."""
@@ -46,6 +48,16 @@ class Right:
 
 
 @dataclass(frozen=True)
+class Requests:
+    """Requests from outside: `count`, and the index in PACES for each block of `block_cycles` major frames, from frame 0 on. After the first
+    block, each three blocks are a round with each pace once."""
+
+    block_cycles: int
+    count: int
+    paces: tuple[int, ...]
+
+
+@dataclass(frozen=True)
 class Measurement:
     """One run. `openings` (OPENING) is sorted by window, then by release; `opening_of_step` is the row of each step's window instance.
 
@@ -64,6 +76,7 @@ class Measurement:
     notes: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
     """What the program itself reports: it knows whether its system left the operating state."""
+    requests: Requests | None = None
 
     def rows_of(self, window: int) -> slice:
         """The instances of one window, in order of time."""
@@ -92,7 +105,8 @@ def read_measurement(folder: Path) -> Measurement:
     steps, opening_of_step, notes = _match_steps(steps, openings, table, is_partial, folder / "steps.npy")
     own = tuple(f"the program: {note.text()}" for note in run.at("notes").items())
     findings = tuple(f"the program: {finding.text()}" for finding in run.at("findings").items()) if run.has("findings") else ()
-    return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, (*own, *notes), findings)
+    return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, (*own, *notes), findings,
+                       _read_requests(run.at("requests"), openings, table) if run.has("requests") else None)  # fmt: skip
 
 
 def load_json(path: Path) -> object:
@@ -121,6 +135,17 @@ def _read_run(run: JsonNode, table: Table) -> tuple[int, int, bool, int]:
     if lost := run.at("lost_rows").count():
         raise run.at("lost_rows").complain(f"says that {lost} rows had no room; measure fewer cycles")
     return asked, done, is_partial, reference
+
+
+def _read_requests(node: JsonNode, openings: Array, table: Table) -> Requests:
+    block_cycles, paces = node.at("block_cycles").count(), [pace.index(len(PACES)) for pace in node.at("paces").items()]
+    if block_cycles < 1:
+        raise node.complain("has blocks of 0 cycles")
+    if len(paces) <= int(openings["release_ns"].max()) // (block_cycles * table.frame_ns):
+        raise node.complain(f"has {len(paces)} blocks of {block_cycles} cycles; the run is longer")
+    if any(sorted(paces[first : first + 3]) != [0, 1, 2] for first in range(1, len(paces) - 2, 3)):
+        raise node.complain("has a round of three blocks without each pace")
+    return Requests(block_cycles, node.at("count").count(), tuple(paces))
 
 
 def read_right(name: str, node: JsonNode) -> Right:
@@ -164,7 +189,7 @@ def _check_instants(rows: Array, names: tuple[str, ...], path: Path) -> None:
 
 
 def _check_openings(rows: Array, table: Table, path: Path) -> None:
-    """Each window instance is on the schedule of its window, once, and none in between is missing."""
+    """Each window instance is possible, and there once. Drift from the schedule is a finding of the analysis."""
     if not len(rows):
         raise InputError(f"has no opening at all; let the program run for a whole cycle, or {HOW_TO_MEND}", path)
     _refuse_first(rows["window"] >= len(table.windows), rows, path, f"name a window beyond the {len(table.windows)} of the table")
@@ -172,13 +197,8 @@ def _check_openings(rows: Array, table: Table, path: Path) -> None:
     _check_instants(rows, ("release_ns", "woke_ns", "closed_ns"), path)
     _refuse_first(rows["woke_ns"] < rows["release_ns"], rows, path, "woke before their release")
     _refuse_first(rows["closed_ns"] < rows["woke_ns"], rows, path, "closed before they woke")
-    period = np.array([window.period_ns for window in table.windows])[rows["window"]]
-    offset = np.array([window.offset_ns for window in table.windows])[rows["window"]]
-    _refuse_first((rows["release_ns"] - offset) % period != 0, rows, path, "are off the grid of their window")
-    step = np.diff(rows["release_ns"])
-    same = np.diff(rows["window"].astype(np.int64)) == 0
-    _refuse_first(np.concatenate(([False], same & (step == 0))), rows, path, "are there twice")
-    _refuse_first(np.concatenate(([False], same & (step != period[1:]))), rows, path, "come after one that is left out")
+    same = (np.diff(rows["window"].astype(np.int64)) == 0) & (np.diff(rows["release_ns"]) == 0)
+    _refuse_first(np.concatenate(([False], same)), rows, path, "are there twice")
 
 
 def _check_counts(rows: Array, table: Table, cycles: int, path: Path) -> None:

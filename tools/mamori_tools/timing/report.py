@@ -30,6 +30,7 @@ from mamori_tools.timing.chain_times import ChainRow, list_chains, list_violatio
 from mamori_tools.timing.environment import calc_steal_share
 from mamori_tools.timing.evt import Estimate, estimate
 from mamori_tools.timing.reader import Measurement
+from mamori_tools.timing.request_shift import ShiftRow, list_shift_findings, list_shifts
 from mamori_trace.base.text_file import write_text
 
 SCHEMA = "mamori.timing/1"
@@ -51,6 +52,7 @@ class Report:
     misses: Sequence[Miss]
     chains: Sequence[ChainRow]
     chain_note: str
+    shifts: Sequence[ShiftRow]
     estimates: Sequence[Estimate]
     findings: Sequence[str]
     notes: Sequence[str]
@@ -92,12 +94,14 @@ def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: 
                 ) -> Report:  # fmt: skip
     """Analyses `run`. @param findings known findings from outside its files."""
     windows, components, misses = list_windows(run), list_components(run), list_misses(run)
-    chains, chain_note = list_chains(run)
+    (chains, chain_note), shifts = list_chains(run), list_shifts(run)
     indices = [index for index, one in enumerate(run.table.components) if one.window is not None]
     estimates = [estimate(calc_execution(run, index)[0].values, count_cut(run, index)) for index in indices]
     early = [] if was_stopped or not run.is_partial else [f"the program ended after {run.cycles_run} of {run.cycles_asked} cycles"]
-    found = [*findings, *early, *run.findings, *list_findings(windows, components, misses), *list_violations(chains)]
-    return Report(system, run, windows, components, misses, chains, chain_note, estimates, found, run.notes, host, with_load, was_stopped)
+    found = [*findings, *early, *run.findings, *list_findings(windows, components, misses), *list_violations(chains),
+             *list_shift_findings(run, shifts)]  # fmt: skip
+    return Report(system, run, windows, components, misses, chains, chain_note, shifts, estimates, found, run.notes, host, with_load,
+                  was_stopped)  # fmt: skip
 
 
 def make_record(report: Report, environment: dict[str, object]) -> dict[str, Any]:
@@ -127,6 +131,7 @@ def make_record(report: Report, environment: dict[str, object]) -> dict[str, Any
         "ratios": ratios,
         "chains": [_make_chain(row) for row in report.chains],
         "chain_note": report.chain_note,
+        "requests": None if run.requests is None else {**asdict(run.requests), "windows": [asdict(row) for row in report.shifts]},
         "miss_count": len(report.misses),
         "misses": [asdict(miss) for miss in report.misses[:MISSES_STORED]],
     }

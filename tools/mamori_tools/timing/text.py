@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from mamori_tools.timing.analysis import ComponentRow, Distribution
 from mamori_tools.timing.evt import Estimate
-from mamori_tools.timing.reader import MISSED, OUTCOMES
+from mamori_tools.timing.reader import MISSED, OUTCOMES, PACES
 from mamori_tools.timing.report import MISSES_STORED, Report
 
 MISSES_SHOWN = 5
@@ -24,7 +24,7 @@ FINDINGS_SHOWN = 8
 def make_text(report: Report, is_whole: bool) -> str:
     """@param is_whole all rows and reasons; otherwise the rows that fit on a screen, and a note on the rest."""
     parts = [_make_head(report), _make_windows(report, is_whole), _make_components(report, is_whole), _make_chains(report, is_whole),
-             _make_misses(report, is_whole), _make_estimates(report, is_whole), _make_verdict(report, is_whole)]  # fmt: skip
+             _make_shifts(report, is_whole), _make_misses(report, is_whole), _make_estimates(report, is_whole), _make_verdict(report, is_whole)]  # fmt: skip
     return make_printable("\n\n".join("\n".join(part) for part in parts if part) + "\n")
 
 
@@ -44,15 +44,15 @@ def _make_head(report: Report) -> list[str]:
 
 
 def _make_windows(report: Report, is_whole: bool) -> list[str]:
-    head = ("window", "core", "offset", "length", "budget", "late p50", "p99", "p99.9", "max", "response max", "margin", "budget used",
-            "margin", "missed", "overran")  # fmt: skip
+    head = ("window", "core", "offset", "length", "budget", "late p50", "p99", "p99.9", "max", "drift", "response max", "margin",
+            "budget used", "margin", "missed", "overran")  # fmt: skip
     rows = []
     for one in report.windows:
         late = one.lateness
         rows.append((
             one.window, str(one.core), format_us(one.offset_ns), format_us(one.length_ns), format_us(one.budget_ns),
-            *_format_quantiles(late, ("p50", "p99", "p999", "max")), format_us(one.response.max if one.response else None),
-            format_us(one.length_margin_ns), format_us(one.used_max_ns), format_us(one.budget_margin_ns),
+            *_format_quantiles(late, ("p50", "p99", "p999", "max")), format_us(one.drift.shift_ns),
+            format_us(one.response.max if one.response else None), format_us(one.length_margin_ns), format_us(one.used_max_ns), format_us(one.budget_margin_ns),
             str(one.outcomes["missed"]), str(one.outcomes["overrun"]),
         ))  # fmt: skip
     return _cut([head, *rows], is_whole)
@@ -99,6 +99,18 @@ def _make_sensitivity(report: Report) -> list[str]:
         for number, row in enumerate(report.chains, start=1) for one in row.virtual.sensitivity
     ]  # fmt: skip
     return ["", *format_columns([head, *rows])]
+
+
+def _make_shifts(report: Report, is_whole: bool) -> list[str]:
+    if report.run.requests is None:
+        return []
+    head = ("window", "start p50", *(name for pace in PACES[1:] for name in (f"{pace} shift", "min", "max")))
+    rows = [(one.window, *_format_quantiles(one.start, ("p50",)), *_format_quantiles(one.steady, ("p50", "min", "max")),
+             *_format_quantiles(one.burst, ("p50", "min", "max"))) for one in report.shifts]  # fmt: skip
+    rounds = max((one.start.count for one in report.shifts if one.start is not None), default=0)
+    return [f"requests: {report.run.requests.count}, steady (1,000 per second) and in bursts of 100; rounds of {len(PACES)} x "
+            f"{report.run.requests.block_cycles} cycles: {rounds}",
+            *_cut([head, *rows], is_whole)]  # fmt: skip
 
 
 def _make_misses(report: Report, is_whole: bool) -> list[str]:

@@ -78,6 +78,11 @@ def make_run(table: dict[str, Any], asked: int, done: int, refused: Sequence[str
             "frame_ns": table["frame_ns"], "reference_ns": REFERENCE_NS, "lost_rows": 0, "notes": [], "rights": rights}  # fmt: skip
 
 
+def make_requests(count: int = 1_000) -> dict[str, Any]:
+    """The key `requests` of run.json, for the blocks of 200 cycles."""
+    return {"block_cycles": 20, "count": count, "paces": [0, 0, 1, 2, 1, 2, 0, 2, 0, 1]}
+
+
 def write_run(folder: Path, table: dict[str, Any], openings: np.ndarray[Any, Any], steps: np.ndarray[Any, Any], run: dict[str, Any]) -> Path:
     """@return `folder`."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -107,8 +112,12 @@ if "wait" in words and not is_probe:
         time.sleep(0.01)
 while "await-load" in words and not is_probe and not os.path.exists(os.path.dirname(words[0]) + "/load"):
     time.sleep(0.01)
+kind = "probe" if is_probe else "partial" if stopped else "whole"
 if "nothing" not in words or is_probe:
-    shutil.copytree("{data}/" + ("probe" if is_probe else "partial" if stopped else "whole"), out, dirs_exist_ok=True)
+    shutil.copytree("{data}/" + kind, out, dirs_exist_ok=True)
+if "--requests" in words and "old" not in words:
+    run = open(out + "/run.json").read()
+    open(out + "/run.json", "w").write(run[:-1] + ', "requests": {requests}' + "}}")
 sys.exit(130 if stopped else 1 if "fail" in words and not is_probe else 0)
 """
 
@@ -116,7 +125,7 @@ sys.exit(130 if stopped else 1 if "fail" in words and not is_probe else 0)
 def make_program(folder: Path) -> Path:
     """A program that writes the last files of prepare() in `folder`. @return its path."""
     path = folder / "fake_system"
-    path.write_text(PROGRAM.format(python=sys.executable, data=folder / "data"), encoding="utf-8")
+    path.write_text(PROGRAM.format(python=sys.executable, data=folder / "data", requests=json.dumps(make_requests())), encoding="utf-8")
     path.chmod(0o755)
     return path
 

@@ -3,13 +3,23 @@
 # Method: a run of a few window instances with given instants, one fault at a time.
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from timing_run import make_run, make_table, write_run
 
-from mamori_tools.timing.analysis import calc_execution, calc_lateness, describe, list_components, list_findings, list_misses, list_windows
+from mamori_tools.timing.analysis import (
+    calc_drift,
+    calc_execution,
+    calc_lateness,
+    describe,
+    list_components,
+    list_findings,
+    list_misses,
+    list_windows,
+)
 from mamori_tools.timing.reader import COMPLETED, MISSED, NOT_BACK, NOT_DUE, OPENING, OVERRUN, STEP, Measurement, read_measurement
 
 TABLE = make_table(windows=(("work", 0, 100, 300, 1000, 200),), components=(("first", 0, 50, 0), ("second", 0, None, 0)),
@@ -203,3 +213,48 @@ def test_overrun_is_a_finding_with_cycle_and_component(rows: Rows, tmp_path: Pat
     assert found == ["window 'work': 1 overran, first in cycle 3 by 'second', which came back 50.0 us after the deadline"]
 
 
+def read_drifting(folder: Path, planned_ns: int = 0, late_ns: int = 0, count: int = 1000, missing: int | None = None) -> Measurement:
+    """Instances whose planned instant is off by `planned_ns` and whose lateness grows by `late_ns`, more in each frame."""
+    openings = np.zeros(count, OPENING)
+    frames = np.arange(count)
+    openings["release_ns"] = (1000 * (frames + 1) + 100) * US + frames * planned_ns
+    openings["woke_ns"] = openings["closed_ns"] = openings["release_ns"] + 5 * US + frames * late_ns
+    openings = openings if missing is None else np.delete(openings, missing)
+    return read_measurement(write_run(folder, TABLE, openings, np.zeros(0, STEP), make_run(TABLE, count, count)))
+
+
+@pytest.mark.verifies("SWR-TIM-040")
+def test_run_on_the_schedule_with_constant_lateness_has_no_drift(tmp_path: Path) -> None:
+    run = read_drifting(tmp_path)
+
+    drift = calc_drift(run, 0)
+    assert (drift.planned_ns, drift.first_ns, drift.last_ns, drift.shift_ns) == (0, 5 * US, 5 * US, 0)
+    assert list_findings(list_windows(run), [], []) == []
+
+
+@pytest.mark.verifies("SWR-TIM-040", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize(("changes", "planned_us"), [({"planned_ns": 1}, 0.999), ({"planned_ns": -1}, 0.999), ({"missing": 500}, 1000)])
+def test_planned_instant_off_the_schedule_is_a_finding(tmp_path: Path, changes: dict[str, int], planned_us: float) -> None:
+    found = list_findings(list_windows(read_drifting(tmp_path, **changes)), [], [])
+
+    assert found == [f"window 'work': planned instants are up to {planned_us:g} us off the schedule"]
+
+
+@pytest.mark.verifies("SWR-TIM-040", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize(("shift_ns", "count"), [(100_000, 0), (100_001, 1)])
+def test_median_lateness_that_changes_by_more_than_a_tenth_of_the_period_is_a_finding(tmp_path: Path, sign: int, shift_ns: int, count: int
+                                                                                      ) -> None:  # fmt: skip
+    window = list_windows(read_drifting(tmp_path))[0]
+    changed = replace(window, drift=replace(window.drift, first_ns=200_000, last_ns=200_000 + sign * shift_ns))
+
+    assert len(list_findings([changed], [], [])) == count
+
+
+@pytest.mark.verifies("SWR-TIM-040", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize(("count", "shift_ns"), [(990, None), (991, 891 * 150)])
+def test_change_of_lateness_needs_a_hundred_values_in_each_tenth(tmp_path: Path, count: int, shift_ns: int | None) -> None:
+    run = read_drifting(tmp_path, late_ns=150, count=count)
+
+    assert calc_drift(run, 0).shift_ns == shift_ns
+    assert bool(list_findings(list_windows(run), [], [])) == (shift_ns is not None)

@@ -114,6 +114,21 @@ def test_finding_counts_more_than_a_missing_right(program: Path) -> None:
     assert measure(program, fault="overrun", refused=("priority",)) == 1
 
 
+@pytest.mark.verifies("SWR-PRT-039", technique="interface")
+def test_requests_are_made_and_their_shift_is_shown(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert measure(program, own=("--requests",)) == 0
+
+    assert "requests: 1000, steady (1,000 per second) and in bursts of 100; rounds of 3 x 20 cycles: 1" in capsys.readouterr().out
+    assert load_record(program)["requests"]["windows"][0]["burst"]["count"] == 1
+    assert load_record(program)["windows"][0]["drift"]["planned_ns"] == 0
+
+
+@pytest.mark.verifies("SWR-TIM-022", technique="interface", polarity="violation")
+def test_program_that_ignores_the_option_for_requests_ends_with_2(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert measure(program, "old", own=("--requests",)) == 2
+    assert "the program ignored --requests" in capsys.readouterr().err
+
+
 @pytest.mark.verifies("SWR-TIM-020")
 def test_accepted_baseline_is_held_against_the_next_run(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
     baseline = program.parent / "baseline.toml"

@@ -18,6 +18,7 @@
 
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 #include "mamori/table_dump/table_dump.hpp"
+#include "mamori/timing/introspection_load.hpp"
 #include "mamori/timing/measuring_host.hpp"
 #include "reference_work.hpp"
 #include "write_run.hpp"
@@ -41,6 +42,8 @@ constexpr Duration kPoll{5'000'000};
 constexpr int kPriorityGap = 10;
 /// Steps of mode switches and late stops are not part of a cycle.
 constexpr std::size_t kSpareSteps = 4096U;
+/// Length of a block of major frames with one pace of requests.
+constexpr Duration kBlock{500'000'000};
 constexpr std::size_t kStackSize = 256U * 1024U;
 
 std::atomic<bool> is_interrupted{false};
@@ -49,11 +52,22 @@ extern "C" void note_signal(int) {
     is_interrupted.store(true, std::memory_order_relaxed);
 }
 
-/// Ends the run of a core after a signal.
-class Stopper final : public OpeningObserver {
+/// The first block has no requests: pages and caches settle. Each round of three blocks has each pace once
+/// and begins with another pace than the round before.
+Pace calc_pace(std::uint64_t block) noexcept {
+    return block == 0U ? Pace::kNone : static_cast<Pace>((block - 1U + (block - 1U) / 3U) % 3U);
+}
+
+/// Sets the pace of the requests, and ends the run of a core after a signal.
+class RunControl final : public OpeningObserver {
   public:
-    Stopper(OpeningObserver& next, CoreRunner& runner) noexcept : next_(next), runner_(runner) {}
+    /// @param[in] load nullptr: none. @param[in] block length of the blocks.
+    RunControl(OpeningObserver& next, CoreRunner& runner, IntrospectionLoad* load, Duration block) noexcept
+        : next_(next), runner_(runner), load_(load), block_(block) {}
     void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override {
+        if (load_ != nullptr) {
+            load_->set_pace(calc_pace(static_cast<std::uint64_t>(opening.release.ns / block_.ns)));
+        }
         next_.before_opening(opening, woke);
     }
     void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override {
@@ -66,24 +80,27 @@ class Stopper final : public OpeningObserver {
   private:
     OpeningObserver& next_;
     CoreRunner& runner_;
+    IntrospectionLoad* load_;
+    Duration block_;
 };
 
 /// All data of one core that the threads of its windows may still use after the run.
 struct CoreSession {
-    CoreSession(const TimedCore& core, RunLog& rows, const FrameClock& clock, ThreadPlace place)
+    CoreSession(const TimedCore& core, RunLog& rows, const FrameClock& clock, ThreadPlace place,
+                IntrospectionLoad* load, Duration block)
         : log{rows},
           guard{core.threads, clock, place},
           host{guard, log, core.executive.get_view().windows.size(), core.devices},
           runner{core.executive, host, clock},
-          stopper{host, runner} {
-        runner.set_observer(&stopper);
+          control{host, runner, load, block} {
+        runner.set_observer(&control);
     }
 
     RunLog& log;
     GuardedHost guard;
     MeasuringHost host;
     CoreRunner runner;
-    Stopper stopper;
+    RunControl control;
     Right priority{};
     Right processor{};
 };
@@ -91,6 +108,8 @@ struct CoreSession {
 struct Session {
     std::vector<std::unique_ptr<RunLog>> logs;
     std::unique_ptr<FrameClock> clock;
+    std::unique_ptr<IntrospectionLoad> load;  ///< nullptr: no requests
+    std::uint64_t block_cycles{0U};           ///< likewise 0
     std::vector<std::unique_ptr<CoreSession>> cores;
 };
 
@@ -192,6 +211,9 @@ std::string check(const std::vector<TimedCore>& cores, const TimingOptions& opti
         return std::to_string(options.cycles) +
                " cycles need more memory than this machine has free: run fewer";
     }
+    if (options.with_requests && options.introspection == nullptr) {
+        return "this program has no introspection for --requests: set TimingOptions::introspection";
+    }
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error) {
@@ -271,8 +293,10 @@ RunFacts collect(const Session& session, const TimingOptions& options, Duration 
     facts.run_cycles = options.cycles;
     facts.priority = {true, 0};
     facts.processor = {true, 0};
+    Instant last{};
     for (const std::unique_ptr<CoreSession>& core : session.cores) {
         const Span<const OpeningRow> rows = core->log.get_openings();
+        last = rows.empty() ? last : std::max(last, rows[rows.size() - 1U].release);
         if (facts.is_partial) {
             const Duration time =
                 rows.empty() ? Duration{0} : rows[rows.size() - 1U].release - rows[0].release;
@@ -281,6 +305,14 @@ RunFacts collect(const Session& session, const TimingOptions& options, Duration 
         facts.priority = combine(facts.priority, combine(core->priority, core->guard.get_priority_right()));
         facts.processor =
             combine(facts.processor, combine(core->processor, core->guard.get_processor_right()));
+    }
+    if (session.load != nullptr) {
+        facts.block_cycles = session.block_cycles;
+        facts.request_count = session.load->get_request_count();
+        const auto last_block = static_cast<std::uint64_t>(last.ns / frame.ns) / session.block_cycles;
+        for (std::uint64_t block = 0U; block <= last_block; ++block) {
+            facts.paces.push_back(calc_pace(block));
+        }
     }
     return facts;
 }
@@ -294,10 +326,17 @@ std::unique_ptr<Session> make_session(const std::vector<TimedCore>& cores, const
         session->logs.push_back(std::make_unique<RunLog>(room.openings, room.steps));
     }
     session->clock = std::make_unique<FrameClock>(FrameClock::starting_in(kLead));
+    const Duration frame = cores.front().executive.get_view().frame;
+    const std::int64_t block_cycles = std::max(std::int64_t{1}, kBlock.ns / frame.ns);
+    if (options.with_requests) {
+        session->load = std::make_unique<IntrospectionLoad>(*options.introspection);
+        session->block_cycles = static_cast<std::uint64_t>(block_cycles);
+    }
     for (std::size_t i = 0U; i < cores.size(); ++i) {
         const ThreadPlace place{options.priority - kPriorityGap, processors[i]};
-        session->cores.push_back(
-            std::make_unique<CoreSession>(cores[i], *session->logs[i], *session->clock, place));
+        session->cores.push_back(std::make_unique<CoreSession>(cores[i], *session->logs[i], *session->clock,
+                                                               place, i == 0U ? session->load.get() : nullptr,
+                                                               Duration{block_cycles * frame.ns}));
     }
     return session;
 }
@@ -338,6 +377,7 @@ TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& o
     run_all(*session, options, processors);
     const bool is_closed = close_guards(*session);
     RunFacts facts = collect(*session, options, view.frame);
+    session->load.reset();  // it would outlive this function with the work that hangs
     facts.reference = reference;
     facts.memory = memory;
     if (options.tell_notes) {

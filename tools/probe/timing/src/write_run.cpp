@@ -92,6 +92,19 @@ std::string make_list(const std::vector<std::string>& notes) {
     return "[" + list + "]";
 }
 
+/// Empty for a run without requests.
+std::string make_requests(const RunFacts& facts) {
+    if (facts.block_cycles == 0U) {
+        return {};
+    }
+    std::string paces;
+    for (const Pace pace : facts.paces) {
+        paces += (paces.empty() ? "" : ", ") + std::to_string(static_cast<int>(pace));
+    }
+    return ",\n \"requests\": {\"block_cycles\": " + std::to_string(facts.block_cycles) +
+           ", \"count\": " + std::to_string(facts.request_count) + ", \"paces\": [" + paces + "]}";
+}
+
 std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& facts) {
     std::uint64_t lost = 0U;
     for (const RunLog* log : logs) {
@@ -103,7 +116,7 @@ std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& f
            ",\n \"frame_ns\": " + std::to_string(facts.frame.ns) +
            ",\n \"reference_ns\": " + std::to_string(facts.reference.ns) +
            ",\n \"lost_rows\": " + std::to_string(lost) + ",\n \"notes\": " + make_list(facts.notes) +
-           ",\n \"findings\": " + make_list(facts.findings) +
+           ",\n \"findings\": " + make_list(facts.findings) + make_requests(facts) +
            ",\n \"rights\": " + make_rights(facts.priority, facts.processor, facts.memory) + "\n}\n";
 }
 

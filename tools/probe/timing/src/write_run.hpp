@@ -10,6 +10,7 @@
 
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 #include "mamori/timing/counting_host.hpp"
+#include "mamori/timing/introspection_load.hpp"
 #include "mamori/timing/run_log.hpp"
 
 namespace mamori::timing {
@@ -24,6 +25,9 @@ struct RunFacts {
     ports::posix_rt::Right priority{};
     ports::posix_rt::Right processor{};
     ports::posix_rt::Right memory{};
+    std::uint64_t block_cycles{0U};  ///< major frames of one pace of requests; 0: a run without requests
+    std::uint64_t request_count{0U};
+    std::vector<Pace> paces{};            ///< of each block, from major frame 0 on
     std::vector<std::string> notes{};     ///< of the application
     std::vector<std::string> findings{};  ///< likewise
 };

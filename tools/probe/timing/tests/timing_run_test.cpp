@@ -9,12 +9,15 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <vector>
 
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/trace/verifies.hpp"
@@ -59,6 +62,31 @@ std::size_t read_row_count(const std::string& path) {
     return place == std::string::npos ? 0U : std::stoul(file.substr(place + 10U));
 }
 
+/// Planned instants in openings.npy, whose rows have 32 bytes.
+std::vector<std::int64_t> read_releases(const std::string& path) {
+    const std::string file = read_file(path);
+    std::vector<std::int64_t> releases(read_row_count(path));
+    for (std::size_t row = 0U; row < releases.size(); ++row) {
+        std::memcpy(&releases[row], &file[file.size() - 32U * (releases.size() - row)], sizeof(std::int64_t));
+    }
+    return releases;
+}
+
+/// Delays a window by more than two major frames.
+class Delayer final : public ports::posix_rt::OpeningObserver {
+  public:
+    void before_opening(const FrameSchedule::Opening&, Instant) noexcept override {
+        ++count_;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds{count_ == 2 ? 50 : 0};
+        while (std::chrono::steady_clock::now() < end) {
+        }
+    }
+    void after_opening(const FrameSchedule::Opening&, WindowOutcome) noexcept override {}
+
+  private:
+    int count_{0};
+};
+
 bool has_two_processors() {
     cpu_set_t set;
     return sched_getaffinity(0, sizeof(set), &set) == 0 && CPU_COUNT(&set) >= 2;
@@ -77,6 +105,13 @@ class TimingRunTest : public ::testing::Test {
         ASSERT_EQ(lower_.start(), Status::kOk);
         options_.out = folder_;
     }
+    void expect_whole_periods() const {
+        const std::vector<std::int64_t> releases = read_releases(folder_ + "/openings.npy");
+        ASSERT_EQ(releases.size(), 5U);
+        for (std::size_t i = 0U; i < releases.size(); ++i) {
+            EXPECT_EQ(releases[i], releases[0] + static_cast<std::int64_t>(i) * kFrame.ns);
+        }
+    }
     Json read_facts() const { return Json::parse(read_file(folder_ + "/run.json")); }
 
     std::string folder_;
@@ -85,6 +120,7 @@ class TimingRunTest : public ::testing::Test {
     SystemTable<2U, 2U, 0U, 0U> table_ =
         system(frame(kFrame), window("upper", 0_ms, 15_ms, budget(10_ms), run(first_)),
                window("lower", 0_ms, 20_ms, budget(19_ms), core(1U), run(second_)));
+    IntrospectionFor<decltype(table_)> introspection_{table_};
     ExecutiveFor<decltype(table_)> upper_{table_};
     ExecutiveFor<decltype(table_)> lower_{table_, 1U};
     std::array<WindowThread, 2U> upper_threads_;
@@ -117,6 +153,47 @@ TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
     const auto run_count = static_cast<std::size_t>(first_.run_count + second_.run_count);
     EXPECT_GE(read_row_count(folder_ + "/steps.npy"), run_count);
     EXPECT_LE(read_row_count(folder_ + "/steps.npy"), 2U * run_count);
+}
+
+TEST_F(TimingRunTest, PlannedInstantsAreWholePeriodsApart) {
+    verifies("SWR-PRT-038");
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    expect_whole_periods();
+}
+
+TEST_F(TimingRunTest, PlannedInstantsStayWholePeriodsApartAfterADelayOfTwoPeriods) {
+    verifies("SWR-PRT-038", Technique::kFaultInjection, Polarity::kViolation);
+    Delayer delayer;
+    ASSERT_EQ(run_timing({{upper_, upper_threads_, &delayer}}, options_).outcome, TimingOutcome::kWhole);
+
+    expect_whole_periods();
+}
+
+TEST_F(TimingRunTest, BlocksWithAndWithoutRequestsAlternate) {
+    verifies("SWR-TIM-041");
+    upper_.set_introspection(&introspection_);
+    options_.with_requests = true;
+    options_.introspection = &introspection_;
+    options_.cycles = 110U;
+
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    const Json requests = read_facts()["requests"];
+    EXPECT_EQ(requests["block_cycles"], 25);
+    EXPECT_EQ(requests["paces"], (Json{0, 0, 1, 2, 1}));
+    EXPECT_GT(requests["count"], 0);
+}
+
+TEST_F(TimingRunTest, RequestsWithoutIntrospectionAreRejectedBeforeAnythingRuns) {
+    verifies("SWR-TIM-041", Technique::kErrorGuessing, Polarity::kViolation);
+    options_.with_requests = true;
+
+    const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kRefused);
+    EXPECT_NE(result.message.find("--requests"), std::string::npos) << result.message;
+    EXPECT_EQ(first_.run_count, 0);
 }
 
 TEST_F(TimingRunTest, EachCoreOpensItsWindowsInAllFramesThatWereAskedFor) {

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "director.hpp"
-#include "introspection_load.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
+#include "mamori/timing/introspection_load.hpp"
 #include "mamori/verification/stall_watch.hpp"
 #include "page_storm.hpp"
 #include "victims.hpp"
@@ -21,6 +21,8 @@ using ports::posix_rt::GridWatch;
 using ports::posix_rt::GuardedHost;
 using ports::posix_rt::Right;
 using ports::posix_rt::WindowThread;
+using timing::IntrospectionLoad;
+using timing::Pace;
 using verification::find_processor;
 using verification::StallWatch;
 

@@ -15,7 +15,7 @@
 #include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/dataflow/port_base.hpp"
 #include "mamori/kernel/system/port_list.hpp"
-#include "mamori/kernel/table/detail/component_check.hpp"
+#include "mamori/kernel/table/system_check.hpp"
 #include "mamori/kernel/table/system_finding.hpp"
 
 namespace mamori::detail {
@@ -40,7 +40,7 @@ struct WithName {
         return use(constant);
     }
 };
-struct NotAtAll {
+struct NotConstructible {
     template <typename C, typename Use>
     static constexpr auto apply(const Use& use) noexcept {
         return decltype(use(std::declval<const C&>())){};
@@ -64,7 +64,7 @@ inline constexpr bool kMakesConstant = decltype(try_constant<Way, C>(0))::value;
 /// A type that the compiler cannot construct is checked by Executive::initialize().
 template <typename C>
 using WayOf = std::conditional_t<kMakesConstant<WithoutName, C>, WithoutName,
-                                 std::conditional_t<kMakesConstant<WithName, C>, WithName, NotAtAll>>;
+                                 std::conditional_t<kMakesConstant<WithName, C>, WithName, NotConstructible>>;
 
 /// First finding of check_ports() for each object of the type.
 template <typename List>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Runs a system in real time for a number of major frames and writes the measurements, for `mamori timing`.
-/// For hosts: link mamori::timing into your program and offer `timing --cycles N --out DIR`.
+/// For hosts: link mamori::timing into your program and offer
+/// `timing --cycles N --out DIR [--requests]`.
 ///
-/// @satisfies SWR-TIM-002, SWR-TIM-003, SWR-TIM-005      Design: docs/design/timing.md#measured-run
+/// @satisfies SWR-TIM-002, SWR-TIM-003, SWR-TIM-005, SWR-TIM-041      Design:
+/// docs/design/timing.md#measured-run
 #ifndef MAMORI_TIMING_TIMING_RUN_HPP
 #define MAMORI_TIMING_TIMING_RUN_HPP
 
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 
@@ -38,6 +41,11 @@ struct TimingOptions {
     /// Called after the run: errors of the system itself, for example that it left its operating state. Each
     /// text is a finding of `mamori timing`. Empty: none.
     std::function<std::vector<std::string>()> tell_findings{};
+    /// Blocks of major frames without requests from outside, with 1,000 per second and with as many in bursts
+    /// of a hundred alternate. Rejected without `introspection`.
+    bool with_requests{false};
+    /// That of the executives; nullptr: none. Must outlive the run.
+    const Introspection* introspection{nullptr};
 };
 
 /// Outcome of a run.
