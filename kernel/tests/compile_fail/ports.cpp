@@ -24,7 +24,7 @@ constexpr auto kSystem = mamori::system(
 MAMORI_CHECK(kSystem);
 }  // namespace port_not_listed
 
-// A component with a name as its argument has no list at all.
+// A component with a name as its argument has no list of ports.
 namespace no_port_listed {
 class Monitor final : public mamori::Component {
   public:
