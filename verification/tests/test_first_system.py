@@ -13,7 +13,7 @@ ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "examples" / "minimal" / "main.cpp"
 PAGE = ROOT / "docs" / "manual" / "first_system.md"
 INCLUDES = [f"-I{ROOT / layer / 'include'}" for layer in ("kernel", "safety", "ports/virtual_time")]
-CONNECTION = "mamori::connect(wheel.speed, monitor.speed), "
+CONNECTION = "mamori::connect(wheel.speed, monitor.speed, mamori::any_age()),"
 
 
 def find_blocks(language: str) -> list[str]:
