@@ -48,7 +48,7 @@ inline std::string get_input_name(const SystemView& view, std::size_t port) {
     return (row.owner == nullptr ? "?" : to_text(row.owner->get_name())) + "." + get_port_name(row);
 }
 
-/// Port of component `finding.element` that was constructed before `finding.other` others.
+/// Port of component `finding.element` after which `finding.other` others are constructed.
 inline std::string get_unlisted_name(const SystemView& view, const Finding& finding) {
     const Component* component =
         finding.element < view.components.size() ? view.components[finding.element] : nullptr;

@@ -88,7 +88,7 @@ constexpr Finding find_faulty_port() noexcept {
     return WayOf<C>::template apply<C>(FirstPortFinding<typename PortsOf<C>::Type>{});
 }
 
-/// Name of the port of type C that was constructed before `later` others.
+/// Name of the port of type C after which `later` others are constructed.
 template <typename C>
 struct OfUnlistedPort {
     template <typename Table>

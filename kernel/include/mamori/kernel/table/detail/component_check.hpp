@@ -21,15 +21,15 @@ constexpr const PortBase* get_port(const PortRow& row) noexcept {
 }
 
 constexpr bool is_registered(const Component& component, const PortBase* port) noexcept {
-    const PortBase* registered = component.get_first_port();
-    while (registered != nullptr && registered != port) {  // a list that construction ends
-        registered = registered->get_next();
+    bool is_found = false;
+    for (const PortBase* one = component.get_first_port(); one != nullptr; one = one->get_next()) {
+        is_found = is_found || one == port;
     }
-    return registered != nullptr;
+    return is_found;
 }
 
 /// Checks the ports of a component against `count` listed ones; `get_listed(p)` returns one of them.
-/// @param[in] report takes the rule and its elements: the number of ports that were constructed before the
+/// @param[in] report takes the rule and its elements: the number of ports that were constructed after the
 ///                   faulty one for Rule::kPortNotListed, positions in the list for the others.
 template <typename GetListed, typename Report>
 constexpr void check_ports(const Component& component, std::size_t count, const GetListed& get_listed,
