@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: every constraint admits the values that it names and no other value. Method: values on both sides of
-// each limit, for each kind of limit and type. Rejected declarations: parameter_compile_fail_test.cpp and
-// parameter_test.cpp.
+// each limit, for each kind of limit and type; declarations that the compiler did not see. Those that it
+// rejects: parameter_compile_fail_test.cpp.
 #include "mamori/kernel/parameter/constraint.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "mamori/trace/verifies.hpp"
-#include "mamori/verification/failed_check.hpp"
 
 namespace mamori {
 namespace {
@@ -155,20 +154,36 @@ TEST(ConstraintTest, AnOpenRangeOfIntegersNeedsAnIntegerBetweenItsLimits) {
 
 template <typename S, typename C>
 void expect_no_value(const C& part) {
-    using Maker = Constraint<S, 1U>;
-    EXPECT_CHECK_FAILS(static_cast<void>(Maker(make_constraint<S, 1U, 1U>(part))), "constraint.hpp", 2);
+    const auto sut = make_constraint<S, 1U, 1U>(part);
+
+    EXPECT_TRUE(sut.get_ranges().empty());
+    for (const S value : {Range<S>::kLowest, S{}, static_cast<S>(1), Range<S>::kMax}) {
+        EXPECT_FALSE(sut.admits(value, 0U));
+    }
 }
 
-TEST(ConstraintDeathTest, ARangeWithoutAnyValueIsAContractViolation) {
-    verifies("SWR-PAR-004", Technique::kBoundaryValues, Polarity::kViolation);
+TEST(ConstraintTest, ARangeWithoutAnyValueMakesAConstraintThatAdmitsNothing) {
+    verifies("SWR-PAR-011", Technique::kBoundaryValues, Polarity::kViolation);
 
     expect_no_value<double>(between(10.0, 1.0));
     expect_no_value<double>(between(step_up(1.0), 1.0));
     expect_no_value<double>(between(above(1.0), at_most(1.0)));
     expect_no_value<double>(between(at_least(1.0), below(1.0)));
     expect_no_value<double>(between(above(-0.0), below(0.0)));
+    expect_no_value<double>(between(kNan, 1.0));
+    expect_no_value<double>(at_most(kInfinity));
     expect_no_value<std::uint8_t>(below(0));
     expect_no_value<std::uint8_t>(above(255));
+    expect_no_value<std::uint8_t>(at_most(256));
+}
+
+TEST(ConstraintTest, OneInvalidPartMakesTheWholeConstraintAdmitNothing) {
+    verifies("SWR-PAR-011", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const auto sut = make_constraint<double, 2U, 2U>(any_value(), between(2.0, 1.0));
+
+    EXPECT_FALSE(sut.admits(0.0, 0U));
+    EXPECT_FALSE((make_constraint<int, 2U, 1U>(one_of(1LL, 2147483648LL)).admits(1, 0U)));
+    EXPECT_TRUE((make_constraint<int, 2U, 1U>(one_of(1LL, 2147483647LL)).admits(1, 0U)));
 }
 
 }  // namespace

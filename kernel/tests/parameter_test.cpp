@@ -16,7 +16,6 @@
 #include "mamori/kernel/base/constant_init.hpp"
 #include "mamori/kernel/component/component.hpp"
 #include "mamori/trace/verifies.hpp"
-#include "mamori/verification/failed_check.hpp"
 
 namespace mamori {
 namespace {
@@ -222,21 +221,6 @@ TEST_F(ParameterTest, ALimitAtTheEndOfTheTypeIsNoLimitUnlessItIsExcluded) {
     EXPECT_TRUE(Sut("p", 9U, at_most(254)).get_range(0U).get_value().has_upper);
     const ScalarRange below_max = Sut("p", 9U, below(255)).get_range(0U).get_value();
     EXPECT_TRUE(below_max.has_upper && below_max.is_upper_open);
-}
-
-TEST(ParameterDeathTest, OutsideAConstantAWrongConstraintEndsInTheHandler) {
-    verifies("SWR-PAR-004", Technique::kErrorGuessing, Polarity::kViolation);
-    using Sut = Parameter<double>;
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-    for (const double limit : {kNan, kInfinity, -kInfinity}) {
-        EXPECT_CHECK_FAILS(static_cast<void>(Sut("p", 1.0, at_least(limit))), "constraint.hpp", 1);
-    }
-    EXPECT_CHECK_FAILS(static_cast<void>(Parameter<int>("p", 1, at_most(2147483648LL))), "constraint.hpp", 1);
-    EXPECT_CHECK_FAILS(static_cast<void>(Sut("p", 1.0, between(2.0, 1.0))), "constraint.hpp", 2);
-    EXPECT_CHECK_FAILS(static_cast<void>(Sut("p", 1.0, below(0.5))), "parameter.hpp", 1);
-    EXPECT_CHECK_FAILS(static_cast<void>(Sut("p", kNan)), "parameter.hpp", 1);
 }
 
 TEST(ParameterConstantTest, AWellFormedParameterIsAConstant) {

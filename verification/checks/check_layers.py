@@ -23,7 +23,7 @@ from verification.checks.code_size import check_share, count_code, list_tracked
 from verification.checks.component_folders import check_order, check_place
 from verification.checks.death_tests import check_death_tests
 from verification.checks.deviations import check_deviations
-from verification.checks.layer_table import LISTED_STD, TEST_INCLUDES, Layer, find_package, get_layer, get_module
+from verification.checks.layer_table import HOST_SOURCES, LISTED_STD, TEST_INCLUDES, Layer, find_package, get_layer, get_module
 from verification.checks.manual_samples import check_samples
 from verification.checks.target_limits import MEASURED_HEADERS, check_headers, check_size, check_words
 from verification.checks.wording import WORDING, check_wording
@@ -122,7 +122,7 @@ def _check_includes(root: Path, path: Path, layer: Layer, text: str, is_test: bo
         elif match["open"] == '"' and (found := _find_beside(root, path, include)):
             if get_layer(found) != layer:
                 yield line, f"'{include}' belongs to another layer"
-        elif not _is_outside_header_allowed(layer, include, is_test):
+        elif not _is_outside_header_allowed(layer, include, is_test) and not _is_host_header(root, path, include):
             yield line, f"{layer.name} may not include '{include}'"
 
 
@@ -143,6 +143,10 @@ def _is_outside_header_allowed(layer: Layer, include: str, is_test: bool) -> boo
         return True
     is_std = re.fullmatch(r"[a-z_]+", include) is not None
     return is_std and (layer.any_std or is_test or include in LISTED_STD)
+
+
+def _is_host_header(root: Path, path: Path, include: str) -> bool:
+    return path.relative_to(root).as_posix() in HOST_SOURCES and POSIX.fullmatch(include) is not None
 
 
 def _check_links(layer: Layer, layers: set[str], text: str) -> Iterator[tuple[int, str]]:

@@ -54,6 +54,7 @@ def test_listed_headers_are_those_of_the_written_table() -> None:
 
 ALLOWED = {
     "kernel/include/mamori/kernel/run/a.hpp": "#include <array>\n#include <cstdint>\n#include \"mamori/kernel/base/span.hpp\"\n",
+    "kernel/src/base/assert.cpp": "#include <unistd.h>\n",
     "kernel/tests/a_test.cpp": "#include <string>\n#include <gtest/gtest.h>\n#include \"mamori/trace/verifies.hpp\"\n",
     "kernel/tests/support/a.hpp": "#include <sys/wait.h>\n#include \"support/a.hpp\"\n",
     "safety/src/arm/a.cpp": "#include <Eigen/Core>\n#include \"mamori/kernel/base/span.hpp\"\n",
@@ -121,6 +122,8 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
         ("tools/mamori_tools/command/a.py", "import verification.plan.gate", "import: mamori_tools.command (level 11) may not import"),
         ("verification/bench/a.py", "from verification.mutation import run", "import: verification.bench (level 13) may not import"),
         ("verification/checks/a.py", "import verification.proofs.depth", "import: verification.checks (level 12) may not import"),
+        ("kernel/src/base/a.cpp", "#include <unistd.h>", "include: kernel may not include 'unistd.h'"),
+        ("kernel/src/base/assert.cpp", "#include <vector>", "include: kernel may not include 'vector'"),
         ("tools/probe/timing/src/a.cpp", '#include "mamori/simbody_sim/arm.hpp"', "include: tools/probe may not include"),
         ("trace/include/mamori/trace/a.hpp", '#include "mamori/kernel/base/span.hpp"', "include: trace may not include"),
     ],

@@ -3,6 +3,17 @@
 
 #include <atomic>
 
+#if defined(__unix__)
+#include <poll.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+
+#include "mamori/kernel/base/text.hpp"
+#endif
+
 namespace mamori {
 namespace {
 
@@ -11,14 +22,127 @@ std::atomic<AssertionGate> g_gate{nullptr};
 std::atomic<bool> g_has_handler{false};       ///< stays true when a failure has taken the handler out
 std::atomic<std::uint32_t> g_is_handled{0U};  ///< 1 once the handler has returned
 
-/// A halt of this context would end the handler's, too. The read-modify-write makes each look take about as
-/// long on every processor, and the compiler may not leave it out.
-void wait_for_handler() noexcept {
+/// A halt of this context would end the work of the other that sets `is_done`, too. The read-modify-write
+/// makes each look take about as long on every processor, and the compiler may not leave it out.
+void wait_until_set(std::atomic<std::uint32_t>& is_done) noexcept {
     for (std::uint32_t look = 0U; look < kFailureLooks; ++look) {
-        if (g_is_handled.fetch_or(0U, std::memory_order_acq_rel) != 0U) {
+        if (is_done.fetch_or(0U, std::memory_order_acq_rel) != 0U) {
             return;
         }
     }
+}
+
+#if defined(__unix__)
+
+/// Record that the handler took; in the frame of fail_assertion(), which never returns.
+std::atomic<const AssertionRecord*> g_handled{nullptr};
+std::atomic<bool> g_is_line_begun{false};
+std::atomic<std::uint32_t> g_is_line_printed{0U};  ///< 1 once it is printed
+
+/// One line of text that contains every part, however long condition and path are.
+class FailureLine final {
+  public:
+    explicit FailureLine(const AssertionRecord& record) noexcept {
+        append("mamori: failed check: '");
+        append(record.condition == nullptr ? "" : record.condition);
+        append("', ");
+        append(skip_to_end(record.file));
+        append(":");
+        append_number(record.line);
+        append(" (id ");
+        append_number(record.id);
+        append(")\n");
+    }
+    const char* get_text() const noexcept { return text_.data(); }
+    std::size_t get_length() const noexcept { return length_; }
+
+  private:
+    static constexpr std::size_t kPartMax = 200U;    ///< characters of a condition or a path
+    static constexpr std::size_t kOtherParts = 80U;  ///< at least the characters of the rest
+
+    /// The end of a path is what identifies a file.
+    static const char* skip_to_end(const char* path) noexcept {
+        const std::size_t length = make_text(path).size();
+        return length > kPartMax ? path + (length - kPartMax) : path;
+    }
+    void append(const char* text) noexcept {
+        for (std::size_t i = 0U; i < kPartMax && text[i] != '\0'; ++i) {
+            text_[length_] = text[i];
+            ++length_;
+        }
+    }
+    void append_number(std::uint32_t number) noexcept {
+        std::array<char, 11U> digits{};  // ten for the largest number, and the end
+        std::size_t first = digits.size() - 1U;
+        for (std::size_t count = 0U; count < digits.size() - 1U; ++count) {
+            --first;
+            digits[first] = static_cast<char>('0' + number % 10U);
+            number /= 10U;
+            if (number == 0U) {
+                break;
+            }
+        }
+        append(&digits[first]);
+    }
+
+    std::array<char, 2U * kPartMax + kOtherParts> text_{};
+    std::size_t length_{0U};
+};
+
+/// Only async-signal-safe calls. A standard error that is full or closed gets no line: a write that blocks
+/// would keep a failed program alive, and SIGPIPE would end it without its crash handlers.
+void write_line(const FailureLine& line) noexcept {
+    int former = 0;
+    // The system calls below would end a cancelled thread without the halt.
+    static_cast<void>(::pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &former));
+    pollfd output{STDERR_FILENO, POLLOUT, 0};
+    if (::poll(&output, 1U, 0) == 1 && output.revents == POLLOUT) {
+        const ssize_t written = ::write(STDERR_FILENO, line.get_text(), line.get_length());
+        static_cast<void>(written);  // there is no other output to report it to
+    }
+}
+
+void record_handled(const AssertionRecord& record) noexcept {
+    g_handled.store(&record, std::memory_order_release);
+}
+
+/// Prints the line of the failure that the handler took, else of this one. Later contexts return when the
+/// first has printed it.
+void print_once(const AssertionRecord& record) noexcept {
+    if (g_is_line_begun.exchange(true, std::memory_order_acq_rel)) {
+        wait_until_set(g_is_line_printed);
+        return;
+    }
+    const AssertionRecord* const handled = g_handled.load(std::memory_order_acquire);
+    write_line(FailureLine{handled == nullptr ? record : *handled});
+    g_is_line_printed.store(1U, std::memory_order_release);
+}
+
+#else
+
+void record_handled(const AssertionRecord&) noexcept {}
+void print_once(const AssertionRecord&) noexcept {}
+
+#endif
+
+[[noreturn]] void fail(const AssertionRecord& record) noexcept {
+    const AssertionGate gate = g_gate.load(std::memory_order_acquire);
+    if (gate != nullptr) {
+        gate(record);
+    }
+    // Taken out before it is called: a check that fails inside the handler does not call it again.
+    const AssertionHandler handler = g_handler.exchange(nullptr, std::memory_order_acq_rel);
+    if (handler != nullptr) {
+        record_handled(record);
+        handler(record);
+        print_once(record);
+        g_is_handled.store(1U, std::memory_order_release);
+    } else if (gate == nullptr && g_has_handler.load(std::memory_order_relaxed)) {
+        wait_until_set(g_is_handled);
+    }
+    print_once(record);
+    // A halt that no debugger switch can turn into a no-op: the watchdog is no longer serviced from here on.
+    __builtin_trap();
 }
 
 }  // namespace
@@ -34,23 +158,15 @@ void set_assertion_gate(AssertionGate gate) noexcept {
 
 namespace detail {
 
-void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line) noexcept {
-    const AssertionRecord record{file, id, line};
-    const AssertionGate gate = g_gate.load(std::memory_order_acquire);
-    if (gate != nullptr) {
-        gate(record);
-    }
-    // Taken out before it is called: a check that fails inside the handler does not call it again.
-    const AssertionHandler handler = g_handler.exchange(nullptr, std::memory_order_acq_rel);
-    if (handler != nullptr) {
-        handler(record);
-        g_is_handled.store(1U, std::memory_order_release);
-    } else if (gate == nullptr && g_has_handler.load(std::memory_order_relaxed)) {
-        wait_for_handler();
-    }
-    // A halt that no debugger switch can turn into a no-op: the watchdog is no longer served from here on.
-    __builtin_trap();
+#if defined(__unix__)
+void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line, const char* condition) noexcept {
+    fail({file, id, line, condition});
 }
+#else
+void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line) noexcept {
+    fail({file, id, line});
+}
+#endif
 
 }  // namespace detail
 }  // namespace mamori

@@ -29,6 +29,19 @@ bool SystemLife::is_any_active() const noexcept {
     return false;
 }
 
+/// Component with a parameter that is invalid, on whichever core, or kNoIndex. For a valid table.
+std::size_t SystemLife::find_invalid_parameter() const noexcept {
+    const SystemView& view = get_core().view;
+    for (const ParameterRow& row : view.configuration.parameters) {
+        for (std::size_t i = 0U; i < view.components.size(); ++i) {
+            if (view.components[i] == row.owner && !row.parameter->is_valid()) {
+                return i;
+            }
+        }
+    }
+    return kNoIndex;
+}
+
 Status SystemLife::initialize_components() noexcept {
     const CoreState& core = get_core();
     for (std::size_t i = 0U; i < core.view.components.size(); ++i) {
@@ -79,6 +92,10 @@ Status SystemLife::initialize() noexcept {
     failed_component_ = kNoIndex;
     check_table();
     if (!is_table_valid_) {
+        return Status::kBadParameter;
+    }
+    failed_component_ = find_invalid_parameter();
+    if (failed_component_ != kNoIndex) {
         return Status::kBadParameter;
     }
     Status result = runner_.get_modes().initialize();

@@ -201,6 +201,21 @@ TEST_F(FailureOrderTest, CheckThatFailsInTheHandlerEndsTheProcessAtOnce) {
     EXPECT_EQ(g_shared->closings, 1);
 }
 
+TEST_F(FailureOrderTest, FailedCheckWithCrashHandlersPrintsItsLineOnceAndClosesTheOutputs) {
+    verifies("SWR-KRN-042", Technique::kInterface, Polarity::kViolation);
+    EXPECT_EXIT(
+        {
+            CrashHandlers handlers;
+            if (handlers.install({&close_by_plan, nullptr, {}, 0U, FrameClock::starting_in(0_ms)}) ==
+                Status::kOk) {
+                fail();
+            }
+        },
+        ::testing::KilledBySignal(SIGILL),
+        "^mamori: failed check: 'holds', [^\n]*failure_order_test[.]cpp:[0-9]+ [(]id 1[)]\n$");
+    EXPECT_EQ(g_shared->closings, 1);
+}
+
 /// Ways into the real-time port, each of which brings the waiting with it.
 void open_host() {
     static std::array<WindowThread, 1U> threads;

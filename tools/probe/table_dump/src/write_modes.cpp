@@ -101,8 +101,12 @@ std::pair<std::string, std::size_t> format_element(const ParameterBase& paramete
     return {is_one_value ? choices : format_range(range), next};
 }
 
-/// A constraint in the canonical form of the notation of the RTC Profile.
+/// A constraint in the canonical form of the notation of the RTC Profile. An invalid one gets a text that the
+/// reader rejects.
 std::string format_constraint(const ParameterBase& parameter) {
+    if (!parameter.is_valid()) {
+        return "invalid";
+    }
     auto [text, next] = format_element(parameter, 0U);
     while (parameter.get_range(next).has_value()) {
         const auto [element, after] = format_element(parameter, next);

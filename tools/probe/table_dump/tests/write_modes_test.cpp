@@ -126,6 +126,22 @@ TEST(WriteModesTest, ConstraintsAreWrittenInTheNotationOfTheRtcProfile) {
                                                      "(-7,7,9)", "255", ",(2,3)"}));
 }
 
+class Misdeclared final : public Component {
+  public:
+    explicit Misdeclared(double lower) noexcept
+        : Component("misdeclared"), limit{"limit", 1.0, between(lower, 2.0)} {}
+    Parameter<double> limit;
+    using Parameters = mamori::Parameters<&Misdeclared::limit>;
+};
+
+TEST(WriteModesTest, TheConstraintOfAnInvalidParameterIsATextThatTheReaderRejects) {
+    verifies("SWR-PAR-011", Technique::kInterface, Polarity::kViolation);
+    Misdeclared component{3.0};
+    const auto table = system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(component)));
+
+    EXPECT_EQ(dump(make_view(table))["parameters"][0]["constraint"], "invalid");
+}
+
 enum class Grip { kOpen, kClosed };
 
 class Tuned final : public Component {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Checks against the project's own bugs. They are always on; a failed check calls the handler that the
-/// application owns, which takes the machine to its safe state and does not return.
+/// Checks of contracts. They are always on; a failed check calls the handler that the application owns, which
+/// takes the machine to its safe state and does not return.
 ///
-/// @satisfies SWR-KRN-003      Design: docs/design/kernel.md#errors
+/// @satisfies SWR-KRN-003, SWR-KRN-042      Design: docs/design/kernel.md#errors
 /// Never used on input from a port or a device: that is what Status is for.
 #ifndef MAMORI_KERNEL_ASSERT_HPP
 #define MAMORI_KERNEL_ASSERT_HPP
@@ -17,10 +17,17 @@ struct AssertionRecord {
     const char* file;    ///< as the compiler was given it; static storage
     std::uint32_t id;    ///< 1, 2, ...
     std::uint32_t line;  ///< of the check, 1, 2, ...
+#if defined(__unix__)
+    const char* condition{nullptr};  ///< source text, static storage; nullptr: not given
+#else
+    static constexpr const char* condition{nullptr};  ///< a controller has no memory for texts
+#endif
 };
 
 /// Takes the failure record; must not return. Called from any context, interrupts included, and at most
-/// once: a check that fails while it runs waits for it (kFailureLooks, or the gate), and halts then.
+/// once: a check that fails while it runs waits for it (kFailureLooks, or the gate), and halts then. On a
+/// host (Unix), the program prints one line to standard error before it halts, about the check that the
+/// handler got; a handler that ends the program itself prints its own text.
 using AssertionHandler = void (*)(const AssertionRecord& record) noexcept;
 
 /// Installs the application's handler. @param[in] handler nullptr restores the default, which halts.
@@ -41,19 +48,34 @@ using AssertionGate = void (*)(const AssertionRecord& record) noexcept;
 void set_assertion_gate(AssertionGate gate) noexcept;
 
 namespace detail {
-/// Calls gate and handler and halts should it return.
+/// Calls gate and handler, prints the line on a host, and halts. @param[in] condition its source text.
+#if defined(__unix__)
+[[noreturn]] void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line,
+                                 const char* condition) noexcept;
+#else
 [[noreturn]] void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line) noexcept;
+#endif
 }  // namespace detail
 
 }  // namespace mamori
 
+/// Not for users. The text is dropped before it costs memory where nothing can print it.
+#if defined(__unix__)
+#define MAMORI_FAIL_ASSERTION(id, text) \
+    ::mamori::detail::fail_assertion(__FILE__, (id), static_cast<std::uint32_t>(__LINE__), text)
+#else
+#define MAMORI_FAIL_ASSERTION(id, text) \
+    ::mamori::detail::fail_assertion(__FILE__, (id), static_cast<std::uint32_t>(__LINE__))
+#endif
+
 /// Pre-condition, post-condition and invariant: same mechanism, three words for the reader. The condition is
 /// evaluated once, in any context, interrupts included; a failure in a constant expression stops the
 /// compiler. `id` as in AssertionRecord.
-#define MAMORI_REQUIRE(id, condition)   \
-    ((condition) ? static_cast<void>(0) \
-                 : ::mamori::detail::fail_assertion(__FILE__, (id), static_cast<std::uint32_t>(__LINE__)))
-#define MAMORI_ENSURE(id, condition) MAMORI_REQUIRE(id, condition)
-#define MAMORI_INVARIANT(id, condition) MAMORI_REQUIRE(id, condition)
+#define MAMORI_REQUIRE(id, condition) \
+    ((condition) ? static_cast<void>(0) : MAMORI_FAIL_ASSERTION(id, #condition))
+#define MAMORI_ENSURE(id, condition) \
+    ((condition) ? static_cast<void>(0) : MAMORI_FAIL_ASSERTION(id, #condition))
+#define MAMORI_INVARIANT(id, condition) \
+    ((condition) ? static_cast<void>(0) : MAMORI_FAIL_ASSERTION(id, #condition))
 
 #endif  // MAMORI_KERNEL_ASSERT_HPP

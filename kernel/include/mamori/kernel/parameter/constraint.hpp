@@ -12,7 +12,8 @@
 /// `./mamori constraint TEXT` converts the notation of the RTC Profile to these functions. A parameter is a
 /// finite number: NaN and infinities satisfy no constraint.
 ///
-/// @satisfies SWR-PAR-002, SWR-PAR-003, SWR-PAR-004      Design: docs/design/parameters.md#constraints
+/// @satisfies SWR-PAR-002, SWR-PAR-003, SWR-PAR-004, SWR-PAR-011
+/// Design:   docs/design/parameters.md#constraints
 #ifndef MAMORI_KERNEL_CONSTRAINT_HPP
 #define MAMORI_KERNEL_CONSTRAINT_HPP
 
@@ -141,6 +142,8 @@ class Constraint final {
         ranges_[range_count_] = range;
         ++range_count_;
     }
+    /// Admits nothing from now on, as that of an invalid declaration.
+    constexpr void clear() noexcept { range_count_ = 0U; }
 
   private:
     std::array<Range<S>, kRanges> ranges_{};
@@ -149,14 +152,14 @@ class Constraint final {
 
 namespace detail {
 
-/// @name Stop the compiler in a constant expression with their own names in the message; at run time the
-/// declaration is a contract violation.
+/// @name Stop the compiler in a constant expression with their own names in the message. At run time they do
+/// nothing: the constraint then admits nothing, and initialize() of the executive rejects the parameter.
 /// @{
 constexpr void require_limit_within_type(bool is_within) noexcept {
-    MAMORI_REQUIRE(1, is_within);
+    MAMORI_REQUIRE(1, is_within || !__builtin_is_constant_evaluated());
 }
 constexpr void require_range_contains_a_value(bool contains) noexcept {
-    MAMORI_REQUIRE(2, contains);
+    MAMORI_REQUIRE(2, contains || !__builtin_is_constant_evaluated());
 }
 /// @}
 
@@ -178,15 +181,6 @@ inline constexpr std::size_t kRangeCountOf<AnyValue> = 1U;
 template <typename S>
 inline constexpr bool kIsInteger = std::is_integral_v<S> && !std::is_same_v<S, bool>;
 
-template <typename S, typename L>
-constexpr S to_limit(L limit) noexcept {
-    static_assert(std::is_same_v<S, L> || (kIsInteger<S> && kIsInteger<L>),
-                  "a limit has the type of its parameter, for example 0.0 for double and 0.1F for float");
-    const Result<S> value = from_scalar<S>(to_scalar(limit));
-    require_limit_within_type(value.has_value());
-    return value.get_value();
-}
-
 /// Of floating-point limits it is not checked how many numbers of the type are between them.
 template <typename S>
 constexpr bool has_value(const Range<S>& range) noexcept {
@@ -206,19 +200,31 @@ template <typename S, std::size_t kRanges>
 struct ConstraintMaker {
     Constraint<S, kRanges> constraint{};
     Range<S> range{};
+    bool is_valid{true};
 
     constexpr void add() noexcept {
-        require_range_contains_a_value(has_value(range));
+        const bool contains = has_value(range);
+        require_range_contains_a_value(contains);
+        is_valid = is_valid && contains;
         constraint.add(range);
     }
     template <typename L>
+    constexpr S to_limit(L limit) noexcept {
+        static_assert(std::is_same_v<S, L> || (kIsInteger<S> && kIsInteger<L>),
+                      "a limit has the type of its parameter, for example 0.0 for double and 0.1F for float");
+        const Result<S> value = from_scalar<S>(to_scalar(limit));
+        require_limit_within_type(value.has_value());
+        is_valid = is_valid && value.has_value();
+        return value.has_value() ? value.get_value() : S{};
+    }
+    template <typename L>
     constexpr void set(const LowerLimit<L>& limit) noexcept {
-        range.lower = to_limit<S>(limit.value);
+        range.lower = to_limit(limit.value);
         range.is_lower_open = limit.is_open;
     }
     template <typename L>
     constexpr void set(const UpperLimit<L>& limit) noexcept {
-        range.upper = to_limit<S>(limit.value);
+        range.upper = to_limit(limit.value);
         range.is_upper_open = limit.is_open;
     }
     template <typename L>
@@ -247,6 +253,8 @@ struct ConstraintMaker {
 
 /// The constraint of a parameter with `kElements` elements of type S.
 /// @param[in] parts none, one for every element, or one for each.
+/// @return without any range, so that it admits nothing, if a part is invalid and the compiler did not see
+/// it.
 template <typename S, std::size_t kRanges, std::size_t kElements, typename... Cs>
 constexpr Constraint<S, kRanges> make_constraint(const Cs&... parts) noexcept {
     static_assert((... && (detail::kRangeCountOf<Cs> > 0U)),
@@ -264,6 +272,9 @@ constexpr Constraint<S, kRanges> make_constraint(const Cs&... parts) noexcept {
     } else {
         std::uint16_t element = 0U;
         (maker.take(element++, parts), ...);
+    }
+    if (!maker.is_valid) {
+        maker.constraint.clear();
     }
     return maker.constraint;
 }

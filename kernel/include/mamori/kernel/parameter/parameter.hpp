@@ -6,7 +6,8 @@
 ///     mamori::Parameter<double> limit_rad_s{"limit_rad_s", 1.0, mamori::between(0.1, 3.0)};
 ///     using Parameters = mamori::Parameters<&SpeedMonitor::limit_rad_s>;
 ///
-/// @satisfies SWR-PAR-003, SWR-PAR-004, SWR-PAR-005      Design: docs/design/parameters.md#parameters
+/// @satisfies SWR-PAR-003, SWR-PAR-004, SWR-PAR-005, SWR-PAR-011
+/// Design:   docs/design/parameters.md#parameters
 #ifndef MAMORI_KERNEL_PARAMETER_HPP
 #define MAMORI_KERNEL_PARAMETER_HPP
 
@@ -25,10 +26,10 @@
 namespace mamori {
 namespace detail {
 
-/// Stops the compiler in a constant expression with its own name in the message; while the program runs, a
-/// default outside the constraint is an own bug.
+/// Stops the compiler in a constant expression with its own name in the message. At run time it does nothing:
+/// the parameter is then invalid.
 constexpr void require_default_within_constraint(bool is_admitted) noexcept {
-    MAMORI_REQUIRE(1, is_admitted);
+    MAMORI_REQUIRE(1, is_admitted || !__builtin_is_constant_evaluated());
 }
 
 /// Who may touch the requested value. Taken with one exchange, so nobody ever waits.
@@ -39,8 +40,8 @@ enum class RequestSlot : std::uint8_t { kEmpty, kFull, kBusy };
 /// Parameter of type T: bool, an integer, float, double, an enum, or a `std::array` of one of them.
 ///
 /// A limit that the type does not have, a range without a value and a default that violates the constraint
-/// stop the compiler when the component is a constant (MAMORI_CONSTINIT) and call the assertion handler
-/// otherwise.
+/// stop the compiler when the component is a constant (MAMORI_CONSTINIT). Otherwise the parameter is invalid:
+/// it admits no value, and initialize() of the executive rejects the table.
 ///
 /// Thread safety: as ParameterBase; get() from its component, admits() from any thread.
 /// Time:          O(elements * kRanges); get() and commit() copy at most one T. Nothing blocks.
@@ -66,7 +67,11 @@ class Parameter final : public ParameterBase {
           constraint_(make_constraint<Element, kRanges, Elements::kCount>(constraints...)),
           active_(default_value),
           requested_(default_value) {
-        detail::require_default_within_constraint(admits(default_value));
+        const bool is_admitted = admits(default_value);
+        detail::require_default_within_constraint(is_admitted);
+        if (!is_admitted) {
+            constraint_.clear();
+        }
     }
 
     /// The active value; the same from the beginning of a cycle to its end. The reference is valid as long as

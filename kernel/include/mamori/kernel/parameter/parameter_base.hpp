@@ -2,7 +2,7 @@
 /// @file
 /// What every parameter can do, whatever its type: for tables and tools that hold parameters of many types.
 ///
-/// @satisfies SWR-PAR-003, SWR-PAR-005      Design: docs/design/parameters.md#parameters
+/// @satisfies SWR-PAR-003, SWR-PAR-005, SWR-PAR-011      Design: docs/design/parameters.md#parameters
 #ifndef MAMORI_KERNEL_PARAMETER_BASE_HPP
 #define MAMORI_KERNEL_PARAMETER_BASE_HPP
 
@@ -40,6 +40,9 @@ class ParameterBase {
     const char* get_name() const noexcept { return name_; }
     /// 1 for a scalar, else the size of the array.
     std::size_t get_element_count() const noexcept { return element_count_; }
+    /// False if the default violates the constraint, or the constraint is invalid. Such a parameter has its
+    /// default and admits no value; only one that is not a constant of the program can be so.
+    bool is_valid() const noexcept { return get_range(0U).has_value(); }
 
     /// May the parameter have these values?
     /// @param[in] values one per element.
@@ -50,7 +53,7 @@ class ParameterBase {
     ///         parameter at this moment: ask again).
     virtual Status request_scalars(Span<const Scalar> values) noexcept = 0;
     /// Range `index` of the constraint, in the order of the declaration.
-    /// @return kBadParameter (there are not so many ranges).
+    /// @return kBadParameter (there are not so many ranges; an invalid parameter has none).
     virtual Result<ScalarRange> get_range(std::size_t index) const noexcept = 0;
     /// Copies the active value. @param[out] values one per element; written on kOk only.
     /// @return kOk; kBadParameter (not one place per element).

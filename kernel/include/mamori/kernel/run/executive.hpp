@@ -50,8 +50,9 @@ class Executive {
     /// continues where the first ended.
     /// @return kOk; kPreconditionNotMet (done before, called from an action, or the table has modes or sets
     ///         but the executive no SystemModes); kBadParameter (the table violates a rule, see check_all(),
-    ///         a value of a set is rejected, with no parameter changed, a component participates elsewhere,
-    ///         or the SystemModes is that of another table or cannot serve this core); either of them as
+    ///         a parameter of any core is invalid, a value of a set is rejected, with no parameter changed, a
+    ///         component participates elsewhere, or the SystemModes is that of another table or cannot serve
+    ///         this core); either of them as
     ///         ExecutionContext::attach() specifies for a state machine; else the code of the on_initialize
     ///         that failed.
     Status initialize() noexcept;
@@ -108,8 +109,9 @@ class Executive {
     const SystemView& get_view() const noexcept { return life_.get_core().view; }
     /// Core whose windows it runs, as WindowRow::core.
     std::size_t get_core() const noexcept { return life_.get_core().core; }
-    /// Component whose failure ended the last initialize() or start(); the first of its window if a context
-    /// could not take its participants; the first one without a context; kNoIndex if no component failed.
+    /// Component whose failure ended the last initialize() or start(), or which has an invalid parameter; the
+    /// first of its window if a context could not take its participants; the first one without a context;
+    /// kNoIndex if no component failed.
     std::size_t get_failed_component() const noexcept { return life_.get_failed_component(); }
 
     /// @param[in] observer observes the execution, or nullptr; must outlive the executive, or be replaced

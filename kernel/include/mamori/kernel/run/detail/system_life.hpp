@@ -2,7 +2,7 @@
 /// @file
 /// Part of an executive that brings the components of one core to Active and back. Not for users.
 ///
-/// @satisfies SWR-KRN-024, SWR-KRN-033, SWR-KRN-039, SWR-KRN-049
+/// @satisfies SWR-KRN-024, SWR-KRN-033, SWR-KRN-039, SWR-KRN-049, SWR-PAR-011
 /// Design:   docs/design/kernel.md#parts-of-the-executive
 #ifndef MAMORI_KERNEL_SYSTEM_LIFE_HPP
 #define MAMORI_KERNEL_SYSTEM_LIFE_HPP
@@ -58,6 +58,7 @@ class SystemLife final {
   private:
     bool is_any_running() const noexcept;
     bool is_any_active() const noexcept;
+    std::size_t find_invalid_parameter() const noexcept;
     Status initialize_components() noexcept;
     Status attach_contexts() noexcept;
     std::size_t find_component_without_context() const noexcept;
