@@ -290,7 +290,7 @@ COMMAND = Command(
     "Runs a system in real time. Shows release lateness, execution time and end-to-end latency for each window, component and event chain, "
     "next to the values in virtual time. Shows each overrun and skipped window with its cycle and the responsible component, and the margins "
     "of budgets. Writes timing.json, timing.txt and pictures. ARGUMENTS are passed on to the program.",
-    {0: "measured", 1: "a finding (overrun, declared worst case exceeded, drift, --requests, --check, program failed)",
+    {0: "measured", 1: "a finding (overrun, declared worst case exceeded, --requests, --check, program failed)",
      4: "measured without all real-time privileges", 130: "stopped by Ctrl-C; the measurements so far are kept and marked partial"},
     usage_end="[-- ARGUMENTS]",
     examples=("timing examples/safe_arm --cycles 10000 --load",))  # fmt: skip

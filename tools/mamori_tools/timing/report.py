@@ -21,6 +21,7 @@ from mamori_tools.timing.analysis import (
     calc_execution,
     count_cut,
     list_components,
+    list_drift_notes,
     list_findings,
     list_misses,
     list_windows,
@@ -100,8 +101,8 @@ def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: 
     early = [] if was_stopped or not run.is_partial else [f"the program ended after {run.cycles_run} of {run.cycles_asked} cycles"]
     found = [*findings, *early, *run.findings, *list_findings(windows, components, misses), *list_violations(chains),
              *list_shift_findings(run, shifts)]  # fmt: skip
-    return Report(system, run, windows, components, misses, chains, chain_note, shifts, estimates, found, run.notes, host, with_load,
-                  was_stopped)  # fmt: skip
+    return Report(system, run, windows, components, misses, chains, chain_note, shifts, estimates, found, [*run.notes, *list_drift_notes(windows)],
+                  host, with_load, was_stopped)  # fmt: skip
 
 
 def make_record(report: Report, environment: dict[str, object]) -> dict[str, Any]:
