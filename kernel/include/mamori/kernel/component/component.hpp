@@ -155,8 +155,8 @@ class Component : public LifecycleRegion, public PortOwner {
     Status finalize() noexcept;
 
     /// Ends the component in any state: deactivates it when it is Active, clears its Error, finalizes it. Its
-    /// context keeps its position and skips it until the next initialize(). Contexts belong to the
-    /// system table and never to a component, so none is stopped.
+    /// context keeps its position and skips it until the next initialize(). Contexts belong to the system
+    /// table and never to a component, so none is stopped.
     /// @param[in] now instant passed to on_deactivated.
     /// @return kOk; kPreconditionNotMet (Created, also after an earlier exit(), or its context is busy);
     ///         otherwise the first code of on_deactivated and on_finalize that is not kOk; the component is

@@ -41,7 +41,7 @@ class ModeSwitch final {
 
     /// Requests a mode, which take_change() commits. Requesting the current mode cancels a pending request.
     void wish(const Mode& mode) noexcept { pending_ = &mode == current_ ? nullptr : &mode; }
-    /// Commits a pending mode. @return true when the current mode has not been reported to the component.
+    /// Commits a pending mode. @return true when the current mode differs from the last reported mode.
     bool take_change() noexcept;
     /// Commits a mode immediately; take_change() reports whether to notify the component.
     /// @param[in] mode one of the modes; neither commit() nor wish() checks it: see has().
