@@ -19,11 +19,11 @@ namespace {
 
 std::atomic<AssertionHandler> g_handler{nullptr};
 std::atomic<AssertionGate> g_gate{nullptr};
-std::atomic<bool> g_has_handler{false};       ///< stays true when a failure has taken the handler out
+std::atomic<bool> g_has_handler{false};       ///< remains true after a failure has removed the handler
 std::atomic<std::uint32_t> g_is_handled{0U};  ///< 1 once the handler has returned
 
-/// A halt of this context would end the work of the other that sets `is_done`, too. The read-modify-write
-/// makes each look take about as long on every processor, and the compiler may not leave it out.
+/// Waits because a halt of this context also stops the context that sets `is_done`. The read-modify-write
+/// makes each poll take about the same time on every processor. The compiler must not remove it.
 void wait_until_set(std::atomic<std::uint32_t>& is_done) noexcept {
     for (std::uint32_t look = 0U; look < kFailureLooks; ++look) {
         if (is_done.fetch_or(0U, std::memory_order_acq_rel) != 0U) {
@@ -34,12 +34,12 @@ void wait_until_set(std::atomic<std::uint32_t>& is_done) noexcept {
 
 #if defined(__unix__)
 
-/// Record that the handler took; in the frame of fail_assertion(), which never returns.
+/// Record that the handler received; in the stack frame of fail_assertion(), which never returns.
 std::atomic<const AssertionRecord*> g_handled{nullptr};
 std::atomic<bool> g_is_line_begun{false};
-std::atomic<std::uint32_t> g_is_line_printed{0U};  ///< 1 once it is printed
+std::atomic<std::uint32_t> g_is_line_printed{0U};  ///< 1 once the line is printed
 
-/// One line of text that contains every part, however long condition and path are.
+/// One line of text that contains every part, even when condition and path are long.
 class FailureLine final {
   public:
     explicit FailureLine(const AssertionRecord& record) noexcept {
@@ -57,10 +57,10 @@ class FailureLine final {
     std::size_t get_length() const noexcept { return length_; }
 
   private:
-    static constexpr std::size_t kPartMax = 200U;    ///< characters of a condition or a path
-    static constexpr std::size_t kOtherParts = 80U;  ///< at least the characters of the rest
+    static constexpr std::size_t kPartMax = 200U;    ///< maximum characters of a condition or a path
+    static constexpr std::size_t kOtherParts = 80U;  ///< upper bound of the characters of all other parts
 
-    /// The end of a path is what identifies a file.
+    /// Keeps the end of a long path, because the end identifies the file.
     static const char* skip_to_end(const char* path) noexcept {
         const std::size_t length = make_text(path).size();
         return length > kPartMax ? path + (length - kPartMax) : path;
@@ -72,7 +72,7 @@ class FailureLine final {
         }
     }
     void append_number(std::uint32_t number) noexcept {
-        std::array<char, 11U> digits{};  // ten for the largest number, and the end
+        std::array<char, 11U> digits{};  // ten for the maximum number, and the NUL
         std::size_t first = digits.size() - 1U;
         for (std::size_t count = 0U; count < digits.size() - 1U; ++count) {
             --first;
@@ -89,16 +89,16 @@ class FailureLine final {
     std::size_t length_{0U};
 };
 
-/// Only async-signal-safe calls. A standard error that is full or closed gets no line: a write that blocks
+/// Uses only async-signal-safe calls. Prints nothing when standard error is full or closed: a blocked write
 /// would keep a failed program alive, and SIGPIPE would end it without its crash handlers.
 void write_line(const FailureLine& line) noexcept {
     int former = 0;
-    // The system calls below would end a cancelled thread without the halt.
+    // Without this call, cancellation of the thread in a system call below would end it without the halt.
     static_cast<void>(::pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &former));
     pollfd output{STDERR_FILENO, POLLOUT, 0};
     if (::poll(&output, 1U, 0) == 1 && output.revents == POLLOUT) {
         const ssize_t written = ::write(STDERR_FILENO, line.get_text(), line.get_length());
-        static_cast<void>(written);  // there is no other output to report it to
+        static_cast<void>(written);  // no other output is available for a report
     }
 }
 
@@ -106,8 +106,8 @@ void record_handled(const AssertionRecord& record) noexcept {
     g_handled.store(&record, std::memory_order_release);
 }
 
-/// Prints the line of the failure that the handler took, else of this one. Later contexts return when the
-/// first has printed it.
+/// Prints the line of the failure that the handler received; without one, the line of `record`. Later
+/// contexts return when the first context has printed its line.
 void print_once(const AssertionRecord& record) noexcept {
     if (g_is_line_begun.exchange(true, std::memory_order_acq_rel)) {
         wait_until_set(g_is_line_printed);
@@ -130,7 +130,7 @@ void print_once(const AssertionRecord&) noexcept {}
     if (gate != nullptr) {
         gate(record);
     }
-    // Taken out before it is called: a check that fails inside the handler does not call it again.
+    // Removed before its call: a check that fails inside the handler does not call the handler again.
     const AssertionHandler handler = g_handler.exchange(nullptr, std::memory_order_acq_rel);
     if (handler != nullptr) {
         record_handled(record);
@@ -141,7 +141,7 @@ void print_once(const AssertionRecord&) noexcept {}
         wait_until_set(g_is_handled);
     }
     print_once(record);
-    // A halt that no debugger switch can turn into a no-op: the watchdog is no longer serviced from here on.
+    // A halt that no debugger setting can disable. From here on, the watchdog is no longer serviced.
     __builtin_trap();
 }
 

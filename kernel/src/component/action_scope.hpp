@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Marks in an execution context that an action of one participant is being called, for as long as it lives.
+/// Marks an execution context as busy with an action of one participant during the lifetime of the object.
 #ifndef MAMORI_KERNEL_SRC_ACTION_SCOPE_HPP
 #define MAMORI_KERNEL_SRC_ACTION_SCOPE_HPP
 
@@ -14,7 +14,7 @@ class ExecutionContext::ActionScope final {
     ActionScope(ExecutionContext& context, std::size_t position) noexcept : context_(context) {
         context.move_to(position);
     }
-    /// Last and with release order: whoever finds the context idle sees all that the actions did.
+    /// Last, with release order: a thread that finds the context idle sees all effects of the actions.
     ~ActionScope() { context_.acting_position_.store(kNoPosition, std::memory_order_release); }
     ActionScope(const ActionScope&) = delete;
     ActionScope& operator=(const ActionScope&) = delete;

@@ -20,7 +20,7 @@ Status Component::initialize() noexcept {
 }
 
 Status Component::finalize() noexcept {
-    // Also refuses a call from on_initialize or on_finalize: the component is not alive there.
+    // Also rejects a call from on_initialize or on_finalize: there, the component is not alive.
     if (context_ != nullptr || !is_alive()) {
         return Status::kPreconditionNotMet;
     }

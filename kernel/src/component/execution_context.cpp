@@ -10,14 +10,14 @@
 namespace mamori {
 namespace {
 
-/// Moves a component along a transition that the table allows.
+/// State after a transition that the table allows.
 constexpr LifecycleState calc_target(LifecycleState state, LifecycleEvent event) noexcept {
     const LifecycleTransition transition = get_transition(state, event);
     MAMORI_REQUIRE(1, transition.admission == Status::kOk);
     return transition.target;
 }
 
-/// What ContextPlan says about its own fields.
+/// Checks the rules that ContextPlan specifies for its members.
 bool is_sound(const ContextPlan& plan) noexcept {
     if (plan.period <= Duration{0} || plan.events_per_cycle == 0U) {
         return false;
@@ -64,7 +64,7 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
     }
     for (std::size_t i = 0U; i < participants.size(); ++i) {
         if (participants[i] == nullptr || participants[i]->context_ != nullptr) {
-            // Covers one that is named twice: its first place has been taken.
+            // Also detects a participant listed twice: its first entry has set context_.
             release_participants(participants.subspan(0U, i));
             return Status::kBadParameter;
         }
@@ -125,7 +125,7 @@ void ExecutionContext::release_participants(Span<Component* const> participants)
         }
         component->turn_ &= Component::kNotActive;
         if (component->mode_switch_ != nullptr) {
-            // Nobody is left who could wait for it.
+            // Without a context, the change is not reported.
             static_cast<void>(component->mode_switch_->take_change());
         }
         if (component->get_state() == LifecycleState::kError) {
@@ -171,7 +171,7 @@ Status ExecutionContext::start(Instant now) noexcept {
         note(*participants_[i], ComponentAction::kStartup, result, handle);
         if (result != Status::kOk) {
             for (std::size_t started = 0U; started < i; ++started) {
-                // The refusal is what the caller must hear; a second failure would only hide it.
+                // The caller must receive the startup failure; a second failure would only hide it.
                 note(*participants_[started], ComponentAction::kShutdown,
                      participants_[started]->on_shutdown(handle), handle);
             }
@@ -196,7 +196,7 @@ Status ExecutionContext::stop(Instant now) noexcept {
     const ContextHandle handle = make_handle(now);
     for (std::size_t i = 0U; i < participants_.size(); ++i) {
         if (!participants_[i]->is_alive()) {
-            continue;  // it has left by exit()
+            continue;  // exit() has ended it
         }
         const ActionScope scope{*this, i};
         const Status result = participants_[i]->on_shutdown(handle);
@@ -233,8 +233,8 @@ void ExecutionContext::note(Component& component, ComponentAction action, Status
 
 void ExecutionContext::enter_error(Component& component, ContextHandle handle) noexcept {
     component.set_state(calc_target(component.get_state(), LifecycleEvent::kFail));
-    // Neither action can make matters worse: the component is in Error whatever they answer, and what led
-    // there is what get_last_failure() must tell.
+    // The results of both actions are ignored: the component is in Error anyway, and get_last_failure() must
+    // return the cause.
     if (plan_.abort_policy == AbortPolicy::kOpenRtmCompat) {
         static_cast<void>(component.on_deactivated(handle));
     }
@@ -309,7 +309,7 @@ double ExecutionContext::get_rate() const noexcept {
 }
 
 Status ExecutionContext::set_rate(double rate_hz) noexcept {
-    // Written so that a rate that is not a number is refused too.
+    // This form also rejects a rate that is not a number.
     if (!(rate_hz > 0.0 && rate_hz <= std::numeric_limits<double>::max())) {
         return Status::kBadParameter;
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// One cycle of an execution context, step by step. What the operations do: execution_context.cpp.
+// One cycle of an execution context, step by step. The other operations: execution_context.cpp.
 #ifndef __clang__
-// g++ would keep two indices of the unrolled loop, one of them on the stack: an instruction more per
-// component. Not an option of the command line, because clang-tidy reads that and rejects options that clang
-// lacks.
+// g++ would keep two indices of the unrolled loop, one on the stack: one more instruction per component. Not
+// a command line option, because clang-tidy reads the options and rejects those that clang lacks.
 #pragma GCC optimize("no-split-ivs-in-unroller")
 #endif
 
@@ -18,8 +17,8 @@ bool ExecutionContext::take_tick() noexcept {
     return plan_.trigger->take();
 }
 
-/// Whether the steps `first` .. `end` - 1 may begin. Work that was abandoned before it began finds out here;
-/// outside of a cycle no other work exists.
+/// True when the steps `first` .. `end` - 1 may start. Work that was aborted before its start is rejected
+/// here; outside a cycle, no other work exists.
 bool ExecutionContext::admits_steps(std::size_t first, std::size_t end) const noexcept {
     const Phase phase = phase_.load(std::memory_order_acquire);
     MAMORI_REQUIRE(1, phase != Phase::kIdle);
@@ -27,8 +26,8 @@ bool ExecutionContext::admits_steps(std::size_t first, std::size_t end) const no
     return phase == Phase::kInCycle;
 }
 
-/// The loop is here, not in a function that a pass calls, so that on_execute is one call away from the host.
-/// One instance for each common observation, so that no step asks for what its pass does not need.
+/// The loop is in this function, so that on_execute is only one call away from the platform host. One
+/// instance per common observation, so that a step performs no check that its pass does not need.
 template <ExecutionContext::StepObservation kObservation>
 void ExecutionContext::run_first_pass(void* argument, std::size_t first, std::size_t end) noexcept {
     constexpr bool kIsObserved = kObservation != StepObservation::kNone;
@@ -51,13 +50,13 @@ void ExecutionContext::run_first_pass(void* argument, std::size_t first, std::si
         if (component.turn_ != 0U) {
             const bool was_active = context.execute_unusual(i);
             if (!context.is_in_cycle()) {
-                return;  // abandoned: the cycle of this step has ended
+                return;  // aborted: the cycle of this step has ended
             }
             end_step(observer, i, was_active);
             continue;
         }
         const Status answer = component.on_execute(handle);
-        // One comparison for both, since each is 0 in almost all steps.
+        // One comparison for both, because both are 0 in almost all steps.
         static_assert(Phase::kInCycle == Phase{} && Status::kOk == Status{});
         const Phase phase = context.phase_.load(std::memory_order_relaxed);
         if ((static_cast<unsigned>(phase) | static_cast<unsigned>(answer)) != 0U) {
@@ -82,7 +81,7 @@ ExecutionContext::Pass ExecutionContext::get_first_pass(StepObservation observat
                                                     : &run_first_pass<StepObservation::kAfterStep>;
 }
 
-/// All that an observer may need after a step.
+/// Performs all observations that may be required after a step.
 void ExecutionContext::end_step(StepObserver* observer, std::size_t position, bool was_active) noexcept {
     if (observer == nullptr) {
         return;
@@ -99,7 +98,7 @@ void ExecutionContext::end_step(StepObserver* observer, std::size_t position, bo
     }
 }
 
-/// The turn of a participant that does anything but on_execute alone. @return whether it was Active.
+/// Invocation of a participant that is not on_execute alone. @return true when it was Active before.
 bool ExecutionContext::execute_unusual(std::size_t position) noexcept {
     Component& component = *participants_[position];
     const ContextHandle handle = make_handle(cycle_start_);
@@ -114,7 +113,7 @@ bool ExecutionContext::execute_unusual(std::size_t position) noexcept {
             return false;
         case LifecycleState::kActive:
             give_notices(component, handle);
-            // A notice may have led to Error; then this turn is over, as after a failed on_execute.
+            // A notification may have led to Error. Then the invocation ends, as after a failed on_execute.
             if (component.get_state() != LifecycleState::kActive) {
                 return true;
             }
@@ -130,7 +129,7 @@ bool ExecutionContext::execute_unusual(std::size_t position) noexcept {
         case LifecycleState::kCreated:
             return false;
     }
-    MAMORI_INVARIANT(2, false);  // only a corrupted state comes here
+    MAMORI_INVARIANT(2, false);  // only a corrupted state gets here
     return false;
 }
 
@@ -151,7 +150,7 @@ void ExecutionContext::give_notices(Component& component, ContextHandle handle) 
 
 Status ExecutionContext::tell_mode(Component& component, Instant now) noexcept {
     if (is_busy() || !component.is_alive() || !component.mode_switch_->take_change()) {
-        // Told in its next turn, which finds the notice; or changed back before anybody was told.
+        // Busy or not alive: the next invocation reports the change. Otherwise, the mode was changed back.
         return Status::kOk;
     }
     const ContextHandle handle = make_handle(now);

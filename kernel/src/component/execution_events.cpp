@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an event-driven context serves the events of a state machine.
+// Event processing of a state machine in an event-driven context.
 #include "mamori/kernel/component/detail/fsm_machine.hpp"
 #include "mamori/kernel/component/execution_context.hpp"
 
@@ -8,13 +8,13 @@ namespace mamori {
 void ExecutionContext::serve_events(Component& component, ContextHandle handle) noexcept {
     FsmMachine& machine = *component.machine_;
     if (machine.step_.phase != FsmStep::Phase::kNone) {
-        // An earlier cycle was cut off between two states: the machine is in neither of them.
+        // An earlier cycle was aborted between two states: the machine is in neither of them.
         judge(component, ComponentAction::kAction, Status::kError, handle);
         return;
     }
     for (std::size_t served = 0U; served < plan_.events_per_cycle; ++served) {
         move_to(component.position_);
-        // An action may have taken the machine itself to Error; what waits then stays where it is.
+        // An action may have moved the machine itself to Error; then the waiting events remain queued.
         if (component.get_state() != LifecycleState::kActive) {
             return;
         }

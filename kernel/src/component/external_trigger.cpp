@@ -4,7 +4,7 @@
 namespace mamori {
 namespace {
 
-/// Only the context writes these counters, so a load and a store make one step.
+/// Only the context writes these counters, so a load and a store suffice.
 void add(std::atomic<std::uint32_t>& counter, std::uint32_t count) noexcept {
     counter.store(counter.load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
 }

@@ -10,14 +10,15 @@ Status FsmComponent::send_stimulus(FsmIndex message, ContextHandle context, std:
     if (message >= get_fsm_structure().messages.size()) {
         return Status::kBadParameter;
     }
-    // Any thread may be here while the machine is attached, detached or activated again: what is asked is
-    // atomic. The epoch comes first, so that an event for one activation is not served in the next.
+    // Another thread may call this while the machine is attached, detached or activated again, so all data
+    // read here is atomic. The epoch is read first, so that an event for one activation is not processed in
+    // the next.
     const std::uint32_t epoch = get_queue().get_epoch();
     const std::int32_t own_id = fsm_.get_context_id();
     if (context.id != -1 && context.id != own_id) {
         return Status::kBadParameter;
     }
-    // Only an event-driven context takes a state machine, so its kind needs no further test.
+    // Only an event-driven context accepts a state machine, so no check of its kind is necessary.
     if (own_id == -1 || get_state() != LifecycleState::kActive) {
         return Status::kPreconditionNotMet;
     }

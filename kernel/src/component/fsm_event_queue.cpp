@@ -4,7 +4,7 @@
 namespace mamori {
 namespace {
 
-/// Where the position falls among the cells. Positions run round at 2^32, so a power of two keeps the order.
+/// Index of the cell of a position. Positions wrap at 2^32; a power of two as capacity keeps the order.
 std::uint32_t calc_index(std::uint32_t position, std::size_t capacity) noexcept {
     MAMORI_REQUIRE(1, capacity > 1U && (capacity & (capacity - 1U)) == 0U);
     return position & static_cast<std::uint32_t>(capacity - 1U);
@@ -16,9 +16,9 @@ FsmEventCell& FsmEventQueue::get_cell(std::uint32_t position) const noexcept {
     return cells_[calc_index(position, cells_.size())];
 }
 
-// A cell is free for position p when its turn is p, holds the event of p when its turn is p + 1, and is free
-// again for p + capacity, which is another turn only when there are two cells or more. What is stored leaves
-// the cell's index out.
+// A cell is free for position p when its turn is p. It holds the event of p when its turn is p + 1. It is
+// free again for p + capacity, which differs from p + 1 only with two or more cells. The stored turn excludes
+// the index of the cell.
 std::uint32_t FsmEventQueue::get_turn(const FsmEventCell& cell, std::uint32_t position) const noexcept {
     return cell.turn.load(std::memory_order_acquire) + calc_index(position, cells_.size());
 }
@@ -29,13 +29,13 @@ void FsmEventQueue::set_turn(FsmEventCell& cell, std::uint32_t position, std::ui
 
 Status FsmEventQueue::post(const FsmEvent& event, std::uint32_t epoch) noexcept {
     std::uint32_t position = write_position_.load(std::memory_order_relaxed);
-    // Each failed exchange is one success of another sender, and there are at most capacity of those.
+    // Each failed exchange is one success of another sender; at most `capacity` of them can succeed.
     for (std::size_t attempt = 0U; attempt <= cells_.size(); ++attempt) {
         FsmEventCell& cell = get_cell(position);
         if (get_turn(cell, position) != position) {
             const std::uint32_t newest = write_position_.load(std::memory_order_relaxed);
             if (newest == position) {
-                break;  // the oldest event still lies there
+                break;  // the oldest event still occupies the cell
             }
             position = newest;
         } else if (write_position_.compare_exchange_strong(position, position + 1U,
@@ -51,7 +51,7 @@ Status FsmEventQueue::post(const FsmEvent& event, std::uint32_t epoch) noexcept 
     return Status::kOutOfResources;
 }
 
-/// @return false when there is no event, or its sender has not filled its place yet.
+/// @return false when there is no event, or its sender has not yet filled its cell.
 bool FsmEventQueue::take_front(FsmEvent& event, std::uint32_t& epoch) noexcept {
     const std::uint32_t position = read_position_.load(std::memory_order_relaxed);
     FsmEventCell& cell = get_cell(position);
@@ -68,7 +68,7 @@ bool FsmEventQueue::take_front(FsmEvent& event, std::uint32_t& epoch) noexcept {
 Result<FsmEvent> FsmEventQueue::take() noexcept {
     FsmEvent event{};
     std::uint32_t epoch = 0U;
-    // Those of an earlier epoch were in the middle of post() when the queue was cleared.
+    // Events of an earlier epoch were still in post() when the queue was cleared.
     const std::size_t count = cells_.size() + 1U;
     for (std::size_t i = 0U; i < count && take_front(event, epoch); ++i) {
         if (epoch == epoch_.load(std::memory_order_relaxed)) {
@@ -79,7 +79,7 @@ Result<FsmEvent> FsmEventQueue::take() noexcept {
 }
 
 void FsmEventQueue::clear() noexcept {
-    // At most the events that are there now; later ones are not older than the call.
+    // At most the events that are present now; later events are newer than this call.
     const std::size_t count = get_size();
     epoch_.fetch_add(1U, std::memory_order_acq_rel);
     FsmEvent event{};
@@ -94,12 +94,12 @@ std::size_t FsmEventQueue::get_size() const noexcept {
 }
 
 void FsmEventQueue::raise_high_water(std::uint32_t size) noexcept {
-    // The reader may have been faster; then the difference has no meaning.
+    // If the reader was faster, the difference is meaningless.
     if (size > cells_.size()) {
         return;
     }
     std::uint32_t highest = high_water_.load(std::memory_order_relaxed);
-    // An exchange that fails has found a higher mark, and none is above the capacity.
+    // A failed exchange has read a higher mark, and no mark exceeds the capacity.
     while (highest < size) {
         static_cast<void>(high_water_.compare_exchange_strong(highest, size, std::memory_order_relaxed));
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A word in front of a static object that makes the compiler refuse it unless it is a constant of the
-/// program image. Without it C++17 would quietly construct such an object while the program starts.
+/// Macro for the declaration of a static object: compile error unless the object is constant-initialised.
+/// Without the macro, C++17 silently constructs such an object at program start.
 ///
 ///     MAMORI_CONSTINIT SpeedMonitor monitor;
 ///
 /// @satisfies SWR-PAR-004      Design: docs/design/parameters.md#refusal-at-compile-time
-/// The language has the word since C++20; g++ and clang spell it differently before.
+/// C++20 has a keyword for this purpose (constinit). Before C++20, g++ and clang use different spellings.
 #ifndef MAMORI_KERNEL_CONSTANT_INIT_HPP
 #define MAMORI_KERNEL_CONSTANT_INIT_HPP
 

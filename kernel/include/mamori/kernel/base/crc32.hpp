@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// CRC-32/ISO-HDLC, byte by byte: the check of stored records.
+/// CRC-32/ISO-HDLC, computed byte by byte: checksum of stored records.
 ///
 /// @satisfies SWR-REC-001      Design: docs/design/recorder.md#checksum
 /// Source:   ISO/IEC 13239 and IEEE 802.3: polynomial 04C11DB7 (reflected EDB88320), register begins as
@@ -15,7 +15,7 @@
 namespace mamori {
 
 namespace detail {
-/// Remainder of each byte value: 1 KiB of constants.
+/// CRC remainder of each byte value: 1 KiB of constants.
 constexpr std::array<std::uint32_t, 256U> make_crc32_table() noexcept {
     std::array<std::uint32_t, 256U> table{};
     for (std::uint32_t value = 0U; value < 256U; ++value) {
@@ -31,15 +31,15 @@ constexpr std::array<std::uint32_t, 256U> make_crc32_table() noexcept {
 inline constexpr std::array<std::uint32_t, 256U> kCrc32Table = make_crc32_table();
 }  // namespace detail
 
-/// Takes bytes one by one, in the order in which they are stored.
+/// Checksum over bytes that are added in storage order.
 ///
-/// Thread safety: none. Time: O(1) per byte. Memory: four bytes, and the table.
+/// Thread safety: none. Time: O(1) per byte. Memory: four bytes, plus the shared table.
 class Crc32 final {
   public:
     constexpr void add(std::uint8_t byte) noexcept {
         register_ = (register_ >> 8U) ^ detail::kCrc32Table[(register_ ^ byte) & 0xFFU];
     }
-    /// Checksum of the bytes so far; 0 when there were none.
+    /// Checksum of all bytes added; 0 when no byte was added.
     constexpr std::uint32_t get_value() const noexcept { return ~register_; }
 
   private:

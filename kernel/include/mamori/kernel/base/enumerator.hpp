@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Enumerators of an application in the rows of a table, where they are numbers: events, faults, reactions.
+/// Converts enumerators of an application (events, faults, reactions) to the numbers in table rows.
 /// Not for users.
 ///
 /// @satisfies SWR-MOD-004, SWR-KRN-018      Design: docs/design/modes.md#requests
@@ -12,7 +12,7 @@
 
 namespace mamori::detail {
 
-/// Number of an enumerator in a row; no two of one enumeration have the same.
+/// Number of an enumerator in a row; unique within its enumeration.
 template <typename E>
 constexpr std::uint32_t to_number(E enumerator) noexcept {
     static_assert(std::is_enum_v<E>, "events, faults and reactions are enumerators");
@@ -22,7 +22,7 @@ constexpr std::uint32_t to_number(E enumerator) noexcept {
     return static_cast<std::uint32_t>(enumerator);
 }
 
-/// An object for each enumeration; its address tells one from another while the program runs.
+/// One object per enumeration; its address identifies the enumeration at run time.
 template <typename E>
 inline constexpr std::uint8_t kEnumerationTag{0U};
 

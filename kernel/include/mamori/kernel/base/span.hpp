@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A view of contiguous elements owned by somebody else, with checked access.
+/// A view of contiguous elements with checked access. The elements have another owner.
 ///
 /// @satisfies SWR-KRN-002      Design: docs/design/kernel.md#memory
 #ifndef MAMORI_KERNEL_SPAN_HPP
@@ -15,7 +15,7 @@
 namespace mamori {
 
 /// Pointer and size. The owner of the elements must outlive every copy of the span.
-/// An array of U converts when a U is laid out as a T, so a derived class does not pass for its base.
+/// An array of U converts only when U has the layout of T. An array of a derived class does not convert.
 ///
 /// Thread safety: as that of the elements. Time: O(1). Memory: two words.
 template <typename T>
@@ -25,7 +25,7 @@ class Span final {
 
   public:
     constexpr Span() noexcept = default;
-    /// @param[in] first nullptr for a size of 0 only.
+    /// @param[in] first may be nullptr only when `size` is 0. @param[in] size number of elements.
     constexpr Span(T* first, std::size_t size) noexcept : data_(first), size_(size) {}
     template <typename U, std::size_t N, typename = EnableFor<U>>
     constexpr Span(std::array<U, N>& elements) noexcept  // NOLINT: implicit on purpose
@@ -34,19 +34,19 @@ class Span final {
     constexpr Span(const std::array<U, N>& elements) noexcept  // NOLINT: implicit on purpose
         : data_(elements.data()), size_(N) {}
 
-    /// @param[in] index 0 .. size() - 1; anything else is an own bug and ends in the assertion handler.
+    /// @param[in] index 0 .. size() - 1; otherwise a contract violation, which calls the assertion handler.
     constexpr T& operator[](std::size_t index) const noexcept {
         MAMORI_REQUIRE(1, index < size_);
         return data_[index];
     }
-    /// `count` elements from `first` on. Both must lie inside this span; anything else is an own bug.
+    /// `count` elements from `first` on. A range that exceeds this span is a contract violation.
     constexpr Span subspan(std::size_t first, std::size_t count) const noexcept {
         MAMORI_REQUIRE(2, first <= size_ && count <= size_ - first);
         return {data_ + first, count};
     }
     constexpr std::size_t size() const noexcept { return size_; }
     constexpr bool empty() const noexcept { return size_ == 0U; }
-    /// First element; nullptr for a span that was made of nothing.
+    /// First element; nullptr for a default-constructed span.
     constexpr T* data() const noexcept { return data_; }
     constexpr T* begin() const noexcept { return data_; }
     constexpr T* end() const noexcept { return data_ + size_; }

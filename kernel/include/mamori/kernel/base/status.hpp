@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Return codes of every operation that can be refused, and a value that may be missing for such a reason.
-/// The six codes and their numbers are those of the OMG RTC ReturnCode_t; no others exist.
+/// Return codes of all operations that can fail, and a result type that holds a value or a return code. The
+/// six codes and their numbers are those of the OMG RTC ReturnCode_t; no others exist.
 ///
 /// @satisfies SWR-KRN-001      Design: docs/design/kernel.md#errors
 /// Source:   OMG RTC 1.0, ReturnCode_t (IDL order is the wire value)
@@ -13,18 +13,18 @@
 
 namespace mamori {
 
-/// Outcome of an operation. On anything but kOk the object that was called is unchanged,
-/// unless the operation says otherwise.
+/// Outcome of an operation. On any code except kOk, the called object is unchanged unless the operation
+/// specifies otherwise.
 enum class [[nodiscard]] Status : std::uint32_t {
     kOk = 0U,                  ///< done
-    kError = 1U,               ///< failed for a reason that no other code names
+    kError = 1U,               ///< failed for a reason that no other code describes
     kBadParameter = 2U,        ///< an argument is outside its range
     kUnsupported = 3U,         ///< the operation is not implemented for this object
-    kOutOfResources = 4U,      ///< a bounded capacity is used up
-    kPreconditionNotMet = 5U,  ///< the object is not in a state that allows the operation
+    kOutOfResources = 4U,      ///< a bounded capacity is exhausted
+    kPreconditionNotMet = 5U,  ///< the state of the object does not allow the operation
 };
 
-/// Spelling of a status as the RTC standard prints it, for logs and reports; never nullptr.
+/// Name of a status in the RTC standard, for logs and reports; never nullptr.
 constexpr const char* get_name(Status status) noexcept {
     switch (status) {
         case Status::kOk:
@@ -40,10 +40,10 @@ constexpr const char* get_name(Status status) noexcept {
         case Status::kPreconditionNotMet:
             return "PRECONDITION_NOT_MET";
     }
-    return "INVALID_STATUS";  // only a corrupted value comes here
+    return "INVALID_STATUS";  // only a corrupted value gets here
 }
 
-/// A value, or the reason why there is none.
+/// A value, or the status that explains why the value is missing.
 ///
 /// Thread safety: none. Time: O(1). Memory: holds one T, which must be default constructible.
 template <typename T>
@@ -53,12 +53,12 @@ class [[nodiscard]] Result final {
   public:
     constexpr Result(const T& value) noexcept
         : value_(value), status_(Status::kOk) {}  // NOLINT: implicit on purpose
-    /// @param[in] status the reason; kOk is turned into kError, since a success must carry a value.
+    /// @param[in] status the reason; kOk becomes kError, because a success requires a value.
     constexpr Result(Status status) noexcept  // NOLINT: implicit on purpose
         : value_(), status_(status == Status::kOk ? Status::kError : status) {}
 
     constexpr bool has_value() const noexcept { return status_ == Status::kOk; }
-    /// kOk when there is a value, else why there is none.
+    /// kOk when a value is present; otherwise the reason why it is missing.
     constexpr Status get_status() const noexcept { return status_; }
     /// @return the value; a default-constructed T when has_value() is false.
     constexpr const T& get_value() const noexcept { return value_; }

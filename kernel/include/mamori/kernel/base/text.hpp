@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Names as characters with a length: how they are made and compared, in constant expressions as well as at
-/// run time.
+/// Character strings with a length: construction and comparison, in constant expressions and at run time.
 ///
 /// @satisfies SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
 #ifndef MAMORI_KERNEL_TEXT_HPP
@@ -13,10 +12,10 @@
 
 namespace mamori {
 
-/// Characters without a terminating zero; the caller keeps their owner alive.
+/// Characters without terminating NUL. The owner of the characters must outlive the text.
 using Text = Span<const char>;
 
-/// Text of a C string. O(length). @param[in] characters not nullptr; must outlive the text.
+/// Text of a C string. O(length). @param[in] characters NUL-terminated, not nullptr; must outlive the text.
 constexpr Text make_text(const char* characters) noexcept {
     std::size_t size = 0U;
     while (characters[size] != '\0') {
@@ -25,7 +24,7 @@ constexpr Text make_text(const char* characters) noexcept {
     return {characters, size};
 }
 
-/// Are the characters the same? O(length).
+/// True when the lengths and all characters are equal. O(length).
 constexpr bool operator==(Text a, Text b) noexcept {
     if (a.size() != b.size()) {
         return false;

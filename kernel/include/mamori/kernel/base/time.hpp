@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Durations and instants as signed 64-bit nanoseconds in types that cannot be mixed.
-/// No clock is read here: code is given the time, only ports read a real clock.
+/// Durations and instants: signed 64-bit nanoseconds in types that cannot be mixed.
+/// No function here reads a clock. Callers pass the time; only ports read a real clock.
 ///
 /// @satisfies SWR-KRN-004      Design: docs/design/kernel.md#time
 #ifndef MAMORI_KERNEL_TIME_HPP
@@ -11,8 +11,7 @@
 
 namespace mamori {
 
-/// Signed span of time. Range: +-292 years; sums, differences and multiples are not checked for overflow
-/// beyond it.
+/// Signed duration [ns]. Range: +-292 years; sums, differences and multiples do not check for overflow.
 struct Duration {
     std::int64_t ns{0};
 
@@ -27,7 +26,7 @@ struct Duration {
     friend constexpr bool operator>=(Duration a, Duration b) noexcept { return a.ns >= b.ns; }
 };
 
-/// Point on the monotonic time line of the port; zero is the port's start. Range and overflow as for
+/// Point on the monotonic time line of the port [ns]; 0 is the start of the port. Range and overflow as for
 /// Duration.
 struct Instant {
     std::int64_t ns{0};
@@ -48,7 +47,7 @@ constexpr double to_seconds(Duration duration) noexcept {
     return static_cast<double>(duration.ns) * 1.0e-9;
 }
 
-/// Spelled durations, as in 200_us; more than 2^63 - 1 ns (292 years) are not checked for.
+/// Duration literals such as 200_us. They do not check for values above 2^63 - 1 ns (292 years).
 inline namespace literals {
 constexpr Duration operator""_ns(unsigned long long value) noexcept {
     return {static_cast<std::int64_t>(value)};

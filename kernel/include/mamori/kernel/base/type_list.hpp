@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A list of types, for what the compiler alone computes: fields of a payload, components of a table; how
-/// lists are joined and a type is picked out of one. Not for users.
+/// A list of types for compile-time computation (fields of a payload, components of a table): concatenation
+/// and selection of one type. Not for users.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_TYPE_LIST_HPP
@@ -18,7 +18,7 @@ struct TypeList {
     static constexpr std::size_t kSize = sizeof...(Ts);
 };
 
-/// `Concat<Lists...>::Type`: the types of all lists, in their order.
+/// `Concat<Lists...>::Type`: the types of all lists in order.
 template <typename... Lists>
 struct Concat;
 template <>
@@ -34,13 +34,13 @@ struct Concat<TypeList<Ts...>, TypeList<Us...>, Rest...> {
     using Type = typename Concat<TypeList<Ts..., Us...>, Rest...>::Type;
 };
 
-/// True when all types of a list are the same one.
+/// True when all types of a list are equal.
 template <typename List>
 inline constexpr bool kIsOfOneType = true;
 template <typename First, typename... Rest>
 inline constexpr bool kIsOfOneType<TypeList<First, Rest...>> = (std::is_same_v<First, Rest> && ...);
 
-/// Eight at a time, so that a window of a thousand components stays within the compiler's template depth.
+/// Joins eight lists per step, so that a window of 1000 components stays within the template depth limit.
 template <typename... As, typename... Bs, typename... Cs, typename... Ds, typename... Es, typename... Fs,
           typename... Gs, typename... Hs, typename... Rest>
 struct Concat<TypeList<As...>, TypeList<Bs...>, TypeList<Cs...>, TypeList<Ds...>, TypeList<Es...>,
@@ -60,7 +60,7 @@ struct IndexedList<std::index_sequence<kIndices...>, TypeList<Ts...>> : Indexed<
 
 template <std::size_t kIndex, typename T>
 Indexed<kIndex, T> pick(const Indexed<kIndex, T>*) noexcept;
-/// Type number `kIndex` of a list.
+/// Type at position `kIndex` of a list, 0 .. kSize - 1.
 template <typename List, std::size_t kIndex>
 using At = typename decltype(pick<kIndex>(
     static_cast<const IndexedList<std::make_index_sequence<List::kSize>, List>*>(nullptr)))::Type;

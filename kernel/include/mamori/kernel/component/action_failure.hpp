@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Which action of a component failed last, how, and when: the answer to "why is it in Error?".
+/// Last failed action of a component, its status and its time. Explains why the component is in Error.
 ///
 /// @satisfies SWR-RTC-004      Design: docs/design/rtc_semantics.md#failures
 #ifndef MAMORI_KERNEL_ACTION_FAILURE_HPP
@@ -13,8 +13,8 @@
 
 namespace mamori {
 
-/// Actions whose answer counts, in the order of the standard. Not among them: on_aborting and on_error, which
-/// run because something has failed already.
+/// Actions whose return code is evaluated, in the order of the standard. on_aborting and on_error are
+/// excluded, because they run after another action has failed.
 enum class ComponentAction : std::uint8_t {
     kStartup,
     kShutdown,
@@ -28,7 +28,7 @@ enum class ComponentAction : std::uint8_t {
     kModeChanged,
 };
 
-/// Spelling of an action as the standard prints it; never nullptr.
+/// Name of an action in the RTC standard; never nullptr.
 constexpr const char* get_name(ComponentAction action) noexcept {
     switch (action) {
         case ComponentAction::kStartup:
@@ -52,14 +52,14 @@ constexpr const char* get_name(ComponentAction action) noexcept {
         case ComponentAction::kModeChanged:
             return "on_mode_changed";
     }
-    return "invalid_action";  // only a corrupted value comes here
+    return "invalid_action";  // only a corrupted value gets here
 }
 
-/// One answer that was not kOk.
+/// One action that did not return kOk.
 struct ActionFailure {
-    Instant at{};                                       ///< instant that the action was given
-    Status status{Status::kOk};                         ///< kOk: nothing has failed yet
-    ComponentAction action{ComponentAction::kStartup};  ///< without meaning while kOk
+    Instant at{};                                       ///< instant passed to the action
+    Status status{Status::kOk};                         ///< returned code; kOk: nothing has failed yet
+    ComponentAction action{ComponentAction::kStartup};  ///< undefined while status is kOk
 };
 
 }  // namespace mamori

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What an executive has seen of the runs of one component, against the time that each may take. Records lie
-/// side by side at whoever supervises, so that noting a run is three comparisons and no call.
+/// Result of the runs of one component, compared with the limits of its run time. The supervisor stores all
+/// records in one array. Recording a run takes three comparisons and no call.
 ///
 /// @satisfies SWR-KRN-030      Design: docs/design/kernel.md#observation
 #ifndef MAMORI_KERNEL_EXECUTION_RECORD_HPP
@@ -15,36 +15,37 @@
 
 namespace mamori {
 
-/// Runs of one component: its first pass (on_execute) while Active, come through within the budget. One that
-/// is Inactive, in Error or cut off leaves no trace here. The limits are the owner's; what was seen gathers
-/// until the owner clears it, so no run hides another.
+/// Runs of one component: its first pass (on_execute) while Active, completed within the budget. A component
+/// that is Inactive, in Error or aborted is not recorded. The owner sets the limits. The flags accumulate
+/// until the owner clears them, so no run hides another run.
 ///
-/// Thread safety: the executive writes while a window runs, the owner in the same execution context. A run
-///                that its host cuts off in the same moment, on another thread, may write as well: its flag
-///                is lost then, or a flag that was just taken comes back, and the overrun tells of it anyway.
+/// Thread safety: the executive writes while a window runs; the owner reads and clears in the same execution
+///                context. A run that the platform host aborts at that moment may also write, on another
+///                thread. Its flag may then be lost, or a cleared flag may be set again; the overrun is
+///                reported anyway.
 /// Time:          O(1), nothing blocks. Memory: two durations and a word.
 class ExecutionRecord final {
   public:
-    static constexpr std::uint32_t kWithin = 1U;   ///< a run within the limits
-    static constexpr std::uint32_t kOutside = 2U;  ///< a run that was too short or too long
+    static constexpr std::uint32_t kWithin = 1U;   ///< at least one run within the limits
+    static constexpr std::uint32_t kOutside = 2U;  ///< at least one run too short or too long
 
-    /// Without limits every run is within them.
+    /// No limits: every run is within the limits.
     constexpr ExecutionRecord() noexcept = default;
-    /// @param[in] shortest run allowed, >= 0. @param[in] longest one, >= shortest. Neither is checked: the
-    ///            owner sees to it.
+    /// @param[in] shortest minimum duration of a run, >= 0. @param[in] longest maximum duration, >= shortest.
+    ///                     Neither is checked: the owner is responsible.
     constexpr ExecutionRecord(Duration shortest, Duration longest) noexcept
         : shortest_(shortest), longest_(longest) {}
 
-    /// As the constructor; what was seen stays.
+    /// Limits as in the constructor; the flags do not change.
     void set_limits(Duration shortest, Duration longest) noexcept {
         shortest_ = shortest;
         longest_ = longest;
     }
 
-    /// A run from `started` to `finished`. One that ended before it began, since the clock ran backwards, is
-    /// outside.
+    /// Records a run from `started` to `finished`. A run whose end is before its start (the clock went
+    /// backwards) is outside.
     void note_run(Instant started, Instant finished) noexcept {
-        // In unsigned arithmetic the time between two instants in order is exact, however far they are apart.
+        // The unsigned difference of ordered instants is exact for all values.
         const std::uint64_t used =
             static_cast<std::uint64_t>(finished.ns) - static_cast<std::uint64_t>(started.ns);
         if (finished >= started && used <= static_cast<std::uint64_t>(longest_.ns) &&
@@ -54,9 +55,9 @@ class ExecutionRecord final {
             note(kOutside);
         }
     }
-    /// Any of the above, since the owner last took it.
+    /// Flags kWithin and kOutside of all runs since the last take_seen().
     std::uint32_t get_seen() const noexcept { return seen_.load(std::memory_order_relaxed); }
-    /// The same, and nothing is seen from then on.
+    /// Returns the flags and clears them.
     std::uint32_t take_seen() noexcept {
         const std::uint32_t seen = get_seen();
         seen_.store(0U, std::memory_order_relaxed);
@@ -64,7 +65,7 @@ class ExecutionRecord final {
     }
 
   private:
-    /// A plain load and store: exchanging would cost more than the whole note.
+    /// A plain load and store: an atomic exchange would take longer than the complete recording.
     void note(std::uint32_t flag) noexcept { seen_.store(get_seen() | flag, std::memory_order_relaxed); }
 
     Duration shortest_{0};

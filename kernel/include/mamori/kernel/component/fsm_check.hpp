@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules that the table of a state machine must keep, as constant expressions: the compiler refuses a table
-/// that breaks one and prints the rule and the guilty row.
+/// Rules for the table of a state machine, as constant expressions. The compiler rejects a table that
+/// violates a rule and prints the rule and the faulty row.
 ///
 /// @satisfies SWR-RTC-006      Design: docs/design/rtc_semantics.md#state-machines
 #ifndef MAMORI_KERNEL_FSM_CHECK_HPP
@@ -14,23 +14,23 @@
 
 namespace mamori {
 
-/// Bound of the states of one machine: their set is one word.
+/// Maximum number of states of one machine: a set of states is one 64-bit word.
 inline constexpr std::size_t kMaxFsmStates = 64U;
 
-/// Why a table is refused.
+/// Violated rule; each comment specifies the meaning of FsmFinding::element.
 enum class FsmRule : std::uint8_t {
     kNone,
     kTableNameMissing,    ///< no row: element is 0
     kNoState,             ///< no row: element is 0
-    kTooManyStates,       ///< the first state beyond kMaxFsmStates
+    kTooManyStates,       ///< index of the first state beyond the limit, kMaxFsmStates
     kNameMissing,         ///< state, or number of states + message
-    kNameTwice,           ///< state, or number of states + message: the second one
+    kNameTwice,           ///< state, or number of states + message: the second occurrence
     kInitialUnknown,      ///< no row: element is 0
-    kTransitionUnknown,   ///< transition with a source, message or target that no row has
-    kTransitionShadowed,  ///< transition that an earlier one without a guard always forestalls
-    kStateUnreachable,    ///< state that no way leads to from the initial one
+    kTransitionUnknown,   ///< transition whose source, message or target has no row
+    kTransitionShadowed,  ///< transition after one without guard for the same source and message
+    kStateUnreachable,    ///< state that cannot be reached from the initial state
 };
-/// A broken rule and the row that is guilty, which FsmRule names.
+/// A violated rule and the number of the faulty row; FsmRule specifies the table of the row.
 struct FsmFinding {
     FsmRule rule{FsmRule::kNone};
     std::size_t element{0U};
@@ -81,7 +81,7 @@ constexpr FsmFinding check_fsm_transitions(const FsmTable& table) noexcept {
 
 constexpr FsmFinding check_fsm_reach(const FsmTable& table) noexcept {
     std::uint64_t reached = std::uint64_t{1} << table.initial;
-    // Each pass reaches one state more, or nothing is left to be reached.
+    // Each pass reaches at least one more state, until all reachable states are reached.
     for (std::size_t pass = 0U; pass < table.states.size(); ++pass) {
         for (const FsmTransition& row : table.transitions) {
             const bool is_source_reached = ((reached >> row.source) & 1U) != 0U;
@@ -96,7 +96,7 @@ constexpr FsmFinding check_fsm_reach(const FsmTable& table) noexcept {
     return {};
 }
 
-/// Instantiated by MAMORI_CHECK_FSM; a refused table shows its rule and element as template arguments.
+/// Instantiated by MAMORI_CHECK_FSM; for a rejected table, its template arguments show rule and element.
 template <FsmRule kRule, std::size_t kElement>
 struct FsmTableKeeps {
     static_assert(kRule == FsmRule::kNone, "the FSM table breaks the rule named in the template arguments");
@@ -105,8 +105,8 @@ struct FsmTableKeeps {
 
 }  // namespace detail
 
-/// First broken rule, or kNone. Constant expression for a constexpr table; O(rows squared). That a span has
-/// the rows it counts and that a name ends is taken for granted.
+/// First violated rule, or kNone. Constant expression for a constexpr table; O(rows squared). Precondition,
+/// not checked: each span refers to as many rows as its size, and each name ends with NUL.
 constexpr FsmFinding check(const FsmTable& table) noexcept {
     if (table.name == nullptr) {
         return {FsmRule::kTableNameMissing, 0U};
@@ -133,7 +133,7 @@ constexpr FsmFinding check(const FsmTable& table) noexcept {
 
 }  // namespace mamori
 
-/// Refuses the constexpr FSM table `table` at compile time when it breaks a rule.
+/// Rejects the constexpr FSM table `table` at compile time when it violates a rule.
 #define MAMORI_CHECK_FSM(table)                                                \
     static_assert(::mamori::detail::FsmTableKeeps<::mamori::check(table).rule, \
                                                   ::mamori::check(table).element>::kValue)

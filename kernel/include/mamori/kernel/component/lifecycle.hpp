@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Life cycle of an RT component as its execution context sees it: four states and one table that says which
-/// event is allowed where. The table is the only place where a transition is decided.
+/// Life cycle of an RT component in its execution context: four states and one table of the events that each
+/// state allows. Only this table decides transitions.
 ///
 /// @satisfies SWR-KRN-010      Design: docs/design/kernel.md#life-cycle
 /// Source:   OMG RTC 1.0, LifeCycleState and ExecutionContextOperations
@@ -21,27 +21,28 @@ namespace mamori {
 enum class LifecycleState : std::uint32_t { kCreated = 0U, kInactive = 1U, kActive = 2U, kError = 3U };
 inline constexpr std::size_t kLifecycleStateCount = 4U;
 
-/// What can happen to a component.
+/// Events in the life cycle of a component.
 enum class LifecycleEvent : std::uint32_t {
     kInitialize,  ///< RTC.initialize()
     kActivate,    ///< ExecutionContext.activate_component()
     kDeactivate,  ///< ExecutionContext.deactivate_component()
     kReset,       ///< ExecutionContext.reset_component()
-    kFail,        ///< one of the actions that lead to Error did not return kOk: see Component
+    kFail,        ///< an action that leads to Error did not return kOk: see Component
 };
 inline constexpr std::size_t kLifecycleEventCount = 5U;
 
 /// One cell of the table.
 struct LifecycleTransition {
-    /// kOk: allowed here; else what the caller is told.
+    /// kOk: allowed; otherwise the code that the caller receives.
     Status admission{Status::kPreconditionNotMet};
-    /// State after an allowed event whose action returned kOk; without meaning when it is not allowed.
+    /// State after an allowed event whose action returned kOk; undefined when the event is not allowed.
     LifecycleState target{LifecycleState::kCreated};
 };
 
-/// Cell for (state, event). Pure; O(1). A value that is no enumerator is an own bug (corrupted memory).
-/// @return admission kOk with the target; kBadParameter (kActivate or kDeactivate of one that is not alive);
-///         kPreconditionNotMet (any other event that the state does not allow).
+/// Cell for (state, event). Pure; O(1). A value that is not an enumerator (memory corruption) is a contract
+/// violation.
+/// @return admission kOk with the target; kBadParameter (kActivate or kDeactivate of a component that is not
+///         alive); kPreconditionNotMet (any other event that the state does not allow).
 constexpr LifecycleTransition get_transition(LifecycleState state, LifecycleEvent event) noexcept {
     constexpr LifecycleTransition kBad{Status::kBadParameter, LifecycleState::kCreated};
     constexpr LifecycleTransition kNo{};
@@ -61,7 +62,7 @@ constexpr LifecycleTransition get_transition(LifecycleState state, LifecycleEven
     return kTable[row][column];
 }
 
-/// Spelling of a state as the standard prints it; never nullptr.
+/// Name of a state in the RTC standard; never nullptr.
 constexpr const char* get_name(LifecycleState state) noexcept {
     switch (state) {
         case LifecycleState::kCreated:
@@ -73,7 +74,7 @@ constexpr const char* get_name(LifecycleState state) noexcept {
         case LifecycleState::kError:
             return "ERROR_STATE";
     }
-    return "INVALID_STATE";  // only a corrupted value comes here
+    return "INVALID_STATE";  // only a corrupted value gets here
 }
 
 }  // namespace mamori

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How a connection moves values: at the opening of the sink's window, within a window, and, where it leaves
-/// a core or a partition, through a buffer that neither side waits for.
+/// How a connection moves values: at window start of the sink, within a window and, between cores or
+/// partitions, through a wait-free buffer.
 ///
 /// @satisfies SWR-KRN-016, SWR-KRN-026, SWR-KRN-039      Design: docs/design/kernel.md#connections
 #ifndef MAMORI_KERNEL_CONNECTION_HPP
@@ -13,8 +13,8 @@
 
 namespace mamori {
 
-/// Type-free part of the storage of a connection that leaves its core or partition, by which the table names
-/// it. Nothing can be done with it.
+/// Type-free part of the storage of a connection between cores or partitions. The table refers to the storage
+/// by this type, which has no operations.
 class CrossingBase {
   public:
     CrossingBase(const CrossingBase&) = delete;
@@ -28,7 +28,7 @@ class CrossingBase {
 /// Storage of one connection between two cores or two partitions:
 ///     static mamori::Crossing<JointState> to_planner;
 ///     mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner), mamori::any_age())
-/// What counts at a reader's opening is decided by the planned instants, not by who was faster.
+/// Planned instants decide which value the reader receives, not the relative speed of the cores.
 ///
 /// Thread safety: one core writes, one core reads, neither waits. Time: O(sizeof(T)). Memory: three T.
 template <typename T>
@@ -36,7 +36,7 @@ class Crossing final : public CrossingBase {
   public:
     constexpr Crossing() noexcept = default;
 
-    /// For the executive of the writing core, right after the publication.
+    /// For the executive of the writing core, immediately after the publication.
     void deliver(const OutPort<T>& source) noexcept {
         const typename OutPort<T>::Sample sample = source.get_published_sample();
         Slot& slot = buffer_.get_write_slot();
@@ -45,10 +45,11 @@ class Crossing final : public CrossingBase {
         slot.published_at = sample.published_at;
         buffer_.publish();
     }
-    /// For the executive of the reading core, at the opening of its window. A value whose publication lies
-    /// after `opening` is left for the next one: the reader is late, and keeps what it took last, since the
-    /// one that it would have found has been replaced. One from before the sink's last restart() is of
-    /// another mode. @param[in,out] sink always the same one: it remembers what it has taken.
+    /// For the executive of the reading core, at its window start. A value published after `opening` is left
+    /// for the next window: the reader is late and keeps its previous value, because the value for this
+    /// window has been overwritten. A value from before the last restart() of the sink belongs to another
+    /// mode and is ignored.
+    /// @param[in,out] sink always the same sink: it stores which value it has accepted.
     template <typename Sink>
     void latch(Sink& sink, Instant opening) noexcept {
         static_cast<void>(buffer_.update());
@@ -58,8 +59,9 @@ class Crossing final : public CrossingBase {
         }
     }
 
-    /// For the executive of the reading core, before it starts: drops the value in the buffer, which is of an
-    /// earlier run. Instants do not decide: the time line of a run may begin before the end of the last run.
+    /// For the executive of the reading core, before it starts: drops the value in the buffer, which is from
+    /// an earlier run. Instants cannot show this: the time line of a run may start before the end of the last
+    /// run.
     template <typename Sink>
     void clear(Sink& sink) noexcept {
         buffer_.drop();
@@ -75,33 +77,33 @@ class Crossing final : public CrossingBase {
     TripleBuffer<Slot> buffer_{};
 };
 
-/// What the executive calls for a connection; one constant per pair of port types. nullptr: nothing to do.
-/// The crossing is that of the row; nullptr where the connection has none, and then it is not looked at.
-/// Ports and crossing are of the types that connect() was given: nothing checks them again.
+/// Functions that the executive calls for a connection; one constant per pair of port types. nullptr: nothing
+/// to do. The crossing is that of the row; nullptr, and not used, where the connection has none. Ports and
+/// crossing have the types passed to connect(); nothing checks them again.
 ///
-/// Calling context: deliver and hand_on on the core of the source, latch on that of the sink.
+/// Calling context: deliver and hand_on on the core of the source, latch on the core of the sink.
 struct ConnectionOperations {
     /// After a publication of the source.
     void (*deliver)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};
-    /// At the opening of the sink's window.
+    /// At window start of the sink.
     void (*latch)(OutPortBase&, InPortBase&, CrossingBase*, Instant opening) noexcept {nullptr};
-    /// After the source's cycle in a window in which the sink comes later.
+    /// Forwards the value after the cycle of the source, when the sink follows in the same window.
     void (*hand_on)(OutPortBase&, InPortBase&, Instant opening) noexcept {nullptr};
-    /// When the connection ends or begins with the frame that begins at `boundary`, before the first latch in
-    /// it: what was published until then is of another mode.
+    /// When the connection ends or starts with the major frame at `boundary`, before the first latch in that
+    /// frame. Values published until then belong to another mode.
     void (*restart)(OutPortBase&, InPortBase&, Instant boundary) noexcept {nullptr};
-    /// Before the core of the sink starts: nothing that was published until then reaches the sink.
+    /// Before the core of the sink starts: values published until then do not reach the sink.
     void (*clear)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};
     bool may_leave_core{false};  ///< source and sink may run on two cores or in two partitions
     bool is_latest{false};       ///< only the newest value is kept, so the order of writer and reader matters
-    /// By connect(). A flag, since under some sanitizers g++ does not compare the addresses with nullptr in a
-    /// constant expression.
+    /// Set by connect(). A flag, because with some sanitizers g++ does not compare the addresses with nullptr
+    /// in a constant expression.
     bool is_set{false};
 };
 
 namespace detail {
 
-/// A sink that keeps the latest value, fed on its own core.
+/// A sink that keeps the latest value, on the core of the source.
 template <typename T, typename Sink>
 struct LatestConnection {
     static void latch(OutPortBase& source, InPortBase& sink, CrossingBase*, Instant) noexcept {
@@ -110,21 +112,21 @@ struct LatestConnection {
     static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
         static_cast<Sink&>(sink).take(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
     }
-    /// The number of a write tells on one core, where a value may be handed on at the very boundary. What a
-    /// window before this one published in the frame itself is of the new mode.
+    /// On one core, the revision decides, because a value may be forwarded exactly at the boundary. A value
+    /// that an earlier window of the same major frame has published belongs to the new mode.
     static void restart(OutPortBase& source, InPortBase& sink, Instant boundary) noexcept {
         const std::uint64_t published = source.get_published_revision();
         const bool is_of_new_mode = published != 0U && source.get_published_at() > boundary;
         static_cast<Sink&>(sink).restart(boundary, is_of_new_mode ? published - 1U : published);
     }
     static void clear(OutPortBase&, InPortBase& sink, CrossingBase*) noexcept {
-        static_cast<Sink&>(sink).restart(kBeforeAll, 0U);  // its source is on the same core: begin_run()
+        static_cast<Sink&>(sink).restart(kBeforeAll, 0U);  // same core: begin_run() resets the source
     }
     static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, &restart,
                                                       &clear,  false,  true,     true};
 };
 
-/// The same through a buffer.
+/// As LatestConnection, through a buffer.
 template <typename T, typename Sink>
 struct CrossingConnection {
     static void deliver(OutPortBase& source, InPortBase&, CrossingBase* crossing) noexcept {
@@ -133,7 +135,7 @@ struct CrossingConnection {
     static void latch(OutPortBase&, InPortBase& sink, CrossingBase* crossing, Instant opening) noexcept {
         static_cast<Crossing<T>*>(crossing)->latch(static_cast<Sink&>(sink), opening);
     }
-    /// What another core publishes at this moment is not for this one to look at: latch() asks for instants.
+    /// This core must not read what another core may be publishing: latch() compares instants instead.
     static void restart(OutPortBase&, InPortBase& sink, Instant boundary) noexcept {
         static_cast<Sink&>(sink).restart(boundary, 0U);
     }
@@ -144,7 +146,7 @@ struct CrossingConnection {
                                                       &clear,   true,   true,    true};
 };
 
-/// A sink that queues every publication; the queue itself may lie between two cores.
+/// A sink that queues every publication; the writer of the queue may be on another core.
 template <typename T, typename Sink>
 struct QueueConnection {
     static void deliver(OutPortBase& source, InPortBase& sink, CrossingBase*) noexcept {

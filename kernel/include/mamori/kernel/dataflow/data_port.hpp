@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Latest-value data ports. A component writes into its OutPort and reads its InPort; the executive moves
-/// values at window boundaries, so what is read does not depend on how long the code took (logical execution
-/// time). Within one window the executive hands a value on to the components that come later in its order.
+/// Latest-value data ports. A component writes to its OutPort and reads its InPort. The executive moves
+/// values at window boundaries, so the values read do not depend on execution times (logical execution time).
+/// Within one window, the executive forwards a value to the components that are later in its order.
 ///
 /// @satisfies SWR-KRN-015, SWR-KRN-016, SWR-KRN-038, SWR-KRN-040      Design: docs/design/kernel.md#ports
 #ifndef MAMORI_KERNEL_DATA_PORT_HPP
@@ -21,14 +21,14 @@
 
 namespace mamori {
 
-/// What a port has to say about its data, with the numbers of the standard. Its PORT_ERROR (1) and
-/// UNKNOWN_ERROR (5) are missing on purpose: a connection is made by the compiler and cannot fail otherwise.
+/// Status of the data of a port, with the numbers of the standard. PORT_ERROR (1) and UNKNOWN_ERROR (5) are
+/// omitted: the compiler makes the connections, so no other failure is possible.
 /// Source: OpenRTM PortStatus (PORT_OK .. UNKNOWN_ERROR).
 enum class PortStatus : std::uint32_t {
     kOk = 0U,             ///< PORT_OK
-    kBufferFull = 2U,     ///< BUFFER_FULL, of an output: a queue that it feeds had no room
-    kBufferEmpty = 3U,    ///< BUFFER_EMPTY, of an input
-    kBufferTimeout = 4U,  ///< BUFFER_TIMEOUT, of an input: the data is too old, or of an instant to come
+    kBufferFull = 2U,     ///< BUFFER_FULL, of an output: a queue that it feeds was full
+    kBufferEmpty = 3U,    ///< BUFFER_EMPTY, of an input: no value
+    kBufferTimeout = 4U,  ///< BUFFER_TIMEOUT, of an input: the value is too old or from the future
 };
 
 /// Age limit of an input whose connection states any_age().
@@ -37,16 +37,16 @@ inline constexpr Duration kNoAgeLimit{std::numeric_limits<std::int64_t>::max()};
 /// An instant before every other one.
 inline constexpr Instant kBeforeAll{std::numeric_limits<std::int64_t>::min()};
 
-/// Must an input be fed by a connection? The system table refuses a mandatory one that is not.
+/// Whether a connection must feed an input. The system table rejects an unconnected mandatory input.
 enum class Need : std::uint8_t { kMandatory, kOptional };
 
-/// What an input that queues has counted; 0 for one that keeps the latest value. Counts wrap at 2^32.
+/// Counters of an input with a queue; all 0 for an input that keeps the latest value. Counters wrap at 2^32.
 struct QueueCounts {
-    std::uint32_t capacity{0U};         ///< values for which there is room; 0: no queue
-    std::uint32_t high_water_mark{0U};  ///< most values that ever waited, 0 .. capacity
-    std::uint32_t rejected{0U};         ///< values that were refused because the queue was full
-    std::uint32_t overwritten{0U};      ///< values that gave way before they were read
-    std::uint32_t empty_reads{0U};      ///< reads that found none waiting
+    std::uint32_t capacity{0U};         ///< maximum number of values that can wait; 0: no queue
+    std::uint32_t high_water_mark{0U};  ///< maximum number of values that have waited, 0 .. capacity
+    std::uint32_t rejected{0U};         ///< values rejected because the queue was full
+    std::uint32_t overwritten{0U};      ///< values overwritten before they were read
+    std::uint32_t empty_reads{0U};      ///< reads that found no waiting value
 };
 
 /// Type-free part of an output, for the executive and the table.
@@ -58,42 +58,43 @@ class OutPortBase : public PortBase {
   public:
     /// Number of publications so far (wraps at 2^32).
     std::uint32_t get_sequence() const noexcept { return sequence_; }
-    /// Instant of the last publication; without meaning before the first.
+    /// Instant of the last publication; meaningless before the first publication.
     Instant get_published_at() const noexcept { return published_at_; }
-    /// Number of the write that is published; 0: none in this run.
+    /// Revision (number of the write) of the published value; 0: no publication in this run.
     std::uint64_t get_published_revision() const noexcept { return published_revision_; }
-    /// What became of the value that is published.
-    /// @return kBufferFull (a queue that it feeds was full and refuses what it has no room for, see
-    ///         FullPolicy::kDoNothing); else kOk, before the first publication as well.
+    /// Status of the published value.
+    /// @return kBufferFull (a full queue that it feeds has rejected the value, see FullPolicy::kDoNothing);
+    ///         otherwise kOk, also before the first publication.
     PortStatus get_status() const noexcept {
         const bool is_refused = refused_revision_ != 0U && refused_revision_ == published_revision_;
         return is_refused ? PortStatus::kBufferFull : PortStatus::kOk;
     }
-    /// True when a value was written since the last publication.
+    /// True when a written value waits for publication.
     bool is_staged() const noexcept { return is_staged_; }
 
-    /// Makes the staged value the published one. For the executive, at the close of the window.
-    /// @param[in] now instant of publication. @return true when there was one.
+    /// Publishes the staged value. For the executive, at window end.
+    /// @param[in] now instant of publication. @return true when a value was staged.
     bool publish(Instant now) noexcept {
         if (!is_staged_) {
             return false;
         }
-        ++sequence_;  // the staged slot is the published one from here on
+        ++sequence_;  // the staged slot becomes the published slot
         published_at_ = now;
         published_revision_ = revision_;
         is_staged_ = false;
         return true;
     }
-    /// Throws the staged value away: its window overran. What was published before stays.
+    /// Discards the staged value, because its window overran. The published value does not change.
     void discard() noexcept { is_staged_ = false; }
-    /// For the executive, before a run: nothing is staged or published in it yet. The value stays readable.
+    /// For the executive, before a run: no value of the run is staged or published. The value remains
+    /// readable.
     void begin_run() noexcept {
         is_staged_ = false;
         published_revision_ = 0U;
     }
-    /// For connections: a queue had no room for what a write gave. @param[in] revision its number.
+    /// For connections: a full queue rejected the value of a write. @param[in] revision number of the write.
     void note_refused(std::uint64_t revision) noexcept { refused_revision_ = revision; }
-    /// Adds the published value, its sequence and instant. For the executive, after a publication.
+    /// Adds the published value, its sequence number and its instant. For the executive, after a publication.
     void hash_into(TraceHash& hash) const noexcept;
 
   protected:
@@ -104,18 +105,18 @@ class OutPortBase : public PortBase {
         : PortBase(owner, name), hash_published_(hash) {}
     ~OutPortBase() = default;
 
-    /// Slot of the published value. Each publication exchanges the two, so their parity tells which it is,
-    /// across the wrap as well.
+    /// Slot of the published value. Each publication swaps the slots, so the parity of the sequence number
+    /// selects the slot, also after a wrap.
     std::size_t get_published_slot() const noexcept { return sequence_ & 1U; }
     std::size_t get_staged_slot() const noexcept { return (sequence_ + 1U) & 1U; }
 
     HashPublished hash_published_;
-    std::uint64_t revision_{0U};  ///< writes so far
-    /// Stands between the two revisions: side by side, a compiler stores both as one vector, and then each
-    /// write waits for the vector of the write before.
+    std::uint64_t revision_{0U};  ///< number of writes so far
+    /// Placed between the two revisions: if they were adjacent, a compiler would store both as one vector,
+    /// and each write would wait for the vector store of the previous write.
     Instant published_at_{};
-    std::uint64_t published_revision_{0U};  ///< of the writes, the one that is published
-    std::uint64_t refused_revision_{0U};    ///< of the writes, the last that a full queue refused
+    std::uint64_t published_revision_{0U};  ///< revision of the published value
+    std::uint64_t refused_revision_{0U};    ///< revision of the last write that a full queue rejected
     std::uint32_t sequence_{0U};
     bool is_staged_{false};
 };
@@ -125,20 +126,20 @@ class OutPortBase : public PortBase {
 /// Thread safety: none; all from the core of its component. Time: O(1). Memory: no heap.
 class InPortBase : public PortBase {
   public:
-    /// False until the first value has arrived, and again from a restart() to the next one.
+    /// False until the first value arrives, and from a restart() until the next value.
     bool has_value() const noexcept { return has_value_; }
-    /// True when the value arrived since the last cycle in which its owner was Active or in Error and came
-    /// through its first pass within the budget. A value that the owner had no chance to use stays new.
+    /// True when the value arrived after the last cycle in which the owner was Active or in Error and
+    /// completed its first pass within the budget. A value that the owner could not use remains new.
     bool is_new() const noexcept { return is_new_; }
-    /// Instant at which the value was published, or handed on within the window; without meaning before
-    /// has_value().
+    /// Instant at which the value was published, or forwarded within the window; meaningless while
+    /// has_value() is false.
     Instant get_published_at() const noexcept { return published_at_; }
-    /// Time since the value was published, or handed on within the window; without meaning before
-    /// has_value(). @param[in] now start of the window, as in ContextHandle::now.
+    /// Time since the value was published, or forwarded within the window; meaningless while has_value() is
+    /// false. @param[in] now window start, as in ContextHandle::now.
     Duration calc_age(Instant now) const noexcept { return now - published_at_; }
-    /// What the value is worth in the cycle that begins at `now`.
-    /// @return kBufferEmpty (nothing has arrived yet); kBufferTimeout (older than the limit that its
-    ///         connection declares, or of a later instant than `now` and its tolerance); else kOk.
+    /// Status of the value in the cycle that starts at `now`.
+    /// @return kBufferEmpty (no value); kBufferTimeout (older than the age limit of the connection, or later
+    ///         than `now` by more than the tolerance); otherwise kOk.
     PortStatus calc_status(Instant now) const noexcept {
         if (!has_value_) {
             return PortStatus::kBufferEmpty;
@@ -146,16 +147,16 @@ class InPortBase : public PortBase {
         const Duration age = calc_age(now);
         return age > age_max_ || age.ns < -lead_max_.ns ? PortStatus::kBufferTimeout : PortStatus::kOk;
     }
-    /// For the executive, after the owner's cycle.
+    /// For the executive, after the cycle of the owner: the value is no longer new.
     void mark_read() noexcept { is_new_ = false; }
-    /// Instant of the last restart(); before the first one, and after one without an instant, before every
-    /// other instant.
+    /// Instant of the last restart(); kBeforeAll before the first restart() and after a restart() without an
+    /// instant.
     Instant get_restarted_at() const noexcept { return restarted_at_; }
-    /// Number of restarts (wraps at 2^32). Code that keeps a value of its own compares it and drops the
-    /// value.
+    /// Number of restarts (wraps at 2^32). Code that keeps a value of its own compares this number and drops
+    /// the value after a change.
     std::uint32_t get_restart_count() const noexcept { return restart_count_; }
-    /// For the executive. @param[in] age_max  limit of the connection that feeds this input, > 0.
-    ///                    @param[in] lead_max tolerance for instants to come, >= 0.
+    /// For the executive. @param[in] age_max age limit of the connection that feeds this input, > 0.
+    /// @param[in] lead_max tolerance for instants in the future, >= 0.
     void set_age_limits(Duration age_max, Duration lead_max) noexcept {
         age_max_ = age_max;
         lead_max_ = lead_max;
@@ -166,10 +167,10 @@ class InPortBase : public PortBase {
     constexpr InPortBase(Owner& owner, const char* name) noexcept : PortBase(owner, name) {}
     ~InPortBase() = default;
 
-    /// For connections: another one feeds this input from `boundary` on, or none. It has no value until one
-    /// arrives that was published later.
-    /// @param[in] revision last one of the source before the boundary; 0 for a source whose values are judged
-    ///                     by their instants, and for none.
+    /// For connections: another connection, or none, feeds this input from `boundary` on. The input has no
+    /// value until a value published later arrives.
+    /// @param[in] revision last revision of the source before the boundary; 0 when instants decide which
+    ///                     values are accepted, and when there is no source.
     void restart(Instant boundary, std::uint64_t revision) noexcept {
         restarted_at_ = boundary;
         revision_ = revision;
@@ -182,7 +183,7 @@ class InPortBase : public PortBase {
     Duration age_max_{kNoAgeLimit};
     Duration lead_max_{};
     Instant restarted_at_{kBeforeAll};
-    std::uint64_t revision_{0U};  ///< write of the source that is held here
+    std::uint64_t revision_{0U};  ///< revision of the value held here
     std::uint32_t restart_count_{0U};
     bool has_value_{false};
     bool is_new_{false};
@@ -190,10 +191,10 @@ class InPortBase : public PortBase {
 
 namespace detail {
 
-/// Unit in which a processor with a cache moves memory [byte].
+/// Cache line size of processors with a cache [byte].
 inline constexpr std::size_t kCacheLineSize{64U};
-/// Place of a payload within a port. One of many lines begins with a line, since copies between places that
-/// lie differently in their lines are slower; a smaller one is not worth the padding.
+/// Storage of a payload within a port. A payload of many cache lines starts at a line boundary, because
+/// copies between different alignments are slower. For a smaller payload, the padding is not worthwhile.
 template <typename T>
 struct PayloadSlot {
     static constexpr std::size_t kLeastAlignment = sizeof(T) >= 16U * kCacheLineSize ? kCacheLineSize : 1U;
@@ -202,7 +203,7 @@ struct PayloadSlot {
 
 }  // namespace detail
 
-/// The counts of an input that keeps the latest value.
+/// Counters of an input that keeps the latest value: all 0.
 inline QueueCounts count_no_queue(const InPortBase&) noexcept {
     return {};
 }
@@ -210,8 +211,7 @@ inline QueueCounts count_no_queue(const InPortBase&) noexcept {
 /// Output of type T. The value is a trivially copyable payload with a field list (or a plain number).
 ///
 /// Thread safety: written by its component, published by the executive of the same core.
-/// Time: O(sizeof(T)) for write, O(1) for publish. Memory: two T, each at a multiple of 64 bytes from
-/// 1 KiB on.
+/// Time: O(sizeof(T)) for write, O(1) for publish. Memory: two T, each aligned to 64 bytes from 1 KiB on.
 template <typename T>
 class OutPort final : public OutPortBase {
     static_assert(is_payload<T>(),
@@ -228,7 +228,7 @@ class OutPort final : public OutPortBase {
     /// A port that belongs to no component and to no table.
     constexpr OutPort(NoOwner owner, const char* name) noexcept : OutPortBase(owner, name, &hash_published) {}
 
-    /// Stages a value for the close of the window; a second write in one cycle replaces the first. For the
+    /// Stages a value for publication at window end; a second write in one cycle replaces the first. For the
     /// actions of its component.
     void write(const T& value) noexcept {
         slots_[get_staged_slot()].value = value;
@@ -236,22 +236,22 @@ class OutPort final : public OutPortBase {
         is_staged_ = true;
     }
 
-    /// Last published value; a value-initialised T before the first publication. Stays as it is until the
-    /// second write() after it.
+    /// Last published value; a value-initialised T before the first publication. The referenced value does
+    /// not change until the second write() after the publication.
     const T& get_published() const noexcept { return slots_[get_published_slot()].value; }
 
-    /// What a connection moves: a value, the write it comes from, and when it counts.
+    /// Data that a connection moves: a value, its revision and its instant.
     struct Sample {
-        const T& value;          ///< lies in its port, to be copied at once
-        std::uint64_t revision;  ///< 0: there is none yet
+        const T& value;          ///< refers to the port; copy immediately
+        std::uint64_t revision;  ///< number of the write; 0: no value
         Instant published_at;
     };
     /// For connections: the published value.
     Sample get_published_sample() const noexcept {
         return {get_published(), published_revision_, published_at_};
     }
-    /// For connections within a window: the staged value ahead of its publication, or none.
-    /// @param[in] now opening of the window, from which the value counts.
+    /// For connections within a window: the staged value before its publication, or none.
+    /// @param[in] now window start, which becomes the instant of the value.
     Sample get_staged_sample(Instant now) const noexcept {
         return {slots_[get_staged_slot()].value, is_staged_ ? revision_ : 0U, now};
     }
@@ -267,7 +267,7 @@ class OutPort final : public OutPortBase {
 /// Input of type T that holds the latest value.
 ///
 /// Thread safety: read by its component, filled by the executive of the same core.
-/// Time: O(sizeof(T)). Memory: one T, at a multiple of 64 bytes from 1 KiB on.
+/// Time: O(sizeof(T)). Memory: one T, aligned to 64 bytes from 1 KiB on.
 template <typename T, Need kNeed = Need::kMandatory>
 class InPort final : public InPortBase {
     static_assert(is_payload<T>(),
@@ -284,16 +284,16 @@ class InPort final : public InPortBase {
     /// A port that belongs to no component and to no table.
     constexpr InPort(NoOwner owner, const char* name) noexcept : InPortBase(owner, name) {}
 
-    /// Latched value; a value-initialised T while has_value() is false. Stays as it is within an action; the
+    /// Latched value; a value-initialised T while has_value() is false. Does not change during an action; the
     /// reference is valid as long as the port.
     const T& read() const noexcept { return slot_.value; }
 
-    /// As in InPortBase; the value that was held is not left to be read either.
+    /// As InPortBase::restart(); also replaces the value by a value-initialised T.
     void restart(Instant boundary, std::uint64_t revision) noexcept {
         InPortBase::restart(boundary, revision);
         slot_.value = T{};
     }
-    /// Takes a sample when it comes from a later write than what is held. For connections.
+    /// Accepts a sample whose revision is higher than that of the current value. For connections.
     void take(const typename OutPort<T>::Sample& sample) noexcept {
         if (sample.revision > revision_) {
             slot_.value = sample.value;

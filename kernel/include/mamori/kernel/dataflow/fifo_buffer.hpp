@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Bounded first-in first-out buffer from one writer to one reader, on different cores if need be, with the
-/// policies that OpenRTM's data ports have. It counts what it refused, replaced and could not give.
+/// Bounded first-in first-out buffer from one writer to one reader, also on different cores, with the buffer
+/// policies of OpenRTM data ports. It counts rejected entries, overwritten entries and empty reads.
 ///
 /// @satisfies SWR-BUF-003, SWR-BUF-004, SWR-BUF-005, SWR-BUF-006, SWR-BUF-008
 /// Design:   docs/design/data_flow.md#fifo
@@ -21,19 +21,20 @@
 
 namespace mamori {
 
-/// What a read from an empty buffer does (OpenRTM buffer.read.empty_policy). Its "block" is missing on
-/// purpose: nothing in the kernel waits.
+/// Behaviour of a read from an empty buffer (OpenRTM buffer.read.empty_policy). The policy "block" is
+/// omitted, because nothing in the kernel waits.
 enum class EmptyPolicy : std::uint8_t {
-    kReadback,   ///< "readback": the entry that was read last is read again
-    kDoNothing,  ///< "do_nothing": the read is refused
+    kReadback,   ///< "readback": returns the entry that was read last
+    kDoNothing,  ///< "do_nothing": the read is rejected
 };
 
-/// Queue of up to kCapacity entries (1 .. 254). The defaults are those of OpenRTM. `Word` is the shared word;
-/// only tests give another than the default.
+/// Queue of up to kCapacity entries (1 .. 254). The default policies are those of OpenRTM. `Word` is the type
+/// of the shared words; only tests specify another type.
 ///
-/// Thread safety: one context calls the writer's members, one other the reader's; any may ask for counts.
+/// Thread safety: one context calls the writer's members, another the reader's; no lock is necessary. The
+///                counters can be read from anywhere.
 /// Time:          wait-free; push() and pop() copy one T. Nothing blocks.
-/// Memory:        kCapacity + 2 payloads, constant-initialised; no heap. Counts wrap at 2^32.
+/// Memory:        kCapacity + 2 payloads, constant-initialised; no heap. Counters wrap at 2^32.
 template <typename T, std::size_t kCapacity, FullPolicy kFull = FullPolicy::kOverwrite,
           EmptyPolicy kEmpty = EmptyPolicy::kReadback, typename Word = std::atomic<std::uint32_t>>
 class FifoBuffer final {
@@ -44,7 +45,7 @@ class FifoBuffer final {
     FifoBuffer(const FifoBuffer&) = delete;
     FifoBuffer& operator=(const FifoBuffer&) = delete;
 
-    /// Writer: the slot to fill before publish(). Its content is some older value: fill all of it. The
+    /// Writer: the slot to fill before publish(). It contains an older value: overwrite all of it. The
     /// reference is valid until publish().
     T& get_write_slot() noexcept { return slots_[ring_.get_write_slot()]; }
 
@@ -66,16 +67,16 @@ class FifoBuffer final {
         return Status::kOk;
     }
 
-    /// Writer: get_write_slot() and publish() in one. @return as publish().
+    /// Writer: get_write_slot(), copy and publish() in one call. @return as publish().
     Status push(const T& value) noexcept {
         get_write_slot() = value;
         return publish();
     }
 
-    /// Reader: takes the oldest entry out of the queue and holds it as the front, to be looked at and then
-    /// dropped or popped. An entry that is held cannot be overwritten. Without effect while one is held.
+    /// Reader: removes the oldest entry from the queue and holds it as the front until drop() or pop(). The
+    /// writer cannot overwrite a held entry. No effect while an entry is held.
     /// @return kOk; kPreconditionNotMet (empty); kOutOfResources (kFull is kOverwrite and the writer was
-    ///         faster in SlotRing::kTries tries: ask again).
+    ///         faster in SlotRing::kTries attempts: call again).
     Status peek() noexcept {
         if (is_held_) {
             return Status::kOk;
@@ -86,20 +87,20 @@ class FifoBuffer final {
         return status;
     }
 
-    /// Reader: the entry that is held or was held last; a value-initialised T before the first. The
-    /// reference is valid until the next peek() or pop() that takes an entry.
+    /// Reader: the entry that is held or was held last; a value-initialised T before the first entry. The
+    /// reference is valid until the next peek() or pop() that removes an entry.
     const T& get_front() const noexcept { return slots_[ring_.get_read_slot()]; }
 
-    /// Reader: gives up the entry that is held. With none held the call is an own bug.
+    /// Reader: releases the held entry. A call without a held entry is a contract violation.
     void drop() noexcept {
         MAMORI_REQUIRE(1, is_held_);
         is_held_ = false;
     }
 
-    /// Reader: peek(), a copy and drop() in one. @param[out] value written on kOk only.
-    /// @return kOk (with kReadback also for the entry that was read last, when nothing waits; counted as an
-    ///         empty read); kPreconditionNotMet (nothing waits, counted, and kEmpty is kDoNothing or nothing
-    ///         was ever read); kOutOfResources (as peek()).
+    /// Reader: peek(), copy and drop() in one call. @param[out] value written on kOk only.
+    /// @return kOk (with kReadback also when no entry waits: the entry that was read last, counted as empty
+    ///         read); kPreconditionNotMet (no entry waits, counted as empty read, and kEmpty is kDoNothing or
+    ///         no entry was ever taken); kOutOfResources (as peek()).
     Status pop(T& value) noexcept {
         Status status = peek();
         if (status == Status::kPreconditionNotMet) {
@@ -115,21 +116,21 @@ class FifoBuffer final {
         return status;
     }
 
-    /// Most entries that ever waited, 0 .. kCapacity. Never too low; too high only by entries that the reader
-    /// took while the writer looked.
+    /// Maximum number of entries that have waited, 0 .. kCapacity. Never too low; too high by at most the
+    /// entries that the reader takes during publish().
     std::uint32_t get_high_water_mark() const noexcept { return get(high_water_mark_); }
-    /// Entries that were refused (kFull is kDoNothing).
+    /// Number of rejected entries (kFull is kDoNothing).
     std::uint32_t get_rejected_count() const noexcept { return get(rejected_count_); }
-    /// Entries that gave way before they were read (kFull is kOverwrite).
+    /// Number of entries overwritten before they were read (kFull is kOverwrite).
     std::uint32_t get_overwritten_count() const noexcept { return get(overwritten_count_); }
-    /// Calls of pop() that found nothing waiting.
+    /// Number of pop() calls that found no waiting entry.
     std::uint32_t get_empty_read_count() const noexcept { return get(empty_read_count_); }
 
   private:
     using Count = std::atomic<std::uint32_t>;
 
     static std::uint32_t get(const Count& count) noexcept { return count.load(std::memory_order_relaxed); }
-    /// Each count has one writer, so a load and a store do.
+    /// Each counter has one writer, so a load and a store suffice.
     static void count_up(Count& count) noexcept { count.store(get(count) + 1U, std::memory_order_relaxed); }
 
     SlotRing<kCapacity, kFull, Word> ring_;
@@ -138,8 +139,8 @@ class FifoBuffer final {
     Count rejected_count_{0U};
     Count overwritten_count_{0U};
     Count empty_read_count_{0U};
-    bool is_held_{false};    ///< the reader's: the front was peeked at and not dropped yet
-    bool has_front_{false};  ///< the reader's: an entry was taken at some time
+    bool is_held_{false};    ///< reader only: the front was peeked and not yet dropped
+    bool has_front_{false};  ///< reader only: an entry was taken at least once
 };
 
 }  // namespace mamori

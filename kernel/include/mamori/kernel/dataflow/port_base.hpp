@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What every port has: its name, and its place in the list of its component's ports. A port registers with
-/// its component when it is constructed. The table check therefore finds a port that `Ports<...>` omits.
+/// Common part of all ports: the name and the link in the port list of the component. A port registers with
+/// its component at construction. Therefore, the table check finds a port that `Ports<...>` omits.
 ///
 /// @satisfies SWR-KRN-045      Design: docs/design/kernel.md#ports
 #ifndef MAMORI_KERNEL_PORT_BASE_HPP
@@ -11,7 +11,7 @@
 
 namespace mamori {
 
-/// In place of the owner of a port that belongs to no component, for example in a test of a driver.
+/// Replaces the owner of a port that belongs to no component, for example in a test of a driver.
 struct NoOwner {};
 inline constexpr NoOwner kNoOwner{};
 

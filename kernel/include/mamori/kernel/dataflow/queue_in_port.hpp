@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// An input that queues every publication of its source instead of keeping the latest, with the buffer
-/// policies of OpenRTM. The source may run on another core: entries count by their planned instants, so what
-/// a cycle can read does not depend on which core was faster.
+/// policies of OpenRTM. The source may run on another core. Planned instants decide which entries a cycle can
+/// read, not the relative speed of the cores.
 ///
 /// @satisfies SWR-KRN-028, SWR-KRN-029, SWR-KRN-037, SWR-KRN-039      Design:
 /// docs/design/kernel.md#connections Source:   OpenRTM-aist, buffer.write.full_policy and
@@ -19,16 +19,16 @@
 
 namespace mamori {
 
-/// Input of type T with room for `kCapacity` values (1 .. 254) that wait.
+/// Input of type T with a queue for `kCapacity` waiting values (1 .. 254).
 ///
-/// What InPortBase tells of "the value" (whether there is one, its instant, age and status) is told, when a
-/// cycle begins, of the value that the first read() gives: the oldest that waits, or the one read last when
-/// none does. After a read() it is told of the value that this read gave. The next one that waits is never
-/// older, so a cycle that takes it for as old errs on the safe side.
+/// At cycle start, the functions of InPortBase (value present, instant, age, status) refer to the value that
+/// the first read() returns: the oldest waiting value, or the value read last when none waits. After a
+/// read(), they refer to the value that this read() returned. The next waiting value is never older, so using
+/// this age for it is safe.
 ///
 /// Thread safety: read by its component; filled by the executive of the source's core, which may be another.
-///                Counts may be asked for anywhere, those of empty reads where the component runs.
-/// Time:          wait-free; read() and push() copy one T, open() is O(kCapacity). Counts wrap at 2^32.
+///                The counters can be read from anywhere, that of empty reads only where the component runs.
+/// Time:          wait-free; read() and push() copy one T, open() is O(kCapacity). Counters wrap at 2^32.
 /// Memory:        kCapacity + 3 T and kCapacity + 2 instants, no heap.
 template <typename T, std::size_t kCapacity, FullPolicy kFull = FullPolicy::kOverwrite,
           EmptyPolicy kEmpty = EmptyPolicy::kReadback, Need kNeed = Need::kMandatory>
@@ -48,11 +48,11 @@ class QueueInPort final : public InPortBase {
     /// A port that belongs to no component and to no table.
     constexpr QueueInPort(NoOwner owner, const char* name) noexcept : InPortBase(owner, name) {}
 
-    /// Takes the oldest value whose publication is not after the opening of the window.
+    /// Takes the oldest value that was published at or before the window start.
     /// @param[out] value written on kOk only.
     /// @return kOk (with kReadback also for the value that was read last); kPreconditionNotMet (none waits,
-    ///         and kEmpty is kDoNothing or nothing was ever read); kOutOfResources (kFull is kOverwrite and
-    ///         the writer on the other core was faster: ask again).
+    ///         and kEmpty is kDoNothing or nothing was read since the last restart()); kOutOfResources (kFull
+    ///         is kOverwrite and the writer on the other core was faster: call again).
     Status read(T& value) noexcept {
         const Status status = fetch();
         const bool is_readable_again = kEmpty == EmptyPolicy::kReadback && was_read_;
@@ -63,30 +63,30 @@ class QueueInPort final : public InPortBase {
         return status;
     }
 
-    /// True when read() would give a value that was not read before. For the owner: looking holds the oldest
-    /// value, which a writer that overwrites then leaves alone.
+    /// True when read() would return a value that was not read before. For the owner. The call holds the
+    /// oldest value, so that an overwriting writer cannot replace it.
     bool has_waiting() noexcept { return buffer_.peek() == Status::kOk && is_front_due(); }
 
-    /// Most values that ever waited, 0 .. kCapacity.
+    /// Maximum number of values that have waited, 0 .. kCapacity.
     std::uint32_t get_high_water_mark() const noexcept { return buffer_.get_high_water_mark(); }
-    /// Values that were refused because kCapacity waited (kFull is kDoNothing).
+    /// Number of values rejected because kCapacity values waited (kFull is kDoNothing).
     std::uint32_t get_rejected_count() const noexcept { return buffer_.get_rejected_count(); }
-    /// Values that gave way before they were read (kFull is kOverwrite).
+    /// Number of values overwritten before they were read (kFull is kOverwrite).
     std::uint32_t get_overwritten_count() const noexcept { return buffer_.get_overwritten_count(); }
-    /// Calls of read() that found none waiting.
+    /// Number of read() calls that found no waiting value.
     std::uint32_t get_empty_read_count() const noexcept { return empty_read_count_; }
 
-    /// All of the above at once, of an input that is such a queue. For the system table.
+    /// All counters above. @param[in] base an input of this type. For the system table.
     static QueueCounts count(const InPortBase& base) noexcept {
         const auto& self = static_cast<const QueueInPort&>(base);
         return {static_cast<std::uint32_t>(kCapacity), self.get_high_water_mark(), self.get_rejected_count(),
                 self.get_overwritten_count(), self.get_empty_read_count()};
     }
 
-    /// For connections, on the source's core: appends a sample when it comes from a later write than the
-    /// last one. A full queue counts what it refuses; nothing waits.
-    /// @return kOk (also when there was nothing to append); kOutOfResources (kFull is kDoNothing, and as many
-    ///         values wait as there is room for).
+    /// For connections, on the core of the source: appends a sample whose revision is higher than that of the
+    /// last sample. A full queue counts the values that it rejects or overwrites; nothing blocks.
+    /// @return kOk (also when there was nothing to append); kOutOfResources (kFull is kDoNothing, and
+    ///         kCapacity values wait).
     Status push(const typename OutPort<T>::Sample& sample) noexcept {
         if (sample.revision <= pushed_revision_) {
             return Status::kOk;
@@ -98,14 +98,14 @@ class QueueInPort final : public InPortBase {
         return buffer_.publish();
     }
 
-    /// For connections: what waits now is not read any more, see open(); neither is what was read last.
+    /// For connections: values that wait now, and the value read last, are no longer readable; see open().
     void restart(Instant boundary, std::uint64_t revision) noexcept {
         InPortBase::restart(boundary, revision);
         was_read_ = false;
     }
 
-    /// For connections, before the owner's context starts: every waiting value is dropped, also one of a
-    /// later instant than those of the run that begins. Values that the source appends meanwhile may stay.
+    /// For connections, before the owner's context starts: drops every waiting value, including values from
+    /// instants after the start of the new run. Values that the source appends during the call may remain.
     void clear() noexcept {
         restart(kBeforeAll, 0U);
         opening_ = kBeforeAll;
@@ -116,9 +116,9 @@ class QueueInPort final : public InPortBase {
         }
     }
 
-    /// For connections, at the opening of the owner's window: what is published later waits for a later one.
-    /// What was published up to the last restart() is of another mode and goes. A value that is handed on in
-    /// the new mode at that very instant stays: it comes after the first opening since.
+    /// For connections, at window start of the owner: values published later wait for a later window. Values
+    /// published up to the last restart() belong to another mode and are dropped. A value that is forwarded
+    /// in the new mode at exactly that instant remains: it follows the first window start since then.
     void open(Instant opening) noexcept {
         const bool is_first = !is_open();
         opening_ = opening;
@@ -128,8 +128,8 @@ class QueueInPort final : public InPortBase {
         show_oldest();
     }
 
-    /// For connections, on the owner's core before its cycle: the oldest value that waits is the one to be
-    /// told of.
+    /// For connections, on the owner's core before its cycle: the functions of InPortBase now refer to the
+    /// oldest waiting value, if any.
     void show_oldest() noexcept {
         is_new_ = has_waiting();
         if (is_new_) {
@@ -139,13 +139,13 @@ class QueueInPort final : public InPortBase {
     }
 
   private:
-    static constexpr std::size_t kEntriesMax = kCapacity + 1U;  ///< besides those that wait, one may be held
+    static constexpr std::size_t kEntriesMax = kCapacity + 1U;  ///< waiting entries, plus one held entry
     struct Entry {
         T value{};
         Instant published_at{};
     };
 
-    /// False from a restart() to the next opening.
+    /// False from a restart() to the next window start.
     bool is_open() const noexcept { return opening_ >= restarted_at_; }
     bool is_front_due() const noexcept { return is_open() && buffer_.get_front().published_at <= opening_; }
     bool is_front_of_another_mode(bool is_first_opening) noexcept {
@@ -174,9 +174,9 @@ class QueueInPort final : public InPortBase {
     }
 
     FifoBuffer<Entry, kCapacity, kFull, EmptyPolicy::kDoNothing> buffer_{};
-    T value_{};  ///< read last
+    T value_{};  ///< value read last
     Instant opening_{};
-    std::uint64_t pushed_revision_{0U};  ///< the source's side
+    std::uint64_t pushed_revision_{0U};  ///< used by the source only
     std::uint32_t empty_read_count_{0U};
     bool was_read_{false};  ///< since the last restart()
 };

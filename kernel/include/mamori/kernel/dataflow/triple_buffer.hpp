@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Latest value from one writer to one reader, on different cores if need be. Three slots: one is the
-/// writer's, one the reader's, and one waits in a shared word. Each side swaps its slot for the waiting one,
-/// so no slot ever has two owners and neither side ever waits.
+/// Latest value from one writer to one reader, also on different cores. Of three slots, one belongs to the
+/// writer, one to the reader, and a shared word stores the number of the third. Each side swaps its slot for
+/// the slot in the shared word, so no slot ever has two owners and neither side ever waits.
 ///
 /// @satisfies SWR-BUF-001, SWR-BUF-002, SWR-BUF-008, SWR-KRN-039      Design:
 /// docs/design/data_flow.md#triple-buffer
@@ -18,11 +18,11 @@
 
 namespace mamori {
 
-/// Exchange of the latest T. `Word` is the shared word; only tests give another than the default.
+/// Exchange of the latest T. `Word` is the type of the shared word; only tests specify another type.
 ///
-/// Thread safety: one context calls the writer's members, one other the reader's; they need no lock.
-/// Time:          wait-free; one atomic exchange per publish() and at most one per update(), write() and
-///                take() also copy one T. Nothing blocks, nothing is tried again.
+/// Thread safety: one context calls the writer's members, another the reader's; no lock is necessary.
+/// Time:          wait-free; one atomic exchange per publish() and at most one per update(); write(), take()
+///                and drop() also copy one T. Nothing blocks or retries.
 /// Memory:        three T and three bytes, constant-initialised; no heap.
 template <typename T, typename Word = std::atomic<std::uint8_t>>
 class TripleBuffer final {
@@ -35,45 +35,46 @@ class TripleBuffer final {
     TripleBuffer(const TripleBuffer&) = delete;
     TripleBuffer& operator=(const TripleBuffer&) = delete;
 
-    /// Writer: the slot to fill before publish(). Its content is some older value, not always the last one:
-    /// fill all of it. The reference is valid until publish().
+    /// Writer: the slot to fill before publish(). It contains an older value, not always the last one:
+    /// overwrite all of it. The reference is valid until publish().
     T& get_write_slot() noexcept { return slots_[write_index_]; }
 
-    /// Writer: makes the write slot the latest value. A published value that was not taken yet is replaced.
+    /// Writer: makes the write slot the latest value. Replaces a published value that was not taken yet.
     void publish() noexcept {
-        // Release: the reader sees what was written. Acquire: the reader has finished with the slot we get.
+        // Release: the reader sees the written value. Acquire: the reader has finished with the received
+        // slot.
         const auto entry = static_cast<std::uint8_t>(write_index_ | kFresh);
         write_index_ = get_index(waiting_.exchange(entry, std::memory_order_acq_rel));
     }
 
-    /// Writer: get_write_slot() and publish() in one. @param[in] value copied once.
+    /// Writer: get_write_slot(), copy and publish() in one call. @param[in] value copied once.
     void write(const T& value) noexcept {
         get_write_slot() = value;
         publish();
     }
 
     /// Reader: takes the latest value into the read slot. @return true when a value was published since the
-    /// last update() that said so; else the read slot is unchanged.
+    /// last update() that returned true; otherwise, the read slot is unchanged.
     [[nodiscard]] bool update() noexcept {
         if ((waiting_.load(std::memory_order_relaxed) & kFresh) == 0U) {
             return false;
         }
-        // Only the reader clears kFresh, so what is exchanged here is fresh: that value or a newer one.
+        // Only the reader clears kFresh, so the received value is fresh: that value or a newer one.
         read_index_ = get_index(waiting_.exchange(read_index_, std::memory_order_acq_rel));
         return true;
     }
 
-    /// Reader: the value of the last update() that said true; a value-initialised T before the first, and
-    /// after a drop(). The reference is valid until the next update() or drop().
+    /// Reader: the value of the last update() that returned true; a value-initialised T before the first one,
+    /// and after a drop(). The reference is valid until the next update() or drop().
     const T& get_read_slot() const noexcept { return slots_[read_index_]; }
 
-    /// Reader: drops every value that was published until now; the read slot is a value-initialised T.
+    /// Reader: drops every value published until now; the read slot becomes a value-initialised T.
     void drop() noexcept {
         static_cast<void>(update());
         slots_[read_index_] = T{};
     }
 
-    /// Reader: update() and a copy in one. @param[out] value written only when there is a newer value.
+    /// Reader: update() and a copy in one call. @param[out] value written only when there is a newer value.
     /// @return as update().
     [[nodiscard]] bool take(T& value) noexcept {
         const bool is_new = update();
@@ -86,7 +87,7 @@ class TripleBuffer final {
   private:
     static constexpr std::uint8_t kFresh = 4U;  ///< the waiting slot holds a value that was not taken yet
 
-    /// Slot that `entry` names. There are three: any other is corrupted memory.
+    /// Slot number in `entry`, 0 .. 2; any other number is memory corruption and a contract violation.
     static std::uint8_t get_index(std::uint8_t entry) noexcept {
         const auto index = static_cast<std::uint8_t>(entry & ~kFresh);
         MAMORI_INVARIANT(1, index < 3U);
@@ -95,8 +96,8 @@ class TripleBuffer final {
 
     std::array<T, 3U> slots_{};
     Word waiting_{1U};              ///< index of the waiting slot, and kFresh
-    std::uint8_t write_index_{0U};  ///< the writer's own
-    std::uint8_t read_index_{2U};   ///< the reader's own
+    std::uint8_t write_index_{0U};  ///< used by the writer only
+    std::uint8_t read_index_{2U};   ///< used by the reader only
 };
 
 }  // namespace mamori

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A sequence of up to N elements that lives inside its owner: the bounded form of an IDL `sequence<T>`.
+/// A sequence of up to N elements inside its owner: the bounded form of an IDL `sequence<T>`.
 ///
 /// @satisfies SWR-CDR-002      Design: docs/design/data_flow.md#bounded-types
 #ifndef MAMORI_KERNEL_BOUNDED_SEQUENCE_HPP
@@ -18,8 +18,8 @@
 
 namespace mamori {
 
-/// Up to N elements of T, trivially copyable, so that it travels through ports as bytes. Only the first
-/// size() elements mean anything: hashes, encodings and comparisons never look at the rest.
+/// Up to N elements of T, trivially copyable, so that ports can copy it as bytes. Only the first size()
+/// elements are used: hashes, encodings and comparisons ignore the rest.
 ///
 /// Thread safety: none. Time: O(1); copies, assign(), resize() and comparisons O(N). Memory: N elements and a
 /// count, no heap. Pointers to elements are valid as long as the sequence. @tparam N 1 .. 2^32 - 1.
@@ -33,7 +33,7 @@ class BoundedSequence final {
     using value_type = T;
 
     constexpr BoundedSequence() noexcept = default;
-    /// The elements of an array that is known to fit, as in `message.data = std::array{1.0, 2.0}`.
+    /// Elements of an array, M <= N (checked at compile time), as in `message.data = std::array{1.0, 2.0}`.
     template <std::size_t M>
     constexpr BoundedSequence(const std::array<T, M>& elements) noexcept  // NOLINT: implicit on purpose
         : size_(static_cast<std::uint32_t>(M)) {
@@ -45,7 +45,7 @@ class BoundedSequence final {
     constexpr std::size_t size() const noexcept { return size_; }
     constexpr bool empty() const noexcept { return size_ == 0U; }
 
-    /// @param[in] index 0 .. size() - 1; anything else is an own bug and ends in the assertion handler.
+    /// @param[in] index 0 .. size() - 1; otherwise a contract violation, which calls the assertion handler.
     constexpr T& operator[](std::size_t index) noexcept {
         MAMORI_REQUIRE(1, index < size_);
         return elements_[index];
@@ -54,7 +54,7 @@ class BoundedSequence final {
         MAMORI_REQUIRE(2, index < size_);
         return elements_[index];
     }
-    /// All N elements, the unused ones included. @return never nullptr.
+    /// All N elements, including the unused elements. @return never nullptr.
     constexpr T* data() noexcept { return elements_.data(); }
     constexpr const T* data() const noexcept { return elements_.data(); }
     constexpr T* begin() noexcept { return elements_.data(); }
@@ -72,7 +72,7 @@ class BoundedSequence final {
         ++size_;
         return Status::kOk;
     }
-    /// Makes the sequence `size` elements long; those that come in are value-initialised.
+    /// Sets the number of elements to `size`; added elements are value-initialised.
     /// @param[in] size 0 .. N. @return kOk; kOutOfResources when it is larger than N.
     constexpr Status resize(std::size_t size) noexcept {
         if (size > N) {
@@ -84,7 +84,7 @@ class BoundedSequence final {
         size_ = static_cast<std::uint32_t>(size);
         return Status::kOk;
     }
-    /// Replaces the contents. @param[in] elements may be a part of this sequence.
+    /// Replaces all elements. @param[in] elements may be a part of this sequence.
     /// @return kOk; kOutOfResources when there are more than N.
     constexpr Status assign(Span<const T> elements) noexcept {
         if (elements.size() > N) {
@@ -107,7 +107,8 @@ class BoundedSequence final {
     }
 
   private:
-    /// Upwards, so a part of this sequence may be its own source: the source never starts before the target.
+    /// In ascending order, so that the source may be a part of this sequence: it never starts before the
+    /// target.
     constexpr void copy(Span<const T> elements) noexcept {
         for (std::size_t i = 0U; i < elements.size(); ++i) {
             elements_[i] = elements[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A text of up to N characters that lives inside its owner: the bounded form of an IDL `string`.
+/// A string of up to N characters inside its owner: the bounded form of an IDL `string`.
 ///
 /// @satisfies SWR-CDR-003      Design: docs/design/data_flow.md#bounded-types
 #ifndef MAMORI_KERNEL_BOUNDED_STRING_HPP
@@ -17,9 +17,8 @@
 
 namespace mamori {
 
-/// Up to N characters and a closing NUL. Characters are bytes of no particular character set; NUL is none
-/// of them, as in IDL. Behind the closing NUL nothing means anything: hashes, encodings and comparisons never
-/// look there.
+/// Up to N characters and a terminating NUL. Characters are bytes without a defined character set; NUL is not
+/// a character, as in IDL. Hashes, encodings and comparisons ignore the bytes after the terminating NUL.
 ///
 /// Thread safety: none. Time: O(1); assign() and comparisons O(length), copies O(N). Memory: N + 1 characters
 /// and a count, no heap. @tparam N 1 .. 2^32 - 2.
@@ -31,7 +30,7 @@ class BoundedString final {
   public:
     constexpr BoundedString() noexcept = default;
     /// The characters of a literal up to its first NUL, as in `message.data = "ready"`. An array that does
-    /// not end in NUL is no literal: an own bug.
+    /// not end with NUL is a contract violation.
     template <std::size_t M>
     constexpr BoundedString(const char (&literal)[M]) noexcept {  // NOLINT: implicit on purpose
         static_assert(M <= N + 1U, "the literal is longer than the string holds");
@@ -43,25 +42,25 @@ class BoundedString final {
     }
 
     static constexpr std::size_t capacity() noexcept { return N; }
-    /// Characters without the closing NUL.
+    /// Number of characters without the terminating NUL.
     constexpr std::size_t size() const noexcept { return size_; }
     constexpr bool empty() const noexcept { return size_ == 0U; }
-    /// Closed by NUL; valid until the string is changed. @return never nullptr.
+    /// Terminated by NUL; valid until the string is changed. @return never nullptr.
     constexpr const char* c_str() const noexcept { return text_.data(); }
     constexpr const char* begin() const noexcept { return text_.data(); }
     constexpr const char* end() const noexcept { return text_.data() + size_; }
-    /// @param[in] index 0 .. size() - 1; anything else is an own bug and ends in the assertion handler.
+    /// @param[in] index 0 .. size() - 1; otherwise a contract violation, which calls the assertion handler.
     constexpr char operator[](std::size_t index) const noexcept {
         MAMORI_REQUIRE(1, index < size_);
         return text_[index];
     }
 
-    /// Makes the text empty.
+    /// Makes the string empty.
     constexpr void clear() noexcept {
         size_ = 0U;
         text_[0] = '\0';
     }
-    /// Replaces the text. @param[in] characters without closing NUL; may be a part of this string.
+    /// Replaces the string. @param[in] characters without terminating NUL; may be a part of this string.
     /// @return kOk; kOutOfResources (more than N); kBadParameter (a NUL among them).
     constexpr Status assign(Span<const char> characters) noexcept {
         if (characters.size() > N) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How a number, bool or enumeration lies in CDR: its size, which is its alignment too, its bits, and which
-/// of them are a value.
+/// Representation of a number, bool or enumeration in CDR: size (equal to the alignment), bits, and valid
+/// values.
 ///
 /// @satisfies SWR-CDR-010, SWR-CDR-013      Design: docs/design/data_flow.md#cdr
 /// Source:   OMG CORBA 3.0, 15.3 (CDR transfer syntax): alignments of primitive types
@@ -14,8 +14,9 @@
 
 namespace mamori {
 
-/// How many enumerators an enumeration has; they count from 0, as in IDL. Specialised by
-/// MAMORI_LAST_ENUMERATOR; an enumeration without it has no encoding, since nothing could tell a wrong value.
+/// Number of enumerators of an enumeration; they are numbered from 0, as in IDL. Specialised by
+/// MAMORI_LAST_ENUMERATOR. An enumeration without it has no encoding, because invalid values could not be
+/// detected.
 template <typename E>
 struct Enumerators {
     static constexpr std::uint32_t kCount = 0U;
@@ -23,7 +24,7 @@ struct Enumerators {
 
 namespace detail {
 
-/// Number of bytes of T on the wire, which is its alignment too.
+/// Size of T on the wire [byte], equal to its alignment.
 template <typename T>
 constexpr std::size_t calc_wire_size() noexcept {
     static_assert(!std::is_same_v<T, wchar_t> && !std::is_same_v<T, char16_t> && !std::is_same_v<T, char32_t>,
@@ -44,7 +45,7 @@ constexpr std::size_t align_up(std::size_t position, std::size_t alignment) noex
     return (position + alignment - 1U) / alignment * alignment;
 }
 
-/// Unsigned number with as many bits as T has on the wire.
+/// Unsigned integer with as many bits as T has on the wire.
 template <typename T>
 using WireBits = std::conditional_t<
     calc_wire_size<T>() == 8U, std::uint64_t,
@@ -67,14 +68,14 @@ constexpr T from_bits(WireBits<T> bits) noexcept {
         return static_cast<T>(bits);
     }
 }
-/// Are values of T in memory, one after another, their encoding? Then a block of them is copied at once. Not
-/// said of booleans and enumerations, each of which has to be judged.
+/// True when consecutive values of T in memory equal their encoding; then a block of them is copied at once.
+/// False for booleans and enumerations, because each of their values must be checked.
 template <bool kIsBig, typename T>
 inline constexpr bool kIsEncodedAsStored =
     std::is_arithmetic_v<T> && !std::is_same_v<T, bool> &&
     (sizeof(T) == 1U || kIsBig == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__));
 
-/// Is this a value of T? Every pattern of a number is; of booleans and enumerations only the declared ones.
+/// True when `bits` is a value of T: any bits for a number; only declared values for bool and enumerations.
 template <typename T>
 constexpr bool is_value(WireBits<T> bits) noexcept {
     if constexpr (std::is_same_v<T, bool>) {

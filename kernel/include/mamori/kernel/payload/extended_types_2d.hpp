@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The extended robot types of the plane, and colour: names, field order and wire form are those of OpenRTM.
-/// Units: metres, seconds, radians. TimedX is X with a time stamp. No decoder enforces a range.
+/// Extended robot types for the plane, and colour: names, field order and wire form are those of OpenRTM.
+/// Units: metres, seconds, radians. TimedX is X with a time stamp. No decoder checks ranges.
 ///
 /// @satisfies SWR-CDR-005      Design: docs/design/data_flow.md#timed-types
 /// Source:   OpenRTM-aist, ExtendedDataTypes.idl (module RTC)
@@ -13,12 +13,12 @@
 
 namespace mamori::rtc {
 
-/// Colour; each part 0.0 (none) .. 1.0 (full).
+/// Colour; each component 0.0 (none) .. 1.0 (full).
 struct RGBColour {
     double r{0.0}, g{0.0}, b{0.0};
 };
 
-/// Place in the plane [m].
+/// Position in the plane [m].
 struct Point2D {
     double x{0.0}, y{0.0};
 };
@@ -28,7 +28,7 @@ struct Vector2D {
     double x{0.0}, y{0.0};
 };
 
-/// Place and direction.
+/// Position and direction.
 struct Pose2D {
     Point2D position{};   ///< [m]
     double heading{0.0};  ///< [rad]
@@ -58,7 +58,7 @@ struct Size2D {
     double w{0.0};  ///< width
 };
 
-/// Where a device sits on its parent, and its size from its base point.
+/// Pose of a device relative to its parent, and its size relative to its base point.
 struct Geometry2D {
     Pose2D pose{};
     Size2D size{};
@@ -78,13 +78,13 @@ struct PointCovariance2D {
     double yy{0.0};
 };
 
-/// Command to a robot that steers like a car.
+/// Command to a robot with car-like steering.
 struct Carlike {
     double speed{0.0};           ///< [m/s]
     double steering_angle{0.0};  ///< [rad]; IDL: steeringAngle
 };
 
-/// Command to a robot that can move in a given direction.
+/// Command to a robot that can move in any direction.
 struct SpeedHeading2D {
     double speed{0.0};    ///< [m/s]
     double heading{0.0};  ///< from the x axis [rad]

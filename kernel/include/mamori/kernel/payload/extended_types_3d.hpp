@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The extended robot types of space: names, field order and wire form are those of OpenRTM. Units:
-/// metres, seconds, radians. TimedX is X with a time stamp. No decoder enforces a range.
+/// Extended robot types for space: names, field order and wire form are those of OpenRTM. Units: metres,
+/// seconds, radians. TimedX is X with a time stamp. No decoder checks ranges.
 ///
 /// @satisfies SWR-CDR-005      Design: docs/design/data_flow.md#timed-types
 /// Source:   OpenRTM-aist, ExtendedDataTypes.idl (module RTC)
@@ -13,7 +13,7 @@
 
 namespace mamori::rtc {
 
-/// Place in space [m].
+/// Position in space [m].
 struct Point3D {
     double x{0.0}, y{0.0}, z{0.0};
 };
@@ -30,7 +30,7 @@ struct Orientation3D {
     double y{0.0};  ///< yaw
 };
 
-/// Place and orientation.
+/// Position [m] and orientation [rad].
 struct Pose3D {
     Point3D position{};
     Orientation3D orientation{};
@@ -46,7 +46,7 @@ struct Velocity3D {
     double va{0.0};  ///< yaw rate [rad/s]
 };
 
-/// Rate of turn around each axis [rad/s].
+/// Angular velocity around each axis [rad/s].
 struct AngularVelocity3D {
     double avx{0.0}, avy{0.0}, avz{0.0};
 };
@@ -74,7 +74,7 @@ struct Size3D {
     double h{0.0};  ///< height
 };
 
-/// Where a device sits on its parent, and its size from its base point.
+/// Pose of a device relative to its parent, and its size relative to its base point.
 struct Geometry3D {
     Pose3D pose{};
     Size3D size{};
@@ -91,7 +91,7 @@ struct Covariance3D {
     double aa{0.0};
 };
 
-/// Command to a robot that can move in a given direction.
+/// Command to a robot that can move in any direction.
 struct SpeedHeading3D {
     double speed{0.0};  ///< [m/s]
     Orientation3D direction{};
@@ -104,7 +104,8 @@ struct OAP {
     Vector3D position{};
 };
 
-/// Orientation as a unit quaternion; w is the real part. The value-initialised one, all zeros, is none.
+/// Orientation as a unit quaternion; w is the real part. The value-initialised quaternion (all zero) is
+/// invalid.
 struct Quaternion {
     double x{0.0}, y{0.0}, z{0.0}, w{0.0};
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One field list per payload type. Everything that must look inside a payload (trace hash, encodings) walks
-/// this list, so padding bytes never take part and each type is described once.
+/// One field list per payload type. All code that reads the fields of a payload (trace hash, encodings) uses
+/// this list. Therefore, padding bytes are never used, and each type is described once.
 ///
 /// @satisfies SWR-KRN-005, SWR-CDR-001, SWR-CDR-004      Design: docs/design/data_flow.md#field-lists
 #ifndef MAMORI_KERNEL_FIELDS_HPP
@@ -19,8 +19,8 @@
 
 namespace mamori {
 
-/// Field list of T. Specialised by MAMORI_FIELDS; a type without one cannot be a port payload. A class
-/// template is specialised by hand with the same two members: `kDeclared = true` and
+/// Field list of T. Specialised by MAMORI_FIELDS; a type without a field list cannot be a port payload.
+/// Specialise a class template manually with the same two members: `kDeclared = true` and
 /// `apply(self, call)`, which returns `call(self.first, self.second, ...)` for a const or mutable `self`.
 template <typename T>
 struct Fields {
@@ -29,7 +29,7 @@ struct Fields {
 
 namespace detail {
 
-/// What a payload type is made of, decided in one place for everything that walks payloads.
+/// Category of a payload type (array, sequence, string), for all code that walks payloads.
 template <typename T>
 struct Shape {
     static constexpr bool kIsArray = false;
@@ -57,7 +57,7 @@ struct Shape<BoundedString<N>> : Shape<void> {
 template <typename T>
 inline constexpr bool kIsScalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Called with fields, tells their types.
+/// Returns the types of the fields passed to it.
 struct ListTypes {
     template <typename... T>
     constexpr TypeList<T...> operator()(const T&... /*fields*/) const noexcept {
@@ -69,8 +69,8 @@ using FieldTypes = decltype(Fields<T>::apply(std::declval<T&>(), ListTypes{}));
 
 }  // namespace detail
 
-/// True when T can travel through a port: a number, bool, enum, a type with a field list, a bounded string,
-/// or an array or bounded sequence of such.
+/// True when ports can transfer T: a number, bool, enum, a type with a field list, a bounded string, or an
+/// array or bounded sequence of such types.
 template <typename T>
 constexpr bool is_payload() noexcept {
     if constexpr (detail::Shape<T>::kIsArray || detail::Shape<T>::kIsSequence) {
@@ -83,12 +83,12 @@ constexpr bool is_payload() noexcept {
 
 namespace detail {
 
-/// Walks a payload, const or mutable, in declaration order until `visitor` says false:
+/// Walks a payload, const or mutable, in declaration order until `visitor` returns false:
 ///     run(first, count)     numbers, bools or enums that follow one another
 ///     open(sequence, count) before a sequence; sets how many of its elements are walked, 0 .. capacity
 ///     text(string)          a bounded string
-/// Depth is bounded by the nesting of the types, which the compiler knows.
-/// @return true when the visitor never said false.
+/// The nesting of the types, which the compiler knows, bounds the recursion depth.
+/// @return true when the visitor never returned false.
 template <typename T, typename Visitor>
 constexpr bool walk(T& value, Visitor& visitor) noexcept {
     using Bare = std::remove_const_t<T>;
@@ -119,7 +119,7 @@ constexpr bool walk(T& value, Visitor& visitor) noexcept {
     }
 }
 
-/// Hands every scalar to a callable. A sequence or string is its length, a 32-bit number, and what it holds.
+/// Passes every scalar to a callable. A sequence or string is its 32-bit length, then its elements in use.
 template <typename Visitor>
 class EachScalar final {
   public:
@@ -150,9 +150,9 @@ class EachScalar final {
 
 }  // namespace detail
 
-/// Calls `visitor(scalar)` for every number, bool or enum of `value`, in declaration order. A bounded
-/// sequence or string gives its length as std::uint32_t and then the elements in use, never the others.
-/// O(scalars in use), beside the visitor.
+/// Calls `visitor(scalar)` for every number, bool or enum of `value`, in declaration order. For a bounded
+/// sequence or string, passes its length as std::uint32_t, then only the elements in use. O(scalars in use),
+/// plus the visitor.
 template <typename T, typename Visitor>
 constexpr void visit_scalars(const T& value, Visitor& visitor) noexcept {
     detail::EachScalar<Visitor> each(visitor);
@@ -161,9 +161,9 @@ constexpr void visit_scalars(const T& value, Visitor& visitor) noexcept {
 
 }  // namespace mamori
 
-/// Declares the fields of `Type`, all of them in the order of their declaration, at global scope:
+/// Declares all fields of `Type` in the order of their declaration, at global scope:
 ///     MAMORI_FIELDS(ns::JointState, position_rad, velocity_rad_s)
-/// The compiler refuses a list that leaves one out, names a stranger or changes the order of two types.
+/// The compiler rejects a list that omits a field, names an unknown field or swaps fields of different types.
 /// `Type` is a plain struct: public members, no base class with members of its own, not final.
 #define MAMORI_FIELDS(Type, ...)                                                                            \
     template <>                                                                                             \

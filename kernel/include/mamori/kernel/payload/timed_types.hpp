@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The time-stamped basic types of the RT-middleware world, with bounds: names, field order and wire form are
-/// those of OpenRTM, so a port of such a type talks to the components and tools that people have.
+/// Time-stamped basic types of RT-middleware, with bounds. Names, field order and wire form are those of
+/// OpenRTM, so a port of such a type can exchange data with existing OpenRTM components and tools.
 ///
 /// @satisfies SWR-CDR-005, SWR-CDR-006      Design: docs/design/data_flow.md#timed-types
 /// Source:   OpenRTM-aist, BasicDataType.idl (module RTC); wide characters are left out on purpose
@@ -18,15 +18,15 @@
 
 namespace mamori::rtc {
 
-/// Time stamp. Zero point: whatever sender and receiver agreed on.
+/// Time stamp. Sender and receiver agree on the zero point.
 struct Time {
     std::uint32_t sec{0U};   ///< [s]
-    std::uint32_t nsec{0U};  ///< [ns], 0 .. 999999999 by convention; no decoder enforces it
+    std::uint32_t nsec{0U};  ///< [ns], 0 .. 999999999 by convention; no decoder checks the range
 };
 
 inline constexpr std::int64_t kNsPerS = 1'000'000'000;  ///< [ns/s]
 
-/// @return the stamp; kBadParameter when the instant is negative, or 2^32 s (136 years) or more.
+/// @return the time stamp; kBadParameter when the instant is negative, or 2^32 s (136 years) or more.
 constexpr Result<Time> calc_time(Instant instant) noexcept {
     if (instant.ns < 0 || instant.ns / kNsPerS > std::int64_t{std::numeric_limits<std::uint32_t>::max()}) {
         return Status::kBadParameter;
@@ -34,8 +34,8 @@ constexpr Result<Time> calc_time(Instant instant) noexcept {
     return Time{static_cast<std::uint32_t>(instant.ns / kNsPerS),
                 static_cast<std::uint32_t>(instant.ns % kNsPerS)};
 }
-/// @return the instant, 0 .. 2^32 s; kBadParameter when nsec is 10^9 or more: such a stamp has no one
-///         reading.
+/// @return the instant, 0 s .. 2^32 s (exclusive); kBadParameter when nsec is 10^9 or more, which is
+///         ambiguous.
 constexpr Result<Instant> calc_instant(Time time) noexcept {
     if (time.nsec >= kNsPerS) {
         return Status::kBadParameter;
@@ -43,8 +43,8 @@ constexpr Result<Instant> calc_instant(Time time) noexcept {
     return Instant{std::int64_t{time.sec} * kNsPerS + std::int64_t{time.nsec}};
 }
 
-/// A value and the time it belongs to. Each IDL type `TimedX` is Timed<X>. The unit of the value is the
-/// application's.
+/// A value and its time stamp. Each IDL type `TimedX` is Timed<X>. The application defines the unit of the
+/// value.
 template <typename T>
 struct Timed {
     Time tm{};
@@ -60,7 +60,7 @@ using TimedDouble = Timed<double>;
 using TimedChar = Timed<char>;
 using TimedOctet = Timed<std::uint8_t>;
 using TimedBoolean = Timed<bool>;
-/// On the wire a TimedShort, yet another type: the two do not connect.
+/// Same wire form as TimedShort, but a different type: ports of the two types cannot be connected.
 struct TimedState {
     Time tm{};
     std::int16_t data{0};
@@ -68,7 +68,7 @@ struct TimedState {
 template <std::size_t N>
 using TimedString = Timed<BoundedString<N>>;
 
-/// Up to N values of T and the time they belong to.
+/// Up to N values of T and their time stamp.
 template <typename T, std::size_t N>
 using TimedSeq = Timed<BoundedSequence<T, N>>;
 template <std::size_t N>
@@ -89,7 +89,7 @@ template <std::size_t N>
 using TimedOctetSeq = TimedSeq<std::uint8_t, N>;
 template <std::size_t N>
 using TimedBooleanSeq = TimedSeq<bool, N>;
-/// Up to N texts of up to M characters each.
+/// Up to N strings of up to M characters each.
 template <std::size_t N, std::size_t M>
 using TimedStringSeq = TimedSeq<BoundedString<M>, N>;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Hash over everything that ports publish. Two runs with equal hashes moved the same values at the same
-/// instants; it is how "the same bytes everywhere" is checked.
+/// Hash over all values that ports publish. Two runs with equal hashes published the same values at the same
+/// instants. Tests compare runs by this hash.
 ///
 /// @satisfies SWR-KRN-006      Design: docs/design/kernel.md#determinism
 /// Source:   FNV-1a, 64 bit (offset basis cbf29ce484222325, prime 100000001b3), draft-eastlake-fnv
@@ -16,8 +16,9 @@
 
 namespace mamori {
 
-/// FNV-1a over scalars, each taken as its value bits in little-endian order, whatever the machine's order is.
-/// A payload of fixed-width types gives one hash on each machine; `long` or `size_t` would not.
+/// FNV-1a over scalars, each as its value bits in little-endian order, independent of the byte order of the
+/// host. Payloads of fixed-width types have the same hash on every host; those with `long` or `size_t` do
+/// not.
 ///
 /// Thread safety: none. Time: O(bytes). Memory: eight bytes.
 class TraceHash final {
@@ -35,13 +36,13 @@ class TraceHash final {
         }
     }
 
-    /// Adds every scalar of a payload in declaration order, as visit_scalars(); padding never takes part.
+    /// Adds every scalar of a payload in declaration order, as visit_scalars(); padding is not included.
     template <typename T>
     constexpr void add(const T& payload) noexcept {
         visit_scalars(payload, *this);
     }
 
-    /// Hash of what was added so far; the offset basis when nothing was.
+    /// Hash of all data added; the offset basis when no data was added.
     constexpr std::uint64_t get_value() const noexcept { return value_; }
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Bounded queue of events between whoever sends them and the one context that serves them.
+/// Bounded queue of events between any number of senders and the context that processes the events.
 ///
 /// @satisfies SWR-RTC-009, SWR-RTC-012      Design: docs/design/rtc_semantics.md#event-queue
 /// Source:   D. Vyukov, bounded multi-producer queue: each cell tells whose turn it is
@@ -17,52 +17,53 @@
 
 namespace mamori {
 
-/// One place of the queue. `turn` is relative to the place's index, so that zero is the start everywhere.
+/// One cell of the queue. `turn` is stored relative to the index of the cell, so that its initial value is
+/// zero.
 struct FsmEventCell {
     std::atomic<std::uint32_t> turn{0U};
-    std::uint32_t epoch{0U};  ///< of the sender, as FsmEventQueue::get_epoch()
+    std::uint32_t epoch{0U};  ///< epoch of the sender: see FsmEventQueue::get_epoch()
     FsmEvent event{};
 };
 
-/// First in, first out, over cells given by its owner.
+/// First-in first-out queue in cells that its owner provides.
 ///
-/// Thread safety: post() from any thread or interrupt; take() and clear() from one context; counts from
-///                anywhere. Events of one sender stay in order; between senders on different cores the order
-///                is that of arrival.
-/// Time:          O(1); post() tries again when another sender was faster, at most once for each of them and
-///                capacity + 1 times in all; clear() is O(capacity), and so is take() after it. Nothing
+/// Thread safety: post() from any thread or interrupt; take() and clear() from one context; the counters from
+///                anywhere. Events of one sender stay in order. Events of senders on different cores are in
+///                order of arrival.
+/// Time:          O(1); post() retries when another sender was faster, at most once per such sender and with
+///                at most capacity + 1 attempts. clear() and the take() after it are O(capacity). Nothing
 ///                blocks.
 /// Memory:        no heap; the cells must outlive the queue.
 class FsmEventQueue final {
   public:
-    /// @param[in] cells 2 .. 2^31, a power of two; anything else is an own bug at the first use.
+    /// @param[in] cells 2 .. 2^31, a power of two; any other number is a contract violation at the first use.
     constexpr explicit FsmEventQueue(Span<FsmEventCell> cells) noexcept : cells_(cells) {}
     FsmEventQueue(const FsmEventQueue&) = delete;
     FsmEventQueue& operator=(const FsmEventQueue&) = delete;
 
     /// Appends an event.
-    /// @return kOk; kOutOfResources (full, or more other senders were faster than there are cells): counted,
-    ///         nothing is overwritten.
+    /// @return kOk; kOutOfResources (full, or more senders were faster than there are cells); the rejected
+    ///         event is counted, and nothing is overwritten.
     Status post(const FsmEvent& event) noexcept { return post(event, get_epoch()); }
-    /// The same for a sender that has decided on something before: the event is dropped, and not refused,
-    /// when the queue was cleared since it asked for the epoch.
+    /// As above, for a sender that reads the epoch before it decides to send. If the queue was cleared after
+    /// that, the event is accepted here and dropped later. @param[in] epoch from get_epoch().
     Status post(const FsmEvent& event, std::uint32_t epoch) noexcept;
-    /// Counts the calls of clear() (wraps at 2^32). From any thread or interrupt.
+    /// Number of calls of clear() (wraps at 2^32). From any thread or interrupt.
     std::uint32_t get_epoch() const noexcept { return epoch_.load(std::memory_order_acquire); }
     /// Takes the oldest event.
-    /// @return the event; kPreconditionNotMet (there is none, or its sender has not filled its place yet:
-    /// then
-    ///         those behind it wait).
+    /// @return the event; kPreconditionNotMet (empty, or the sender of the oldest event has not yet filled
+    ///         its cell; then the later events wait).
     Result<FsmEvent> take() noexcept;
-    /// Begins an epoch: what waits is dropped, and what a sender of an earlier epoch still appends.
+    /// Starts a new epoch: drops all waiting events, and those that a sender with an older epoch appends
+    /// later.
     void clear() noexcept;
 
     std::size_t get_capacity() const noexcept { return cells_.size(); }
-    /// Events that wait, as of some moment.
+    /// Number of waiting events; may be out of date.
     std::size_t get_size() const noexcept;
-    /// Most events that ever waited at one post(), 0 .. capacity.
+    /// Maximum number of events that waited at a post(), 0 .. capacity.
     std::size_t get_high_water_mark() const noexcept { return high_water_.load(std::memory_order_relaxed); }
-    /// Events that post() refused (wraps at 2^32).
+    /// Number of events that post() rejected (wraps at 2^32).
     std::uint32_t get_refused_count() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The moving part of a state machine: its state, its queue and the step that it is taking. Its component
-/// shows it to the world, and its event-driven context moves it.
+/// Run-time data of a state machine: its state, its queue and its current step. Its component makes them
+/// readable, and its event-driven context updates them.
 ///
 /// @satisfies SWR-RTC-006      Design: docs/design/rtc_semantics.md#state-machines
 #ifndef MAMORI_KERNEL_FSM_MACHINE_HPP
@@ -16,52 +16,53 @@
 
 namespace mamori {
 
-/// What is happening to the machine while on_action is called.
+/// Current step of the state machine while on_action is called.
 struct FsmStep {
-    /// Which of the calls of on_action it is.
+    /// Purpose of the current call of on_action.
     enum class Phase : std::uint8_t { kNone, kExit, kTransition, kEntry };
     Phase phase{Phase::kNone};
     std::size_t transition{0U};  ///< row of the table
-    FsmEvent event{};            ///< that is being served
+    FsmEvent event{};            ///< event in process
 };
 
 /// State, queue and step of one machine.
 ///
 /// Thread safety: get_queue() and post() as the queue, get_context_id() from anywhere; the rest from the core
-/// that runs the component. Time:          O(transitions). Memory: no heap; the table, profile and cells must
-/// outlive it.
+///                that runs the component.
+/// Time:          O(transitions). Memory: no heap; the table, profile and cells must outlive it.
 class FsmMachine final {
   public:
-    /// @param[in] owner given to the guards. The others as in FsmComponent.
+    /// @param[in] owner passed to the guards. The other parameters: see FsmComponent.
     constexpr FsmMachine(const FsmComponent& owner, const FsmTable& table, FsmProfile profile,
                          Span<FsmEventCell> cells) noexcept
         : owner_(owner), table_(table), profile_(profile), queue_(cells), state_(table.initial) {}
     FsmMachine(const FsmMachine&) = delete;
     FsmMachine& operator=(const FsmMachine&) = delete;
 
-    /// States, events and transitions; the one given at construction.
+    /// Table of states, messages and transitions given at construction.
     const FsmTable& get_table() const noexcept { return table_; }
-    /// Given at construction.
+    /// Profile given at construction.
     FsmProfile get_profile() const noexcept { return profile_; }
-    /// Row of the state; while on_action is called the old one until the entry.
+    /// Row of the current state; during on_action, the source state until the entry phase.
     FsmIndex get_state() const noexcept { return state_; }
-    /// What on_action is called for; phase kNone outside it. Valid as long as this object.
+    /// Current step of on_action; phase kNone outside on_action. Valid as long as this object.
     const FsmStep& get_step() const noexcept { return step_; }
-    /// Events that were used up without a transition (wraps at 2^32).
+    /// Number of events consumed without a transition (wraps at 2^32).
     std::uint32_t get_ignored_count() const noexcept { return ignored_count_; }
-    /// Events that wait, and what the queue counts; from any thread, as the queue allows.
+    /// Queue of waiting events, with its counters; thread safety as the queue.
     const FsmEventQueue& get_queue() const noexcept { return queue_; }
     /// @return as FsmEventQueue::post().
     Status post(const FsmEvent& event, std::uint32_t epoch) noexcept { return queue_.post(event, epoch); }
-    /// Id of the context that serves it; -1: none. From any thread or interrupt.
+    /// Id of the context that processes the events; -1: none. From any thread or interrupt.
     std::int32_t get_context_id() const noexcept { return context_id_.load(std::memory_order_relaxed); }
 
   private:
     friend class ExecutionContext;
 
-    /// Initial state, empty queue.
+    /// Resets to the initial state with an empty queue.
     void restart() noexcept;
-    /// Transition of the current state for the event; nullptr, and counted, when there is none.
+    /// Transition of the current state for the event; nullptr when there is none, which is counted as
+    /// ignored.
     const FsmTransition* choose_transition(const FsmEvent& event) noexcept;
 
     const FsmComponent& owner_;
@@ -71,7 +72,7 @@ class FsmMachine final {
     FsmStep step_{};
     std::uint32_t ignored_count_{0U};
     FsmIndex state_;
-    /// Of the context that its component is attached to, for senders on other threads.
+    /// Id of the context that the component is attached to, for senders on other threads.
     std::atomic<std::int32_t> context_id_{-1};
 };
 

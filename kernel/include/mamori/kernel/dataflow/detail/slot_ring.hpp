@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The exchange under FifoBuffer: a ring of shared words, in which writer and reader swap slot numbers, as a
-/// TripleBuffer does in its one word. It holds no payload.
+/// Exchange below FifoBuffer: a ring of shared words, in which writer and reader swap slot numbers, as in the
+/// single word of a TripleBuffer. It holds no payload.
 ///
 /// @satisfies SWR-BUF-002, SWR-BUF-003, SWR-BUF-004, SWR-BUF-008      Design: docs/design/data_flow.md#fifo
 #ifndef MAMORI_KERNEL_SLOT_RING_HPP
@@ -19,23 +19,24 @@
 
 namespace mamori {
 
-/// What a write into a full buffer does (OpenRTM buffer.write.full_policy). Its "block" is missing on
-/// purpose: nothing in the kernel waits.
+/// Behaviour of a write to a full buffer (OpenRTM buffer.write.full_policy). The policy "block" is omitted,
+/// because nothing in the kernel waits.
 enum class FullPolicy : std::uint8_t {
-    kOverwrite,  ///< "overwrite": the oldest entry gives way
-    kDoNothing,  ///< "do_nothing": the new entry is refused
+    kOverwrite,  ///< "overwrite": the oldest entry is overwritten
+    kDoNothing,  ///< "do_nothing": the new entry is rejected
 };
 
-/// What became of an entry: kReplacedOldest under kOverwrite only, kRefused under kDoNothing only.
+/// Result of a publication: kReplacedOldest under kOverwrite only, kRefused under kDoNothing only.
 enum class Publication : std::uint8_t { kStored, kReplacedOldest, kRefused };
 
-/// Order of up to kCapacity published slots. Slots are numbers 0 .. kSlotCount - 1: one is always the
-/// writer's, one the reader's, one waits in each word of the ring.
+/// Order of up to kCapacity published slots. Slots are numbers 0 .. kSlotCount - 1: one always belongs to the
+/// writer, one to the reader, and each word of the ring stores one.
 ///
-/// Thread safety: one context calls the writer's members, one other the reader's; they need no lock.
-/// Time:          O(1), wait-free; a claim is tried at most kTries times. Memory: kCapacity + 5 words, no
+/// Thread safety: one context calls the writer's members, another the reader's; no lock is necessary.
+/// Time:          O(1), wait-free; a claim makes at most kTries attempts. Memory: kCapacity + 5 words, no
 ///                heap.
-/// @tparam kCapacity entries that wait, 1 .. 254. @tparam Word only tests give another than the default.
+/// @tparam kCapacity maximum number of waiting entries, 1 .. 254. @tparam Word only tests specify another
+///                   type.
 template <std::size_t kCapacity, FullPolicy kFull, typename Word = std::atomic<std::uint32_t>>
 class SlotRing final {
     static_assert(kCapacity >= 1U, "a FIFO needs room for at least one entry");
@@ -51,11 +52,11 @@ class SlotRing final {
     SlotRing(const SlotRing&) = delete;
     SlotRing& operator=(const SlotRing&) = delete;
 
-    /// Writer: the slot that publish() will publish.
+    /// Writer: the slot that publish() publishes.
     Slot get_write_slot() const noexcept { return write_slot_; }
 
-    /// Writer: appends the write slot and gets another one, unless the ring is full and kFull refuses. A full
-    /// ring that overwrites gives the slot of its oldest entry back.
+    /// Writer: appends the write slot and receives another, unless the ring is full and kFull is kDoNothing.
+    /// With kOverwrite, a full ring returns the slot of its oldest entry.
     [[nodiscard]] Publication publish() noexcept {
         Word& cell = cells_[write_position_ % kCapacity];
         if constexpr (kFull == FullPolicy::kDoNothing) {
@@ -65,7 +66,8 @@ class SlotRing final {
         }
         const std::uint32_t next = calc_sum(write_position_, 1U);
         announced_.store(static_cast<Entry>(next), std::memory_order_release);
-        // Release: the reader sees what was written. Acquire: the reader has finished with the slot we get.
+        // Release: the reader sees the written value. Acquire: the reader has finished with the received
+        // slot.
         const Entry before =
             cell.exchange(make_entry(write_position_, write_slot_), std::memory_order_acq_rel);
         write_position_ = next;
@@ -73,18 +75,18 @@ class SlotRing final {
         return is_full(before) ? Publication::kReplacedOldest : Publication::kStored;
     }
 
-    /// Writer: entries that wait, 0 .. kCapacity; at most too high by what the reader takes meanwhile.
+    /// Writer: waiting entries, 0 .. kCapacity; too high by at most the entries that the reader takes
+    /// meanwhile.
     std::uint32_t calc_level() const noexcept {
         return calc_level(write_position_, claimed_.load(std::memory_order_relaxed));
     }
 
-    /// Reader: the slot that was claimed last; before the first claim() one that was never published.
+    /// Reader: the slot that was claimed last; before the first claim(), a slot that was never published.
     Slot get_read_slot() const noexcept { return read_slot_; }
 
     /// Reader: swaps the read slot for the oldest entry.
-    /// @return kOk; kPreconditionNotMet (nothing waits); kOutOfResources (kOverwrite only: the writer
-    ///         replaced the very entry in each of kTries tries; those that are left can be claimed next
-    ///         time).
+    /// @return kOk; kPreconditionNotMet (no entry waits); kOutOfResources (kOverwrite only: the writer
+    ///         replaced the entry in each of kTries attempts; the next call can claim the remaining entries).
     Status claim() noexcept {
         catch_up();
         for (int i = 0; i < kTries; ++i) {
@@ -92,7 +94,7 @@ class SlotRing final {
             Entry entry = cell.load(std::memory_order_acquire);
             const std::uint32_t ahead = calc_distance(read_position_, get_position(entry));
             if (!is_full(entry) || ahead > kPositionCount / 2U) {
-                return Status::kPreconditionNotMet;  // empty, or left over from before a very long absence
+                return Status::kPreconditionNotMet;  // empty, or stale after a very long time
             }
             if (ahead == 0U &&
                 cell.compare_exchange_strong(entry, Entry{read_slot_}, std::memory_order_acq_rel,
@@ -102,18 +104,18 @@ class SlotRing final {
                 claimed_.store(read_position_, std::memory_order_relaxed);
                 return Status::kOk;
             }
-            // `entry` is of a later lap: go on with the oldest one that is left then.
+            // `entry` is of a later lap: continue with the oldest entry that remains then.
             read_position_ = calc_sum(get_position(entry), kPositionCount - kCapacity + 1U);
         }
         return Status::kOutOfResources;
     }
 
   private:
-    /// An entry is a slot number, a mark that it waits to be read, and its position in the stream.
+    /// An entry is a slot number, a flag that the entry waits to be read, and its position in the stream.
     using Entry = typename Word::value_type;
     static constexpr std::uint32_t kSlotBits = 8U;
     static constexpr std::uint32_t kFullMark = 1U << kSlotBits;
-    /// Positions count modulo this, a multiple of the capacity, so that position % capacity is the word.
+    /// Positions are modulo this number, a multiple of the capacity: position % capacity is the word index.
     static constexpr std::uint32_t kPositionCount =
         (std::numeric_limits<Entry>::max() >> (kSlotBits + 1U)) / kCapacity * kCapacity;
     static_assert(kPositionCount >= 4U * (kCapacity + 1U), "the word is too small for this capacity");
@@ -127,7 +129,7 @@ class SlotRing final {
     }
     static constexpr bool is_full(Entry entry) noexcept { return (entry & kFullMark) != 0U; }
     static constexpr std::uint32_t get_position(Entry entry) noexcept { return entry >> (kSlotBits + 1U); }
-    /// Slot of `entry`. One that does not exist is corrupted memory.
+    /// Slot number in `entry`. An invalid number is memory corruption and a contract violation.
     static Slot get_slot(Entry entry) noexcept {
         const auto slot = static_cast<Slot>(entry & (kFullMark - 1U));
         MAMORI_INVARIANT(1, slot < kSlotCount);
@@ -144,8 +146,8 @@ class SlotRing final {
         return distance < kCapacity ? distance : static_cast<std::uint32_t>(kCapacity);
     }
 
-    /// Skips what was overwritten since the last claim, however long ago that was. The last announced entry
-    /// may still be on its way, so the one that it is going to replace may still be there.
+    /// Skips entries that were overwritten since the last claim, after any time. The last announced entry may
+    /// not be published yet, so the entry that it replaces may still be present.
     void catch_up() noexcept {
         if constexpr (kFull == FullPolicy::kOverwrite) {
             const std::uint32_t announced = announced_.load(std::memory_order_acquire);
@@ -156,7 +158,7 @@ class SlotRing final {
     }
 
     std::array<Word, kCapacity> cells_;
-    Word announced_{0U};  ///< position after the entry that the writer is about to publish, or has published
+    Word announced_{0U};  ///< position after the entry that the writer publishes or has published last
     std::atomic<std::uint32_t> claimed_{0U};  ///< copy of read_position_, for levels only
     std::uint32_t write_position_{0U};
     std::uint32_t read_position_{0U};

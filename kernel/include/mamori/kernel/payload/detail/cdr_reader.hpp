@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The visitor behind decoding, which trusts no byte that it reads. Not for users.
+/// Visitor for decoding; checks every byte that it reads. Not for users.
 ///
 /// @satisfies SWR-CDR-010, SWR-CDR-013      Design: docs/design/data_flow.md#cdr
 #ifndef MAMORI_KERNEL_CDR_READER_HPP
@@ -18,7 +18,7 @@
 
 namespace mamori::detail {
 
-/// Number made of its bytes, spelled out rather than looped over, as store() does it.
+/// Number from its bytes, expanded instead of a loop, as in store().
 template <bool kIsBig, typename Bits, std::size_t... kIndex>
 constexpr Bits load(const std::byte* source, std::index_sequence<kIndex...> /*bytes*/) noexcept {
     constexpr std::size_t kLast = sizeof(Bits) - 1U;
@@ -26,8 +26,8 @@ constexpr Bits load(const std::byte* source, std::index_sequence<kIndex...> /*by
         ((std::to_integer<std::uint64_t>(source[kIsBig ? kLast - kIndex : kIndex]) << (8U * kIndex)) | ...));
 }
 
-/// Reads from a buffer of foreign origin and trusts no byte of it: true means that everything was there and
-/// allowed. kStores = false only looks, and uses the payload as a pattern of the types to come.
+/// Reads from an untrusted buffer and checks every byte: true means complete and valid. With kStores = false,
+/// it only checks, and uses the payload only for the types of the expected data.
 template <bool kIsBig, bool kStores>
 class CdrReader final {
   public:
@@ -59,7 +59,7 @@ class CdrReader final {
                     load<kIsBig, WireBits<T>>(source + i * kSize, std::make_index_sequence<kSize>{});
                 is_valid = is_valid && is_value<T>(bits);
                 if constexpr (kStores) {
-                    // A wrong value can come here only when somebody changes the buffer meanwhile.
+                    // A value is invalid here only if another context changes the buffer during the call.
                     first[i] = from_bits<T>(is_valid ? bits : WireBits<T>{0});
                 }
             }
@@ -78,7 +78,7 @@ class CdrReader final {
         }
         return true;
     }
-    /// The length counts the closing NUL, which must be there, and there alone.
+    /// The length includes the terminating NUL, which must be the last and only NUL.
     template <typename String>
     constexpr bool text(String& string) noexcept {
         std::uint32_t length = 0U;
@@ -103,7 +103,7 @@ class CdrReader final {
     constexpr std::size_t get_position() const noexcept { return position_; }
 
   private:
-    /// A length is needed even where nothing is stored.
+    /// The length is required even when nothing is stored.
     constexpr bool read_length(std::uint32_t& length) noexcept {
         CdrReader<kIsBig, true> reader(buffer_, position_);
         const bool is_there = reader.run(&length, 1U);
@@ -112,10 +112,10 @@ class CdrReader final {
     }
 
     Span<const std::byte> buffer_;
-    std::size_t position_;  ///< never beyond the end of the buffer
+    std::size_t position_;  ///< never after the end of the buffer
 };
 
-/// Looks first and stores afterwards, so that a refusal leaves `value` as it was without a copy of it.
+/// Checks before it stores, so that `value` is unchanged after a rejection, without a copy of `value`.
 template <bool kIsBig, typename T>
 constexpr bool read_cdr(Span<const std::byte> buffer, T& value) noexcept {
     CdrReader<kIsBig, false> look(buffer);

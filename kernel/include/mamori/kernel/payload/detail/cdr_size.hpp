@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The size of the longest encoding of a payload, computed from its type alone.
+/// Maximum size of the encoding of a payload, computed from its type alone.
 ///
 /// @satisfies SWR-CDR-014, SWR-CDR-015      Design: docs/design/data_flow.md#largest-size
 /// Source:   OMG CORBA 3.0, 15.3 (CDR transfer syntax): alignments of primitive types
@@ -19,8 +19,8 @@ namespace mamori {
 
 namespace detail {
 
-/// For each remainder of a position by 8, how many bytes lead from there to the end of something, padding
-/// included. Since no alignment exceeds 8, the remainder is all that the size can depend on.
+/// Number of bytes from a position to the end of an element, including padding, for each remainder of the
+/// position modulo 8. No alignment exceeds 8, so the size depends on the remainder only.
 struct WireSteps {
     static constexpr std::size_t kRemainders = 8U;
     std::array<std::size_t, kRemainders> from{};
@@ -32,7 +32,7 @@ struct WireSteps {
         }
         return sum;
     }
-    /// `count` times one after another, by squaring, so that a long sequence costs the compiler nothing.
+    /// `count` elements in sequence, by squaring, so that a long sequence needs few compile-time steps.
     constexpr WireSteps repeat(std::size_t count) const noexcept {
         WireSteps sum;
         WireSteps power = *this;
@@ -56,7 +56,7 @@ constexpr WireSteps calc_steps_of_fields(TypeList<T...> /*types*/) noexcept {
     return sum;
 }
 
-/// Steps of the longest T. A longer part never ends earlier, so the longest whole has the longest parts.
+/// Steps of the longest T. A longer part never ends earlier, so the longest encoding has the longest parts.
 template <typename T>
 constexpr WireSteps calc_steps() noexcept {
     if constexpr (kIsScalar<T>) {
@@ -79,7 +79,7 @@ constexpr WireSteps calc_steps() noexcept {
 
 }  // namespace detail
 
-/// Size of the longest encoding of T [bytes]; the size of each one when T holds no sequence and no string.
+/// Maximum size of the encoding of T [byte]; the size of every encoding when T has no sequence and no string.
 template <typename T>
 constexpr std::size_t max_encoded_size() noexcept {
     static_assert(is_payload<T>(), "give this type a field list: MAMORI_FIELDS(Type, field, ...)");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The visitors behind encoding: one measures a payload, the other writes it. Not for users.
+/// Visitors for encoding: one computes the size of a payload, the other writes it. Not for users.
 ///
 /// @satisfies SWR-CDR-010, SWR-CDR-013      Design: docs/design/data_flow.md#cdr
 #ifndef MAMORI_KERNEL_CDR_WRITER_HPP
@@ -19,7 +19,7 @@
 
 namespace mamori::detail {
 
-/// Bytes of a number, spelled out rather than looped over, so that compilers make one load or store of them.
+/// Bytes of a number, expanded instead of a loop, so that compilers generate one load or store.
 template <bool kIsBig, typename Bits, std::size_t... kIndex>
 constexpr void store(std::byte* target, Bits bits, std::index_sequence<kIndex...> /*bytes*/) noexcept {
     constexpr std::size_t kLast = sizeof(Bits) - 1U;
@@ -28,8 +28,8 @@ constexpr void store(std::byte* target, Bits bits, std::index_sequence<kIndex...
      ...);
 }
 
-/// Bytes of a block of numbers: copied at once where that is their encoding, which no constant expression
-/// may.
+/// Bytes of a block of numbers. Copied at once where memory equals the encoding, except in constant
+/// expressions.
 template <bool kIsBig, typename T>
 constexpr void store_block(std::byte* target, const T* first, std::size_t count) noexcept {
     if constexpr (kIsEncodedAsStored<kIsBig, T>) {
@@ -44,7 +44,8 @@ constexpr void store_block(std::byte* target, const T* first, std::size_t count)
     }
 }
 
-/// Counts the bytes that the writer will write. False when a value has no encoding: no reader would take it.
+/// Counts the bytes that the writer will write. False when a value has no encoding, because every reader
+/// would reject it.
 class CdrMeter final {
   public:
     template <typename T>
@@ -73,7 +74,7 @@ class CdrMeter final {
     constexpr std::size_t get_position() const noexcept { return position_; }
 
   private:
-    /// Nothing is aligned where nothing follows: an empty sequence ends behind its length.
+    /// Alignment applies only before data: an empty sequence ends after its length.
     constexpr void count_bytes(std::size_t size, std::size_t count) noexcept {
         if (count > 0U) {
             position_ = align_up(position_, size) + count * size;
@@ -83,7 +84,7 @@ class CdrMeter final {
     std::size_t position_{0U};
 };
 
-/// Writes into a buffer that was measured before; padding is zero.
+/// Writes into a buffer of the size computed before; padding is zero.
 template <bool kIsBig>
 class CdrWriter final {
   public:
