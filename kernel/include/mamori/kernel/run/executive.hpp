@@ -104,7 +104,7 @@ class Executive {
     ExecutionContext& get_context(std::size_t index) noexcept {
         return life_.get_core().windows[index].context;
     }
-    /// The table, as it was given.
+    /// The table that the executive runs.
     const SystemView& get_view() const noexcept { return life_.get_core().view; }
     /// Core whose windows it runs, as WindowRow::core.
     std::size_t get_core() const noexcept { return life_.get_core().core; }
