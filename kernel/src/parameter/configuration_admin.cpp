@@ -6,7 +6,7 @@
 namespace mamori {
 namespace {
 
-/// Notes findings as long as there is room and counts them all.
+/// Stores findings up to the capacity and counts all of them.
 struct FindingList {
     Span<ConfigurationFinding> findings;
     std::size_t count{0U};

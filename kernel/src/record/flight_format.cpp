@@ -13,7 +13,7 @@ constexpr std::size_t kHeaderCrcOffset = 20U;
 constexpr std::size_t kSessionCrcOffset = 12U;
 constexpr std::size_t kRecordCrcOffset = 36U;
 
-/// Writes `value` at `offset`, lowest byte first, whatever the machine's order is.
+/// Writes `value` at `offset`, lowest byte first, independent of the byte order of the processor.
 template <typename T, std::size_t N>
 void put(std::array<std::uint8_t, N>& bytes, std::size_t offset, T value) noexcept {
     using Bits = std::make_unsigned_t<T>;
@@ -32,7 +32,7 @@ T get(const std::array<std::uint8_t, N>& bytes, std::size_t offset) noexcept {
     return static_cast<T>(bits);
 }
 
-/// Checksum of the first `count` bytes.
+/// Checksum (CRC-32) of the first `count` bytes.
 std::uint32_t calc_crc(Span<const std::uint8_t> bytes, std::size_t count) noexcept {
     Crc32 crc;
     for (const std::uint8_t byte : bytes.subspan(0U, count)) {
@@ -70,7 +70,7 @@ Status check_header(const HeaderBytes& bytes, std::size_t capacity) noexcept {
             return Status::kError;
         }
     }
-    // Behind the version another release may have put anything, its checksum included.
+    // Another format version may define all bytes after the version differently, including the checksum.
     if (get<std::uint16_t>(bytes, kVersionOffset) != kVersion) {
         return Status::kUnsupported;
     }

@@ -6,7 +6,7 @@
 namespace mamori {
 namespace {
 
-/// Takes the bytes once: what is judged is what is used, although a writer may be at work in another process.
+/// Copies the bytes once, so that checked and used values are equal even if another process writes.
 template <std::size_t N>
 std::array<std::uint8_t, N> copy(Span<const std::byte> region, std::size_t offset) noexcept {
     const Span<const std::byte> part = region.subspan(offset, N);

@@ -9,8 +9,8 @@
 namespace mamori {
 namespace {
 
-/// Each store happens, and in this order: whoever looks at the memory after the program's end has to rely on
-/// it.
+/// Volatile stores are neither removed nor reordered by the compiler; a reader after the end of the program
+/// relies on this.
 void store(std::byte& place, std::uint8_t value) noexcept {
     volatile std::byte& stored = place;
     stored = std::byte{value};
@@ -24,7 +24,7 @@ void store(Span<std::byte> region, std::size_t offset, const std::array<std::uin
     }
 }
 
-/// Stores before it reach the memory before those after it, on machines that would rather not.
+/// Orders the stores before it ahead of the stores after it, on processors with weak memory order.
 void order_stores() noexcept {
     std::atomic_thread_fence(std::memory_order_release);
 }
@@ -38,8 +38,8 @@ bool is_blank(Span<const std::byte> region) noexcept {
     return true;
 }
 
-/// Whether the first format of a region of zeros never began or ended in the middle: format() stores the
-/// header from its end on, so a part of it is missing in front, and nothing follows it.
+/// Whether the first format of a zeroed region never started or was interrupted. format() stores the header
+/// from its end to its start, so the first bytes are missing and only zeros follow the header.
 bool is_never_formatted(Span<const std::byte> region) noexcept {
     if (region.size() < flight::kHeaderSize) {
         return is_blank(region);
@@ -60,8 +60,7 @@ bool is_never_formatted(Span<const std::byte> region) noexcept {
     return missing > 0U && is_blank(records);
 }
 
-/// The newest session, whether header or records tell of it, with the newest note of the header. Number 0:
-/// neither tells of any.
+/// Newest session in header or records, with the newest progress note of the header. Number 0: none.
 FlightSession find_newest(const FlightReader& reader) noexcept {
     FlightSession newest = reader.calc_session();
     FlightRecord record{};
@@ -83,17 +82,17 @@ bool is_without_slot_in_use(const FlightReader& reader) noexcept {
     return true;
 }
 
-/// Number for the next record: behind every one that can be read, not below the newest note of the header,
-/// and behind the slots after it that cannot be read, since their numbers may have been given. At most
-/// `capacity` numbers were given from the note on, so nothing is given twice even where no record can be
-/// read.
+/// Number of the next record: greater than all readable ones and not less than the newest note of the header.
+/// It also skips the following unreadable slots, since their numbers may have been used. At most `capacity`
+/// numbers were used after the note, so no number is reused even if no record is readable.
 std::uint64_t find_next_sequence(const FlightReader& reader, std::uint64_t noted) noexcept {
     const std::uint64_t newest = reader.calc_newest_sequence();
     std::uint64_t next = newest < noted ? noted : newest + 1U;
     FlightRecord record{};
     for (std::size_t i = 0U; i < reader.get_capacity(); ++i) {
         const SlotState state = reader.read(flight::calc_slot(next, reader.get_capacity()), record);
-        // In the first turn of the ring a slot is empty until its number is given; afterwards it was wiped.
+        // In the first lap of the ring, a slot is empty until its number is used. Later, an empty slot was
+        // erased.
         const bool is_unwritten = state == SlotState::kEmpty && next <= reader.get_capacity();
         if (state == SlotState::kWhole || is_unwritten) {
             break;
@@ -110,8 +109,8 @@ Status FlightRecorder::format(Span<std::byte> region) noexcept {
     if (capacity == 0U || capacity > std::numeric_limits<std::uint32_t>::max()) {
         return Status::kBadParameter;
     }
-    // The beginning goes first and comes last: a region that was left half-way is taken for no recorder, and
-    // one that held zeros only is formatted by the next open().
+    // The first bytes are erased first and written last: a partly formatted region is not treated as a
+    // recorder, and open() formats it again if it contained only zeros.
     for (std::byte& place : region) {
         store(place, 0U);
     }
@@ -158,7 +157,7 @@ Status FlightRecorder::open(Span<std::byte> region) noexcept {
 }
 
 void FlightRecorder::note_progress() noexcept {
-    // Two places take turns, so one of them is whole whenever this ends.
+    // Alternate slots: if this write is interrupted, the other slot is intact.
     store(region_, flight::kSessionOffsets[note_place_], flight::encode_session({session_, next_sequence_}));
     order_stores();
     note_place_ = 1U - note_place_;

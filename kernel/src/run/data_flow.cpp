@@ -107,7 +107,7 @@ void DataFlow::restart_inputs(WindowState& state, ModeMask modes) noexcept {
     const ModeMask before = state.held_modes;
     state.held_modes = modes;
     const Span<const std::size_t> latched = core_.view.latch_order.subspan(row.first_latch, row.latch_count);
-    // Connections that end come first: in a switch to the safe mode an input may change its source.
+    // Connections that end come first: in a switch to the safe mode, an input may change its source.
     for (const bool begins : {false, true}) {
         for (const std::size_t i : latched) {
             const ConnectionRow& connection = core_.view.connections[i];

@@ -61,7 +61,7 @@ void Executive::set_observer(ExecutionObserver* observer) noexcept {
     life_.get_runner().prepare_work();
 }
 
-/// Before the first window of a major frame: what changes for all windows of the core at once.
+/// Before the first window of a major frame: executes changes that affect all windows of the core.
 void Executive::begin_frame(Instant release) noexcept {
     detail::CoreState& core = life_.get_core();
     core.frame_start = Instant{release.ns / core.view.frame.ns * core.view.frame.ns};

@@ -18,7 +18,7 @@ void Executive::set_introspection(Introspection* introspection) noexcept {
 }
 
 void Executive::show_windows() noexcept {
-    // Indices in the rows of a table that violates a rule may lead out of it.
+    // If the table violates a rule, indices in its rows may be out of range.
     const detail::CoreState& core = life_.get_core();
     if (core.introspection == nullptr || !life_.is_table_valid()) {
         return;

@@ -33,7 +33,8 @@ Status ModeFollower::initialize() noexcept {
     return prepare_parameters();
 }
 
-/// On no core that has joined is a component in an action, so all parameters may change at once.
+/// This core has not joined, so none of its components is in an action and all its parameters can change at
+/// once.
 Status ModeFollower::prepare_parameters() noexcept {
     const CoreState& core = get_core();
     ConfigurationAdmin& configuration = modes_->get_configuration();

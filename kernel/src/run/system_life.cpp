@@ -29,7 +29,7 @@ bool SystemLife::is_any_active() const noexcept {
     return false;
 }
 
-/// Component with a parameter that is invalid, on whichever core, or kNoIndex. For a valid table.
+/// First component with an invalid parameter, on any core; kNoIndex: none. Precondition: the table is valid.
 std::size_t SystemLife::find_invalid_parameter() const noexcept {
     const SystemView& view = get_core().view;
     for (const ParameterRow& row : view.configuration.parameters) {
@@ -113,7 +113,7 @@ Status SystemLife::initialize() noexcept {
     return result;
 }
 
-/// First component of the table that no executive has attached; kNoIndex: there is none.
+/// First component of the table that no executive has attached; kNoIndex: none.
 std::size_t SystemLife::find_component_without_context() const noexcept {
     const Span<Component* const> components = get_core().view.components;
     for (std::size_t i = 0U; i < components.size(); ++i) {
@@ -174,7 +174,7 @@ Status SystemLife::start() noexcept {
         result = activate_components();
     }
     if (result != Status::kOk) {
-        // The caller must receive the first failure; a second one would only hide it.
+        // The caller must receive the first failure, so a failure of stop() is ignored.
         static_cast<void>(stop());
     }
     return result;

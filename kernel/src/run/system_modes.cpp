@@ -15,7 +15,7 @@ constexpr std::uint32_t encode(const ModeFailure& failure) noexcept {
            static_cast<std::uint32_t>(failure.step) << 24U | component;
 }
 
-/// Place of the first transition with this event, in mode `source` or, without one, in any.
+/// Index of the first transition with this event in mode `source`, or in any mode if `source` is kNoIndex.
 std::size_t find_transition(const ModeView& view, std::uint32_t event, std::size_t source) noexcept {
     for (std::size_t i = 0U; i < view.transitions.size(); ++i) {
         const ModeTransitionRow& row = view.transitions[i];
@@ -83,15 +83,15 @@ bool SystemModes::is_failing() const noexcept {
     return safe_mode_ != kNoIndex && failure_.load(std::memory_order_acquire) != 0U;
 }
 
-/// For a system of which nothing runs: there is nothing to be left or entered.
+/// For a system in which no core runs: no component has to be deactivated or activated.
 void SystemModes::enter_safe_mode_when_failing() noexcept {
     if (is_failing()) {
         enter(safe_mode_);
     }
 }
 
-/// The system is in this mode from now on. One without a set of its own changes no parameter: what held
-/// before holds on, for cores that start later as well.
+/// Makes this mode the current one. A mode without its own set changes no parameter: the previous set
+/// remains, also for cores that start later.
 void SystemModes::enter(std::size_t mode) noexcept {
     const std::size_t set = view_.modes.modes[mode].set;
     if (set != kNoIndex) {
@@ -100,8 +100,8 @@ void SystemModes::enter(std::size_t mode) noexcept {
     mode_.store(mode, std::memory_order_release);
 }
 
-/// The set holds from now on, unless one of its values is refused: then no core takes any of it.
-/// @return whether it holds.
+/// Makes the set the active one, unless one of its values is rejected; then no core takes any value of it.
+/// @return whether the set is active.
 bool SystemModes::hold(std::size_t set) noexcept {
     const bool is_accepted = configuration_.judge_set(set).rule == ConfigurationRule::kNone;
     if (is_accepted) {
@@ -147,14 +147,13 @@ void SystemModes::leave(std::size_t core) noexcept {
     if (running_.fetch_and(~own, std::memory_order_acq_rel) != own) {
         return;
     }
-    // Nobody is left who could carry anything out, and everything is Inactive; the next start goes on from
-    // here.
+    // No core is left to execute a step, and all components are Inactive. The next start continues from here.
     if (step == ModeStep::kSet) {
         static_cast<void>(hold(plan.get_index()));
     }
     enter_safe_mode_when_failing();
     request_.store(0U, std::memory_order_relaxed);
-    // Nobody joins while there is a plan, so one that is there with a core running is that core's own.
+    // No core joins while there is a plan. If a core runs, the current plan is therefore a plan of that core.
     const ModePlan last{plan_.load(std::memory_order_acquire)};
     if (running_.load(std::memory_order_acquire) == 0U) {
         replace(last, {});
@@ -177,7 +176,7 @@ bool SystemModes::is_finished(ModePlan plan) const noexcept {
     return true;
 }
 
-/// Without effect when another core took the lead over at this moment: then it is its business.
+/// No effect if another core replaced the plan at this moment; that core is then responsible.
 void SystemModes::replace(ModePlan old, ModePlan next) noexcept {
     std::uint32_t expected = old.get_word();
     static_cast<void>(plan_.compare_exchange_strong(expected, next.get_word(), std::memory_order_acq_rel));
@@ -188,11 +187,11 @@ void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
     const std::size_t index = plan.get_index();
     if (!is_finished(plan)) {
         if (step == ModeStep::kSafe) {
-            return;  // there is nothing safer to go to: it is waited for
+            return;  // no safer step exists: wait for its end
         }
         static_cast<void>(fail({ModeFailureCause::kLate, step, kNoIndex}));
     }
-    // Who took a set has it, whatever else went wrong in this step.
+    // A core that took a set keeps it, regardless of other failures in this step.
     if (step == ModeStep::kSet) {
         static_cast<void>(hold(index));
     } else if (step == ModeStep::kEnter && view_.modes.modes[index].set != kNoIndex) {
@@ -212,7 +211,7 @@ void SystemModes::conclude(ModePlan plan, std::int64_t frame) noexcept {
     replace(plan, {});
 }
 
-/// Worst first: a failure, then a mode, then a set.
+/// Most severe first: a failure, then a mode, then a set.
 void SystemModes::propose(std::int64_t frame) noexcept {
     if (is_failing()) {
         if (get_mode() != safe_mode_) {
@@ -221,7 +220,7 @@ void SystemModes::propose(std::int64_t frame) noexcept {
         return;
     }
     const std::uint32_t request = request_.exchange(0U, std::memory_order_acq_rel);
-    // A request that was made while a switch came to its end may be one of the mode before.
+    // A request that was made while a switch ended may belong to the previous mode.
     if (request != 0U && view_.modes.transitions[request - 1U].source == get_mode()) {
         const std::size_t target = view_.modes.transitions[request - 1U].target;
         replace({}, {ModeStep::kLeave, target, frame + 1});
@@ -233,7 +232,8 @@ void SystemModes::propose(std::int64_t frame) noexcept {
     }
 }
 
-/// True when the failure has waited so long that the lead can be taken for lost; asked once per frame.
+/// Whether the failure has waited so long that the coordinator core is treated as failed; call once per major
+/// frame.
 bool SystemModes::is_failure_unserved(std::size_t core) noexcept {
     const bool is_waiting = is_failing() && get_mode() != safe_mode_;
     unserved_frames_[core] = is_waiting ? unserved_frames_[core] + 1 : 0;
@@ -242,8 +242,8 @@ bool SystemModes::is_failure_unserved(std::size_t core) noexcept {
 
 ModePlan SystemModes::begin_frame(std::size_t core, std::int64_t frame) noexcept {
     const ModePlan plan{plan_.load(std::memory_order_acquire)};
-    // A lead that comes no more must neither leave the others between two modes nor keep them from the safe
-    // one.
+    // If the coordinator core has failed, the other cores must neither remain between two modes nor be kept
+    // from the safe mode.
     if (plan.get_step() != ModeStep::kNone) {
         unserved_frames_[core] = 0;
         if (plan.calc_age(frame) >= (is_lead(core) ? kModeStepFrames - 1 : kLeadPatience)) {

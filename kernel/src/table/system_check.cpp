@@ -15,7 +15,7 @@ constexpr std::array kNames{"None", MAMORI_TABLE_RULES(MAMORI_SPELLING)};
 
 const char* get_name(Rule rule) noexcept {
     const auto index = static_cast<std::size_t>(rule);
-    const char* name = "Invalid";  // only a corrupted value is beyond
+    const char* name = "Invalid";  // returned for a corrupted value
     if (index < kNames.size()) {
         name = kNames[index];
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules that a configuration must keep. They are constant expressions: MAMORI_CHECK_CONFIGURATION makes the
-/// compiler refuse a table that breaks one, and a tool gets all findings at once.
+/// Rules of a configuration as constant expressions. MAMORI_CHECK_CONFIGURATION makes the compiler reject a
+/// table that violates a rule. collect_findings() returns all findings for tools.
 ///
 /// @satisfies SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
 #ifndef MAMORI_KERNEL_CONFIGURATION_CHECK_HPP
@@ -19,8 +19,8 @@ namespace mamori {
 
 namespace detail {
 
-/// Calls `visitor(finding)` for each broken rule that the rows alone show, in their order. For a
-/// configuration whose rows are valid in themselves.
+/// Calls `visitor(finding)` for each rule violation that the rows alone show, in row order. Precondition:
+/// each row is valid (visit_invalid_rows()).
 template <typename Visitor>
 constexpr void visit_findings(const ConfigurationView& view, Visitor& visitor) noexcept {
     for (std::size_t s = 0U; s < view.sets.size(); ++s) {
@@ -56,8 +56,8 @@ struct FirstFinding {
     }
 };
 
-/// Instantiated by MAMORI_CHECK_CONFIGURATION; a refused table shows its rule, set and assignment as the
-/// arguments of this template.
+/// Instantiated by MAMORI_CHECK_CONFIGURATION. For a rejected table, the compiler message shows rule, set and
+/// assignment as arguments of this template.
 template <ConfigurationRule kRule, std::size_t kSet, std::size_t kAssignment>
 struct ConfigurationKeeps {
     static_assert(kRule == ConfigurationRule::kNone,
@@ -67,8 +67,8 @@ struct ConfigurationKeeps {
 
 }  // namespace detail
 
-/// First broken rule, or kNone. Constant expression for a constexpr table; O(rows squared).
-/// A value of a component without a default constructor is not judged here, but by collect_findings().
+/// First violated rule, or kNone. Constant expression for a constexpr table; O(rows squared).
+/// Values of a component without a default constructor are checked by collect_findings() only.
 constexpr ConfigurationFinding check(const ConfigurationView& view) noexcept {
     detail::FirstFinding first{};
     detail::visit_invalid_rows(view, first);
@@ -78,14 +78,14 @@ constexpr ConfigurationFinding check(const ConfigurationView& view) noexcept {
     return first.finding;
 }
 
-/// Every broken rule at once, each value judged by the constraint of the parameter itself. Rows that are
-/// invalid in themselves hide the rest, here and in check(). O(rows squared), from any thread.
-/// @param[out] findings as many as have room. @return how many there are.
+/// Collects all rule violations; the constraint of each parameter checks its values. If a row is invalid,
+/// only the findings of invalid rows are reported, as in check(). O(rows squared); from any thread.
+/// @param[out] findings receives the first findings, up to its size. @return total number of findings.
 std::size_t collect_findings(const ConfigurationView& view, Span<ConfigurationFinding> findings) noexcept;
 
 }  // namespace mamori
 
-/// Refuses the constexpr configuration `table` at compile time when it breaks a rule.
+/// Rejects the constexpr configuration `table` at compile time if it violates a rule.
 #define MAMORI_CHECK_CONFIGURATION(table)                           \
     static_assert(::mamori::detail::ConfigurationKeeps<             \
                   ::mamori::check(::mamori::make_view(table)).rule, \

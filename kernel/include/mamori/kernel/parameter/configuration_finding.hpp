@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a check of a configuration finds: the broken rule and the assignment that is guilty.
+/// Result of a configuration check: the violated rule and the faulty assignment.
 ///
 /// @satisfies SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
 #ifndef MAMORI_KERNEL_CONFIGURATION_FINDING_HPP
@@ -11,18 +11,18 @@
 
 namespace mamori {
 
-/// Why a configuration is refused.
+/// Why a configuration is rejected.
 enum class ConfigurationRule : std::uint8_t {
-    kNone,                    ///< the configuration keeps every rule
-    kSetNamedTwice,           ///< the set has the name of one before it
+    kNone,                    ///< no rule is violated
+    kSetNamedTwice,           ///< an earlier set has the same name
     kUnknownParameter,        ///< the parameter belongs to no component of the table
-    kParameterAssignedTwice,  ///< the set gives it a value twice
-    kValueOutsideConstraint,  ///< the parameter may not have this value
-    kParameterRowInvalid,     ///< row of `parameters` without a parameter or its owner; `set` is its place
-    kSetRowInvalid,           ///< the set has no name, or the assignment or its values are not in the table
+    kParameterAssignedTwice,  ///< the set assigns a value to the parameter twice
+    kValueOutsideConstraint,  ///< the value violates the constraint of the parameter
+    kParameterRowInvalid,     ///< parameter row without parameter or owner; `set` is its index
+    kSetRowInvalid,           ///< set without name, or assignment without parameter or valid range of values
 };
 
-/// A broken rule and where: `set` is a row of the table, `assignment` counts within the set.
+/// A violated rule and its location. `set` is a row of the table; `assignment` counts within the set.
 struct ConfigurationFinding {
     ConfigurationRule rule{ConfigurationRule::kNone};
     std::size_t set{0U};

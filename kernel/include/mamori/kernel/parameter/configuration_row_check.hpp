@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What each row of a configuration must keep by itself, before a rule may follow its ranges and pointers.
-/// Not for users.
+/// Checks each row of a configuration on its own, before a rule uses its ranges and pointers. Not for users.
 ///
 /// @satisfies SWR-KRN-025, SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
 #ifndef MAMORI_KERNEL_CONFIGURATION_ROW_CHECK_HPP
@@ -14,18 +13,18 @@
 
 namespace mamori::detail {
 
-/// Are there `count` rows from `first` on among `size`?
+/// Whether the range first .. first + count - 1 is within `size` rows.
 constexpr bool is_range_in(std::size_t first, std::size_t count, std::size_t size) noexcept {
     return count <= size && first <= size - count;
 }
 
-/// A constant expression takes it for granted: there the parameter itself cannot be asked, and is_refused
-/// tells what its declaration says.
+/// Whether there is one value per element. In a constant expression this is assumed, because the parameter
+/// object cannot be read there; is_refused then reports the check against its declaration.
 constexpr bool has_value_of_each_element(const AssignmentRow& row) noexcept {
     return __builtin_is_constant_evaluated() || row.parameter->get_element_count() == row.value_count;
 }
 
-/// Calls `visitor(finding)` for each row that must not be followed.
+/// Calls `visitor(finding)` for each row whose pointers or ranges are invalid.
 template <typename Visitor>
 constexpr void visit_invalid_rows(const ConfigurationView& view, Visitor& visitor) noexcept {
     for (std::size_t p = 0U; p < view.parameters.size(); ++p) {

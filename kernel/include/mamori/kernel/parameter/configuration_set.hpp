@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Named sets of parameter values, as constants of the program that the compiler checks:
+/// Named sets of parameter values, as compile-time constants that the compiler checks:
 ///
 ///     constexpr auto kConfiguration = mamori::configuration(
 ///         mamori::parameters_of(monitor, supervisor),
@@ -8,7 +8,7 @@
 ///         mamori::configuration_set("slow", mamori::assign(monitor.limit_rad_s, 0.5)));
 ///     MAMORI_CHECK_CONFIGURATION(kConfiguration);
 ///
-/// A parameter that a set does not name keeps its value when the set becomes active.
+/// When a set becomes active, a parameter that the set does not assign keeps its value.
 ///
 /// @satisfies SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
 /// Source:   OpenRTM-aist and OMG Super Distributed Objects, ConfigurationSet
@@ -25,14 +25,14 @@
 
 namespace mamori {
 
-/// One value of a set.
+/// Value of one parameter in a set.
 template <std::size_t kElements>
 struct Assignment {
     ParameterBase* parameter;
     std::array<Scalar, kElements> values;
 };
 
-/// One set, before it is a part of a table.
+/// One set, before it is added to a table.
 template <std::size_t kAssignments, std::size_t kValues>
 struct ConfigurationSet {
     const char* name{nullptr};
@@ -40,7 +40,7 @@ struct ConfigurationSet {
     std::array<Scalar, kValues> values{};
 };
 
-/// Gives `parameter` the value `value` while its set is active. @param[in] parameter must outlive the table.
+/// Assigns `value` to `parameter` when the set becomes active. @param[in] parameter must outlive the table.
 template <typename T, std::size_t kRanges>
 constexpr auto assign(Parameter<T, kRanges>& parameter,
                       const typename Parameter<T, kRanges>::Value& value) noexcept {
@@ -73,15 +73,15 @@ constexpr auto configuration_set(const char* name, const Assignment<kElements>&.
     return set;
 }
 
-/// Collects parameters and sets into a table, as a constant; parts may come in any order. One too many is an
-/// error of the compiler.
+/// Collects parameters and sets into a table, in any order, in a constant expression. Adding more than the
+/// declared number is a compile error.
 ///
-/// Thread safety: none. Time: add() O(rows), finish() O(parameters * assignments).
-/// Memory:        the table and a declaration for each parameter.
+/// Thread safety: none. Time: add() is O(rows), finish() is O(parameters * assignments).
+/// Memory:        the table and one declaration per parameter.
 template <std::size_t kParameters, std::size_t kSets, std::size_t kAssignments, std::size_t kValues>
 class ConfigurationBuilder final {
   public:
-    /// Appends parameters, at most kParameters in all.
+    /// Appends parameters, at most kParameters in total.
     template <std::size_t kCount>
     constexpr void add(const ParameterList<kCount>& list) noexcept {
         for (const ParameterDeclaration& declaration : list.declarations) {
@@ -90,7 +90,7 @@ class ConfigurationBuilder final {
             ++parameter_count_;
         }
     }
-    /// Appends a set, at most kSets in all with kAssignments and kValues.
+    /// Appends a set, in total at most kSets sets with kAssignments assignments and kValues values.
     template <std::size_t kSetAssignments, std::size_t kSetValues>
     constexpr void add(const ConfigurationSet<kSetAssignments, kSetValues>& set) noexcept {
         table_.sets[set_count_] = {set.name, assignment_count_, kSetAssignments};
@@ -106,7 +106,8 @@ class ConfigurationBuilder final {
             ++value_count_;
         }
     }
-    /// The table, once every part was added.
+    /// Completes the table after all parts were added. Checks each assignment against the declared
+    /// parameters.
     constexpr ConfigurationTable<kParameters, kSets, kAssignments, kValues> finish() noexcept {
         for (AssignmentRow& row : table_.assignments) {
             const Span<const Scalar> values{&table_.values[row.first_value], row.value_count};
@@ -129,7 +130,7 @@ class ConfigurationBuilder final {
     std::size_t value_count_{0U};
 };
 
-/// Builds the table of these sets over the parameters of `list`; check() tells what it breaks.
+/// Builds the table of these sets over the parameters of `list`. check() reports the rules that it violates.
 template <std::size_t kCount, std::size_t... kAssignments, std::size_t... kValues>
 constexpr auto configuration(const ParameterList<kCount>& list,
                              const ConfigurationSet<kAssignments, kValues>&... sets) noexcept {

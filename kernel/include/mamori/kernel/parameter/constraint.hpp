@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The values that a parameter may have. A declaration names one constraint for the parameter, or one for
-/// each element of an array:
+/// Constraints of parameter values. A declaration has one constraint for the whole parameter, or one for each
+/// element of an array:
 ///
 ///     at_least(a)   above(a)   at_most(b)   below(b)      one limit; above() and below() exclude it
 ///     between(a, b)                                        a <= value <= b
@@ -9,8 +9,8 @@
 ///     one_of(a, b, c)                                      one of these values
 ///     any_value()                                          for an element without a limit
 ///
-/// `./mamori constraint TEXT` converts the notation of the RTC Profile to these functions. A parameter is a
-/// finite number: NaN and infinities satisfy no constraint.
+/// `./mamori constraint TEXT` converts the notation of the RTC Profile to these functions. Parameter values
+/// are finite: NaN and infinities satisfy no constraint.
 ///
 /// @satisfies SWR-PAR-002, SWR-PAR-003, SWR-PAR-004, SWR-PAR-011
 /// Design:   docs/design/parameters.md#constraints
@@ -29,13 +29,13 @@
 
 namespace mamori {
 
-/// Lower limit of a value, before the type of the parameter is known.
+/// Lower limit of a value, independent of the parameter type.
 template <typename L>
 struct LowerLimit {
     L value;
     bool is_open;  ///< the limit itself is excluded
 };
-/// Upper limit of a value, before the type of the parameter is known.
+/// Upper limit of a value, independent of the parameter type.
 template <typename L>
 struct UpperLimit {
     L value;
@@ -93,21 +93,21 @@ constexpr AnyValue any_value() noexcept {
 }
 /// @}
 
-/// Values from `lower` to `upper`, either of which may be excluded, for one element or for each.
+/// Values from `lower` to `upper` for one element or for each. Each limit can be excluded.
 template <typename S>
 struct Range {
     static constexpr std::uint16_t kEachElement = std::numeric_limits<std::uint16_t>::max();
-    /// Of an enumeration the numbers count.
+    /// For an enumeration, the limits of its underlying type.
     static constexpr S kLowest = static_cast<S>(std::numeric_limits<detail::Number<S>>::lowest());
     static constexpr S kMax = static_cast<S>(std::numeric_limits<detail::Number<S>>::max());
 
     S lower{kLowest};
     S upper{kMax};
-    std::uint16_t element{kEachElement};  ///< 0 .. 65534, or each
+    std::uint16_t element{kEachElement};  ///< 0 .. 65534, or kEachElement
     bool is_lower_open{false};
     bool is_upper_open{false};
 
-    /// Written so that a NaN lies nowhere.
+    /// Whether `value` is in the range. The comparisons are false for NaN.
     constexpr bool contains(S value) const noexcept {
         const bool is_above = is_lower_open ? value > lower : value >= lower;
         const bool is_below = is_upper_open ? value < upper : value <= upper;
@@ -115,16 +115,16 @@ struct Range {
     }
 };
 
-/// A constraint as data: an element may have a value that lies in any of its ranges.
+/// A constraint as data. An element can have each value that is in one of its ranges.
 ///
-/// Thread safety: constant once made. Time: O(kRanges). Memory: kRanges ranges, no heap.
-/// Before any range is added it admits nothing.
+/// Thread safety: constant after construction. Time: O(kRanges). Memory: kRanges ranges, no heap.
+/// Before a range is added, it admits no value.
 template <typename S, std::size_t kRanges>
 class Constraint final {
     static_assert(kRanges > 0U && kRanges < Range<S>::kEachElement);
 
   public:
-    /// May element `element` have `value`? @param[in] element 0 .. number of elements - 1.
+    /// Whether element `element` can have `value`. @param[in] element 0 .. number of elements - 1.
     constexpr bool admits(S value, std::size_t element) const noexcept {
         for (const Range<S>& range : get_ranges()) {
             if ((range.element == Range<S>::kEachElement || range.element == element) &&
@@ -134,15 +134,15 @@ class Constraint final {
         }
         return false;
     }
-    /// The ranges in the order of the declaration; valid as long as the constraint.
+    /// Ranges in the order of declaration; valid as long as the constraint.
     constexpr Span<const Range<S>> get_ranges() const noexcept { return {ranges_.data(), range_count_}; }
 
-    /// Adds a range. The caller keeps within kRanges ranges.
+    /// Adds a range. Precondition: fewer than kRanges ranges were added.
     constexpr void add(const Range<S>& range) noexcept {
         ranges_[range_count_] = range;
         ++range_count_;
     }
-    /// Admits nothing from now on, as that of an invalid declaration.
+    /// Removes all ranges, so that no value is admitted; for an invalid declaration.
     constexpr void clear() noexcept { range_count_ = 0U; }
 
   private:
@@ -152,8 +152,9 @@ class Constraint final {
 
 namespace detail {
 
-/// @name Stop the compiler in a constant expression with their own names in the message. At run time they do
-/// nothing: the constraint then admits nothing, and initialize() of the executive rejects the parameter.
+/// @name In a constant expression, a violation stops the compiler, and the message shows the function name.
+///       At run time they have no effect: the constraint then admits no value, and initialize() of the
+///       executive rejects the parameter.
 /// @{
 constexpr void require_limit_within_type(bool is_within) noexcept {
     MAMORI_REQUIRE(1, is_within || !__builtin_is_constant_evaluated());
@@ -163,7 +164,7 @@ constexpr void require_range_contains_a_value(bool contains) noexcept {
 }
 /// @}
 
-/// Ranges of a constraint; 0 for what is not a constraint.
+/// Number of ranges of a constraint; 0 for a type that is not a constraint.
 template <typename C>
 inline constexpr std::size_t kRangeCountOf = 0U;
 template <typename L>
@@ -177,11 +178,12 @@ inline constexpr std::size_t kRangeCountOf<Choices<L, kCount>> = kCount;
 template <>
 inline constexpr std::size_t kRangeCountOf<AnyValue> = 1U;
 
-/// bool is an integer type of C++, but not a number here.
+/// Excludes bool, which is an integer type of C++ but not a number here.
 template <typename S>
 inline constexpr bool kIsInteger = std::is_integral_v<S> && !std::is_same_v<S, bool>;
 
-/// Of floating-point limits it is not checked how many numbers of the type are between them.
+/// Whether the range contains a value. For floating-point limits a < b, this is assumed without a check that
+/// the type has a value between them.
 template <typename S>
 constexpr bool has_value(const Range<S>& range) noexcept {
     if (!(range.lower < range.upper)) {
@@ -195,7 +197,7 @@ constexpr bool has_value(const Range<S>& range) noexcept {
     }
 }
 
-/// Adds the constraints of a declaration to the constraint of a parameter.
+/// Converts the constraints of a declaration to ranges of the parameter constraint.
 template <typename S, std::size_t kRanges>
 struct ConstraintMaker {
     Constraint<S, kRanges> constraint{};
@@ -252,9 +254,8 @@ struct ConstraintMaker {
 }  // namespace detail
 
 /// The constraint of a parameter with `kElements` elements of type S.
-/// @param[in] parts none, one for every element, or one for each.
-/// @return without any range, so that it admits nothing, if a part is invalid and the compiler did not see
-/// it.
+/// @param[in] parts none, one for all elements, or one for each element.
+/// @return the constraint; without ranges, so that it admits no value, if a part is invalid at run time.
 template <typename S, std::size_t kRanges, std::size_t kElements, typename... Cs>
 constexpr Constraint<S, kRanges> make_constraint(const Cs&... parts) noexcept {
     static_assert((... && (detail::kRangeCountOf<Cs> > 0U)),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A parameter of a component: a value with a constraint that is set from outside and never changes while its
-/// component is in a cycle. It is a member of the component, listed like a port:
+/// A parameter of a component: a value with a constraint. It is set from outside the component and never
+/// changes during a cycle of the component. It is a member of the component, listed like a port:
 ///
 ///     mamori::Parameter<double> limit_rad_s{"limit_rad_s", 1.0, mamori::between(0.1, 3.0)};
 ///     using Parameters = mamori::Parameters<&SpeedMonitor::limit_rad_s>;
@@ -26,27 +26,27 @@
 namespace mamori {
 namespace detail {
 
-/// Stops the compiler in a constant expression with its own name in the message. At run time it does nothing:
-/// the parameter is then invalid.
+/// In a constant expression, a violation stops the compiler, and the message shows the function name. At run
+/// time it has no effect: the parameter is then invalid.
 constexpr void require_default_within_constraint(bool is_admitted) noexcept {
     MAMORI_REQUIRE(1, is_admitted || !__builtin_is_constant_evaluated());
 }
 
-/// Who may touch the requested value. Taken with one exchange, so nobody ever waits.
+/// Access state of the requested value. Access is acquired with one atomic exchange, so no thread waits.
 enum class RequestSlot : std::uint8_t { kEmpty, kFull, kBusy };
 
 }  // namespace detail
 
 /// Parameter of type T: bool, an integer, float, double, an enum, or a `std::array` of one of them.
 ///
-/// A limit that the type does not have, a range without a value and a default that violates the constraint
-/// stop the compiler when the component is a constant (MAMORI_CONSTINIT). Otherwise the parameter is invalid:
-/// it admits no value, and initialize() of the executive rejects the table.
+/// If the component is a constant (MAMORI_CONSTINIT), the compiler rejects a limit that the type cannot
+/// represent, a range without a value, and a default value that violates the constraint. Otherwise such a
+/// parameter is invalid: it admits no value, and initialize() of the executive rejects the table.
 ///
 /// Thread safety: as ParameterBase; get() from its component, admits() from any thread.
 /// Time:          O(elements * kRanges); get() and commit() copy at most one T. Nothing blocks.
-/// Memory:        two T and kRanges ranges of two elements each, no heap.
-/// @tparam kRanges room for the ranges and choices of the constraint, all elements together, 1 .. 65534.
+/// Memory:        two T and kRanges ranges with two limits each, no heap.
+/// @tparam kRanges capacity for the ranges and choices of the constraint over all elements, 1 .. 65534.
 template <typename T, std::size_t kRanges = detail::Elements<T>::kCount + 3U>
 class Parameter final : public ParameterBase {
     using Elements = detail::Elements<T>;
@@ -58,9 +58,9 @@ class Parameter final : public ParameterBase {
   public:
     using Value = T;
 
-    /// @param[in] name          name within the component, static storage.
-    /// @param[in] default_value value from the start on; the constraint holds for it.
-    /// @param[in] constraints   none, one for every element, or one for each element; see constraint.hpp.
+    /// @param[in] name          name within the component, static storage, not nullptr.
+    /// @param[in] default_value initial value; must satisfy the constraint.
+    /// @param[in] constraints   none, one for all elements, or one for each element; see constraint.hpp.
     template <typename... Cs>
     constexpr Parameter(const char* name, const T& default_value, const Cs&... constraints) noexcept
         : ParameterBase(name, Elements::kCount),
@@ -74,11 +74,10 @@ class Parameter final : public ParameterBase {
         }
     }
 
-    /// The active value; the same from the beginning of a cycle to its end. The reference is valid as long as
-    /// the parameter.
+    /// The active value; constant during a cycle. The reference is valid as long as the parameter.
     constexpr const T& get() const noexcept { return active_; }
 
-    /// May the parameter have this value?
+    /// Whether `value` satisfies the constraint.
     constexpr bool admits(const T& value) const noexcept {
         for (std::size_t i = 0U; i < Elements::kCount; ++i) {
             if (!constraint_.admits(Elements::get(value, i), i)) {
@@ -87,13 +86,14 @@ class Parameter final : public ParameterBase {
         }
         return true;
     }
-    /// The same for values without their type, one per element.
+    /// The same for untyped values, one per element; false also for a wrong number or type of values.
     constexpr bool admits_scalars(Span<const Scalar> values) const noexcept {
         const Result<T> value = to_value(values);
         return value.has_value() && admits(value.get_value());
     }
 
-    /// Asks for `value` from the next commit() on; from any thread. @return as request_scalars().
+    /// Requests that `value` becomes active at the next commit(); from any thread. @return as
+    /// request_scalars().
     Status request(const T& value) noexcept {
         if (!admits(value)) {
             return Status::kBadParameter;
@@ -146,7 +146,7 @@ class Parameter final : public ParameterBase {
         return Status::kOk;
     }
     bool commit() noexcept override {
-        // Only this function empties the slot: what is full here is full or busy below.
+        // Only this function empties the slot, so a slot that is full here can only become busy.
         if (slot_.load(std::memory_order_relaxed) != detail::RequestSlot::kFull ||
             slot_.exchange(detail::RequestSlot::kBusy, std::memory_order_acq_rel) ==
                 detail::RequestSlot::kBusy) {
@@ -179,7 +179,7 @@ class Parameter final : public ParameterBase {
     std::atomic<detail::RequestSlot> slot_{detail::RequestSlot::kEmpty};
 };
 
-/// Parameters of a component, as pointers to its members; a component without the alias has none.
+/// Parameters of a component, as pointers to its members. A component without this alias has no parameters.
 template <auto... kMembers>
 struct Parameters {
     static constexpr std::size_t kCount = sizeof...(kMembers);

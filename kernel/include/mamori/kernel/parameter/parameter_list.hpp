@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Which parameters a component has, as ports are listed, and how the compiler can judge a value for one of
-/// them.
+/// Lists the parameters of components, like ports, and provides the compile-time check of a value.
 ///
 /// @satisfies SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
 #ifndef MAMORI_KERNEL_PARAMETER_LIST_HPP
@@ -19,14 +18,14 @@
 
 namespace mamori {
 
-/// One parameter of a listed component, while the table is being made.
+/// One parameter of a listed component, used while the table is built.
 struct ParameterDeclaration {
     ParameterRow row{};
-    /// Asks a component that was made for the question; says yes when its type has no default constructor.
+    /// Checks the values with a temporary component; returns true if its type has no default constructor.
     bool (*admits)(Span<const Scalar> values) noexcept {nullptr};
 };
 
-/// Parameters of some components, in their order.
+/// Parameters of a list of components, in component order.
 template <std::size_t kCount>
 struct ParameterList {
     std::array<ParameterDeclaration, kCount> declarations{};
@@ -43,8 +42,8 @@ struct ParameterCount<C, std::void_t<typename C::Parameters>> {
     static constexpr std::size_t kValue = C::Parameters::kCount;
 };
 
-/// The parameters of a static object are no constants to the compiler, but those of a local one are, and both
-/// have the same constraint.
+/// Constraint check with a local object: the compiler can read its parameters, but not those of a static
+/// object. Both have the same constraint.
 template <typename C, auto kMember>
 constexpr bool admits_in_default(Span<const Scalar> values) noexcept {
     if constexpr (std::is_default_constructible_v<C>) {
@@ -83,13 +82,14 @@ constexpr void append_parameters_of(C& component, ParameterList<N>& list, std::s
 
 }  // namespace detail
 
-/// Parameters that component type C declares.
+/// Number of parameters that component type C declares.
 template <typename C>
 constexpr std::size_t parameter_count() noexcept {
     return detail::ParameterCount<C>::kValue;
 }
 
-/// Every parameter of these components, which outlive the list; those without any may be among them.
+/// All parameters of these components, which must outlive the list. Components without parameters are
+/// allowed.
 template <typename... Cs>
 constexpr ParameterList<(parameter_count<Cs>() + ... + 0U)> parameters_of(Cs&... components) noexcept {
     ParameterList<(parameter_count<Cs>() + ... + 0U)> list{};

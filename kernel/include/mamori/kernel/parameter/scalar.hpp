@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One number, bool or enumerator without its type, for tables and tools that hold values of many types. Its
+/// An untyped number, bool or enumerator, for tables and tools that handle values of many types. The
 /// conversion to a typed value is exact.
 ///
 /// @satisfies SWR-PAR-002      Design: docs/design/parameters.md#values
@@ -15,22 +15,22 @@
 
 namespace mamori {
 
-/// An integer as sign and magnitude, so that both 64-bit types fit.
+/// An integer as sign and magnitude, so that it can represent both 64-bit types.
 struct Whole {
     std::uint64_t magnitude{0U};
     bool is_negative{false};
 };
 
-/// A value without its type: a real number or an integer (bool is 0 or 1, an enumerator its number).
+/// An untyped value: a real number or an integer (bool: 0 or 1; enumerator: its number).
 struct Scalar {
-    double real{0.0};  ///< when is_real
-    Whole whole{};     ///< else
+    double real{0.0};  ///< valid if is_real
+    Whole whole{};     ///< valid if not is_real
     bool is_real{false};
 };
 
 namespace detail {
 
-/// Number type behind an enum; any other type is its own.
+/// Underlying type of an enum; for any other type the type itself.
 template <typename S, bool kIsEnum = std::is_enum_v<S>>
 struct NumberOf {
     using Type = S;
@@ -44,14 +44,14 @@ using Number = typename NumberOf<S>::Type;
 
 }  // namespace detail
 
-/// True for the types that a scalar parameter can have.
+/// True for the types that an element of a parameter can have.
 template <typename S>
 constexpr bool is_scalar() noexcept {
     using N = detail::Number<S>;
     return std::is_integral_v<N> || std::is_same_v<N, float> || std::is_same_v<N, double>;
 }
 
-/// `value` without its type, exactly.
+/// Converts `value` to an untyped value, exactly.
 template <typename S>
 constexpr Scalar to_scalar(S value) noexcept {
     static_assert(is_scalar<S>());
@@ -71,14 +71,14 @@ constexpr Scalar to_scalar(S value) noexcept {
     return scalar;
 }
 
-/// The whole number as an S (integer, bool or enum). @return kBadParameter when S has no such value.
+/// Converts an integer to S (integer, bool or enum). @return kBadParameter if S cannot represent it.
 template <typename S>
 constexpr Result<S> from_whole(const Whole& whole) noexcept {
     using N = detail::Number<S>;
     using Limits = std::numeric_limits<N>;
     const auto max = static_cast<std::uint64_t>(Limits::max());
     if constexpr (std::is_signed_v<N>) {
-        // The lowest value has a magnitude that is greater by one; it is formed without leaving the type.
+        // The magnitude of the lowest value exceeds the maximum by one; the conversion avoids overflow.
         if (whole.is_negative && whole.magnitude != 0U) {
             return whole.magnitude > max + 1U
                        ? Result<S>{Status::kBadParameter}
@@ -92,8 +92,8 @@ constexpr Result<S> from_whole(const Whole& whole) noexcept {
     return static_cast<S>(static_cast<N>(whole.magnitude));
 }
 
-/// The typed value of `scalar`. A whole number does not become a real one, nor the other way round.
-/// @return kBadParameter when S does not have exactly this value.
+/// Converts `scalar` to S. An integer is not converted to a real number, nor a real number to an integer.
+/// @return the value; kBadParameter (S cannot represent exactly this value).
 template <typename S>
 constexpr Result<S> from_scalar(const Scalar& scalar) noexcept {
     static_assert(is_scalar<S>());
@@ -102,7 +102,7 @@ constexpr Result<S> from_scalar(const Scalar& scalar) noexcept {
     }
     if constexpr (std::is_floating_point_v<S>) {
         constexpr auto kMax = static_cast<double>(std::numeric_limits<S>::max());
-        // Written so that a NaN is refused too. A cast beyond the range of S would not be defined.
+        // The negated comparison also rejects NaN. A cast of a value outside the range of S is undefined.
         if (!(scalar.real >= -kMax && scalar.real <= kMax)) {
             return Status::kBadParameter;
         }

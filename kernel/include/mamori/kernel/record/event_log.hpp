@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Bounded log of numbered events. Records are numbers, not strings: the tables that name them stay on the
-/// host. When it is full the oldest record gives way and is counted as lost.
+/// Bounded log of numbered events. Records are numbers, not strings; the tables with their names stay on the
+/// host. When the log is full, a new record overwrites the oldest one, which is counted as lost.
 ///
 /// @satisfies SWR-KRN-019, SWR-REC-009      Design: docs/design/kernel.md#event-log
 #ifndef MAMORI_KERNEL_EVENT_LOG_HPP
@@ -18,45 +18,45 @@ namespace mamori {
 
 class FlightRecorder;
 
-/// How much an event matters.
+/// Severity of an event.
 enum class Severity : std::uint8_t { kInfo, kWarning, kFault };
 
 /// One record.
 struct Event {
-    std::uint32_t sequence{0U};  ///< 0, 1, 2, ... without a gap at writing; wraps at 2^32
+    std::uint32_t sequence{0U};  ///< 0, 1, 2, ... without gaps when written; wraps at 2^32
     Severity severity{Severity::kInfo};
-    std::uint16_t source{0U};  ///< who: component index or a number of the application
-    std::uint16_t code{0U};    ///< what: number of the application's event table
+    std::uint16_t source{0U};  ///< origin: component index or a number of the application
+    std::uint16_t code{0U};    ///< event number in the event table of the application
     Instant time{};
     std::int64_t argument{0};  ///< meaning depends on the code
 };
 
-/// Ring of events over storage given by its owner, which must outlive it.
+/// Ring buffer of events in storage of its owner, which must outlive the log.
 ///
-/// Thread safety: none; one log per context. Time: O(1), with a recorder too.
+/// Thread safety: none; one log per context. Time: O(1), also with a recorder. Nothing blocks.
 /// Memory:        none of its own beyond the counters.
 class EventLog final {
   public:
-    /// @param[in] storage room for the records; with none at all every write is a lost record.
+    /// @param[in] storage buffer of the records; if it is empty, every written record is lost.
     constexpr explicit EventLog(Span<Event> storage) noexcept : storage_(storage) {}
 
-    /// Hands every later record on to a recorder as well, which outlives the program; for a start without one
-    /// nothing needs to be called. @param[in] recorder open, and to be left open until the last write; must
+    /// Forwards every later record also to a recorder, whose region survives the program. A log without a
+    /// recorder needs no call. @param[in] recorder must be open, remain open until the last write, and
     /// outlive the log.
-    /// @return kOk; kPreconditionNotMet (the recorder is not open, or there is one already).
+    /// @return kOk; kPreconditionNotMet (the recorder is not open, or a recorder is already attached).
     Status attach(FlightRecorder& recorder) noexcept;
 
-    /// Appends a record, in the recorder first; never fails, never blocks. A recorder that was attached and
-    /// is closed since is an own bug.
+    /// Appends a record, first to the recorder; never fails, never blocks. If an attached recorder was closed
+    /// since, the call is a contract violation.
     void write(Instant time, Severity severity, std::uint16_t source, std::uint16_t code,
                std::int64_t argument) noexcept;
 
     /// Records that can be read, 0 .. capacity.
     std::size_t size() const noexcept;
-    /// @param[in] index 0 = oldest kept .. size() - 1 = newest.
-    /// @return valid until the next write; an index out of range is an own bug.
+    /// @param[in] index 0 = oldest kept .. size() - 1 = newest; out of range is a contract violation.
+    /// @return the record; valid until the next write.
     const Event& get(std::size_t index) const noexcept;
-    /// Records that gave way to later ones, read or not, or found no room at all (saturates at 2^32 - 1).
+    /// Records that were overwritten, read or not, or not stored for lack of storage (saturates at 2^32 - 1).
     std::uint32_t get_lost_count() const noexcept { return lost_count_; }
 
   private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Bytes of a flight recorder's region: a header, then a ring of records of one size, all little-endian. Pure
-/// functions between values and bytes, each O(1) and for any context; who writes them in which order is the
-/// business of FlightRecorder.
+/// Byte format of a flight recorder region: a header, then a ring of records of equal size, all
+/// little-endian. Pure functions that convert between values and bytes, each O(1) and callable from any
+/// context. FlightRecorder defines the write order.
 ///
 /// @satisfies SWR-REC-001      Design: docs/design/recorder.md#region
 #ifndef MAMORI_KERNEL_FLIGHT_FORMAT_HPP
@@ -18,31 +18,31 @@
 
 namespace mamori {
 
-/// One record as it is kept.
+/// One stored record.
 struct FlightRecord {
-    std::uint64_t sequence{0U};  ///< 1 .. kSequenceMax over all sessions; a number is never used twice
-    Instant time{};              ///< on the time line of its session
+    std::uint64_t sequence{0U};  ///< 1 .. kSequenceMax over all sessions; a number is never reused
+    Instant time{};              ///< in the time base of its session
     std::int64_t argument{0};    ///< meaning depends on the code
-    std::uint32_t session{0U};   ///< 1, 2, ...: which opening of the region wrote it
+    std::uint32_t session{0U};   ///< 1, 2, ...: session that wrote the record
     std::uint16_t source{0U};    ///< as Event::source
     std::uint16_t code{0U};      ///< as Event::code
     Severity severity{Severity::kInfo};
 };
 
-/// What a slot of the ring holds.
+/// Content of a slot of the ring.
 enum class SlotState : std::uint8_t {
     kEmpty,    ///< never written
-    kWhole,    ///< a record
-    kTorn,     ///< the writer ended in mid-write
-    kCorrupt,  ///< written, but changed since, or not of this place
+    kWhole,    ///< an intact record
+    kTorn,     ///< the write was interrupted
+    kCorrupt,  ///< written, but modified since, or a record of another slot
 };
 
-/// Which opening of the region is, or was, at work, and how far it had come when it last said so: at its
-/// beginning, and before each record that goes into slot 0.
+/// A session: one use of the region from open() to close() or the end of the program. It notes its progress
+/// in the header when it starts, and before each record that it writes to slot 0. Until the next note, it
+/// uses only numbers below next_sequence + capacity.
 struct FlightSession {
-    std::uint32_t number{0U};         ///< 1, 2, ...; 0: none
-    std::uint64_t next_sequence{0U};  ///< given to no record yet; this plus the capacity is never given
-                                      ///< before the session says so again
+    std::uint32_t number{0U};         ///< 1, 2, ...; 0: no session
+    std::uint64_t next_sequence{0U};  ///< first number not used when this was noted
 };
 
 namespace flight {
@@ -50,17 +50,17 @@ namespace flight {
 inline constexpr std::size_t kHeaderSize = 64U;   ///< [byte]
 inline constexpr std::size_t kRecordSize = 40U;   ///< [byte]
 inline constexpr std::size_t kSessionSize = 16U;  ///< [byte]
-inline constexpr std::uint16_t kVersion = 2U;     ///< of this layout
-/// A file that went through a text conversion, or lost its eighth bits, no longer begins like this.
+inline constexpr std::uint16_t kVersion = 2U;     ///< version of this layout
+/// File signature. It detects a text conversion of the file and the loss of the eighth bit of each byte.
 inline constexpr std::array<std::uint8_t, 8U> kMagic{0x89U, 'M', 'R', 'E', 'C', '\r', '\n', 0x1AU};
-/// Largest number of a record: 146 years at one record per nanosecond. A larger one is no number of ours.
+/// Largest number of a record: 146 years at one record per nanosecond. A larger number is invalid.
 inline constexpr std::uint64_t kSequenceMax = std::uint64_t{1} << 62U;
 
-inline constexpr std::size_t kVersionOffset = 8U;  ///< in the header [byte]
-/// Of the two places for the session in the header [byte]: what it says now and what it said before, in
-/// turns.
+inline constexpr std::size_t kVersionOffset = 8U;  ///< offset in the header [byte]
+/// Offsets in the header of the two session slots, which are written alternately [byte]. One has the newest
+/// progress note, the other the previous one.
 inline constexpr std::array<std::size_t, 2U> kSessionOffsets{24U, 40U};
-/// Byte of a record [byte] that is written first, as 0, and last, as kCommitted.
+/// Offset in a record of the commit byte, which is written first as 0 and last as kCommitted [byte].
 inline constexpr std::size_t kCommitOffset = 35U;
 inline constexpr std::uint8_t kCommitted = 0xC3U;
 
@@ -68,38 +68,39 @@ using HeaderBytes = std::array<std::uint8_t, kHeaderSize>;
 using RecordBytes = std::array<std::uint8_t, kRecordSize>;
 using SessionBytes = std::array<std::uint8_t, kSessionSize>;
 
-/// Bytes of a region that holds `capacity` records. @param[in] capacity 0 .. 2^32 - 1, as far as std::size_t
-/// counts the bytes: that is not checked.
+/// Size of a region for `capacity` records [byte]. @param[in] capacity 0 .. 2^32 - 1. Precondition, not
+/// checked: the size fits std::size_t.
 constexpr std::size_t calc_region_size(std::size_t capacity) noexcept {
     return kHeaderSize + capacity * kRecordSize;
 }
-/// Records that a region of `size` bytes holds; 0 when it is too small for one. O(1).
+/// Number of records that fit into a region of `size` bytes; 0 if it is too small for one. O(1).
 constexpr std::size_t calc_capacity(std::size_t size) noexcept {
     return size < kHeaderSize ? 0U : (size - kHeaderSize) / kRecordSize;
 }
-/// Place of a record in the ring, 0 .. capacity - 1.
-/// @param[in] sequence from 1 on; else an own bug. @param[in] capacity from 1 on; else an own bug.
+/// Slot of a record in the ring, 0 .. capacity - 1.
+/// @param[in] sequence, capacity >= 1; 0 is a contract violation.
 constexpr std::size_t calc_slot(std::uint64_t sequence, std::size_t capacity) noexcept {
     MAMORI_REQUIRE(1, sequence > 0U && capacity > 0U);
     return static_cast<std::size_t>((sequence - 1U) % capacity);
 }
 
-/// A header without any session. @param[in] capacity records in the ring.
+/// Encodes a header without a session. @param[in] capacity records in the ring.
 HeaderBytes encode_header(std::uint32_t capacity) noexcept;
-/// @param[in] capacity records that the region at hand has room for.
-/// @return kOk; kUnsupported (of another version); kError (foreign, damaged, or for another capacity).
+/// @param[in] capacity records that fit into the region.
+/// @return kOk; kUnsupported (other format version); kError (not a recorder region, damaged, or written for
+///         another capacity).
 Status check_header(const HeaderBytes& bytes, std::size_t capacity) noexcept;
 
-/// @return the bytes, their checksum among them.
+/// @return the bytes, including their checksum.
 SessionBytes encode_session(const FlightSession& session) noexcept;
-/// @return the session; number 0 when the bytes hold none that is whole.
+/// @return the session; number 0 if the checksum is wrong or next_sequence is not in 1 .. kSequenceMax.
 FlightSession decode_session(const SessionBytes& bytes) noexcept;
 
-/// @return the bytes with the commit byte still 0.
+/// @return the bytes; the commit byte is still 0.
 RecordBytes encode_record(const FlightRecord& record) noexcept;
-/// @param[in] slot place where the bytes were found, 0 .. capacity - 1. @param[out] record set when kWhole.
-/// @return kEmpty (zeros only); kTorn (the commit byte is still 0); kCorrupt (the checksum, or a value that
-///         no record of this place has); else kWhole.
+/// @param[in] slot slot that contained the bytes, 0 .. capacity - 1. @param[out] record written if kWhole.
+/// @return kEmpty (only zeros); kTorn (commit byte still 0); kCorrupt (wrong checksum or commit byte, or a
+///         value that no record of this slot can have); else kWhole.
 SlotState decode_record(const RecordBytes& bytes, std::size_t slot, std::size_t capacity,
                         FlightRecord& record) noexcept;
 

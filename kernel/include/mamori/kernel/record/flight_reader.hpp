@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads what a flight recorder left: after a reset, after a crash, or while it is still being written.
+/// Reads the records that a flight recorder wrote: after a reset, after a crash, or while it still writes.
 ///
 /// @satisfies SWR-REC-004, SWR-REC-005      Design: docs/design/recorder.md#reading
 #ifndef MAMORI_KERNEL_FLIGHT_READER_HPP
@@ -15,34 +15,34 @@
 
 namespace mamori {
 
-/// View of a region that may hold any bytes at all. Nothing is believed before its checksum was right.
+/// View of a region with arbitrary content. No value is used before its checksum was verified.
 ///
-/// Thread safety: none against a writer in the same program; a writer in another process is fine, a record
-/// that changes while it is read shows as torn or corrupt. Time: as said at each member; nothing blocks.
-/// Memory: the view alone.
+/// Thread safety: none against a writer in the same program. A writer in another process is permitted: a
+///                record that changes during the read is reported as torn or corrupt.
+/// Time:          as stated at each member; nothing blocks. Memory: the view only.
 class FlightReader final {
   public:
     constexpr FlightReader() noexcept = default;
 
     /// @param[in] region must outlive this object; any alignment. O(1).
     /// @return kOk; kBadParameter (smaller than header and one record, or more than 2^32 - 1 records);
-    ///         kUnsupported (a recorder of another format version); kError (foreign, damaged header, or
-    ///         written for a region of another size). On anything but kOk the reader stays as it was.
+    ///         kUnsupported (other format version); kError (not a recorder region, header damaged, or written
+    ///         for a region of another size). Unless kOk, the reader is unchanged.
     Status open(Span<const std::byte> region) noexcept;
 
     /// Slots of the ring; 0 before open().
     std::size_t get_capacity() const noexcept { return capacity_; }
 
-    /// @param[in] slot 0 .. get_capacity() - 1; anything else is an own bug.
-    /// @param[out] record set when kWhole.
+    /// @param[in] slot 0 .. get_capacity() - 1; any other value is a contract violation.
+    /// @param[out] record written if kWhole is returned.
     /// @return as flight::decode_record(). O(1).
     SlotState read(std::size_t slot, FlightRecord& record) const noexcept;
 
-    /// The newest that the header knows of a session; number 0 when it knows none, or before open(). O(1).
+    /// Newest session in the header; number 0 if the header has none, or before open(). O(1).
     FlightSession calc_session() const noexcept;
-    /// Which of flight::kSessionOffsets tells of it; 0 when neither does. O(1).
+    /// Index into flight::kSessionOffsets of the newest session; 0 if there is none. O(1).
     std::size_t calc_session_place() const noexcept;
-    /// Number of the newest whole record, 0 without one. O(capacity).
+    /// Number of the newest intact record; 0 if there is none. O(capacity).
     std::uint64_t calc_newest_sequence() const noexcept;
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Flight recorder: a ring of numbered, checksummed records in memory that outlives the program, such as a
-/// mapped file or RAM that a reset leaves alone. What was written before the end can be read after it.
+/// Flight recorder: a ring of numbered, checksummed records in memory that survives the program, such as a
+/// mapped file or RAM that a reset retains. Records that were written before the end can be read after it.
 ///
 /// @satisfies SWR-REC-002, SWR-REC-003, SWR-REC-006, SWR-REC-007, SWR-REC-008, SWR-REC-015
 /// Design: docs/design/recorder.md#writing
@@ -17,55 +17,57 @@
 
 namespace mamori {
 
-/// Writes records over a region given by its owner, which must outlive it. An event log can hand its events
-/// on to it.
+/// Writes records to a region of its owner, which must outlive the recorder. An event log can forward its
+/// events to it.
 ///
 /// Thread safety: none; one recorder per context, one recorder per region.
-/// Time:          write() is O(1), wait-free; open() and format() are O(region). Nothing blocks, but the
-///                first touch of a page is the system's business: see docs/design/recorder.md#mapped-file.
+/// Time:          write() is O(1), wait-free; open() and format() are O(region). Nothing blocks, except that
+///                the operating system may delay the first access to a page: see
+///                docs/design/recorder.md#mapped-file.
 /// Memory:        none of its own beyond the counters.
 class FlightRecorder final {
   public:
     constexpr FlightRecorder() noexcept = default;
 
-    /// Makes an empty recorder of the region and wipes whatever it held. A recorder that is open over the
+    /// Formats the region as an empty recorder and erases its content. A recorder that is open over the
     /// region must not be used afterwards.
-    /// @return kOk; kBadParameter (room for no record, or for more than 2^32 - 1).
+    /// @return kOk; kBadParameter (capacity is 0 records, or more than 2^32 - 1).
     static Status format(Span<std::byte> region) noexcept;
 
-    /// Begins a session: formats a region of zeros only, also one whose first format was cut off; continues
-    /// the numbers of any other and keeps its records.
+    /// Starts a session. Formats a region that contains only zeros, or whose first format was interrupted. In
+    /// any other region, it keeps the records and continues their numbers.
     /// @param[in] region any alignment; must outlive this object.
-    /// @return kOk; kBadParameter (room for no record, or for more than 2^32 - 1);
-    ///         kPreconditionNotMet (open already); kUnsupported (written by another format version); kError
-    ///         (foreign, damaged header, written for another size, or damaged so that neither header nor any
-    ///         record tells which numbers were given); kOutOfResources (numbers of records or sessions used
-    ///         up). Unless kOk, neither region nor recorder was changed: the caller decides about format().
+    /// @return kOk; kBadParameter (capacity is 0 records, or more than 2^32 - 1); kPreconditionNotMet
+    ///         (already open); kUnsupported (other format version); kError (not a recorder region, header
+    ///         damaged, written for another size, or so damaged that neither header nor records show which
+    ///         numbers were used); kOutOfResources (numbers of records or sessions exhausted). Unless kOk,
+    ///         region and recorder are unchanged; the caller decides whether to format().
     Status open(Span<std::byte> region) noexcept;
 
-    /// Ends the session; the region may go.
+    /// Ends the session; the region can then be released.
     void close() noexcept { *this = FlightRecorder{}; }
     bool is_open() const noexcept { return capacity_ != 0U; }
 
-    /// Appends a record. When it returns, the end of the program takes it no more; an end in mid-write leaves
-    /// all other records and a slot that reads as torn. Without an open region it is an own bug.
+    /// Appends a record. When it returns, the record survives the end of the program. An end during the write
+    /// leaves all other records intact and a slot that reads as torn. A call while closed is a contract
+    /// violation.
     void write(Instant time, Severity severity, std::uint16_t source, std::uint16_t code,
                std::int64_t argument) noexcept;
 
-    /// Number of the session, from 1 on; 0 while closed.
+    /// Number of the session, >= 1; 0 while closed.
     std::uint32_t get_session() const noexcept { return session_; }
-    /// Number that the next record gets, from 1 on; 0 while closed.
+    /// Number of the next record, >= 1; 0 while closed.
     std::uint64_t get_next_sequence() const noexcept { return next_sequence_; }
-    /// Records of this and earlier sessions that gave way to one of this session; 0 while closed.
+    /// Records of this and earlier sessions that this session overwrote; 0 while closed.
     std::uint64_t get_overwritten_count() const noexcept { return overwritten_count_; }
 
   private:
-    /// Notes in the header that next_sequence_ comes next, in the place that does not hold the newest note.
+    /// Records session and next_sequence_ in the header, in the slot that does not contain the newest note.
     void note_progress() noexcept;
 
     Span<std::byte> region_{};
     std::size_t capacity_{0U};
-    std::size_t next_slot_{0U};   ///< that of next_sequence_: no division when a record is written
+    std::size_t next_slot_{0U};   ///< slot of next_sequence_; avoids a division per record
     std::size_t note_place_{0U};  ///< index into flight::kSessionOffsets of the next note
     std::uint32_t session_{0U};
     std::uint64_t next_sequence_{0U};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What an executive tells about its own course: a record of the runs of each component, and a call for what
-/// is rare. Supervision listens here, so that it does not depend on the help of the code it supervises.
+/// Observation of one executive: execution records of each component, and calls for rare events. Supervision
+/// uses it, so that it does not depend on the cooperation of the supervised code.
 ///
 /// @satisfies SWR-KRN-030, SWR-KRN-031, SWR-MOD-005      Design: docs/design/kernel.md#observation
 #ifndef MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
@@ -17,47 +17,45 @@
 
 namespace mamori {
 
-/// Listener to one executive. Indices are positions in the system table (components, windows). `now` is the
-/// host's time in on_budget_overrun and on_late_release, else the planned opening of the window that runs, or
-/// ran last (zero before the first one).
+/// Observer of one executive. Indices are positions in the system table (components, windows). `now` is the
+/// time of the platform host in on_budget_overrun and on_late_release. In the other calls it is the planned
+/// start of the current or last window instance (zero before the first one).
 ///
-/// Calling context: the context that runs the windows, except on_budget_overrun, which a port's guard may
-/// call from its own context. Implementations must not block and must be O(1); operations on the executive
-/// are refused while it calls.
+/// Calling context: the context that runs the windows, except on_budget_overrun, which the guard of a port
+///                  may call from its own context. Implementations must not block and must be O(1).
+///                  Operations on the executive are rejected during a call.
 class ExecutionObserver {
   public:
-    /// Where the executive notes the runs of component i, element i; empty: nobody measures them. A run
-    /// begins at the window's opening or the end of the turn before.
+    /// Storage in which the executive records the execution of component i, in element i; empty: no
+    /// measurement. An execution is measured from the window start or the end of the previous invocation.
     Span<ExecutionRecord> get_records() const noexcept { return records_; }
 
-    /// Window `window` used its budget up while `component` was running, in either pass, in a switch of modes
-    /// or in a late stop, or could not begin because `component` still hangs from before; its outputs are not
-    /// published.
+    /// Window `window` exhausted its budget while `component` was running: in either pass, in a mode switch
+    /// or in a late stop. Or the window could not start because earlier work of `component` still hangs. The
+    /// outputs of the window are not published.
     virtual void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept = 0;
-    /// Window `window` opened `lateness` (> 0) after its place in the frame; called before its components
-    /// run.
+    /// Window `window` started `lateness` (> 0) after its planned start; called before its components run.
     virtual void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept = 0;
-    /// This core begins a step of a switch. @param[in] index mode, or configuration set of kSet.
+    /// This core starts a step of a mode switch. @param[in] index mode, or configuration set of kSet.
     virtual void on_mode_step(ModeStep step, std::size_t index, Instant now) noexcept {
         static_cast<void>(step);
         static_cast<void>(index);
         static_cast<void>(now);
     }
-    /// A step of a switch failed on this core; a system with modes goes to its safe mode.
+    /// A step of a mode switch failed on this core; a system with modes switches to its safe mode.
     virtual void on_mode_failure(const ModeFailure& failure, Instant now) noexcept {
         static_cast<void>(failure);
         static_cast<void>(now);
     }
-    /// A configuration set was refused: no value of it was switched. initialize() judges every set of the
-    /// table, so a later refusal, at a frame boundary, shows that memory is corrupted.
+    /// A configuration set was rejected; no value of it is activated. initialize() checks every set of the
+    /// table, so a later rejection at a major frame boundary indicates corrupted memory.
     virtual void on_configuration_refused(const ConfigurationFinding& finding, Instant now) noexcept {
         static_cast<void>(finding);
         static_cast<void>(now);
     }
 
   protected:
-    /// @param[in] records one per component of the system table or more, which must outlive the observer; or
-    ///            none.
+    /// @param[in] records at least one per component of the system table, or none; must outlive the observer.
     constexpr explicit ExecutionObserver(Span<ExecutionRecord> records = {}) noexcept : records_(records) {}
     ~ExecutionObserver() = default;
 

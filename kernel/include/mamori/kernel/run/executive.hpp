@@ -86,10 +86,9 @@ class Executive {
 
     /// Runs window `index` once. Actions and publications carry the planned instants, not the measured ones,
     /// so a late release changes no data.
-    /// @param[in] index   0 .. get_view().windows.size() - 1, a window of this core; any other is a contract
+    /// @param[in] index   0 .. get_view().windows.size() - 1, a window of this core; else a contract
     ///                    violation.
-    /// @param[in] release planned window start, >= 0, not after host.get_now(); later is a contract
-    /// violation.
+    /// @param[in] release planned window start, >= 0; after host.get_now() is a contract violation.
     /// @param[in] host    clock and budget guard; work that it aborts may still run after this returns, so it
     ///                    must outlive that. The next window start and stop() query whether it has returned.
     /// @return the end of the window instance; kStopped, kNotDue and kMissed ran no cycle.
@@ -105,7 +104,7 @@ class Executive {
     ExecutionContext& get_context(std::size_t index) noexcept {
         return life_.get_core().windows[index].context;
     }
-    /// The table, as it was given.
+    /// The table that the executive runs.
     const SystemView& get_view() const noexcept { return life_.get_core().view; }
     /// Core whose windows it runs, as WindowRow::core.
     std::size_t get_core() const noexcept { return life_.get_core().core; }
@@ -155,14 +154,14 @@ struct WindowStorage {
 }  // namespace detail
 
 /// Executive with the storage that `Table` needs:  inline mamori::ExecutiveFor executive{kSystem};
-/// A table with modes or configuration sets needs a SystemModes as well; the compiler says so where the type
-/// of the table tells, initialize() otherwise.
+/// A table with modes or configuration sets also needs a SystemModes. If it is missing, the compiler rejects
+/// the executive if the type of the table shows the need, else initialize() does.
 template <typename Table>
 class ExecutiveFor final : private detail::WindowStorage<Table::kWindowCount>, public Executive {
   public:
     /// @param[in] table must outlive the executive; check it with MAMORI_CHECK.
-    /// @param[in] core  whose windows it runs, below kModeCoreMax with a SystemModes; each core of a system
-    ///            has an executive of its own.
+    /// @param[in] core  core whose windows it runs, below kModeCoreMax with a SystemModes. Each core of a
+    ///                  system has its own executive.
     constexpr explicit ExecutiveFor(const Table& table, std::size_t core = 0U) noexcept
         : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core, nullptr) {
         static_assert(!Table::kNeedsModes,

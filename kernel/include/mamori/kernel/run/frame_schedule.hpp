@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The order in which the windows of one core open, frame after frame. It is the one place where a port
-/// learns which window is next and when.
+/// Order of the window starts of one core over all major frames. Ports obtain the next window and its planned
+/// start only from here.
 ///
 /// @satisfies SWR-KRN-027      Design: docs/design/kernel.md#windows
 #ifndef MAMORI_KERNEL_FRAME_SCHEDULE_HPP
@@ -15,28 +15,30 @@
 
 namespace mamori {
 
-/// Walks through the openings of one core in order of time; equal instants cannot be, windows are disjoint.
+/// Iterates over the window starts of one core in time order. Equal instants cannot occur, since windows are
+/// disjoint.
 ///
-/// Thread safety: none. Time: O(windows) per opening; nothing blocks.
+/// Thread safety: none. Time: O(windows) per window start; nothing blocks.
 /// Memory:        the view, two words and an instant.
 class FrameSchedule final {
   public:
-    /// One opening.
+    /// One window start.
     struct Opening {
         std::size_t window{kNoIndex};                               ///< kNoIndex: no window runs on this core
-        Instant release{std::numeric_limits<std::int64_t>::max()};  ///< planned instant
+        Instant release{std::numeric_limits<std::int64_t>::max()};  ///< planned window start
     };
 
-    /// @param[in] view must outlive it and keep the rules (check()). @param[in] core as WindowRow::core.
-    /// @param[in] start first instant; the first opening is the earliest that is not before it.
+    /// @param[in] view its table must outlive this object and violate no rule (check()). @param[in] core as
+    ///                 WindowRow::core.
+    /// @param[in] start the first result is the earliest window start at or after this instant.
     constexpr FrameSchedule(const SystemView& view, std::size_t core, Instant start) noexcept
         : view_(view), core_(core), next_(find(start)) {}
 
-    /// The opening that comes next; does not move on. The reference is valid as long as this object, its
-    /// value until advance().
+    /// Next window start; does not advance. The reference is valid as long as this object, its value until
+    /// advance().
     constexpr const Opening& get_next() const noexcept { return next_; }
 
-    /// Moves on to the opening after it; without effect when no window runs on this core.
+    /// Advances to the following window start; no effect if no window runs on this core.
     constexpr void advance() noexcept {
         if (next_.window != kNoIndex) {
             next_ = find(next_.release + Duration{1});

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Lets tools look at a running system without its taking notice: the executives put copies of what they
-/// know into snapshot cells, and any number of readers take them out again.
+/// Lets tools inspect a running system without influence on it: the executives write copies of their state to
+/// snapshot cells, and any number of readers read them.
 ///
 ///     static mamori::IntrospectionFor introspection{kSystem};
 ///     executive.set_introspection(&introspection);
-///     const mamori::Introspection& shown = introspection;        // all that a tool needs
+///     const mamori::Introspection& shown = introspection;        // sufficient for a tool
 ///     shown.for_each_window([](std::size_t, const mamori::WindowSnapshot& window) noexcept { ... });
 ///
 /// @satisfies SWR-INS-001, SWR-INS-002, SWR-INS-003, SWR-INS-004, SWR-INS-005, SWR-PRT-036
@@ -24,14 +24,14 @@
 namespace mamori {
 
 namespace detail {
-/// What is kept of a row by its core, and what is shown of it to the readers.
+/// A row: `kept` is the working copy of its core, `cell` the copy for readers.
 template <typename Row>
 struct ShownRow {
     Row kept{};
     SnapshotCell<Row> cell{};
 };
 
-/// Rows of one kind, as a reader may use them.
+/// Reads one row. @return as Introspection::read_window().
 template <typename Row>
 Status read_row(Span<ShownRow<Row>> rows, std::size_t index, Row& snapshot) noexcept {
     return index < rows.size() ? rows[index].cell.try_read(snapshot) : Status::kBadParameter;
@@ -51,25 +51,25 @@ std::size_t visit_rows(Span<ShownRow<Row>> rows, Visitor& visitor) noexcept {
 }
 }  // namespace detail
 
-/// Size-free introspection of one system, whatever its number of cores; instantiate IntrospectionFor.
+/// Size-free introspection of one system with any number of cores; instantiate IntrospectionFor.
 ///
-/// Thread safety: const members for any number of readers, at any time; the others for the executives, each
-///                of which writes the rows of its own core.
+/// Thread safety: const members for any number of readers, at any time. The other members are for the
+///                executives, each of which writes the rows of its own core.
 /// Time:          publish_window() is wait-free and O(windows of the table + components and ports of the
 ///                window); one read is O(1), read_core() O(windows). Nothing blocks.
-/// Memory:        no heap; refers to the table, and from publish_window() to its components and ports. One
-///                row of stack per call.
+/// Memory:        no heap; refers to the table, and in publish_window() to its components and ports. One row
+///                of stack per call.
 class Introspection {
   public:
     Introspection(const Introspection&) = delete;
     Introspection& operator=(const Introspection&) = delete;
 
-    /// @name For tools. Rows are those of the system table, and cores have the numbers that it gives them.
-    /// Each row is whole in itself; rows belong to one cycle when their observed_at are equal.
-    /// @param[out] snapshot written on kOk only.
-    /// @return kOk; kBadParameter (there is no such row); kPreconditionNotMet (nothing of it was shown yet,
-    ///         as before an executive of its core is attached); kOutOfResources (the executive was faster in
-    ///         each of SnapshotCell::kTries tries: ask again).
+    /// @name For tools. Row and core numbers are those of the system table. Each row is consistent; rows
+    ///       belong to the same cycle if their observed_at are equal.
+    /// @param[out] snapshot written only if kOk is returned.
+    /// @return kOk; kBadParameter (no such row); kPreconditionNotMet (the row was not published yet, for
+    ///         example before an executive of its core is attached); kOutOfResources (the executive overwrote
+    ///         the row during each of SnapshotCell::kTries attempts: retry).
     /// @{
     Status read_core(std::size_t core, CoreSnapshot& snapshot) const noexcept {
         return detail::read_row(cores_, find_core_row(core), snapshot);
@@ -85,9 +85,10 @@ class Introspection {
     }
     /// @}
 
-    /// @name For tools: all rows in order.
-    /// @param[in] visitor called as visitor(index, snapshot) for each row that can be read, by the caller.
-    /// @return how many could not, for a reason that the read functions above name.
+    /// @name For tools: all rows in table order.
+    /// @param[in] visitor called in the context of the caller as visitor(index, snapshot) for each readable
+    ///                    row.
+    /// @return number of rows that could not be read; causes as for the read functions above.
     /// @{
     template <typename Visitor>
     std::size_t for_each_window(Visitor&& visitor) const noexcept {
@@ -103,26 +104,27 @@ class Introspection {
     }
     /// @}
 
-    /// Rows of the table, whether they can be read or not.
+    /// Number of rows in the table, readable or not.
     std::size_t get_window_count() const noexcept { return windows_.size(); }
     std::size_t get_component_count() const noexcept { return components_.size(); }
     std::size_t get_port_count() const noexcept { return ports_.size(); }
 
-    /// @name For the executive of the core that the row belongs to. An index that is not of the table is an
-    /// own bug.
+    /// @name For the executive of the core that owns the row. An index outside the table is a contract
+    ///       violation.
     /// @{
-    /// An opening of `window` is over. @param[in] lateness, used >= 0.
+    /// Records the end of an instance of `window`. @param[in] lateness, used [ns] >= 0.
     void note_opening(std::size_t window, Duration lateness, Duration used, WindowOutcome outcome) noexcept;
-    /// The first `finished_count` components of `window` came through their first pass within the budget.
+    /// Counts a cycle for those of the first `finished_count` components of `window` that are Active or in
+    /// Error: they completed their first pass within the budget.
     void note_turns(std::size_t window, std::size_t finished_count, const ExecutionContext& context) noexcept;
-    /// The first pass of `component` took `used`. Also from an action that its host has abandoned, while it
-    /// still counts as hanging.
+    /// Records that the first pass of `component` took `used` [ns]. May also be called from an action that
+    /// the platform host has aborted and that still counts as hanging.
     void note_used(std::size_t component, Duration used) noexcept;
-    /// Shows the rows of `window`, of a table that keeps the rules. @param[in] opening planned opening that
-    /// ran last. @param[in] trace_hash of its core, after it.
+    /// Publishes the rows of `window`. Precondition: the table violates no rule. @param[in] opening planned
+    /// start of the last window instance. @param[in] trace_hash of its core, after that instance.
     void publish_window(std::size_t window, const ExecutionContext& context, Instant opening,
                         std::uint64_t trace_hash) noexcept;
-    /// True when its rows are those of `view`.
+    /// Whether its rows are those of `view`.
     bool is_of(const SystemView& view) const noexcept {
         return view_.components.data() == view.components.data();
     }
@@ -144,7 +146,7 @@ class Introspection {
     void publish_port(std::size_t index, Instant opening) noexcept;
 
     SystemView view_;
-    Span<detail::ShownRow<CoreSnapshot>> cores_;  ///< that of a core is at the place of its first window
+    Span<detail::ShownRow<CoreSnapshot>> cores_;  ///< the row of a core has the index of its first window
     Span<detail::ShownRow<WindowSnapshot>> windows_;
     Span<detail::ShownRow<ComponentSnapshot>> components_;
     Span<detail::ShownRow<PortSnapshot>> ports_;
@@ -165,7 +167,7 @@ struct IntrospectionRows {
 template <typename Table>
 class IntrospectionFor final : private detail::IntrospectionRows<Table>, public Introspection {
   public:
-    /// @param[in] table must outlive the introspection; the one that the executives run.
+    /// @param[in] table the table that the executives run; must outlive the introspection.
     constexpr explicit IntrospectionFor(const Table& table) noexcept
         : Introspection(make_view(table), static_cast<detail::IntrospectionRows<Table>&>(*this)) {}
     explicit IntrospectionFor(const Table&& table) = delete;

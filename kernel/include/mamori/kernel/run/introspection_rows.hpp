@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a tool outside can see of a running system, row by row: cores, windows, components, ports. Plain
-/// copies with names in them, so that whoever holds one needs nothing else of the kernel.
+/// State of a running system as external tools see it, row by row: cores, windows, components, ports. Rows
+/// are plain copies that include names, so that a reader needs no other part of the kernel.
 ///
 /// @satisfies SWR-INS-001      Design: docs/design/kernel.md#introspection
 #ifndef MAMORI_KERNEL_INTROSPECTION_ROWS_HPP
@@ -19,57 +19,57 @@
 
 namespace mamori {
 
-/// How far a core has come.
+/// Progress of a core.
 struct CoreSnapshot {
-    Instant observed_at{};         ///< planned opening of the window that ran last
-    std::uint64_t frame{0U};       ///< number of its frame: 0, 1, ...
-    std::uint64_t trace_hash{0U};  ///< after it, as Executive::get_trace_hash() of that core
+    Instant observed_at{};         ///< planned start of the last window instance
+    std::uint64_t frame{0U};       ///< number of its major frame: 0, 1, ...
+    std::uint64_t trace_hash{0U};  ///< after that instance, as Executive::get_trace_hash() of the core
 };
 
-/// How a window keeps its time. Counts and worst cases are those since the introspection was attached.
+/// Timing of a window. Counts and maxima start when the introspection is attached.
 struct WindowSnapshot {
     const char* name{""};             ///< static storage, as all names here
-    std::size_t core{0U};             ///< that runs it, as WindowRow::core
-    Instant observed_at{};            ///< planned opening that ran last
-    std::uint64_t cycles{0U};         ///< openings that ended kCompleted or kOverrun
-    std::uint64_t overruns{0U};       ///< of them, those that ended kOverrun
-    std::uint64_t late_releases{0U};  ///< openings after their planned instant, while Running
-    Duration worst_lateness{};        ///< longest time from the planned opening to the real one, >= 0
+    std::size_t core{0U};             ///< core that runs it, as WindowRow::core
+    Instant observed_at{};            ///< planned start of the last window instance
+    std::uint64_t cycles{0U};         ///< window instances that ended kCompleted or kOverrun
+    std::uint64_t overruns{0U};       ///< instances of `cycles` that ended kOverrun
+    std::uint64_t late_releases{0U};  ///< instances that started after the planned start, while Running
+    Duration worst_lateness{};        ///< maximum of actual minus planned start, >= 0
     Duration budget{};                ///< as in the table
-    Duration last_used{};             ///< from the opening to the end of the last cycle
-    Duration worst_used{};            ///< of all cycles
+    Duration last_used{};             ///< from the start to the end of the last counted instance
+    Duration worst_used{};            ///< maximum over all counted instances
     WindowOutcome last_outcome{WindowOutcome::kStopped};
-    /// Whose action hangs; kNoIndex: nobody's. While one hangs, the rows of this window's components and
-    /// ports stay as they were.
+    /// Component whose action hangs; kNoIndex: none. While an action hangs, the rows of the components and
+    /// ports of this window are not updated.
     std::size_t hanging_component{kNoIndex};
 };
 
-/// How a component is.
+/// State of a component.
 struct ComponentSnapshot {
     const char* name{""};
-    std::size_t window{kNoIndex};  ///< that runs it, place in the table
-    Instant observed_at{};         ///< planned opening of its window that ran last
+    std::size_t window{kNoIndex};  ///< index of the window that runs it
+    Instant observed_at{};         ///< planned start of the last instance of its window
     LifecycleState state{LifecycleState::kCreated};
     ActionFailure last_failure{};
     std::uint64_t cycles{0U};  ///< first passes within the budget, while Active or in Error, since attached
-    /// Longest first pass of those that came through Active and in time, measured while an observer
-    /// has records; 0: never was.
+    /// Longest first pass completed in time while Active, measured while an observer has records; 0: not
+    /// measured.
     Duration worst_used{};
 };
 
-/// What a port holds.
+/// State of a port.
 struct PortSnapshot {
     const char* name{""};
-    std::size_t component{kNoIndex};     ///< owner, place in the table
-    bool is_input{false};                ///< else an output
-    bool has_value{false};               ///< something was published, or has arrived
-    Instant observed_at{};               ///< planned opening of its window that ran last
-    Instant published_at{};              ///< of the value that it holds; without meaning before has_value
+    std::size_t component{kNoIndex};     ///< index of the owner in the table
+    bool is_input{false};                ///< false: an output
+    bool has_value{false};               ///< a value was published or has arrived
+    Instant observed_at{};               ///< planned start of the last instance of its window
+    Instant published_at{};              ///< publication instant of the value; invalid unless has_value
     std::uint32_t sequence{0U};          ///< outputs: publications so far (wraps at 2^32); inputs: 0
     PortStatus status{PortStatus::kOk};  ///< inputs: calc_status() at observed_at; outputs: get_status()
-    QueueCounts queue{};                 ///< inputs that queue; else all 0
+    QueueCounts queue{};                 ///< inputs with a queue; else all 0
 
-    /// Age of the value at observed_at; negative for what this window published at its close.
+    /// Age of the value at observed_at [ns]; negative for a value that this window published at its end.
     constexpr Duration calc_age() const noexcept { return observed_at - published_at; }
 };
 

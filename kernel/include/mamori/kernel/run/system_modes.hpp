@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Modes and parameters of one system while it runs: takes requests from any thread and makes all cores carry
-/// them out at the same frame, step by step; a step that fails ends in the safe mode, latched.
+/// Modes and parameters of a running system. Accepts requests from any thread and makes all cores execute
+/// them in the same major frame, step by step. A failed step leads to the safe mode, latched.
 ///
 /// @satisfies SWR-MOD-004, SWR-MOD-005, SWR-MOD-006, SWR-MOD-007
 /// Design:   docs/design/modes.md#the-switch
@@ -23,12 +23,12 @@
 
 namespace mamori {
 
-/// Cores that can share a SystemModes.
+/// Maximum number of cores that share a SystemModes.
 inline constexpr std::size_t kModeCoreMax = 8U;
-/// From the frame in which a request is made to the one at which all cores take it.
+/// From the major frame of a request to the one in which all cores execute it [major frames].
 inline constexpr std::int64_t kModeRequestFrames = 2;
-/// From one step of a switch to the next: the step's frame, one in which each core reports, and one in which
-/// the next step is agreed.
+/// Distance of two steps of a switch [major frames]: in the first frame the step is executed, in the second
+/// each core reports, in the third the next step is agreed.
 inline constexpr std::int64_t kModeStepFrames = 3;
 
 /// One per system, shared by the executives of its cores:
@@ -38,17 +38,17 @@ inline constexpr std::int64_t kModeStepFrames = 3;
 ///     MAMORI_CONSTINIT mamori::ExecutiveFor core_1{kSystem, modes, 1U};
 ///     ... modes.request(Command::kTeach);
 ///
-/// Thread safety: requests and get_...() from any thread, without waiting; the part for executives each core
-///                from its own context.
-/// Time:          O(transitions) for a request; O(cores) per frame, and O(values of the set) in the one in
-///                which a step with a set is over, and for prepare(). Nothing blocks.
+/// Thread safety: requests and get_...() from any thread, wait-free; the functions for executives by each
+///                core from its own context.
+/// Time:          O(transitions) for a request; O(cores) per major frame; O(values of the set) in prepare()
+///                and in the major frame in which a step with a set ends. Nothing blocks.
 /// Memory:        no heap; refers to the table.
 class SystemModes final {
   public:
     /// @param[in] view        its table must outlive this object; check it with MAMORI_CHECK. More than 4095
-    ///                        configuration sets are an own bug.
-    /// @param[in] initial_set meant for a table without modes: place of the set that is requested from the
-    ///                        start on, or none; any other number is an own bug.
+    ///                        configuration sets are a contract violation.
+    /// @param[in] initial_set for a table without modes: index of the set that is requested initially, or
+    ///                        kNoConfigurationSet; any other value is a contract violation.
     constexpr explicit SystemModes(const SystemView& view,
                                    std::size_t initial_set = kNoConfigurationSet) noexcept
         : view_(view),
@@ -60,62 +60,65 @@ class SystemModes final {
     SystemModes(const SystemModes&) = delete;
     SystemModes& operator=(const SystemModes&) = delete;
 
-    /// Asks for the transition that `event` has in the current mode.
-    /// @param[in] event enumerator of a mode_transition(); those of another enumeration are no events (but a
-    ///            table whose rows were filled by hand takes any that has the number).
-    /// @return kOk: the cores take it two frames later; kBadParameter (no transition has this event);
-    ///         kPreconditionNotMet (none in this mode, another request waits, a switch is under way, or a
-    ///         failure is latched: ask again, or reset).
+    /// Requests the transition of `event` in the current mode.
+    /// @param[in] event enumerator of a mode_transition(); an enumerator of another enumeration is not an
+    ///                  event (a table with directly filled rows accepts any enumeration with the same
+    ///                  number).
+    /// @return kOk: the cores execute it two major frames later; kBadParameter (no transition has this
+    ///         event); kPreconditionNotMet (no such transition in this mode, another request is pending, a
+    ///         mode switch is in progress, or a failure is latched: retry, or reset).
     template <typename Event>
     Status request(Event event) noexcept {
         return request_event(detail::to_number(event), &detail::kEnumerationTag<Event>);
     }
-    /// Asks for the safe mode, whatever is under way; never refused where there is one.
+    /// Requests the safe mode at any time; never rejected if the table has one.
     /// @return kOk; kUnsupported (the table has no safe mode).
     Status request_safe_mode() noexcept;
-    /// Sets and values of parameters, to be asked for at any time; switching them is left to the executives.
-    /// A set that is asked for beside the modes waits for the end of a switch and holds until the next mode
-    /// with a set of its own.
+    /// Accepts requests for sets and values of parameters at any time; the executives execute them. A
+    /// requested set waits for the end of a mode switch. It stays active until the next mode with its own
+    /// set.
     ConfigurationAdmin& get_configuration() noexcept { return configuration_; }
 
-    /// The mode that all cores are in, as its place in the table; during a switch the one that they come
-    /// from; 0 in a system without modes.
+    /// Current mode of all cores, as its index in the table. During a mode switch: the previous mode. Without
+    /// modes: 0.
     std::size_t get_mode() const noexcept { return mode_.load(std::memory_order_acquire); }
-    /// The step that is agreed and not over; kNone when no switch is under way.
+    /// The step that is agreed and not completed; kNone if no switch is in progress.
     ModeStep get_step() const noexcept { return ModePlan{plan_.load(std::memory_order_acquire)}.get_step(); }
-    /// First failure since the last reset; while there is one, requests are refused. Cause kNone: none.
+    /// First failure since the last reset; cause kNone: none. While a failure is latched, requests are
+    /// rejected.
     ModeFailure get_failure() const noexcept;
-    /// Forgets the failure and a request that waits, and goes back to the first mode. A deliberate act of an
-    /// operator.
+    /// Clears the failure and a pending request, and returns to the first mode. Must be a deliberate act of
+    /// an operator.
     /// @return kOk; kPreconditionNotMet (an executive is running).
     Status reset() noexcept;
 
     /// @name For executives
     /// @{
-    /// True when it was made of the table of `view`.
+    /// Whether it was constructed from the table of `view`.
     bool is_of(const SystemView& view) const noexcept {
         return view_.components.data() == view.components.data() &&
                view_.modes.modes.size() == view.modes.modes.size();
     }
-    /// Set that parameters must have before any component runs; kNoConfigurationSet: their own values.
-    /// @return kBadParameter: a value of it is refused, or of one that was asked for while nothing ran; that
-    ///         request is gone then.
+    /// Determines the set to activate before a component runs; kNoConfigurationSet: parameters keep their
+    /// values.
+    /// @return the set; kBadParameter (a value is rejected of this set, or of a set that was requested while
+    ///         no core ran: that request is discarded).
     Result<std::size_t> prepare() noexcept;
-    /// The core starts. @param[in] core < kModeCoreMax, here and below; Executive::initialize() sees to it.
-    /// @return kOk; kPreconditionNotMet (a switch is under way on other cores).
+    /// Reports that the core starts. @param[in] core < kModeCoreMax, here and below; Executive::initialize()
+    /// ensures it.
+    /// @return kOk; kPreconditionNotMet (other cores are switching).
     Status join(std::size_t core) noexcept;
-    /// The core has stopped. The last one ends a switch that is under way: in the safe mode.
+    /// Reports that the core has stopped. The last core ends a mode switch in progress in the safe mode.
     void leave(std::size_t core) noexcept;
-    /// Agrees on what comes next, when that is this core's business; once per frame of a core that has
-    /// joined.
-    /// @param[in] frame number of the frame since instant 0, the same on each core.
-    /// @return the plan that is agreed, due or not.
+    /// Agrees on the next step if this core has to; call once per major frame of a core that has joined.
+    /// @param[in] frame number of the major frame since instant 0, equal on each core.
+    /// @return the agreed plan, due or not.
     ModePlan begin_frame(std::size_t core, std::int64_t frame) noexcept;
-    /// The core has carried the plan out, or knows and has reported that it failed.
+    /// Reports that the core has executed the plan, or that it has reported its failure.
     void finish(std::size_t core, ModePlan plan) noexcept {
         finished_[core].store(plan.get_word(), std::memory_order_release);
     }
-    /// @return true when it is the first failure since the last reset.
+    /// Latches a failure. @return true if it is the first failure since the last reset.
     bool fail(const ModeFailure& failure) noexcept;
     /// @}
 
@@ -141,17 +144,17 @@ class SystemModes final {
     std::size_t safe_mode_;
     ConfigurationAdmin configuration_;
     std::atomic<std::size_t> mode_{0U};
-    std::atomic<std::uint32_t> set_;          ///< that holds: of a mode, or asked for beside them
-    std::atomic<std::uint32_t> request_{0U};  ///< place of a transition with the event, plus one
+    std::atomic<std::uint32_t> set_;          ///< active set: of a mode, or requested separately
+    std::atomic<std::uint32_t> request_{0U};  ///< index of a requested transition, plus one; 0: none
     std::atomic<std::uint32_t> plan_{0U};
     std::atomic<std::uint32_t> failure_{0U};
     std::atomic<std::uint32_t> running_{0U};                           ///< bit c: core c
     std::array<std::atomic<std::uint32_t>, kModeCoreMax> finished_{};  ///< plan that the core finished last
 
-    /// How long a failure has waited for the lead; each core has its own.
+    /// Major frames for which a failure has waited for the coordinator core; one element per core.
     std::array<std::int64_t, kModeCoreMax> unserved_frames_{};
 
-    /// Frames after which another core does what the lead should have done.
+    /// Major frames after which another core acts instead of the coordinator core.
     static constexpr std::int64_t kLeadPatience = 2 * kModeStepFrames;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A component as a part of a window: what it brings into the table, and its declared execution time.
+/// A component as a part of a window: its contribution to the table, and its declared execution time.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_COMPONENT_PART_HPP
@@ -22,9 +22,9 @@ struct TimedComponent {
     C& component;
     Duration worst_case;
 };
-/// Declares what `component` takes at most in one cycle, both passes together; the table is refused when the
-/// sum of a window is over its budget. A declaration, not a measurement.
-/// @param[in] component must outlive the table. @param[in] duration > 0; 0 declares nothing.
+/// Declares the maximum execution time of `component` in one cycle, both passes together. The table is
+/// rejected if the sum over a window exceeds its budget. The value is a declaration, not a measurement.
+/// @param[in] component must outlive the table. @param[in] duration >= 0; 0: not declared.
 template <typename C>
 constexpr TimedComponent<C> worst_case(C& component, Duration duration) noexcept {
     return {component, duration};
@@ -32,15 +32,15 @@ constexpr TimedComponent<C> worst_case(C& component, Duration duration) noexcept
 
 namespace detail {
 
-/// What a component of type C brings into the table.
+/// Contribution of a component of type C to the table.
 template <typename C>
 struct ComponentTypes {
     using Type = C;
     using PortList = typename PortMembers<C, typename PortsOf<C>::Type>::Type;
     static constexpr std::size_t kPortCount = PortList::kSize;
     static constexpr std::size_t kParameterCount = parameter_count<C>();
-    /// An inherited member pointer has the type of the base: the component does not override the action. Of a
-    /// type that is not final nobody knows what a derived one does.
+    /// An inherited member pointer has the type of the base class: the component does not override the
+    /// action. A class derived from a non-final type may override it.
     static constexpr bool kHasSecondPass =
         !std::is_final_v<C> ||
         !std::is_same_v<decltype(&C::on_state_update), decltype(&Component::on_state_update)>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The words that say more of one connection: how old its value may be, what carries it across cores, and in
-/// which modes it holds. Each stands beside what it writes into the row.
+/// Options of a connection: maximum age of its value, storage across cores or partitions, and modes in which
+/// it is active. Each option is defined next to the function that writes it to the row.
 ///
 /// @satisfies SWR-KRN-017, SWR-KRN-047, SWR-KRN-048, SWR-MOD-001      Design:
 /// docs/design/kernel.md#system-table
@@ -23,25 +23,26 @@ struct FreshWithin {
     Duration age_max;
     Duration lead_max;
 };
-/// Age up to which the value of an input is fresh; beyond it its status is kBufferTimeout.
+/// Maximum age of a fresh value of an input; the status of an older value is kBufferTimeout.
 /// @param[in] age_max  > 0.
-/// @param[in] lead_max how far its instant may be after now, >= 0; 0 on one time line.
+/// @param[in] lead_max maximum time by which its publication instant may be later than now, >= 0; 0 if both
+///                     ends use the same time base.
 constexpr FreshWithin fresh_within(Duration age_max, Duration lead_max = {}) noexcept {
     return {age_max, lead_max};
 }
 
 /// Made by any_age().
 struct AnyAge {};
-/// The value of an input stays fresh however old it is.
+/// The value of an input remains fresh at any age.
 constexpr AnyAge any_age() noexcept {
     return {};
 }
 
 /// Made by delayed_by_a_frame().
 struct DelayedByAFrame {};
-/// States that the reader runs before the writer in one window, or is the writer itself: it reads a value one
-/// start of the window after the write. MAMORI_CHECK rejects such a connection without this option, and any
-/// other with it.
+/// Declares that the reader runs before the writer in the same window, or is the writer itself: it reads a
+/// value at the next window start after the write. MAMORI_CHECK rejects such a connection without this
+/// option, and any other connection with it.
 constexpr DelayedByAFrame delayed_by_a_frame() noexcept {
     return {};
 }
@@ -51,7 +52,7 @@ template <typename T>
 struct Through {
     Crossing<T>& crossing;
 };
-/// Storage of a connection that leaves its core or partition; static, used by one connection.
+/// Storage of a connection that leaves its core or partition; static storage, used by one connection.
 template <typename T>
 constexpr Through<T> through(Crossing<T>& crossing) noexcept {
     return {crossing};
@@ -62,8 +63,8 @@ template <std::size_t kCount>
 struct OnlyIn {
     std::array<const char*, kCount> modes{};
 };
-/// Option of connect(): the connection holds in these modes only. Without it a connection holds wherever both
-/// of its components run. @param[in] modes names of modes, static storage.
+/// The connection is active in these modes only. Without this option, it is active in each mode that runs
+/// both of its components. @param[in] modes names of modes, static storage, at least one.
 template <typename... Names>
 constexpr OnlyIn<sizeof...(Names)> only_in(Names... modes) noexcept {
     static_assert(sizeof...(Names) > 0U, "a connection holds in at least one mode");

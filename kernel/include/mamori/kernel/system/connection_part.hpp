@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The word connect(...): which output feeds which input.
+/// Function connect(...): connects an output to an input.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_CONNECTION_PART_HPP
@@ -19,7 +19,7 @@
 
 namespace mamori {
 
-/// One connection of the description. @tparam kModeCount modes that its only_in() names.
+/// One connection of the description. @tparam kModeCount number of modes in its only_in().
 template <std::size_t kModeCount>
 struct ConnectionPart {
     struct Types : detail::NoTypes {
@@ -30,12 +30,11 @@ struct ConnectionPart {
     std::array<const char*, kModeCount> modes{};
 };
 
-/// Feeds `sink` from `source`; their payload types must be the same.
+/// Connects `source` to `sink`, which must have the same payload type.
 /// @param[in] source  must outlive the table.
 /// @param[in] sink    InPort or QueueInPort; must outlive the table.
 /// @param[in] options fresh_within(...) or any_age(); through(...), only_in(...), delayed_by_a_frame(); each
-/// is
-///                    stated once.
+///                    at most once.
 template <typename T, typename Sink, typename... Options>
 constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(OutPort<T>& source, Sink& sink,
                                                                               Options... options) noexcept {

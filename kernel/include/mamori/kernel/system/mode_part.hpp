@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The words that describe the modes of a system, as parts of mamori::system(...):
+/// Functions that describe the modes of a system, as parts of mamori::system(...):
 ///
-///     mamori::system_mode("idle", mamori::runs(encoder, drive)),             // the first one
+///     mamori::system_mode("idle", mamori::runs(encoder, drive)),             // initial mode
 ///     mamori::system_mode("work", mamori::runs(encoder, drive, planner), mamori::parameters("fast")),
 ///     mamori::system_mode("teach", mamori::runs(encoder, drive, hand), mamori::parameters("slow")),
 ///     mamori::safe_mode("halt", mamori::runs(encoder)),
 ///     mamori::mode_transition("idle", Command::kTeach, "teach"), ...
 ///     mamori::connect(planner.setpoint, drive.setpoint, mamori::only_in("work"), mamori::any_age()),
-///     mamori::connect(hand.setpoint, drive.setpoint, mamori::any_age()),                        // hand runs
-///     in "teach" only
+///     mamori::connect(hand.setpoint, drive.setpoint, mamori::any_age()),     // hand runs in "teach" only
 ///
 /// @satisfies SWR-MOD-001      Design: docs/design/modes.md#the-table
 #ifndef MAMORI_KERNEL_MODE_PART_HPP
@@ -29,8 +28,8 @@ template <typename... Cs>
 struct Runs {
     std::array<Component*, sizeof...(Cs)> components{};
 };
-/// The components that are Active in a mode; all others are Inactive in it. They outlive the table, and each
-/// is listed in a window of it.
+/// Components that are Active in a mode; all others are Inactive. They must outlive the table, and a window
+/// of the table must run each of them.
 template <typename... Cs>
 constexpr Runs<Cs...> runs(Cs&... components) noexcept {
     return {{&components...}};
@@ -40,7 +39,7 @@ constexpr Runs<Cs...> runs(Cs&... components) noexcept {
 struct ModeParameters {
     const char* set_name{nullptr};
 };
-/// The configuration set of a mode. @param[in] set_name static storage, as in configuration_set().
+/// Configuration set of a mode. @param[in] set_name static storage, as in configuration_set().
 constexpr ModeParameters parameters(const char* set_name) noexcept {
     return {set_name};
 }
@@ -55,15 +54,16 @@ struct SystemModePart {
     SystemModeRow row{};
     std::array<Component*, sizeof...(Cs)> members{};
 };
-/// One mode of the system, of at most kSystemModeMax; the first one listed is the one that it starts in.
-/// @param[in] name static storage; unique. @param[in] set without it the mode changes no parameter.
+/// One mode of the system, at most kSystemModeMax. The system starts in the first mode listed.
+/// @param[in] name static storage; unique. @param[in] set without it, the mode changes no parameter.
 template <typename... Cs>
 constexpr SystemModePart<Cs...> system_mode(const char* name, const Runs<Cs...>& members,
                                             ModeParameters set = {}) noexcept {
     return {{name, set.set_name, kNoIndex, false}, members.components};
 }
-/// The mode in which a switch that fails ends. Its components run in every mode, so the way there activates
-/// nobody, and no transition leaves it: only SystemModes::reset() does. Arguments as in system_mode().
+/// Mode in which a failed mode switch ends. Its components run in every mode, so that the switch to it
+/// activates no component. No transition leaves it, only SystemModes::reset(). Parameters as in
+/// system_mode().
 template <typename... Cs>
 constexpr SystemModePart<Cs...> safe_mode(const char* name, const Runs<Cs...>& members,
                                           ModeParameters set = {}) noexcept {
@@ -79,10 +79,10 @@ struct ModeTransitionPart {
     };
     ModeTransitionRow row{};
 };
-/// In mode `source`, `event` leads to mode `target`; of one mode and event there is one transition. An event
-/// that a mode has no transition for is refused by SystemModes::request().
+/// In mode `source`, `event` leads to mode `target`. Each pair of mode and event has at most one transition.
+/// SystemModes::request() rejects an event for which the current mode has no transition.
 /// @param[in] source, target names of modes, static storage. @param[in] event enumerator of the application,
-///            of at most 32 bits; all events of a table are of one enumeration.
+///                           at most 32 bits; all events of a table are of the same enumeration.
 template <typename Event>
 constexpr ModeTransitionPart<Event> mode_transition(const char* source, Event event,
                                                     const char* target) noexcept {

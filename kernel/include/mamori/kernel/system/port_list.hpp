@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Which ports a component has, as pointers to its members, and the rows that they become in the table.
+/// Lists the ports of a component, as pointers to its members, and creates their rows of the table.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_PORT_LIST_HPP
@@ -13,7 +13,7 @@
 
 namespace mamori {
 
-/// Ports of a component, as pointers to its members; a component without the alias has no ports:
+/// Ports of a component, as pointers to its members. A component without this alias has no ports:
 ///     using Ports = mamori::Ports<&Monitor::joints, &Monitor::verdict>;
 template <auto... kMembers>
 struct Ports {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The words faults(...) and react(...): which faults a system declares, and what each leads to.
+/// Functions faults(...) and react(...): the faults that a system declares, and the reaction to each.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_REACTION_PART_HPP
@@ -30,8 +30,8 @@ struct FaultsPart {
         using FaultTypes = detail::TypeList<decltype(kFaults)...>;
     };
 };
-/// Declares faults, each an enumerator of the application or of the safety layer and declared once: the table
-/// is refused until each has one reaction.
+/// Declares faults, each an enumerator of the application or of the safety layer. Each is declared once. The
+/// table is rejected unless each fault has one reaction.
 template <auto... kFaults>
 constexpr FaultsPart<kFaults...> faults() noexcept {
     static_assert((std::is_enum_v<decltype(kFaults)> && ...),
@@ -58,8 +58,8 @@ struct ReactionPart {
     };
     ReactionRow row{};
 };
-/// What a fault leads to; both are enumerators of the application or of the safety layer, of at most 32 bits.
-/// The kernel keeps the row and carries nothing out.
+/// Reaction to a fault; both are enumerators of the application or of the safety layer, at most 32 bits. The
+/// kernel stores the row and executes nothing.
 template <typename Fault, typename Reaction>
 constexpr ReactionPart<Fault, Reaction> react(Fault fault, Reaction reaction, Within time) noexcept {
     return {{detail::to_number(fault), detail::to_number(reaction), time.limit}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The word run(...): the components of one window in the order in which they run.
+/// Function run(...): the components of one window in execution order.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_RUN_LIST_HPP
@@ -19,7 +19,7 @@
 
 namespace mamori {
 
-/// The components of one window in execution order; they form one execution context. Made by run().
+/// Components of one window in execution order; they form one execution context. Made by run().
 template <typename... Cs>
 struct RunList {
     static constexpr std::size_t kPortCount = (detail::ComponentTypes<Cs>::kPortCount + ... + 0U);
@@ -60,8 +60,7 @@ struct RunListBuilder {
 
 }  // namespace detail
 
-/// Components in the order in which they run, each as itself or with its worst_case(). They outlive the
-/// table.
+/// Components in execution order, each with or without worst_case(). They must outlive the table.
 template <typename... Cs>
 constexpr RunList<std::remove_const_t<std::remove_reference_t<Cs>>...> run(Cs&&... components) noexcept {
     static_assert(sizeof...(Cs) > 0U, "a window runs at least one component");

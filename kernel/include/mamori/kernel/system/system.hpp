@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The words of a system description: cores with windows, components, connections, faults and reactions, in
-/// one constant of the program that MAMORI_CHECK makes the compiler prove.
+/// Description of a system: cores with windows, components, connections, faults and reactions. It is one
+/// compile-time constant, which MAMORI_CHECK makes the compiler check.
 ///
 ///     static constexpr auto kSystem = mamori::system(
 ///         mamori::frame(10_ms),
@@ -42,11 +42,11 @@
 
 namespace mamori {
 
-/// Length of the major frame, after which everything repeats; the same for all cores.
+/// Length of the major frame, after which the schedule repeats; the same for all cores.
 struct Frame {
     Duration length;
 };
-/// @param[in] length > 0; MAMORI_CHECK refuses any other.
+/// @param[in] length > 0; MAMORI_CHECK rejects any other.
 constexpr Frame frame(Duration length) noexcept {
     return {length};
 }
@@ -56,7 +56,7 @@ struct AbortPolicyPart {
     using Types = detail::NoTypes;
     AbortPolicy policy;
 };
-/// Which actions a component gets on its way to Error, in the whole system; without it kSpecOnly.
+/// Actions that are called when a component enters Error, for the whole system; default kSpecOnly.
 constexpr AbortPolicyPart abort_policy(AbortPolicy policy) noexcept {
     return {policy};
 }
@@ -106,15 +106,15 @@ using TableOf = SystemTable<
 
 }  // namespace detail
 
-/// A table that still knows the types of its components and ports, so that the compiler can name them.
+/// A table with the types of its components and ports, so that compiler messages can name them.
 template <typename PartTypes>
 struct DescribedSystem : detail::TableOf<PartTypes> {
     using Types = PartTypes;
 };
 
-/// Builds the table from a frame and its parts, in any order; windows, components, ports, connections, modes
-/// and reactions are numbered as they are listed. MAMORI_CHECK tells what the table breaks; what it refers to
-/// must outlive it. For constant expressions: O(rows squared).
+/// Builds the table from a major frame and its parts, in any order. Windows, components, ports, connections,
+/// modes and reactions are numbered in the order listed. MAMORI_CHECK reports violated rules. Everything that
+/// the table refers to must outlive it. For constant expressions: O(rows squared).
 template <typename... Parts>
 constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
     using Types = detail::JoinedTypes<Parts...>;

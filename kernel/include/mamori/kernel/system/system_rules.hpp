@@ -11,7 +11,7 @@
 #include "mamori/kernel/system/detail/rule_messages.hpp"
 #include "mamori/kernel/table/system_check.hpp"
 
-/// Rejects the constexpr system table `table`, which mamori::system() made, when it violates a rule.
+/// Rejects the constexpr system table `table`, made by mamori::system(), if it violates a rule.
 #define MAMORI_CHECK(table) \
     static_assert(::mamori::detail::keeps_rules<table>(), "the system table violates the rule named above")
 

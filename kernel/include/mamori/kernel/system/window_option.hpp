@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The words that say what a window may take, where it runs, and what its cycles come with. Each stands
-/// beside what it writes into the row.
+/// Options of a window: its budget, period, core, partition and trigger. Each option is defined next to the
+/// function that writes it to the row.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_OPTION_HPP
@@ -19,7 +19,7 @@ namespace mamori {
 struct Budget {
     Duration limit;
 };
-/// Execution time that all components of a window may use together, counted from its opening.
+/// Maximum execution time of all components of a window together, measured from the window start.
 /// @param[in] limit > 0, at most the length of the window.
 constexpr Budget budget(Duration limit) noexcept {
     return {limit};
@@ -29,8 +29,8 @@ constexpr Budget budget(Duration limit) noexcept {
 struct Every {
     Duration period;
 };
-/// Opens the window again after each `period`; without it: once per frame.
-/// @param[in] period > 0; divides the frame without rest.
+/// Starts the window every `period`; without it: once per major frame.
+/// @param[in] period > 0; divides the major frame without remainder.
 constexpr Every every(Duration period) noexcept {
     return {period};
 }
@@ -39,7 +39,7 @@ constexpr Every every(Duration period) noexcept {
 struct Core {
     std::size_t index;
 };
-/// Processor core that runs the window; without it: core 0. Cores share the frame and its start.
+/// Processor core that runs the window; without it: core 0. Cores share the major frame and its start.
 /// @param[in] index 0, 1, ...; in a system with modes or configuration sets below kModeCoreMax.
 constexpr Core core(std::size_t index) noexcept {
     return {index};
@@ -49,7 +49,7 @@ constexpr Core core(std::size_t index) noexcept {
 struct Partition {
     const char* name;
 };
-/// Memory partition that the components of the window live in; without it all share one. Values leave it
+/// Memory partition of the components of the window; without it, all share one partition. Values leave it
 /// only through a Crossing or a queue. @param[in] name static storage.
 constexpr Partition partition(const char* name) noexcept {
     return {name};
@@ -59,8 +59,8 @@ constexpr Partition partition(const char* name) noexcept {
 struct TriggeredBy {
     ExternalTrigger& trigger;
 };
-/// The cycles of the window come with the ticks of `trigger`, one at most per opening (kind OTHER).
-/// @param[in] trigger must outlive the table; serves one window, which nothing checks.
+/// The ticks of `trigger` release the cycles of the window, at most one per window instance (kind OTHER).
+/// @param[in] trigger must outlive the table; serves one window, which is not checked.
 constexpr TriggeredBy triggered_by(ExternalTrigger& trigger) noexcept {
     return {trigger};
 }
@@ -69,8 +69,8 @@ constexpr TriggeredBy triggered_by(ExternalTrigger& trigger) noexcept {
 struct EventDriven {
     std::size_t events_per_cycle;
 };
-/// The window serves the events of its state machines (kind EVENT_DRIVEN).
-/// @param[in] events_per_cycle upper bound for each of them in one opening, >= 1.
+/// The window processes the events of its state machines (kind EVENT_DRIVEN).
+/// @param[in] events_per_cycle maximum for each state machine in one window instance, >= 1.
 constexpr EventDriven event_driven(std::size_t events_per_cycle) noexcept {
     return {events_per_cycle};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The words that describe one window: its place in the frame, its components, and what it may take.
+/// Function window(...): position in the major frame, components and options of one window.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_PART_HPP
@@ -31,7 +31,7 @@ struct WindowPart {
     };
     WindowRow row{};
     RunList<Cs...> list{};
-    bool opens_once_per_frame{true};  ///< no every(...) is said
+    bool opens_once_per_frame{true};  ///< no every(...) is specified
 };
 
 namespace detail {
@@ -51,11 +51,11 @@ constexpr auto finish_window(WindowRow row, const Option& option, const Options&
 
 }  // namespace detail
 
-/// One window: opens `offset` after the start of its period, closes `length` later.
-/// @param[in] name    static storage; shown by the compiler and in every report, so no other window has it.
-/// @param[in] offset  >= 0. @param[in] length > 0; offset + length lie within the period.
+/// One window: starts `offset` after the start of its period and ends `length` later.
+/// @param[in] name    static storage, unique; shown in compiler messages and reports.
+/// @param[in] offset  >= 0. @param[in] length > 0; offset + length <= period.
 /// @param[in] options budget(...) and, last, run(...); also every(...), rate(...), core(...), partition(...),
-///                     and one of triggered_by(...), event_driven(...). Each is said once.
+///                    and one of triggered_by(...), event_driven(...). Each at most once.
 template <typename... Options>
 constexpr auto window(const char* name, Duration offset, Duration length,
                       const Options&... options) noexcept {

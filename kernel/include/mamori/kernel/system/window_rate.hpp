@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The word rate(...) of a window: how often its components run, and how much slower they may be told to.
+/// Option rate(...) of a window: the rate of its components, and slower rates that may be set at run time.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_RATE_HPP
@@ -28,14 +28,14 @@ constexpr Rate operator""_hz(long double value) noexcept {
 }
 }  // namespace literals
 
-/// Made by rate(); the first is the declared one.
+/// Made by rate(); the first is the declared rate.
 template <std::size_t kCount>
 struct Rates {
     std::array<Rate, kCount> values;
 };
-/// Declares the rate of the window, which must be that of its openings, and up to four slower ones between
-/// which ExecutionContext::set_rate() may choose; each must divide the first without rest.
-/// @param[in] first  > 0. @param[in] slower 2e-10 .. 1e9 Hz; rounded to periods of whole nanoseconds.
+/// Declares the rate of the window, which must equal the rate of its window starts, and up to four slower
+/// rates for ExecutionContext::set_rate(). Each slower rate must divide the first without remainder.
+/// @param[in] first > 0 Hz. @param[in] slower 2e-10 .. 1e9 Hz; rounded to periods of whole nanoseconds.
 template <typename... Alternatives>
 constexpr Rates<1U + sizeof...(Alternatives)> rate(Rate first, Alternatives... slower) noexcept {
     static_assert(sizeof...(Alternatives) <= kAlternativeRateMax,
@@ -45,7 +45,7 @@ constexpr Rates<1U + sizeof...(Alternatives)> rate(Rate first, Alternatives... s
 
 namespace detail {
 
-/// Period whose rate is `value`, to the nearest nanosecond; 0 for a rate that is no positive number.
+/// Period of rate `value`, rounded to the nearest nanosecond; 0 if the rate is not in (0, 1e9] Hz.
 constexpr Duration to_period(Rate value) noexcept {
     // NOLINTNEXTLINE(bugprone-incorrect-roundings): the quotient is 1 or more, and <cmath> is not listed
     return value.hz > 0.0 && value.hz <= 1.0e9 ? Duration{static_cast<std::int64_t>(1.0e9 / value.hz + 0.5)}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rows of a system table that say what flows where: ports and their connections.
+/// Rows of a system table for the data flow: ports and their connections.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_CONNECTION_ROW_HPP
@@ -17,35 +17,36 @@
 
 namespace mamori {
 
-/// One port of a component; either `input` or `output` is set. What it refers to outlives the table.
+/// One port of a component; exactly one of `input` and `output` is set. What it refers to must outlive the
+/// table.
 struct PortRow {
     Component* owner{nullptr};
     InPortBase* input{nullptr};
     OutPortBase* output{nullptr};
-    bool is_mandatory{false};         ///< of an input
-    std::size_t window{kNoIndex};     ///< that of its owner
-    std::size_t component{kNoIndex};  ///< its owner's place in the table
-    /// What an input that queues has counted.
+    bool is_mandatory{false};         ///< of an input; false for an output
+    std::size_t window{kNoIndex};     ///< index of the window of its owner
+    std::size_t component{kNoIndex};  ///< index of its owner in the table
+    /// Returns the counts of an input with a queue.
     QueueCounts (*count_queue)(const InPortBase&) noexcept {&count_no_queue};
 };
 
-/// One connection: from which output to which input. What it refers to outlives the table.
+/// One connection from an output to an input. What it refers to must outlive the table.
 struct ConnectionRow {
     OutPortBase* source{nullptr};
     InPortBase* sink{nullptr};
     CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
     ConnectionOperations operations{};
-    Duration age_max{};   ///< of a value that is still fresh, > 0; 0: not stated
-    Duration lead_max{};  ///< of a fresh value of an instant to come, >= 0
-    /// Places of the ends in the table; kNoIndex: the port belongs to no component of it.
+    Duration age_max{};   ///< maximum age of a fresh value, > 0; 0: not stated
+    Duration lead_max{};  ///< maximum time of a fresh value after now, >= 0
+    /// Indices of the ends in the table; kNoIndex: the port belongs to no component of the table.
     std::size_t source_window{kNoIndex};
     std::size_t sink_window{kNoIndex};
     std::size_t source_component{kNoIndex};
     std::size_t sink_component{kNoIndex};
-    /// Source and sink run in one window, the source first: the value is handed on within the window.
+    /// Source and sink run in one window, the source first: the value is forwarded within the window.
     bool is_forward_in_window{false};
     bool is_delayed_by_a_frame{false};  ///< as its options state
-    ModeMask modes{kEveryMode};         ///< in which it holds and both of its components run
+    ModeMask modes{kEveryMode};         ///< in which it is active: as stated, and both components run
 };
 
 }  // namespace mamori

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Fills what follows from the rows of the modes: names become places, and each component and connection
-/// learns in which modes it works. Not for users.
+/// Fills the derived fields of the mode rows: converts names to indices and determines the modes of each
+/// component and connection. Not for users.
 ///
 /// @satisfies SWR-MOD-001      Design: docs/design/modes.md#the-table
 #ifndef MAMORI_KERNEL_MODE_BUILDER_HPP
@@ -14,7 +14,7 @@
 
 namespace mamori::detail {
 
-/// Place of the row of this name; kNoIndex when there is none.
+/// Index of the row with this name; kNoIndex: none.
 template <typename Rows>
 constexpr std::size_t find_named(const Rows& rows, const char* name) noexcept {
     for (std::size_t i = 0U; i < rows.size() && name != nullptr; ++i) {
@@ -54,7 +54,7 @@ constexpr void resolve_members(Table& table) noexcept {
     }
 }
 
-/// A connection works where it holds and both of its components run.
+/// A connection is active in the stated modes in which both of its components run.
 template <typename Table>
 constexpr void resolve_held_connections(Table& table) noexcept {
     for (std::size_t i = 0U; i < table.connections.size(); ++i) {
@@ -73,7 +73,8 @@ constexpr void resolve_held_connections(Table& table) noexcept {
     }
 }
 
-/// For a table whose connections are resolved. One without modes keeps kEveryMode everywhere.
+/// Precondition: the connections of the table are resolved. In a table without modes, all masks remain
+/// kEveryMode.
 template <typename Table>
 constexpr void resolve_modes(Table& table) noexcept {
     resolve_names(table);

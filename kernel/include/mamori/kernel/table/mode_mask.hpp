@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Sets of modes as bits of one word, as the rows of components and connections carry them.
+/// Sets of modes as bits of one word, for the rows of components and connections.
 ///
 /// @satisfies SWR-MOD-001      Design: docs/design/modes.md#the-table
 #ifndef MAMORI_KERNEL_MODE_MASK_HPP
@@ -13,12 +13,12 @@ namespace mamori {
 
 /// Set of modes: bit m stands for mode m.
 using ModeMask = std::uint32_t;
-/// Modes that one system can have.
+/// Maximum number of modes of a system.
 inline constexpr std::size_t kSystemModeMax = 32U;
-/// Of a component or connection of a system without modes.
+/// Mask of each component and connection of a system without modes.
 inline constexpr ModeMask kEveryMode = ~ModeMask{0U};
 
-/// The mask of one mode. @param[in] mode < kSystemModeMax.
+/// Mask of one mode. @param[in] mode 0 .. kSystemModeMax - 1.
 constexpr ModeMask to_mask(std::size_t mode) noexcept {
     return ModeMask{1U} << mode;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rows of the modes of a system: which components run in a mode, with which parameters, and which event
-/// leads to which other mode. Users write the words of mode_part.hpp and never fill rows by hand.
+/// Rows of the modes of a system: the components and parameters of each mode, and the events that lead to
+/// other modes. Users call the functions of mode_part.hpp and never fill rows directly.
 ///
 /// @satisfies SWR-MOD-001      Design: docs/design/modes.md#the-table
 /// Source:   Dynamic Deployment and Configuration for RTC (OMG DDC4RTC): static application configurations
@@ -21,35 +21,35 @@ namespace mamori {
 
 class Component;
 
-/// One mode. The first of a table is the one that a system starts in.
+/// One mode. A system starts in the first mode of its table.
 struct SystemModeRow {
     const char* name{nullptr};      ///< static storage, as all names of these rows
-    const char* set_name{nullptr};  ///< configuration set of the mode; nullptr: it changes no parameter
-    std::size_t set{kNoIndex};      ///< the set's place in the configuration
-    bool is_safe{false};            ///< where a switch that fails ends
+    const char* set_name{nullptr};  ///< configuration set; nullptr: the mode changes no parameter
+    std::size_t set{kNoIndex};      ///< index of the set in the configuration; kNoIndex: none
+    bool is_safe{false};            ///< a failed mode switch ends in this mode
 };
 /// A component runs in a mode.
 struct ModeMemberRow {
     Component* component{nullptr};
     std::size_t mode{0U};         ///< row of the mode
-    std::size_t index{kNoIndex};  ///< the component's place in the system table
+    std::size_t index{kNoIndex};  ///< index of the component in the system table; kNoIndex: none
 };
 /// In mode `source`, `event` leads to mode `target`.
 struct ModeTransitionRow {
     const char* source_name{nullptr};
     const char* target_name{nullptr};
-    std::uint32_t event{0U};       ///< its number in the application's enumeration
-    std::size_t source{kNoIndex};  ///< row of the mode; kNoIndex: there is none of that name
-    std::size_t target{kNoIndex};  ///< likewise
+    std::uint32_t event{0U};       ///< its number in the enumeration of the application
+    std::size_t source{kNoIndex};  ///< row of the mode; kNoIndex: no mode has this name
+    std::size_t target{kNoIndex};  ///< row of the mode; kNoIndex: no mode has this name
 };
-/// A connection holds in a mode; one without such a row holds in all.
+/// A connection is active in a mode. A connection without such a row is active in all modes.
 struct ConnectionModeRow {
     const char* mode_name{nullptr};
-    std::size_t connection{0U};  ///< row of the system table
-    std::size_t mode{kNoIndex};  ///< row of the mode; kNoIndex: there is none of that name
+    std::size_t connection{0U};  ///< row of the connection in the system table
+    std::size_t mode{kNoIndex};  ///< row of the mode; kNoIndex: no mode has this name
 };
 
-/// Rows with their sizes in the type.
+/// Rows with their number in the type.
 template <std::size_t kModes, std::size_t kMembers, std::size_t kTransitions, std::size_t kConnectionModes>
 struct ModeTable {
     std::array<SystemModeRow, kModes> modes{};
@@ -59,13 +59,13 @@ struct ModeTable {
     const std::uint8_t* event_enumeration{nullptr};  ///< tag of the enumeration of all events
 };
 
-/// The same rows without their sizes in the type; refers to the table, which must outlive it.
+/// The same rows without their number in the type; refers to the table, which must outlive the view.
 struct ModeView {
     Span<const SystemModeRow> modes{};
     Span<const ModeMemberRow> members{};
     Span<const ModeTransitionRow> transitions{};
     Span<const ConnectionModeRow> connection_modes{};
-    const std::uint8_t* event_enumeration{nullptr};  ///< nullptr: rows filled by hand, for any enumeration
+    const std::uint8_t* event_enumeration{nullptr};  ///< nullptr: rows filled directly, any enumeration
 };
 
 /// @param[in] table must outlive the view.
@@ -74,7 +74,7 @@ constexpr ModeView make_view(const ModeTable<kM, kC, kT, kN>& table) noexcept {
     return {table.modes, table.members, table.transitions, table.connection_modes, table.event_enumeration};
 }
 
-/// Mode in which a failed switch ends; kNoIndex when the table declares none. O(modes).
+/// Mode in which a failed mode switch ends; kNoIndex: the table declares none. O(modes).
 constexpr std::size_t find_safe_mode(const ModeView& view) noexcept {
     for (std::size_t m = 0U; m < view.modes.size(); ++m) {
         if (view.modes[m].is_safe) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules that a system table must keep. They are constant expressions: MAMORI_CHECK (system_rules.hpp) makes
-/// the compiler refuse a table that breaks one, and a tool gets all findings of a table made at run time.
+/// Rules of a system table as constant expressions. MAMORI_CHECK (system_rules.hpp) makes the compiler reject
+/// a table that violates a rule. check_all() returns all findings for tools that build tables at run time.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SYSTEM_CHECK_HPP
@@ -27,14 +27,13 @@
 
 namespace mamori {
 
-/// Finds every rule that a table breaks, in the order of `Rule` groups: windows, components, modes,
-/// inputs, connections, reactions, configuration. Rows that are invalid in themselves hide the rest, and so
-/// do rows that do not fit together: nothing else can be judged then. Whatever the rows hold, no pointer or
-/// index is followed before it was judged; that a span has the rows it counts, that a pointer which is not
-/// null leads to a living object and that a name ends is taken for granted. Constant expression for a
-/// constexpr table; O(rows squared).
-/// @param[out] storage the first findings; may be shorter than their number.
-/// @return number of findings; 0: the table keeps every rule.
+/// Finds all rule violations of a table, in this order: windows, components, modes, inputs, connections,
+/// reactions, configuration. If a row is invalid or rows are inconsistent, only these findings are reported,
+/// since nothing else can be checked. For any row content, pointers and indices are checked before use. It is
+/// assumed that a span has the rows that it counts, that a pointer other than nullptr refers to a living
+/// object, and that each name is terminated. Constant expression for a constexpr table; O(rows squared).
+/// @param[out] storage receives the first findings; may be shorter than their number.
+/// @return number of findings; 0: the table violates no rule.
 constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) noexcept {
     detail::FindingList findings{storage};
     detail::check_rows(view, findings);
@@ -62,7 +61,7 @@ constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) n
     return findings.get_count();
 }
 
-/// First finding of the table, or one with Rule::kNone. As check_all(), at the same cost.
+/// First finding of the table, or one with Rule::kNone. As check_all(), with the same complexity.
 constexpr Finding check(const SystemView& view) noexcept {
     std::array<Finding, 1U> first{};
     static_cast<void>(check_all(view, first));

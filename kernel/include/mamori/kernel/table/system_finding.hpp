@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a check of a system table finds: the violated rule and the faulty row.
+/// Result of a check of a system table: the violated rule and the faulty row.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SYSTEM_FINDING_HPP
@@ -12,7 +12,7 @@
 
 namespace mamori {
 
-/// Why a table is rejected: kNone (the table keeps every rule), then each rule of table_rules.hpp.
+/// Why a table is rejected: kNone (no rule is violated), then each rule of table_rules.hpp.
 enum class Rule {
     kNone,
 #define MAMORI_ENUMERATOR(name, Message, Faulty, sentence) k##name,
@@ -20,7 +20,7 @@ enum class Rule {
 #undef MAMORI_ENUMERATOR
 };
 
-/// A violated rule; table_rules.hpp lists what the numbers count.
+/// A violated rule; table_rules.hpp defines what `element` and `other` count.
 struct Finding {
     Rule rule{Rule::kNone};
     std::size_t element{0U};
@@ -41,7 +41,7 @@ constexpr const char* get_sentence(Rule rule) noexcept {
             MAMORI_TABLE_RULES(MAMORI_SENTENCE)
 #undef MAMORI_SENTENCE
     }
-    return "invalid rule";  // only a corrupted value comes here
+    return "invalid rule";  // reached by a corrupted value only
 }
 
 }  // namespace mamori

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A system table as a whole: what the compiler checks and the executive runs. Users write
-/// `mamori::system(...)` (system.hpp); a tool that makes tables at run time fills rows and has them checked
+/// A complete system table, which the compiler checks and the executive runs. Users write
+/// `mamori::system(...)` (system.hpp). A tool that builds tables at run time fills rows and has them checked
 /// (system_check.hpp).
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
@@ -23,46 +23,46 @@
 
 namespace mamori {
 
-/// A fault that the system declares, by its number in the application's enumeration.
+/// A declared fault, by its number in the enumeration of the application.
 struct FaultRow {
     std::uint32_t fault{0U};
 };
-/// What a fault leads to, by its number in the application's enumeration.
+/// Reaction to a fault; numbers of the enumerations of the application.
 struct ReactionRow {
     std::uint32_t fault{0U};
     std::uint32_t reaction{0U};
     Duration within{};  ///< from the confirmed fault to the start of the reaction, > 0
 };
 
-/// Rows with their sizes in the type.
+/// Rows with their number in the type.
 template <std::size_t kWindows, std::size_t kComponents, std::size_t kPorts, std::size_t kConnections,
           std::size_t kFaults = 0U, std::size_t kReactions = 0U,
           typename Configuration = ConfigurationTable<0U, 0U, 0U, 0U>,
           typename Modes = ModeTable<0U, 0U, 0U, 0U>>
 struct SystemTable {
-    Duration frame{};  ///< after which everything repeats, > 0; common to all cores
+    Duration frame{};  ///< length of the major frame, > 0; common to all cores
     std::array<WindowRow, kWindows> windows{};
     std::array<Component*, kComponents> components{};
     std::array<ComponentRow, kComponents> component_rows{};
     std::array<PortRow, kPorts> ports{};  ///< in the order of their owners
     std::array<ConnectionRow, kConnections> connections{};
-    std::array<std::size_t, kConnections> latch_order{};     ///< connections by window of their sink
-    std::array<std::size_t, kConnections> outgoing_order{};  ///< connections by component of their source
+    std::array<std::size_t, kConnections> latch_order{};     ///< connections, sorted by sink window
+    std::array<std::size_t, kConnections> outgoing_order{};  ///< connections, sorted by source component
     std::array<FaultRow, kFaults> faults{};
     std::array<ReactionRow, kReactions> reactions{};
-    Configuration configuration{};  ///< parameters of all components, and the sets of their values
+    Configuration configuration{};  ///< parameters of all components, and their configuration sets
     Modes modes{};
     AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
 
     static constexpr std::size_t kWindowCount = kWindows;
     static constexpr std::size_t kComponentCount = kComponents;
     static constexpr std::size_t kPortCount = kPorts;
-    /// Modes and configuration sets are switched by a SystemModes, without which no executive runs the table.
+    /// A SystemModes switches modes and configuration sets. Without it, no executive runs such a table.
     static constexpr bool kNeedsModes =
         std::tuple_size_v<decltype(Modes::modes)> + std::tuple_size_v<decltype(Configuration::sets)> != 0U;
 };
 
-/// The same rows without their sizes in the type; refers to the table, which must outlive it.
+/// The same rows without their number in the type; refers to the table, which must outlive the view.
 struct SystemView {
     Duration frame{};
     Span<const WindowRow> windows{};

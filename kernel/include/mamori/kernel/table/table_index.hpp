@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The index that no row of a table has.
+/// The index that denotes no row of a table.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_TABLE_INDEX_HPP
@@ -11,7 +11,7 @@
 
 namespace mamori {
 
-/// No row, or one that is not known yet.
+/// No row, or a row that is not known yet.
 inline constexpr std::size_t kNoIndex = std::numeric_limits<std::size_t>::max();
 
 }  // namespace mamori

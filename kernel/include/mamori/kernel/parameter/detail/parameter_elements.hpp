@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Element access that is the same for a scalar parameter and for an array. Not for users.
+/// Uniform element access for scalar parameters and arrays. Not for users.
 ///
 /// @satisfies SWR-PAR-003      Design: docs/design/parameters.md#parameters
 #ifndef MAMORI_KERNEL_PARAMETER_ELEMENTS_HPP
@@ -11,7 +11,7 @@
 
 namespace mamori::detail {
 
-/// Element access that is the same for a scalar and for an array.
+/// Uniform element access for a scalar and for an array.
 template <typename T>
 struct Elements {
     using Element = T;

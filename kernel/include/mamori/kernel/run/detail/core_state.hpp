@@ -39,7 +39,7 @@ struct WindowState {
     bool is_stop_due{false};            ///< stop() could not stop the context, because its work hangs
     const WindowHost* cut_by{nullptr};  ///< aborted work of this window that may still run
     Instant crossed_at{kNoFrame};       ///< major frame whose boundary the window crossed last
-    ModeMask held_modes{0U};            ///< the window serves the connections that hold in all of these modes
+    ModeMask held_modes{0U};            ///< serves the connections active in all of these modes
     std::size_t set{kNoIndex};          ///< configuration set that becomes active at the next boundary
     ModePlan prepared{};                ///< plan whose connections the window has
     ModePlan done{};                    ///< plan whose components the window has activated or deactivated

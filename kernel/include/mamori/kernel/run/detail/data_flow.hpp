@@ -33,7 +33,7 @@ class DataFlow final {
 
     /// Gives the inputs of the core the age limits of their connections.
     void attach_inputs() noexcept;
-    /// Removes each value that a port of the core holds or that waits for an input: it is of an earlier run.
+    /// Removes each value of an earlier run that a port of the core stores or that is pending for an input.
     void clear_ports() noexcept;
 
     /// Copies the published values to the inputs of the window.
@@ -51,8 +51,8 @@ class DataFlow final {
     void discard_outputs(std::size_t window) noexcept;
     void discard_outputs_of(std::size_t component) noexcept;
 
-    /// Makes the window serve the connections that hold in `modes`. An input whose connection ends or begins
-    /// has no value until one arrives that was published in the new mode.
+    /// Makes the window serve the connections that are active in `modes`. An input whose connection ends or
+    /// begins has no value until a value arrives that was published in the new mode.
     void restart_inputs(WindowState& state, ModeMask modes) noexcept;
 
     /// Hash of every publication so far: port row, sequence, instant and value.

@@ -18,8 +18,7 @@ namespace mamori::detail {
 
 /// Thread safety: as Executive.
 /// Time:          O(components + connections + parameters) of the window; at a major frame boundary
-/// O(windows)
-///                and the stopped windows. Nothing blocks beyond actions and platform host.
+///                O(windows) and the stopped windows. Nothing blocks beyond actions and platform host.
 /// Memory:        the plan that this core follows; refers to SystemModes.
 class ModeFollower final {
   public:

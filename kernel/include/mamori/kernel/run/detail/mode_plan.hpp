@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A step of a switch between modes that all cores have agreed on, in one word that they share. Not for
-/// users.
+/// One step of a mode switch that all cores agreed on, in one shared word. Not for users.
 ///
 /// @satisfies SWR-MOD-004, SWR-MOD-005      Design: docs/design/modes.md#the-switch
 #ifndef MAMORI_KERNEL_MODE_PLAN_HPP
@@ -15,20 +14,22 @@
 
 namespace mamori {
 
-/// A step that is agreed between the cores, in one word: step, index and the last 16 bits of its frame.
+/// A step that the cores agreed on, in one word: step, index and the last 16 bits of its major frame number.
 ///
 /// Thread safety: a value. Time: O(1). Memory: one word.
 class ModePlan final {
   public:
     /// Largest index that a plan can carry.
     static constexpr std::size_t kIndexMax = 0xFFFU;
-    /// Frames that a plan may lie ahead: one, as it is agreed, and one more for a core that is behind.
+    /// Maximum distance to a future plan [major frames]: one when it is agreed, and one more for a core that
+    /// is late.
     static constexpr std::int32_t kAheadMax = 2;
 
     constexpr ModePlan() noexcept = default;
-    /// @param[in] word from get_word(), of this or another core.
+    /// @param[in] word from get_word() of this or another core.
     constexpr explicit ModePlan(std::uint32_t word) noexcept : word_(word) {}
-    /// @param[in] index mode, or set of kSet; < 4096. @param[in] frame at which all cores take it.
+    /// @param[in] index mode, or set of kSet; 0 .. kIndexMax. @param[in] frame major frame in which all cores
+    ///                  execute it.
     constexpr ModePlan(ModeStep step, std::size_t index, std::int64_t frame) noexcept
         : word_(static_cast<std::uint32_t>(step) << 28U | static_cast<std::uint32_t>(index) << 16U |
                 static_cast<std::uint32_t>(static_cast<std::uint16_t>(frame))) {}
@@ -36,8 +37,8 @@ class ModePlan final {
     constexpr std::uint32_t get_word() const noexcept { return word_; }
     constexpr ModeStep get_step() const noexcept { return static_cast<ModeStep>(word_ >> 28U); }
     constexpr std::size_t get_index() const noexcept { return word_ >> 16U & 0xFFFU; }
-    /// Frames since the plan is due, -kAheadMax .. 32767; negative: it is not yet. One that seems to lie
-    /// further ahead is older than 16 bits can tell, and has the greatest age.
+    /// Major frames since the plan is due, -kAheadMax .. 32767; negative: not due yet. A plan that seems to
+    /// be further ahead is older than 16 bits can represent; it gets the maximum age.
     constexpr std::int32_t calc_age(std::int64_t frame) const noexcept {
         const std::int32_t age =
             static_cast<std::int16_t>(static_cast<std::uint16_t>(frame - static_cast<std::int64_t>(word_)));

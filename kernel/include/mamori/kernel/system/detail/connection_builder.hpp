@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Fills what follows from the rows of the connections: what each of them joins, and in which order the
-/// executive looks at them. Not for users.
+/// Fills the derived fields of the connection rows: what each connection joins, and the order in which the
+/// executive processes them. Not for users.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_CONNECTION_BUILDER_HPP
@@ -30,7 +30,7 @@ constexpr std::array<std::size_t, N> sort_by(const Key& key) noexcept {
     return order;
 }
 
-/// Fills what follows from the rows: which windows and components a connection joins, and in which order.
+/// Fills the windows and components that a connection joins, and whether it is forward within a window.
 template <typename Table>
 constexpr void resolve_connections(Table& table) noexcept {
     for (ConnectionRow& connection : table.connections) {
@@ -53,7 +53,7 @@ constexpr void resolve_connections(Table& table) noexcept {
     }
 }
 
-/// Sorts the connections for the executive, which then looks at none but those it needs.
+/// Sorts the connections, so that the executive accesses only those that it needs.
 template <typename Table>
 constexpr void sort_connections(Table& table) noexcept {
     constexpr std::size_t kCount = std::tuple_size_v<decltype(table.connections)>;

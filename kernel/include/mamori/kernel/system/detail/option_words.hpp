@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How often an option is said of one part of a description: a second one would silently replace the first.
-/// Not for users.
+/// Counts how often an option is specified for one part of a description: a second one would silently replace
+/// the first. Not for users.
 ///
 /// @satisfies SWR-KRN-018      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_OPTION_WORDS_HPP
@@ -12,7 +12,7 @@
 
 namespace mamori::detail {
 
-/// The word that makes an option; how much the option holds does not matter.
+/// Identifies an option independent of its number of values.
 template <typename Option>
 struct WordOf {
     using Type = Option;
@@ -22,7 +22,7 @@ struct WordOf<Option<kCount>> {
     using Type = Option<0U>;
 };
 
-/// How many of `Options` are made by the word that makes `Option`.
+/// Number of `Options` that are the same option as `Option`.
 template <typename Option, typename... Options>
 inline constexpr std::size_t kTimesSaid =
     (std::size_t{std::is_same_v<typename WordOf<Option>::Type, typename WordOf<Options>::Type>} + ... + 0U);

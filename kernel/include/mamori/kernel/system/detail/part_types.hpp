@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the parts of a description bring into the table, in types and counts, so that the table can be made
-/// as large as they need. Not for users.
+/// Contribution of the parts of a description to the table, as types and counts, from which the size of the
+/// table is calculated. Not for users.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_PART_TYPES_HPP
@@ -14,15 +14,15 @@
 
 namespace mamori::detail {
 
-/// A part that brings nothing; each kind of part derives from it and says what it does bring.
+/// A part without contribution; each kind of part derives from it and overrides its own contribution.
 struct NoTypes {
     using Components = TypeList<>;
     using Ports = TypeList<>;
     using Faults = TypeList<>;
-    using FaultTypes = TypeList<>;     ///< enumeration of each fault, declared or answered
+    using FaultTypes = TypeList<>;     ///< enumeration of each fault, in faults() or react()
     using ReactionTypes = TypeList<>;  ///< enumeration of each reaction
     using Members = TypeList<>;        ///< components that the modes run, mode by mode
-    using Events = TypeList<>;         ///< enumeration of each transition's event
+    using Events = TypeList<>;         ///< enumeration of the event of each transition
     static constexpr std::size_t kWindows = 0U;
     static constexpr std::size_t kConnections = 0U;
     static constexpr std::size_t kReactions = 0U;
@@ -37,7 +37,7 @@ struct NoTypes {
 
 template <typename Part>
 struct TypesOfPart : Part::Types {};
-/// Sets are described without knowing of systems.
+/// Configuration sets are defined independent of systems.
 template <std::size_t kAssignmentCount, std::size_t kValueCount>
 struct TypesOfPart<ConfigurationSet<kAssignmentCount, kValueCount>> : NoTypes {
     static constexpr std::size_t kSets = 1U;
@@ -45,7 +45,7 @@ struct TypesOfPart<ConfigurationSet<kAssignmentCount, kValueCount>> : NoTypes {
     static constexpr std::size_t kValues = kValueCount;
 };
 
-/// What all parts bring together.
+/// Contribution of all parts together.
 template <typename... Parts>
 struct JoinedTypes {
     using Components = typename Concat<typename TypesOfPart<Parts>::Components...>::Type;

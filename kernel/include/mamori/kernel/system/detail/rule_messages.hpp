@@ -23,10 +23,10 @@ namespace mamori {
 
 namespace rules {
 
-/// Never true, but only known when instantiated.
+/// Always false, but evaluated only at instantiation.
 template <typename>
 inline constexpr bool kKept = false;
-/// A row that has no better name than its number.
+/// A row that is identified by its number only.
 template <std::size_t kIndex>
 struct Row {};
 
@@ -108,7 +108,7 @@ template <template <typename...> class R, const auto& kTable, std::size_t kEleme
 using TransitionTarget = R<NameOf<kTable, OfTarget, kElement>>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
 using ComponentInMode = R<ComponentAt<kTable, kElement>, ModeName<kTable, kOther>>;
-/// Shows the rule of the configuration itself.
+/// Shows the violated rule of the configuration.
 template <template <typename...> class, const auto& kTable, std::size_t kElement, std::size_t kOther>
 using SetAssignment = ConfigurationKeeps<check(make_view(kTable.configuration)).rule, kElement, kOther>;
 
@@ -125,10 +125,10 @@ struct MessageOf;
 MAMORI_TABLE_RULES(MAMORI_MESSAGE)
 #undef MAMORI_MESSAGE
 
-/// Asking for the size of the message of a violated rule ends the compilation.
+/// Evaluating the size of the message of a violated rule stops the compilation.
 template <const auto& kTable>
 constexpr bool keeps_rules() noexcept {
-    // Ports first: a port that is listed twice also makes rows that do not fit together.
+    // Ports first: a port that is listed twice also causes inconsistent rows.
     constexpr Finding kOfPorts = find_faulty_port(kTable, typename TypesOf<kTable>::Components{});
     constexpr Finding kFinding = kOfPorts.rule != Rule::kNone ? kOfPorts : check(make_view(kTable));
     if constexpr (kFinding.rule != Rule::kNone) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Names of a table as types, spelled letter by letter, so that a compiler message shows them. Not for users.
+/// Names of a table as types, letter by letter, so that a compiler message shows them. Not for users.
 ///
 /// @satisfies SWR-KRN-018      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SPELLED_NAME_HPP
@@ -19,13 +19,13 @@ namespace detail {
 
 constexpr std::size_t calc_length(const char* text) noexcept {
     std::size_t length = 0U;
-    while (text[length] != '\0') {  // ends with the text
+    while (text[length] != '\0') {  // ends at the terminator of the string
         ++length;
     }
     return length;
 }
 
-// Where a name is found in a table.
+// Locations of names in a table.
 struct OfWindow {
     template <typename Table>
     static constexpr const char* get(const Table& table, std::size_t i) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Writes the parts of a description into the rows of a table: what system() does. Not for users.
+/// Writes the parts of a description to the rows of a table, for system(). Not for users.
 ///
 /// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SYSTEM_BUILDER_HPP

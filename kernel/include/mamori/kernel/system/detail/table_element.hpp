@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Elements of a constexpr table under the names that a compiler message shows: a component by its type, a
-/// port by its type and member, and which of several instances of one type it is. Not for users.
+/// Elements of a constexpr table as compiler messages show them: a component by its type, a port by its type
+/// and member, and the instance number among components of the same type. Not for users.
 ///
 /// @satisfies SWR-KRN-018      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_TABLE_ELEMENT_HPP
@@ -17,7 +17,7 @@
 
 namespace mamori::detail {
 
-/// How many components of the same type the table lists before component `kIndex`.
+/// Number of components of the same type that the table lists before component `kIndex`.
 template <typename Components, std::size_t kIndex, std::size_t... kBefore>
 constexpr std::size_t count_same_before(std::index_sequence<kBefore...>) noexcept {
     return ((std::is_same_v<At<Components, kBefore>, At<Components, kIndex>> ? 1U : 0U) + ... + 0U);
@@ -38,7 +38,7 @@ constexpr std::size_t find_input(const Table& table, const InPortBase* input) no
     return kNoIndex;
 }
 
-// Elements under the names that the rules want.
+// Elements as the rules refer to them.
 template <const auto& kTable>
 using TypesOf = typename std::remove_reference_t<decltype(kTable)>::Types;
 template <const auto& kTable, std::size_t kIndex>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of components: each runs in one place, and names and ports are those of its own. Not for users.
+/// Rules of components: each runs in one window, once, and has its own name and ports. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-045, SWR-KRN-046      Design:
 /// docs/design/kernel.md#system-table
@@ -28,9 +28,9 @@ constexpr bool is_registered(const Component& component, const PortBase* port) n
     return is_found;
 }
 
-/// Checks the ports of a component against `count` listed ones; `get_listed(p)` returns one of them.
-/// @param[in] report takes the rule and its elements: the number of ports that were constructed after the
-///                   faulty one for Rule::kPortNotListed, positions in the list for the others.
+/// Checks the ports of a component against `count` listed ports, which `get_listed(p)` returns.
+/// @param[in] report receives the rule and its elements: for Rule::kPortNotListed the number of ports that
+///                   were constructed after the faulty one, for the others positions in the list.
 template <typename GetListed, typename Report>
 constexpr void check_ports(const Component& component, std::size_t count, const GetListed& get_listed,
                            const Report& report) noexcept {
@@ -59,7 +59,8 @@ constexpr void check_ports(const Component& component, std::size_t count, const 
     }
 }
 
-/// Component `i` has no name of an earlier component, and Ports<...> lists what is registered with it.
+/// Checks that no earlier component has the name of component `i`, and that Ports<...> lists exactly its
+/// registered ports.
 inline void check_component_objects(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
     const Component& component = *view.components[i];
     const ComponentRow& row = view.component_rows[i];
@@ -89,7 +90,7 @@ constexpr void check_components(const SystemView& view, FindingList& findings) n
                 break;
             }
         }
-        // A constant expression cannot read the objects: keeps_rules() checks a constant of their type there.
+        // A constant expression cannot read the objects. keeps_rules() then checks a constant of their type.
         if (!__builtin_is_constant_evaluated()) {
             check_component_objects(view, i, findings);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of connections: both ends are in the table, a value can be fresh, and what leaves a core or a
-/// partition goes through storage that was made for it, in an order that holds. Not for users.
+/// Rules of connections: both ends are in the table, a value can be fresh, and a connection that leaves a
+/// core or a partition uses dedicated storage in a valid order. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-047, SWR-KRN-048      Design:
 /// docs/design/kernel.md#system-table

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where the rules of a system table put what they find. Not for users.
+/// Storage for the findings of a check of a system table. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_FINDING_LIST_HPP
@@ -13,7 +13,7 @@
 
 namespace mamori::detail {
 
-/// Keeps as many findings as it has room for and counts them all.
+/// Stores findings up to its capacity and counts all of them.
 class FindingList final {
   public:
     constexpr explicit FindingList(Span<Finding> storage) noexcept : storage_(storage) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of inputs: one writer each, and in each mode a source for a mandatory input of a running component.
-/// Not for users.
+/// Rules of inputs: each has one writer, and in each mode a mandatory input of a running component has a
+/// source. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-MOD-003      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_INPUT_CHECK_HPP
@@ -23,8 +23,8 @@ constexpr bool is_connected(const SystemView& view, const PortRow& input) noexce
     return is_found;
 }
 
-/// Two connections may share an input when no mode has both; a queue has one writer for ever, since writers
-/// of two cores could meet in it.
+/// Whether two connections conflict at an input. They may share it if no mode has both. A queue always has
+/// only one writer, since writers on two cores could access it at the same time.
 constexpr bool has_two_writers(const SystemView& view, const PortRow& input) noexcept {
     for (std::size_t i = 0U; i < view.connections.size(); ++i) {
         const ConnectionRow& later = view.connections[i];
@@ -39,7 +39,7 @@ constexpr bool has_two_writers(const SystemView& view, const PortRow& input) noe
     return false;
 }
 
-/// Names the first mode in which a mandatory input that is connected gets nothing.
+/// Reports the first mode in which a connected mandatory input has no source.
 constexpr void check_feeding(const SystemView& view, std::size_t port, FindingList& findings) noexcept {
     const PortRow& row = view.ports[port];
     ModeMask fed = 0U;

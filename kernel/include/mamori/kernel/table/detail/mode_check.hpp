@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of the modes of a system: their names, sets and members. That each mandatory input is fed in each
-/// mode: input_check.hpp. Not for users.
+/// Rules of the modes of a system: their names, sets and members. Sources of mandatory inputs in each mode:
+/// input_check.hpp. Not for users.
 ///
 /// @satisfies SWR-MOD-003      Design: docs/design/modes.md#what-the-compiler-refuses
 #ifndef MAMORI_KERNEL_MODE_CHECK_HPP
@@ -55,7 +55,7 @@ constexpr void check_members(const SystemView& view, FindingList& findings) noex
     }
 }
 
-/// For a table whose rows are valid in themselves.
+/// Precondition: each row of the table is valid.
 constexpr void check_modes(const SystemView& view, FindingList& findings) noexcept {
     for (std::size_t m = 0U; m < view.modes.modes.size(); ++m) {
         check_mode(view, m, findings);

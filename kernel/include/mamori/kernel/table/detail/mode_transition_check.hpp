@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of the ways between modes: transitions, what they reach, and the safe mode, which a switch that
-/// fails leads to. Not for users.
+/// Rules of mode switches: transitions, reachable modes, and the safe mode, in which a failed switch ends.
+/// Not for users.
 ///
 /// @satisfies SWR-MOD-003      Design: docs/design/modes.md#what-the-compiler-refuses
 #ifndef MAMORI_KERNEL_MODE_TRANSITION_CHECK_HPP
@@ -34,7 +34,7 @@ constexpr void check_transitions(const SystemView& view, FindingList& findings) 
     }
 }
 
-/// The safe mode needs no transition: a switch that fails leads there.
+/// The safe mode needs no transition: a failed mode switch leads to it.
 constexpr void check_reachability(const SystemView& view, FindingList& findings) noexcept {
     const std::size_t mode_count = view.modes.modes.size();
     ModeMask reached = 1U;

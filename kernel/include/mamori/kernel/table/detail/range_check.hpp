@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the rows of a system table must keep together: the ranges of windows and components hold the rows
-/// that name them as their owners, all of them and no other. Not for users.
+/// Checks the consistency of the rows of a system table: the range of each window and component contains
+/// exactly the rows that name it as their owner. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_RANGE_CHECK_HPP
@@ -15,7 +15,7 @@
 
 namespace mamori::detail {
 
-/// Rows first .. first + count - 1 for which `is_own` is true.
+/// Number of rows first .. first + count - 1 for which `is_own` returns true.
 template <typename IsOwn>
 constexpr std::size_t count_own(std::size_t first, std::size_t count, const IsOwn& is_own) noexcept {
     std::size_t own_count = 0U;
@@ -29,7 +29,7 @@ constexpr bool is_within(std::size_t index, std::size_t first, std::size_t count
     return index >= first && index - first < count;
 }
 
-/// Does the window run a component with this address?
+/// Whether the window runs a component with this address.
 constexpr bool has_component(const SystemView& view, const WindowRow& row, const Component* owner) noexcept {
     return count_own(row.first_component, row.component_count,
                      [&](std::size_t i) noexcept { return view.components[i] == owner; }) != 0U;
@@ -72,7 +72,8 @@ constexpr bool is_port_in_place(const SystemView& view, std::size_t p) noexcept 
            is_within(p, window.first_port, window.port_count);
 }
 
-/// The source is an output of the component that the row names, which looks at the connection exactly once.
+/// Whether the source is an output of the component that the row names, and this component lists the
+/// connection exactly once.
 constexpr bool is_source_in_place(const SystemView& view, std::size_t i) noexcept {
     const ConnectionRow& row = view.connections[i];
     if (row.source_component == kNoIndex) {
@@ -86,7 +87,7 @@ constexpr bool is_source_in_place(const SystemView& view, std::size_t i) noexcep
            count_own(owner.first_outgoing, owner.outgoing_count, is_place) == 1U;
 }
 
-/// The same for the sink and the window that latches it.
+/// Whether the same is true for the sink and the window that latches it.
 constexpr bool is_sink_in_place(const SystemView& view, std::size_t i) noexcept {
     const ConnectionRow& row = view.connections[i];
     if (row.sink_component == kNoIndex) {
@@ -109,7 +110,7 @@ constexpr bool is_parameter_in_place(const SystemView& view, std::size_t i) noex
     return false;
 }
 
-/// For a table each row of which is valid by itself.
+/// Precondition: each row of the table is valid on its own.
 constexpr void check_ranges(const SystemView& view, FindingList& findings) noexcept {
     for (std::size_t i = 0U; i < view.windows.size(); ++i) {
         if (!has_own_rows_only(view, i)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of faults and reactions: each fault is declared once and leads to one reaction, in a positive time.
-/// Not for users.
+/// Rules of faults and reactions: each fault is declared once and has one reaction, with a positive time. Not
+/// for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_REACTION_CHECK_HPP

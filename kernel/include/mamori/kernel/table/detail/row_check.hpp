@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What each row of a system table must keep by itself, before a rule may follow its indices and pointers.
-/// What rows must keep together: range_check.hpp. Not for users.
+/// Checks each row of a system table on its own, before a rule uses its indices and pointers. Consistency
+/// between rows: range_check.hpp. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_ROW_CHECK_HPP
@@ -17,14 +17,14 @@
 
 namespace mamori::detail {
 
-/// A constant expression takes it for granted, since g++ with -fsanitize=undefined cannot tell there; what
-/// the compiler keeps nobody can have damaged.
+/// Whether a function is set. A constant expression assumes it, since g++ with -fsanitize=undefined cannot
+/// evaluate the comparison there; the values of a constant cannot be corrupted.
 template <typename Function>
 constexpr bool is_function(Function* function) noexcept {
     return __builtin_is_constant_evaluated() || function != nullptr;
 }
 
-/// Is each place of the range in `order`, and does it name one of `row_count` rows?
+/// Whether the range is within `order` and each of its elements is the index of one of `row_count` rows.
 constexpr bool is_order_in(Span<const std::size_t> order, std::size_t first, std::size_t count,
                            std::size_t row_count) noexcept {
     if (!is_range_in(first, count, order.size())) {
@@ -38,7 +38,7 @@ constexpr bool is_order_in(Span<const std::size_t> order, std::size_t first, std
     return true;
 }
 
-/// What ExecutionContext::attach() asks of the plan that is made of the row.
+/// Whether the plan that is built from the row satisfies the preconditions of ExecutionContext::attach().
 constexpr bool is_plan_valid(const WindowRow& row) noexcept {
     return row.kind <= ExecutionKind::kOther &&
            (row.kind == ExecutionKind::kOther) == (row.trigger != nullptr) && row.events_per_cycle != 0U &&
@@ -72,14 +72,14 @@ constexpr bool is_port_valid(const SystemView& view, const PortRow& row) noexcep
            is_function(row.count_queue);
 }
 
-/// An end of a connection is in the table, or known to be in none.
+/// Whether an end of a connection is in the table, or marked as not in the table.
 constexpr bool is_end_valid(const SystemView& view, std::size_t window, std::size_t component) noexcept {
     return window == kNoIndex ? component == kNoIndex
                               : window < view.windows.size() && component < view.components.size();
 }
 
 constexpr bool is_connection_valid(const SystemView& view, const ConnectionRow& row) noexcept {
-    // Of the operations that may leave a core, a queue needs no storage beside itself.
+    // A latest-value connection that may leave a core needs storage; a queue is its own storage.
     const bool needs_crossing = row.operations.may_leave_core && row.operations.is_latest;
     return row.source != nullptr && row.sink != nullptr && row.operations.is_set &&
            is_function(row.operations.latch) && is_function(row.operations.restart) &&

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rules of windows: what they are called, what releases them, where they lie in the frame, and what their
-/// components take and at which rate. Not for users.
+/// Rules of windows: names, triggers, position in the major frame, execution times and rates of their
+/// components. Not for users.
 ///
 /// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_CHECK_HPP
@@ -40,7 +40,7 @@ constexpr void check_window_times(const SystemView& view, std::size_t i, Finding
     if (view.frame.ns % row.period.ns != 0) {
         findings.add(Rule::kPeriodNotInFrame, i);
     }
-    // Written without sums, which could overflow.
+    // Without sums, which could overflow.
     if (row.offset < Duration{0} || row.length <= Duration{0} || row.offset > row.period ||
         row.length > row.period - row.offset) {
         findings.add(Rule::kWindowOutsideFrame, i);
@@ -58,7 +58,7 @@ constexpr void check_window_times(const SystemView& view, std::size_t i, Finding
     }
 }
 
-/// Rates are given in Hz, periods in ns; equal within one part in 10^9.
+/// Whether a rate [Hz] and a period [ns] agree within one part in 10^9.
 constexpr bool is_rate_of(double rate_hz, Duration period) noexcept {
     const double cycles = rate_hz * static_cast<double>(period.ns) * 1.0e-9;
     return cycles > 1.0 - 1.0e-9 && cycles < 1.0 + 1.0e-9;
@@ -69,7 +69,7 @@ constexpr void check_window_load(const SystemView& view, std::size_t i, FindingL
     Duration left = row.budget;
     for (std::size_t c = row.first_component; c < row.first_component + row.component_count; ++c) {
         const Duration worst_case = view.component_rows[c].worst_case;
-        // No sum, which could overflow.
+        // Without a sum, which could overflow.
         if (worst_case > left) {
             findings.add(Rule::kWorstCasesExceedBudget, i);
             break;
