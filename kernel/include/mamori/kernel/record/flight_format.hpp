@@ -38,7 +38,7 @@ enum class SlotState : std::uint8_t {
 };
 
 /// A session: one use of the region from open() to close() or the end of the program. It notes its progress
-/// in the header when it starts, and before each record that it writes to slot 0. Until the next note, it
+/// in the header when it starts, and again after each `capacity` records. Until the next note, it
 /// uses only numbers below next_sequence + capacity.
 struct FlightSession {
     std::uint32_t number{0U};         ///< 1, 2, ...; 0: no session

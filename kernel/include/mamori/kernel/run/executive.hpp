@@ -114,9 +114,9 @@ class Executive {
     std::size_t get_failed_component() const noexcept { return life_.get_failed_component(); }
 
     /// @param[in] observer observes the execution, or nullptr; must outlive the executive, or be replaced
-    ///            before. Its records are read here, once: none, or one for each component of the table, else
-    ///            a contract violation. Not to be called from within an action or from the observer (contract
-    ///            violation).
+    ///            before. Its records are read here, once: none, or at least one for each component of the
+    ///            table, else a contract violation. Not to be called from within an action or from the
+    ///            observer (contract violation).
     void set_observer(ExecutionObserver* observer) noexcept;
     /// Shows the execution to tools from now on: at the end of each window instance, and after initialize(),
     /// start(), stop() and finalize(). A table that violates a rule shows nothing. No hash and no window

@@ -84,8 +84,8 @@ class SystemModes final {
     std::size_t get_mode() const noexcept { return mode_.load(std::memory_order_acquire); }
     /// The step that is agreed and not completed; kNone if no switch is in progress.
     ModeStep get_step() const noexcept { return ModePlan{plan_.load(std::memory_order_acquire)}.get_step(); }
-    /// First failure since the last reset; cause kNone: none. While a failure is latched, requests are
-    /// rejected.
+    /// First failure since the last reset; cause kNone: none. While a failure is latched, a table
+    /// with a safe mode rejects request().
     ModeFailure get_failure() const noexcept;
     /// Clears the failure and a pending request, and returns to the first mode. Must be a deliberate act of
     /// an operator.

@@ -60,7 +60,7 @@ struct TriggeredBy {
     ExternalTrigger& trigger;
 };
 /// The ticks of `trigger` release the cycles of the window, at most one per window instance (kind OTHER).
-/// @param[in] trigger must outlive the table; serves one window, which is not checked.
+/// @param[in] trigger must outlive the table; releases one window (Rule::kTriggerUsedTwice).
 constexpr TriggeredBy triggered_by(ExternalTrigger& trigger) noexcept {
     return {trigger};
 }
