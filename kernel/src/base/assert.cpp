@@ -66,8 +66,9 @@ class FailureLine final {
         return length > kPartMax ? path + (length - kPartMax) : path;
     }
     void append(const char* text) noexcept {
-        for (std::size_t i = 0U; i < kPartMax && text[i] != '\0'; ++i) {
-            text_[length_] = text[i];
+        const Text part = make_text(text);
+        for (std::size_t i = 0U; i < part.size() && i < kPartMax; ++i) {
+            text_[length_] = part[i];
             ++length_;
         }
     }

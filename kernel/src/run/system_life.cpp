@@ -6,7 +6,15 @@
 namespace mamori::detail {
 
 void SystemLife::check_table() noexcept {
-    is_table_valid_ = check(get_core().view).rule == Rule::kNone;
+    const SystemView& view = get_core().view;
+    const Finding finding = check(view);
+    is_table_valid_ = finding.rule == Rule::kNone;
+    // Of the rules that only the objects of components can violate, since no compiler message names these.
+    if (finding.rule == Rule::kComponentNamedTwice || finding.rule == Rule::kPortNotListed) {
+        failed_component_ = finding.element;
+    } else if (finding.rule == Rule::kPortNotOwned || finding.rule == Rule::kPortNamedTwice) {
+        failed_component_ = view.ports[finding.element].component;
+    }
 }
 
 bool SystemLife::is_any_running() const noexcept {

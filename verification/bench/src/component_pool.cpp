@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <random>
 
 namespace mamori::verification::bench {
@@ -12,11 +13,19 @@ constexpr std::size_t kClassCount = 8U;
 
 class Counting : public Component {
   public:
-    constexpr Counting() noexcept : Component("counting") {}
+    Counting() noexcept : Component(name_.data()) {}
     std::uint64_t run_count{0U};
+
+    /// Each component of a table has a name of its own.
+    void set_name(std::size_t number) noexcept {
+        static_cast<void>(std::to_chars(name_.data(), name_.data() + name_.size() - 1U, number));
+    }
 
   protected:
     ~Counting() = default;
+
+  private:
+    std::array<char, 21U> name_{};  ///< digits of a number of 64 bits, and the end
 };
 
 /// Each class has its own function with different work, so that a linker does not fold them into one.
@@ -50,6 +59,9 @@ struct ComponentPool::Block {
 ComponentPool::ComponentPool(std::size_t count, ClassOrder order)
     : block_count_((count + kClassCount - 1U) / kClassCount),
       blocks_(std::make_unique<Block[]>(block_count_)) {
+    for (std::size_t i = 0U; i < block_count_ * kClassCount; ++i) {
+        blocks_[i / kClassCount].all[i % kClassCount]->set_name(i);
+    }
     if (order == ClassOrder::kMixed) {
         std::minstd_rand random{1U};  // the same order in each run
         for (std::size_t i = 0U; i < block_count_; ++i) {

@@ -27,8 +27,8 @@ class PortBase {
     constexpr const PortBase* get_next() const noexcept { return next_; }
 
   protected:
-    /// @param[in] owner component that has this port as a member. @param[in] name static storage, not
-    /// nullptr.
+    /// @param[in] owner component that has this port as a member; the port must not be destroyed before it.
+    /// @param[in] name  static storage, not nullptr.
     constexpr PortBase(PortOwner& owner, const char* name) noexcept : name_(name), next_(owner.first_port_) {
         owner.first_port_ = this;
     }

@@ -60,7 +60,8 @@ class Executive {
     /// Empties every input of its core, with queues and buffers before it: only values that are published
     /// from then on reach the inputs. Then starts every context and activates every component that the
     /// current mode runs, in table order. After a failure everything is stopped again, as by stop().
-    /// Initialise the executives of all cores before the first start.
+    /// Initialise the executives of all cores before a start. No other executive of the table may be in
+    /// initialize() or finalize() meanwhile.
     /// @return kOk; kPreconditionNotMet (not initialised, a component of any core has no context since its
     ///         core has no initialised executive, see get_failed_component(), a context is running, a
     ///         component is not alive, in Error or Active already, other cores are switching modes, or called

@@ -20,11 +20,16 @@
 
 namespace mamori::detail {
 
+/// No component takes it as an argument. A type that is constructible from it has a constructor for any type;
+/// only the compilation of its body would tell whether it takes a name.
+struct Unrelated {};
+
 // How a constant of a component type is constructed, if the type allows it: without arguments, or with a
 // name.
 struct WithoutName {
     template <typename C>
-    static constexpr bool kIsPossible = std::is_default_constructible_v<C>;
+    static constexpr bool kIsPossible =
+        std::is_default_constructible_v<C> && !std::is_constructible_v<C, Unrelated>;
     template <typename C, typename Use>
     static constexpr auto apply(const Use& use) noexcept {
         const C constant{};
@@ -33,10 +38,11 @@ struct WithoutName {
 };
 struct WithName {
     template <typename C>
-    static constexpr bool kIsPossible = std::is_constructible_v<C, const char*>;
+    static constexpr bool kIsPossible =
+        std::is_constructible_v<C, const char*> && !std::is_constructible_v<C, Unrelated>;
     template <typename C, typename Use>
     static constexpr auto apply(const Use& use) noexcept {
-        const C constant{"name"};
+        const C constant("name");
         return use(constant);
     }
 };
