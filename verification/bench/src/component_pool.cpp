@@ -11,21 +11,23 @@ namespace {
 
 constexpr std::size_t kClassCount = 8U;
 
-class Counting : public Component {
+/// Base so that the name exists before the component.
+struct NameOfOne {
+    std::array<char, 21U> name{};  ///< digits of a number of 64 bits, and the end
+};
+
+class Counting : private NameOfOne, public Component {
   public:
-    Counting() noexcept : Component(name_.data()) {}
+    Counting() noexcept : Component(name.data()) {}
     std::uint64_t run_count{0U};
 
     /// Each component of a table has a name of its own.
     void set_name(std::size_t number) noexcept {
-        static_cast<void>(std::to_chars(name_.data(), name_.data() + name_.size() - 1U, number));
+        static_cast<void>(std::to_chars(name.data(), name.data() + name.size() - 1U, number));
     }
 
   protected:
     ~Counting() = default;
-
-  private:
-    std::array<char, 21U> name_{};  ///< digits of a number of 64 bits, and the end
 };
 
 /// Each class has its own function with different work, so that a linker does not fold them into one.
