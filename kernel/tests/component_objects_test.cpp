@@ -32,6 +32,13 @@ class Careless final : public Component {
     InPort<double, Need::kOptional> third{*this, "third"};
     using Ports = mamori::Ports<&Careless::listed>;
 };
+/// Its port belongs to no component.
+class Loose final : public Component {
+  public:
+    explicit Loose(const char* name) noexcept : Component(name) {}
+    OutPort<double> speed{kNoOwner, "speed"};
+    using Ports = mamori::Ports<&Loose::speed>;
+};
 /// Its port is constructed with `owner`.
 class Confused final : public Component {
   public:
@@ -162,6 +169,19 @@ TEST(ComponentObjectsTest, APortOfAnotherComponentIsFoundAtBoth) {
     EXPECT_EQ(findings[1].rule, Rule::kPortNotOwned);
     EXPECT_EQ(findings[1].element, 2U);
     EXPECT_EQ(find_rejected(table), 0U);
+}
+
+TEST(ComponentObjectsTest, APortOfNoComponentIsFound) {
+    verifies("SWR-KRN-045", Technique::kInterface, Polarity::kViolation);
+    Axis axis{"axis", "second"};
+    Loose loose{"loose"};
+    const auto table = make_table(axis, loose);
+    const std::vector<Finding> findings = find_all(table);
+
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].rule, Rule::kPortNotOwned);
+    EXPECT_EQ(findings[0].element, 2U);
+    EXPECT_EQ(find_rejected(table), 1U);
 }
 
 TEST(ComponentObjectsTest, AComponentLeadsToItsPortsFromTheLastToTheFirst) {

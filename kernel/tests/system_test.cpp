@@ -136,6 +136,16 @@ TEST(SystemCheckTest, TablesAtTheLimitsKeepTheRules) {
     EXPECT_EQ(check_table(kSystem).rule, Rule::kNone);
 }
 
+TEST(SystemCheckTest, ADelayIsStatedExactlyWhereItIs) {
+    verifies("SWR-KRN-048", Technique::kBoundaryValues, Polarity::kViolation);
+    for (std::size_t i = 0U; i < kSystem.connections.size(); ++i) {
+        auto table = kSystem;
+        table.connections[i].is_delayed_by_a_frame = true;
+        EXPECT_EQ(check_table(table).rule, Rule::kDelayNotStated);
+        EXPECT_EQ(check_table(table).element, i);
+    }
+}
+
 TEST(SystemCheckTest, AFrameIsPositive) {
     verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
 
