@@ -355,7 +355,7 @@ class Run final {
     }
 
     const Value substitute_{{}};
-    Port in_{kNoOwner, "in"};
+    Port in_{mamori::kNoOwner, "in"};
     E2eInPort<Message, kLimits<Order>, Port> port_{in_, substitute_};
     E2eChecker<Profile, Order> checker_{Message::kChannel, {1U}};
     Bytes frame_{};
