@@ -42,7 +42,8 @@ struct WithName {
         std::is_constructible_v<C, const char*> && !std::is_constructible_v<C, Unrelated>;
     template <typename C, typename Use>
     static constexpr auto apply(const Use& use) noexcept {
-        const C constant("name");
+        constexpr const char* kAnyName = "name";  // a literal that becomes a bool is a warning
+        const C constant(kAnyName);
         return use(constant);
     }
 };
