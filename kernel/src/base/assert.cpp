@@ -103,10 +103,6 @@ void write_line(const FailureLine& line) noexcept {
     }
 }
 
-void record_handled(const AssertionRecord& record) noexcept {
-    g_handled.store(&record, std::memory_order_release);
-}
-
 /// Prints the line of the failure that the handler received; without one, the line of `record`. Later
 /// contexts return when the first context has printed its line.
 void print_once(const AssertionRecord& record) noexcept {
@@ -119,11 +115,6 @@ void print_once(const AssertionRecord& record) noexcept {
     g_is_line_printed.store(1U, std::memory_order_release);
 }
 
-#else
-
-void record_handled(const AssertionRecord&) noexcept {}
-void print_once(const AssertionRecord&) noexcept {}
-
 #endif
 
 [[noreturn]] void fail(const AssertionRecord& record) noexcept {
@@ -134,14 +125,20 @@ void print_once(const AssertionRecord&) noexcept {}
     // Removed before its call: a check that fails inside the handler does not call the handler again.
     const AssertionHandler handler = g_handler.exchange(nullptr, std::memory_order_acq_rel);
     if (handler != nullptr) {
-        record_handled(record);
+#if defined(__unix__)
+        g_handled.store(&record, std::memory_order_release);
+#endif
         handler(record);
+#if defined(__unix__)
         print_once(record);
+#endif
         g_is_handled.store(1U, std::memory_order_release);
     } else if (gate == nullptr && g_has_handler.load(std::memory_order_relaxed)) {
         wait_until_set(g_is_handled);
     }
+#if defined(__unix__)
     print_once(record);
+#endif
     // A halt that no debugger setting can disable. From here on, the watchdog is no longer serviced.
     __builtin_trap();
 }
@@ -161,13 +158,13 @@ namespace detail {
 
 #if defined(__unix__)
 void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line, const char* condition) noexcept {
-    fail({file, id, line, condition});
-}
+    const AssertionRecord record{file, id, line, condition};
 #else
 void fail_assertion(const char* file, std::uint32_t id, std::uint32_t line) noexcept {
-    fail({file, id, line});
-}
+    const AssertionRecord record{file, id, line};
 #endif
+    fail(record);
+}
 
 }  // namespace detail
 }  // namespace mamori
