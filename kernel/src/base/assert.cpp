@@ -66,9 +66,10 @@ class FailureLine final {
         return length > kPartMax ? path + (length - kPartMax) : path;
     }
     void append(const char* text) noexcept {
-        const Text part = make_text(text);
-        for (std::size_t i = 0U; i < part.size() && i < kPartMax; ++i) {
-            text_[length_] = part[i];
+        const std::size_t length = make_text(text).size();
+        const std::size_t count = length < kPartMax ? length : kPartMax;
+        for (std::size_t i = 0U; i < count; ++i) {
+            text_[length_] = text[i];  // a checked access could fail within a failed check
             ++length_;
         }
     }
