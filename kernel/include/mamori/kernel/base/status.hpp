@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Return codes of all operations that can fail, and a result type that holds a value or a return code. The
-/// six codes and their numbers are those of the OMG RTC ReturnCode_t; no others exist.
+/// six codes and their numbers are those of the OMG RTC ReturnCode_t; there are no other codes.
 ///
 /// @satisfies SWR-KRN-001      Design: docs/design/kernel.md#errors
 /// Source:   OMG RTC 1.0, ReturnCode_t (IDL order is the wire value)

@@ -103,7 +103,7 @@ class Component : public LifecycleRegion, public PortOwner {
     /// @{
     /// Created -> Alive. On any code except kOk, the component remains Created.
     virtual Status on_initialize() noexcept { return Status::kOk; }
-    /// Alive -> Created, whatever the return code.
+    /// Alive -> Created, with each return code.
     virtual Status on_finalize() noexcept { return Status::kOk; }
     /// @}
 
@@ -111,11 +111,11 @@ class Component : public LifecycleRegion, public PortOwner {
     /// @{
     /// The context starts. On any code except kOk, the context remains Stopped.
     virtual Status on_startup(ContextHandle) noexcept { return Status::kOk; }
-    /// The context stops, whatever the return code; the state of the component does not change.
+    /// The context stops with each return code. The state of the component does not change.
     virtual Status on_shutdown(ContextHandle) noexcept { return Status::kOk; }
     /// Inactive -> Active. Any code except kOk leads to Error.
     virtual Status on_activated(ContextHandle) noexcept { return Status::kOk; }
-    /// Active -> Inactive, whatever the return code.
+    /// Active -> Inactive, with each return code.
     virtual Status on_deactivated(ContextHandle) noexcept { return Status::kOk; }
     /// Once per entry into Error, which it cannot prevent; the return code is ignored.
     virtual Status on_aborting(ContextHandle) noexcept { return Status::kOk; }

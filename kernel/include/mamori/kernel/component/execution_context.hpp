@@ -276,7 +276,7 @@ class ExecutionContext final {
     Span<Component* const> participants_{};
     ContextPlan plan_{};
     Duration period_{};          ///< current
-    Duration pending_period_{};  ///< requested; equal to period_ when there is no request
+    Duration pending_period_{};  ///< requested; equal to period_ without a request
     std::int64_t divisor_{1};
     std::int64_t windows_to_skip_{0};
     Instant cycle_start_{};

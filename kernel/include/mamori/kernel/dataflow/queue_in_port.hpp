@@ -98,7 +98,7 @@ class QueueInPort final : public InPortBase {
         return buffer_.publish();
     }
 
-    /// For connections: values that wait now, and the value read last, are no longer readable; see open().
+    /// For connections: makes the waiting values and the value read last unreadable; see open().
     void restart(Instant boundary, std::uint64_t revision) noexcept {
         InPortBase::restart(boundary, revision);
         was_read_ = false;

@@ -35,7 +35,7 @@ constexpr Result<std::size_t> calc_encoded_size(const T& value) noexcept {
     return meter.get_position();
 }
 
-/// Encodes `value` into the first bytes of `buffer`. Padding is zero; there is no padding at the end. Bytes
+/// Encodes `value` into the first bytes of `buffer`. Padding is zero. The end has no padding. Bytes
 /// after the encoding do not change. Thread safe on separate objects, O(encoded size), no memory.
 /// @param[out] buffer max_encoded_size<T>() bytes are always sufficient; must not overlap `value`.
 /// @return bytes written; kOutOfResources (buffer too small) and kBadParameter (an enumeration has a value

@@ -32,6 +32,8 @@ namespace mamori {
 /// since nothing else can be checked. For any row content, pointers and indices are checked before use. It is
 /// assumed that a span has the rows that it counts, that a pointer other than nullptr refers to a living
 /// object, and that each name is terminated. Constant expression for a constexpr table; O(rows squared).
+/// Names and ports of the component objects are checked at run time only; a constant initialiser skips them.
+/// Executive::initialize() always checks them.
 /// @param[out] storage receives the first findings; may be shorter than their number.
 /// @return number of findings; 0: the table violates no rule.
 constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) noexcept {
