@@ -30,7 +30,7 @@ mamori::ports::virtual_time::SimulatedChannel<TorqueCommand, kChannelCapacity> c
 DriveGate gate{outputs};
 
 static constexpr auto kSafeArm = mamori::system(
-    mamori::frame(kFrame),
+    mamori::frame(kFrame), mamori::trace_hash(),
     mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
     mamori::window("control", 300_us, 400_us, mamori::budget(350_us), mamori::run(controller)),
     mamori::window("transport", 700_us, 100_us, mamori::budget(80_us), mamori::run(channel)),

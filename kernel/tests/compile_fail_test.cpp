@@ -167,6 +167,11 @@ TEST(CompileFailTest, ASecondAbortPolicyIsRefused) {
     expect_refused("windows", "abort_policy_twice", "abort_policy(...) is said once");
 }
 
+TEST(CompileFailTest, ASecondRequestOfTheTraceHashIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("windows", "trace_hash_twice", "trace_hash() is said once");
+}
+
 TEST(CompileFailTest, AReactionToAFaultOfAnotherEnumerationIsRefused) {
     verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
     expect_refused("reactions", "faults_of_two_enumerations",

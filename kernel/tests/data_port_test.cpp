@@ -34,7 +34,7 @@ class DataPortTest : public ::testing::Test {
   protected:
     std::uint64_t calc_hash() const {
         TraceHash hash;
-        out_.hash_into(hash);
+        OutPort<std::int32_t>::hash_published(out_, hash);
         return hash.get_value();
     }
 
@@ -140,7 +140,7 @@ TEST_F(DataPortTest, TheHashCoversValueSequenceAndInstant) {
     OutPort<std::int32_t> other{kNoOwner, "other"};
     const auto hash_other = [&other] {
         TraceHash hash;
-        other.hash_into(hash);
+        OutPort<std::int32_t>::hash_published(other, hash);
         return hash.get_value();
     };
     out_.write(5);

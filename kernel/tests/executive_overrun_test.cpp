@@ -37,7 +37,8 @@ class ExecutiveOverrunTest : public ::testing::Test {
     Counter other_{"other"};
     Sink sink_;
     SystemTable<2U, 4U, 5U, 2U> table_ =
-        system(frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), mamori::run(counter_, relay_)),
+        system(frame(1000_ns), trace_hash(),
+               window("first", 0_ns, 400_ns, budget(300_ns), mamori::run(counter_, relay_)),
                window("second", 400_ns, 600_ns, budget(500_ns), mamori::run(other_, sink_)),
                connect(counter_.out, relay_.in, any_age()), connect(relay_.out, sink_.in, any_age()));
     FakeHost host_;

@@ -43,10 +43,10 @@ class ExecutiveTest : public ::testing::Test {
     Counter counter_;
     Relay relay_;
     Sink sink_;
-    SystemTable<2U, 3U, 4U, 2U> table_ =
-        system(frame(kFrame), window("first", 0_ns, 400_ns, budget(300_ns), run(counter_, relay_)),
-               window("second", 400_ns, 600_ns, budget(600_ns), run(sink_)),
-               connect(counter_.out, relay_.in, any_age()), connect(relay_.out, sink_.in, any_age()));
+    SystemTable<2U, 3U, 4U, 2U> table_ = system(
+        frame(kFrame), trace_hash(), window("first", 0_ns, 400_ns, budget(300_ns), run(counter_, relay_)),
+        window("second", 400_ns, 600_ns, budget(600_ns), run(sink_)),
+        connect(counter_.out, relay_.in, any_age()), connect(relay_.out, sink_.in, any_age()));
     FakeHost host_;
     ExecutiveFor<decltype(table_)> sut_{table_};
 };
@@ -72,10 +72,10 @@ TEST_F(ExecutiveTest, DataAndHashDoNotDependOnHowLongTheCodeTook) {
         Counter counter;
         Relay relay;
         Sink sink;
-        const auto table =
-            system(frame(kFrame), window("first", 0_ns, 400_ns, budget(300_ns), run(counter, relay)),
-                   window("second", 400_ns, 600_ns, budget(600_ns), run(sink)),
-                   connect(counter.out, relay.in, any_age()), connect(relay.out, sink.in, any_age()));
+        const auto table = system(
+            frame(kFrame), trace_hash(), window("first", 0_ns, 400_ns, budget(300_ns), run(counter, relay)),
+            window("second", 400_ns, 600_ns, budget(600_ns), run(sink)),
+            connect(counter.out, relay.in, any_age()), connect(relay.out, sink.in, any_age()));
         ExecutiveFor executive{table};
         FakeHost host;
         host.durations[{0U, WindowHost::Pass::kExecute}] = Duration{slow};
@@ -113,16 +113,36 @@ TEST_F(ExecutiveTest, TheHashTellsADifferentValueApart) {
 
 TEST_F(ExecutiveTest, TheHashIsThatOfEachPublishedPortAndWhatItPublished) {
     verifies("SWR-KRN-021", Technique::kBackToBack);
+    verifies("SWR-KRN-050", Technique::kBackToBack);
     run_frame(sut_, host_, 0);
 
     TraceHash expected;
     for (std::size_t p = 0U; p < table_.ports.size(); ++p) {
         if (table_.ports[p].output != nullptr && table_.ports[p].output->get_sequence() != 0U) {
             expected(static_cast<std::uint64_t>(p));
-            table_.ports[p].output->hash_into(expected);
+            table_.ports[p].hash_published(*table_.ports[p].output, expected);
         }
     }
     EXPECT_EQ(sut_.get_trace_hash(), expected.get_value());
+}
+
+TEST_F(ExecutiveTest, WithoutARequestNoPublicationIsHashedAndNoHashIsGiven) {
+    verifies("SWR-KRN-050", Technique::kErrorGuessing, Polarity::kViolation);
+    Counter counter;
+    Sink sink;
+    const auto table = system(frame(kFrame), window("w", 0_ns, 400_ns, budget(300_ns), run(counter, sink)),
+                              connect(counter.out, sink.in, any_age()));
+    ExecutiveFor executive{table};
+    ASSERT_EQ(executive.initialize(), Status::kOk);
+    ASSERT_EQ(executive.start(), Status::kOk);
+
+    run_frame(executive, host_, 0);
+
+    EXPECT_EQ(sink.get_values(), (Values{10}));
+    for (const PortRow& port : table.ports) {
+        EXPECT_EQ(port.hash_published, nullptr);
+    }
+    EXPECT_CHECK_FAILS(static_cast<void>(executive.get_trace_hash()), "executive.hpp", 1);
 }
 
 TEST_F(ExecutiveTest, AValueIsNotSeenBeforeItsWindowHasClosed) {
@@ -261,10 +281,10 @@ TEST_F(ExecutiveTest, WithoutAnObserverNothingChanges) {
     Counter counter;
     Relay relay;
     Sink sink;
-    const auto table =
-        system(frame(kFrame), window("first", 0_ns, 400_ns, budget(300_ns), run(counter, relay)),
-               window("second", 400_ns, 600_ns, budget(600_ns), run(sink)),
-               connect(counter.out, relay.in, any_age()), connect(relay.out, sink.in, any_age()));
+    const auto table = system(
+        frame(kFrame), trace_hash(), window("first", 0_ns, 400_ns, budget(300_ns), run(counter, relay)),
+        window("second", 400_ns, 600_ns, budget(600_ns), run(sink)),
+        connect(counter.out, relay.in, any_age()), connect(relay.out, sink.in, any_age()));
     ExecutiveFor observed{table};
     FakeHost host;
     SpyObserver observer;

@@ -84,7 +84,7 @@ class IntrospectionTest : public ::testing::Test {
     Relay relay_;
     Taker taker_;
     SystemTable<2U, 3U, 4U, 2U> table_ = system(
-        frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), run(counter_, relay_)),
+        frame(1000_ns), trace_hash(), window("first", 0_ns, 400_ns, budget(300_ns), run(counter_, relay_)),
         window("second", 500_ns, 400_ns, budget(400_ns), run(taker_)),
         connect(counter_.out, relay_.in, fresh_within(100_ns)), connect(relay_.out, taker_.in, any_age()));
     FakeHost host_;
@@ -362,10 +362,10 @@ Course run_three_frames(bool is_shown) {
     Counter counter;
     Relay relay;
     Taker taker;
-    const auto table =
-        system(frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), run(counter, relay)),
-               window("second", 500_ns, 400_ns, budget(400_ns), run(taker)),
-               connect(counter.out, relay.in, fresh_within(100_ns)), connect(relay.out, taker.in, any_age()));
+    const auto table = system(
+        frame(1000_ns), trace_hash(), window("first", 0_ns, 400_ns, budget(300_ns), run(counter, relay)),
+        window("second", 500_ns, 400_ns, budget(400_ns), run(taker)),
+        connect(counter.out, relay.in, fresh_within(100_ns)), connect(relay.out, taker.in, any_age()));
     ExecutiveFor executive{table};
     IntrospectionFor introspection{table};
     const auto ignore = [](std::size_t, const auto&) noexcept {};

@@ -66,8 +66,10 @@ void DataFlow::publish_outputs(const WindowRow& row, ModeMask held, Instant end)
         if (port.output == nullptr || !port.output->publish(end)) {
             continue;
         }
-        trace_hash_(static_cast<std::uint64_t>(p));
-        port.output->hash_into(trace_hash_);
+        if (port.hash_published != nullptr) {
+            trace_hash_(static_cast<std::uint64_t>(p));
+            port.hash_published(*port.output, trace_hash_);
+        }
         deliver(port, held);
     }
 }

@@ -25,7 +25,8 @@ void Executive::show_windows() noexcept {
     }
     for (std::size_t w = 0U; w < core.view.windows.size(); ++w) {
         if (core.is_own(w)) {
-            core.introspection->publish_window(w, core.windows[w].context, core.release, get_trace_hash());
+            core.introspection->publish_window(w, core.windows[w].context, core.release,
+                                               life_.get_data_flow().get_trace_hash());
         }
     }
 }
@@ -34,7 +35,8 @@ void Executive::show_window(std::size_t window, Instant release, Instant start, 
                             const WindowHost& host) noexcept {
     const detail::CoreState& core = life_.get_core();
     core.introspection->note_opening(window, start - release, host.get_now() - start, outcome);
-    core.introspection->publish_window(window, core.windows[window].context, release, get_trace_hash());
+    core.introspection->publish_window(window, core.windows[window].context, release,
+                                       life_.get_data_flow().get_trace_hash());
 }
 
 }  // namespace mamori

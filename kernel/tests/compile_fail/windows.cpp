@@ -233,6 +233,17 @@ constexpr auto kSystem =
 MAMORI_CHECK(kSystem);
 }  // namespace abort_policy_twice
 
+// A system requests its trace hash once.
+namespace trace_hash_twice {
+constexpr auto kSystem =
+    mamori::system(mamori::frame(1_ms), mamori::trace_hash(),
+#ifdef MAMORI_BREAK_TRACE_HASH_TWICE
+                   mamori::trace_hash(),
+#endif
+                   mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)));
+MAMORI_CHECK(kSystem);
+}  // namespace trace_hash_twice
+
 // One tick would release both windows, or the first one to look at it.
 namespace trigger_used_twice {
 inline mamori::ExternalTrigger g_trigger;

@@ -74,10 +74,10 @@ struct Plant {
     Sensor sensor;
     SimulatedChannel<double, 4U> channel{"channel"};
     Doubler doubler;
-    SystemTable<2U, 3U, 5U, 2U> table =
-        system(frame(1000_ns), window("sense", 0_ns, 300_ns, budget(200_ns), run(sensor, channel)),
-               window("decide", 400_ns, 500_ns, budget(500_ns), run(doubler)),
-               connect(sensor.out, channel.in, any_age()), connect(channel.out, doubler.in, any_age()));
+    SystemTable<2U, 3U, 5U, 2U> table = system(
+        frame(1000_ns), trace_hash(), window("sense", 0_ns, 300_ns, budget(200_ns), run(sensor, channel)),
+        window("decide", 400_ns, 500_ns, budget(500_ns), run(doubler)),
+        connect(sensor.out, channel.in, any_age()), connect(channel.out, doubler.in, any_age()));
     std::array<Duration, 3> durations{};
     ExecutiveFor<decltype(table)> executive{table};
     VirtualHost host{durations};

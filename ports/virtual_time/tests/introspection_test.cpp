@@ -85,7 +85,7 @@ Course run(Tool tool) {
     Mixer first{"first"};
     Mixer second{"second"};
     const auto table =
-        system(frame(1_ms), window("first", 0_us, 400_us, budget(300_us), run(first)),
+        system(frame(1_ms), trace_hash(), window("first", 0_us, 400_us, budget(300_us), run(first)),
                window("second", 500_us, 400_us, budget(300_us), run(second)),
                connect(first.out, second.in, any_age()), connect(second.out, first.in, any_age()));
     ExecutiveFor executive{table};

@@ -86,7 +86,7 @@ struct MachineParts {
     Crossing<std::int64_t> from_hand;
 };
 auto make_machine_table(MachineParts& p) {
-    return system(frame(1000_ns),
+    return system(frame(1000_ns), trace_hash(),
                   window("ask", 0_ns, 400_ns, budget(400_ns), run(p.supervisor, p.planner, p.hand)),
                   window("act", 400_ns, 400_ns, core(1), budget(400_ns), run(p.drive)),
                   connect(p.planner.out, p.drive.in, through(p.from_planner), any_age()),

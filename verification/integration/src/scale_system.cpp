@@ -138,7 +138,7 @@ constexpr auto run_stages(Others&... others) noexcept {
 /// Each stage supplies the next one of its core.
 template <std::size_t... kLinks>
 constexpr auto make_system(std::index_sequence<kLinks...>) noexcept {
-    return system(frame(10_ms),
+    return system(frame(10_ms), trace_hash(),
                   window("fast 0", 0_us, 200_us, every(1_ms), rate(1000_hz), budget(150_us),
                          run_stages<0U, kFastCount>()),
                   window("control 0", 200_us, 200_us, every(2_ms), rate(500_hz), budget(150_us),

@@ -65,7 +65,7 @@ mamori::Crossing<safe_arm::StopCommand> stop_crossing;
 mamori::Crossing<safe_arm::TorqueCommand> command_crossing;
 
 constexpr auto kSystem = mamori::system(
-    mamori::frame(safe_arm::kFrame),
+    mamori::frame(safe_arm::kFrame), mamori::trace_hash(),
     mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
     mamori::window("control", 300_us, 400_us, mamori::partition("control"), mamori::budget(350_us),
                    mamori::run(controller)),

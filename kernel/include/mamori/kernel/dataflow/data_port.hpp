@@ -51,9 +51,7 @@ struct QueueCounts {
 
 /// Type-free part of an output, for the executive and the table.
 ///
-/// Thread safety: none; all from the core of its component. Time: O(1), hash_into() O(payload). Nothing
-///                blocks.
-/// Memory:        no heap.
+/// Thread safety: none; all from the core of its component. Time: O(1). Nothing blocks. Memory: no heap.
 class OutPortBase : public PortBase {
   public:
     /// Number of publications so far (wraps at 2^32).
@@ -94,15 +92,10 @@ class OutPortBase : public PortBase {
     }
     /// For connections: a full queue rejected the value of a write. @param[in] revision number of the write.
     void note_refused(std::uint64_t revision) noexcept { refused_revision_ = revision; }
-    /// Adds the published value, its sequence number and its instant. For the executive, after a publication.
-    void hash_into(TraceHash& hash) const noexcept;
 
   protected:
-    using HashPublished = void (*)(const OutPortBase&, TraceHash&) noexcept;
-
     template <typename Owner>
-    constexpr OutPortBase(Owner& owner, const char* name, HashPublished hash) noexcept
-        : PortBase(owner, name), hash_published_(hash) {}
+    constexpr OutPortBase(Owner& owner, const char* name) noexcept : PortBase(owner, name) {}
     ~OutPortBase() = default;
 
     /// Slot of the published value. Each publication swaps the slots, so the parity of the sequence number
@@ -110,7 +103,6 @@ class OutPortBase : public PortBase {
     std::size_t get_published_slot() const noexcept { return sequence_ & 1U; }
     std::size_t get_staged_slot() const noexcept { return (sequence_ + 1U) & 1U; }
 
-    HashPublished hash_published_;
     std::uint64_t revision_{0U};  ///< number of writes so far
     /// Placed between the two revisions: if they were adjacent, a compiler would store both as one vector,
     /// and each write would wait for the vector store of the previous write.
@@ -223,10 +215,9 @@ class OutPort final : public OutPortBase {
     /// @param[in] owner the component that has this port as a member: `OutPort<double> speed{*this,
     /// "speed"}`.
     /// @param[in] name  port name with static storage, not nullptr.
-    constexpr OutPort(Component& owner, const char* name) noexcept
-        : OutPortBase(owner, name, &hash_published) {}
+    constexpr OutPort(Component& owner, const char* name) noexcept : OutPortBase(owner, name) {}
     /// A port that belongs to no component and to no table.
-    constexpr OutPort(NoOwner owner, const char* name) noexcept : OutPortBase(owner, name, &hash_published) {}
+    constexpr OutPort(NoOwner owner, const char* name) noexcept : OutPortBase(owner, name) {}
 
     /// Stages a value for publication at window end; a second write in one cycle replaces the first. For the
     /// actions of its component.
@@ -256,11 +247,15 @@ class OutPort final : public OutPortBase {
         return {slots_[get_staged_slot()].value, is_staged_ ? revision_ : 0U, now};
     }
 
-  private:
-    static void hash_published(const OutPortBase& base, TraceHash& hash) noexcept {
-        hash.add(static_cast<const OutPort&>(base).get_published());
+    /// Adds the sequence number, the instant and the value of the last publication to a hash.
+    /// @param[in] port an output of this type; for tables, which have no types.
+    static void hash_published(const OutPortBase& port, TraceHash& hash) noexcept {
+        hash(port.get_sequence());
+        hash(port.get_published_at().ns);
+        hash.add(static_cast<const OutPort&>(port).get_published());
     }
 
+  private:
     std::array<detail::PayloadSlot<T>, 2U> slots_{};
 };
 

@@ -4,7 +4,7 @@
 /// components in table order within the budget, which the platform port enforces, and forwards written values
 /// to later components. At window end, it publishes the outputs.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-024, SWR-MOD-008
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-024, SWR-KRN-050, SWR-MOD-008
 /// Design:   docs/design/kernel.md#parts-of-the-executive
 #ifndef MAMORI_KERNEL_EXECUTIVE_HPP
 #define MAMORI_KERNEL_EXECUTIVE_HPP
@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/base/assert.hpp"
 #include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/kernel/component/window_host.hpp"
 #include "mamori/kernel/run/detail/core_state.hpp"
@@ -126,8 +127,12 @@ class Executive {
     ///            executive, or be replaced before. Not to be called from within an action or from the
     ///            observer (contract violation).
     void set_introspection(Introspection* introspection) noexcept;
-    /// Hash of every publication so far: port row, sequence, instant and value.
-    std::uint64_t get_trace_hash() const noexcept { return life_.get_data_flow().get_trace_hash(); }
+    /// Hash of every publication so far: port row, sequence, instant and value. A table without trace_hash()
+    /// is a contract violation, because every comparison of its hashes would succeed.
+    std::uint64_t get_trace_hash() const noexcept {
+        MAMORI_REQUIRE(1, get_view().has_trace_hash);
+        return life_.get_data_flow().get_trace_hash();
+    }
 
   protected:
     constexpr Executive(const SystemView& view, Span<detail::WindowState> windows, std::size_t core,

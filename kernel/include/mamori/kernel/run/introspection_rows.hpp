@@ -21,9 +21,11 @@ namespace mamori {
 
 /// Progress of a core.
 struct CoreSnapshot {
-    Instant observed_at{};         ///< planned start of the last window instance
-    std::uint64_t frame{0U};       ///< number of its major frame: 0, 1, ...
-    std::uint64_t trace_hash{0U};  ///< after that instance, as Executive::get_trace_hash() of the core
+    Instant observed_at{};    ///< planned start of the last window instance
+    std::uint64_t frame{0U};  ///< number of its major frame: 0, 1, ...
+    /// After that instance, as Executive::get_trace_hash() of the core; without trace_hash() in the table,
+    /// the value of an empty TraceHash.
+    std::uint64_t trace_hash{0U};
 };
 
 /// Timing of a window. Counts and maxima start when the introspection is attached.

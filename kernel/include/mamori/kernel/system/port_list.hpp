@@ -51,6 +51,7 @@ constexpr PortRow make_port_row(C& component, Port& port) noexcept {
     row.owner = &component;
     if constexpr (std::is_base_of_v<OutPortBase, Port>) {
         row.output = &port;
+        row.hash_published = &Port::hash_published;
     } else {
         static_assert(std::is_base_of_v<InPortBase, Port>, "Ports<...> names members that are ports");
         row.input = &port;

@@ -61,6 +61,18 @@ constexpr AbortPolicyPart abort_policy(AbortPolicy policy) noexcept {
     return {policy};
 }
 
+/// Made by trace_hash().
+struct TraceHashPart {
+    struct Types : detail::NoTypes {
+        static constexpr bool kHasTraceHash = true;
+    };
+};
+/// Requests the hash over all publications, Executive::get_trace_hash(). Without this part, no payload is
+/// hashed, and the functions for it are not linked.
+constexpr TraceHashPart trace_hash() noexcept {
+    return {};
+}
+
 namespace detail {
 
 template <typename Builder, typename... Cs>
@@ -82,6 +94,10 @@ constexpr void add_part(Builder& builder, const ReactionPart<Fault, Reaction>& p
 template <typename Builder>
 constexpr void add_part(Builder& builder, const AbortPolicyPart& part) noexcept {
     builder.add(part.policy);
+}
+template <typename Builder>
+constexpr void add_part(Builder& builder, const TraceHashPart&) noexcept {
+    builder.table.has_trace_hash = true;
 }
 template <typename Builder, std::size_t kAssignments, std::size_t kValues>
 constexpr void add_part(Builder& builder, const ConfigurationSet<kAssignments, kValues>& set) noexcept {
@@ -125,6 +141,7 @@ constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
                       detail::kIsOfOneType<typename Types::ReactionTypes>,
                   "all faults of a system are enumerators of one enumeration, and so are all reactions");
     static_assert(detail::kTimesSaid<AbortPolicyPart, Parts...> <= 1U, "abort_policy(...) is said once");
+    static_assert(detail::kTimesSaid<TraceHashPart, Parts...> <= 1U, "trace_hash() is said once");
     detail::TableBuilder<DescribedSystem<Types>> builder{};
     builder.table.frame = frame_part.length;
     (detail::add_part(builder, parts), ...);

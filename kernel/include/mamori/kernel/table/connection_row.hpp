@@ -12,6 +12,7 @@
 #include "mamori/kernel/component/component.hpp"
 #include "mamori/kernel/dataflow/connection.hpp"
 #include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/payload/trace_hash.hpp"
 #include "mamori/kernel/table/mode_mask.hpp"
 #include "mamori/kernel/table/table_index.hpp"
 
@@ -28,6 +29,8 @@ struct PortRow {
     std::size_t component{kNoIndex};  ///< index of its owner in the table
     /// Returns the counts of an input with a queue.
     QueueCounts (*count_queue)(const InPortBase&) noexcept {&count_no_queue};
+    /// Adds a publication of an output to the trace hash; nullptr: an input, or no trace_hash() requested.
+    void (*hash_published)(const OutPortBase&, TraceHash&) noexcept {nullptr};
 };
 
 /// One connection from an output to an input. What it refers to must outlive the table.

@@ -53,6 +53,7 @@ struct SystemTable {
     Configuration configuration{};  ///< parameters of all components, and their configuration sets
     Modes modes{};
     AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
+    bool has_trace_hash{false};  ///< as trace_hash() requests
 
     static constexpr std::size_t kWindowCount = kWindows;
     static constexpr std::size_t kComponentCount = kComponents;
@@ -77,6 +78,7 @@ struct SystemView {
     ConfigurationView configuration{};
     ModeView modes{};
     AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
+    bool has_trace_hash{false};
 };
 
 /// @param[in] table must outlive the view.
@@ -98,6 +100,7 @@ constexpr SystemView make_view(
     view.configuration = make_view(table.configuration);
     view.modes = make_view(table.modes);
     view.abort_policy = table.abort_policy;
+    view.has_trace_hash = table.has_trace_hash;
     return view;
 }
 

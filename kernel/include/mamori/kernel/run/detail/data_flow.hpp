@@ -3,7 +3,7 @@
 /// Part of an executive that moves the values of one core: from published outputs to inputs, forward within a
 /// window, and into publication. Not for users.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-026, SWR-KRN-039, SWR-MOD-009
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-026, SWR-KRN-039, SWR-KRN-050, SWR-MOD-009
 /// Design:   docs/design/kernel.md#parts-of-the-executive, docs/design/kernel.md#connections
 #ifndef MAMORI_KERNEL_DATA_FLOW_HPP
 #define MAMORI_KERNEL_DATA_FLOW_HPP
@@ -45,7 +45,8 @@ class DataFlow final {
     /// Marks the inputs of the first `finished_count` components as read, if these are Active or in Error.
     void mark_inputs_read(const WindowRow& row, const ExecutionContext& context,
                           std::size_t finished_count) noexcept;
-    /// Publishes and hashes the outputs of the window with its planned end.
+    /// Publishes the outputs of the window with its planned end, and adds them to the trace hash if the table
+    /// requests it.
     void publish_outputs(const WindowRow& row, ModeMask held, Instant end) noexcept;
     /// Discards what the components of the window, or one component, wrote and did not publish.
     void discard_outputs(std::size_t window) noexcept;
@@ -55,7 +56,8 @@ class DataFlow final {
     /// begins has no value until a value arrives that was published in the new mode.
     void restart_inputs(WindowState& state, ModeMask modes) noexcept;
 
-    /// Hash of every publication so far: port row, sequence, instant and value.
+    /// Hash of every publication so far: port row, sequence, instant and value. Without trace_hash() in the
+    /// table, the value of an empty TraceHash.
     std::uint64_t get_trace_hash() const noexcept { return trace_hash_.get_value(); }
 
   private:

@@ -33,6 +33,7 @@ struct NoTypes {
     static constexpr std::size_t kModes = 0U;
     static constexpr std::size_t kModeTransitions = 0U;
     static constexpr std::size_t kConnectionModes = 0U;
+    static constexpr bool kHasTraceHash = false;
 };
 
 template <typename Part>
@@ -65,6 +66,7 @@ struct JoinedTypes {
     static constexpr std::size_t kModes = (TypesOfPart<Parts>::kModes + ... + 0U);
     static constexpr std::size_t kModeTransitions = (TypesOfPart<Parts>::kModeTransitions + ... + 0U);
     static constexpr std::size_t kConnectionModes = (TypesOfPart<Parts>::kConnectionModes + ... + 0U);
+    static constexpr bool kHasTraceHash = (TypesOfPart<Parts>::kHasTraceHash || ...);
 };
 
 }  // namespace mamori::detail

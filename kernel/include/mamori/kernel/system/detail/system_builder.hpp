@@ -61,6 +61,9 @@ struct TableBuilder {
                 table.ports[port_count] = part.list.ports[next_port++];
                 table.ports[port_count].window = window_count;
                 table.ports[port_count].component = component_count;
+                if constexpr (!Types::kHasTraceHash) {
+                    table.ports[port_count].hash_published = nullptr;
+                }
                 ++port_count;
             }
             ++component_count;
