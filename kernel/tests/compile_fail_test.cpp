@@ -123,7 +123,13 @@ TEST(CompileFailTest, ACrossingOfTwoConnectionsIsRefused) {
 TEST(CompileFailTest, AReaderThatOpensWhileItsWriterIsOpenIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
     expect_refused("connections", "crossing_not_ordered",
-                   "ReaderNeverOpensWhileItsWriterIsOpen<Consumer, &Consumer::in, 0>");
+                   "ReaderStartsOutsideWritersWindow<Consumer, &Consumer::in, 0>");
+}
+
+TEST(CompileFailTest, AReaderThatStartsWithinThePublicationMarginIsRefused) {
+    verifies("SWR-KRN-051", Technique::kInterface, Polarity::kViolation);
+    expect_refused("connections", "margin_not_kept",
+                   "ReaderStartsAfterPublicationMargin<Consumer, &Consumer::in, 0>");
 }
 
 TEST(CompileFailTest, WindowsOfOneNameAreRefused) {

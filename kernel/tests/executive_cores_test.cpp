@@ -61,17 +61,20 @@ TEST_F(ExecutiveCoresTest, AValueArrivesAtTheFirstOpeningThatIsNotBeforeItsPubli
     EXPECT_EQ(sink_.notes[1].age, 0_ns) << "published at the close, 400 ns, and read there";
 }
 
-TEST_F(ExecutiveCoresTest, ALateReaderDoesNotSeeWhatIsPublishedAfterItsOpening) {
+TEST_F(ExecutiveCoresTest, ALateReaderReceivesTheValueOfItsPlannedWindowStart) {
     verifies("SWR-KRN-026", Technique::kFaultInjection, Polarity::kViolation);
     write(0);
     read(0);
     write(1);
-    read(1);
     write(2);
-    read(1, 600);  // the reader of frame 1 comes in frame 2, after its writer
+    read(1, 600);  // the reader of frame 1 starts in frame 2, after its writer
+    read(2);
+    read(3);
 
-    EXPECT_EQ(sink_.get_values(), (Values{10, 20, 20}));
-    EXPECT_FALSE(sink_.notes[2].is_new);
+    EXPECT_EQ(sink_.get_values(), (Values{10, 20, 30, 30}));
+    EXPECT_TRUE(sink_.notes[1].is_new);
+    EXPECT_FALSE(sink_.notes[3].is_new);
+    EXPECT_EQ(sink_.in.get_missed_count(), 0U);
 }
 
 TEST_F(ExecutiveCoresTest, AWindowOfAnotherCoreEndsInTheAssertion) {
@@ -81,15 +84,22 @@ TEST_F(ExecutiveCoresTest, AWindowOfAnotherCoreEndsInTheAssertion) {
     EXPECT_CHECK_FAILS(static_cast<void>(reader_.run_window(0U, host_)), "executive.cpp", 6);
 }
 
-TEST_F(ExecutiveCoresTest, AValueThatCameTooEarlyArrivesAtTheNextOpening) {
-    verifies("SWR-KRN-026", Technique::kFaultInjection, Polarity::kViolation);
+TEST_F(ExecutiveCoresTest, AnEarlierRunLeavesNothingToMiss) {
+    verifies("SWR-KRN-026", Technique::kStateTransition);
+    write(0);
+    read(0);
+    write(1);
+    write(2);
+    for (Executive* core : {static_cast<Executive*>(&writer_), static_cast<Executive*>(&reader_)}) {
+        ASSERT_EQ(core->stop(), Status::kOk);
+        ASSERT_EQ(core->start(), Status::kOk);
+    }
+
     write(0);
     write(1);
     read(0, 600);
-    read(1);
-
-    EXPECT_EQ(sink_.get_values(), (Values{0, 20})) << "the first one was replaced before it was looked at";
-    EXPECT_EQ(sink_.in.get_name(), std::string("in"));
+    EXPECT_EQ(sink_.get_values(), (Values{10, 40})) << "30 is of the earlier run";
+    EXPECT_EQ(sink_.in.get_missed_count(), 0U);
 }
 
 TEST_F(ExecutiveCoresTest, ASilentWriterMakesItsValueStaleAtTheReader) {
@@ -134,6 +144,70 @@ TEST_F(ExecutiveCoresTest, ACoreWithoutAnInitialisedExecutiveKeepsTheOtherFromSt
     ASSERT_EQ(reader_.start(), Status::kOk);
     EXPECT_EQ(writer_.stop(), Status::kOk);
     EXPECT_EQ(reader_.stop(), Status::kOk);
+}
+
+/// The counter writes each 1000 ns on core 0; the sink reads each 4000 ns on core 1, at 400 ns or later.
+class ExecutiveSlowReaderTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_EQ(writer_.initialize(), Status::kOk);
+        ASSERT_EQ(reader_.initialize(), Status::kOk);
+        ASSERT_EQ(writer_.start(), Status::kOk);
+        ASSERT_EQ(reader_.start(), Status::kOk);
+    }
+    void write(std::int64_t first, std::int64_t last) {
+        for (std::int64_t period = first; period <= last; ++period) {
+            host_.now = Instant{period * 1000};
+            ASSERT_EQ(writer_.run_window(0U, host_.now, host_), WindowOutcome::kCompleted);
+        }
+    }
+    void read(std::int64_t frame, std::int64_t late = 0) {
+        const Instant release{frame * 4000 + 400};
+        host_.now = release + Duration{late};
+        ASSERT_EQ(reader_.run_window(1U, release, host_), WindowOutcome::kCompleted);
+    }
+
+    Counter counter_;
+    Sink sink_;
+    Crossing<std::int64_t> crossing_;
+    SystemTable<2U, 2U, 2U, 1U> table_ =
+        system(frame(4000_ns), window("write", 0_ns, 400_ns, every(1000_ns), budget(300_ns), run(counter_)),
+               window("read", 400_ns, 3600_ns, core(1), budget(100_ns), run(sink_)),
+               connect(counter_.out, sink_.in, through(crossing_), any_age()));
+    FakeHost host_;
+    ExecutiveFor<decltype(table_)> writer_{table_};
+    ExecutiveFor<decltype(table_)> reader_{table_, 1U};
+};
+
+TEST_F(ExecutiveSlowReaderTest, AReaderThatIsLateByTwoPeriodsKeepsItsValueAndCountsIt) {
+    verifies("SWR-KRN-026", Technique::kBoundaryValues, Polarity::kViolation);
+    write(0, 0);
+    read(0);
+    write(1, 5);
+    read(1, 1999);
+    EXPECT_EQ(sink_.get_values(), (Values{10, 50})) << "late by less than two periods";
+    EXPECT_EQ(sink_.in.get_missed_count(), 0U);
+
+    write(6, 10);
+    read(2, 2000);
+    EXPECT_EQ(sink_.get_values(), (Values{10, 50, 60})) << "90 was overwritten; 60 had arrived before";
+    EXPECT_EQ(sink_.in.get_missed_count(), 1U);
+
+    write(11, 12);
+    read(3);
+    EXPECT_EQ(sink_.get_values(), (Values{10, 50, 60, 130}));
+    EXPECT_EQ(sink_.in.get_missed_count(), 1U);
+}
+
+TEST_F(ExecutiveSlowReaderTest, AFirstValueThatIsOverwrittenBeforeTheFirstReadIsCounted) {
+    verifies("SWR-KRN-026", Technique::kErrorGuessing, Polarity::kViolation);
+    write(0, 2);
+    read(0, 2000);
+    write(3, 4);
+    read(1);
+
+    EXPECT_EQ(sink_.get_values(), (Values{0, 50}));
+    EXPECT_EQ(sink_.in.get_missed_count(), 1U);
 }
 
 TEST(ExecutiveStartTest, WhatWasWrittenOnTheWayToTheLastStopIsNotPublishedByTheNextRun) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mamori/kernel/component/external_trigger.hpp"
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/trace/verifies.hpp"
@@ -24,6 +25,14 @@ using namespace verification;
 
 enum class Fault : std::uint32_t { kHot = 3, kFast = 7 };
 enum class Reaction : std::uint32_t { kSlow = 1, kStop = 2 };
+
+/// A reader with a queue.
+class QueueReader final : public Component {
+  public:
+    QueueReader() : Component("queue reader") {}
+    QueueInPort<std::int64_t, 4U> in{*this, "in"};
+    using Ports = mamori::Ports<&QueueReader::in>;
+};
 
 Counter g_counter;
 Counter g_other{"other"};
@@ -256,6 +265,39 @@ TEST(SystemRatesTest, AReaderOnAnotherCoreOpensOutsideOfItsWritersWindow) {
     EXPECT_EQ(check_offset(100_us), Rules{Rule::kCrossingNotOrdered});
     EXPECT_EQ(check_offset(300_us - 1_ns), Rules{Rule::kCrossingNotOrdered});
     EXPECT_EQ(check_offset(300_us), Rules{});
+}
+
+TEST(SystemRatesTest, AReaderOnAnotherCoreStartsAfterThePublicationMargin) {
+    verifies("SWR-KRN-051", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_offset = [](Duration margin, Duration offset, std::size_t reader_core) {
+        return list_rules(system(frame(1_ms), publication_margin(margin),
+                                 window("w", 100_us, 200_us, budget(1_us), run(g_counter)),
+                                 window("r", offset, 1_us, core(reader_core), budget(1_us), run(g_relay)),
+                                 connect(g_counter.out, g_relay.in, through(g_crossing), any_age())));
+    };
+
+    EXPECT_EQ(check_offset(50_us, 350_us, 1U), Rules{});
+    EXPECT_EQ(check_offset(50_us, 350_us - 1_ns, 1U), Rules{Rule::kMarginNotKept});
+    EXPECT_EQ(check_offset(50_us, 300_us, 1U), Rules{Rule::kMarginNotKept});
+    EXPECT_EQ(check_offset(50_us, 300_us, 0U), Rules{}) << "one core publishes before it continues";
+    EXPECT_EQ(check_offset(Duration{-1}, 350_us, 1U), Rules{Rule::kMarginNotKept});
+    EXPECT_EQ(check_offset(800_us, 100_us - 1_ns, 1U), Rules{Rule::kMarginNotKept});
+    EXPECT_EQ(check_offset(800_us - 1_ns, 100_us - 1_ns, 1U), Rules{}) << "a reader of the next frame";
+}
+
+TEST(SystemRatesTest, AQueueBetweenCoresKeepsThePublicationMarginInEachPeriod) {
+    verifies("SWR-KRN-051", Technique::kBoundaryValues, Polarity::kViolation);
+    QueueReader reader;
+    const auto check_margin = [&reader](Duration margin) {
+        return list_rules(system(frame(6_ms), publication_margin(margin),
+                                 window("w", 0_us, 200_us, every(2_ms), budget(1_us), run(g_counter)),
+                                 window("r", 1_ms, 1_us, every(3_ms), core(1), budget(1_us), run(reader)),
+                                 connect(g_counter.out, reader.in, any_age())));
+    };
+
+    // Ends at 200, 2200 and 4200 us; starts at 1000 and 4000 us; periods of 2 and 3 ms meet every 1 ms.
+    EXPECT_EQ(check_margin(800_us), Rules{});
+    EXPECT_EQ(check_margin(800_us + 1_ns), Rules{Rule::kMarginNotKept});
 }
 
 TEST(SystemRatesTest, EveryFaultHasOneReactionAndEveryReactionAFaultAndTime) {

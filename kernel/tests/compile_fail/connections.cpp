@@ -121,6 +121,21 @@ constexpr auto kSystem = mamori::system(
 MAMORI_CHECK(kSystem);
 }  // namespace crossing_not_ordered
 
+// The reader starts 1 ns before the publication margin after its writer on the other core ends.
+namespace margin_not_kept {
+#ifdef MAMORI_BREAK_MARGIN_NOT_KEPT
+constexpr mamori::Duration kOffset = 120_us - 1_ns;
+#else
+constexpr mamori::Duration kOffset = 120_us;
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms), mamori::publication_margin(20_us),
+    mamori::window("sense", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::window("plan", kOffset, 100_us, mamori::core(1), mamori::budget(50_us), mamori::run(g_consumer)),
+    mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing), mamori::any_age()));
+MAMORI_CHECK(kSystem);
+}  // namespace margin_not_kept
+
 // No value is younger than zero.
 namespace age_limit_not_positive {
 #ifdef MAMORI_BREAK_AGE_LIMIT_NOT_POSITIVE

@@ -18,10 +18,21 @@ constexpr Instant calc_end(Instant start, Duration frame, std::uint64_t count) n
     return start + frame * (frames > 0 ? frames : 0);
 }
 
+/// Whether the table states a publication margin, if it has a connection between two cores.
+bool has_publication_margin(const SystemView& view) noexcept {
+    bool leaves_core = false;
+    for (const ConnectionRow& row : view.connections) {
+        leaves_core =
+            leaves_core || view.windows[row.source_window].core != view.windows[row.sink_window].core;
+    }
+    return !leaves_core || view.publication_margin > Duration{0};
+}
+
 }  // namespace
 
 void CoreRunner::run(std::uint64_t frame_count) noexcept {
     MAMORI_REQUIRE(1, frame_count > 0U);
+    MAMORI_REQUIRE(2, has_publication_margin(executive_.get_view()));
     const std::int64_t frame = executive_.get_view().frame.ns;
     const std::int64_t now = clock_.get_now().ns;
     // Rounded up without the sum, which could overflow.

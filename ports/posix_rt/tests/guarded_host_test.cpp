@@ -20,6 +20,7 @@
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -27,6 +28,13 @@ namespace {
 using namespace verification;
 using literals::operator""_ms;
 using literals::operator""_s;
+
+class Reader final : public Component {
+  public:
+    Reader() noexcept : Component("reader") {}
+    InPort<std::int64_t> in{*this, "in"};
+    using Ports = mamori::Ports<&Reader::in>;
+};
 
 /// Does what the test says in its next cycle.
 class Actor final : public Component {
@@ -181,6 +189,32 @@ class CoreRunnerTest : public ::testing::Test {
     ExecutiveFor<decltype(table_)> executive_{table_};
     CoreRunner sut_{executive_, host_, clock_};
 };
+
+TEST(CoreRunnerMarginTest, ATableOfTwoCoresNeedsAPublicationMargin) {
+    verifies("SWR-PRT-047", Technique::kBoundaryValues, Polarity::kViolation);
+    Actor writer{"writer"};
+    Reader reader;
+    Crossing<std::int64_t> crossing;
+    const FrameClock clock = FrameClock::starting_in(0_ms);
+    const auto run_once = [&](Duration margin, std::size_t reader_core) {
+        const auto table = system(frame(1_ms), publication_margin(margin),
+                                  window("w", 0_ms, Duration{400'000}, budget(Duration{1000}), run(writer)),
+                                  window("r", Duration{500'000}, Duration{400'000}, core(reader_core),
+                                         budget(Duration{1000}), run(reader)),
+                                  connect(writer.out, reader.in, through(crossing), any_age()));
+        ExecutiveFor executive{table};
+        std::array<WindowThread, 2U> threads;
+        GuardedHost host{threads, clock, {}};
+        CoreRunner sut{executive, host, clock};
+        sut.request_stop();
+        sut.run(1U);
+        return sut.get_counts().opened;
+    };
+
+    EXPECT_CHECK_FAILS(run_once(0_ms, 1U), "core_runner.cpp", 2);
+    EXPECT_EQ(run_once(Duration{1}, 1U), 0U) << "stopped, not rejected";
+    EXPECT_EQ(run_once(0_ms, 0U), 0U);
+}
 
 TEST_F(CoreRunnerTest, EachWindowOpensAtItsPlaceOnTheGridHoweverLateTheMachineIs) {
     verifies("SWR-PRT-005");

@@ -120,6 +120,10 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
             return connection + ": window " + quote(get_window_name(view, row.sink_window)) +
                    " may open while window " + quote(get_window_name(view, row.source_window)) +
                    " on another core is open";
+        case Rule::kMarginNotKept:
+            return connection + ": window " + quote(get_window_name(view, row.sink_window)) +
+                   " may start within the publication margin of " + format(view.publication_margin) +
+                   " after window " + quote(get_window_name(view, row.source_window));
         default:
             return {};
     }
@@ -189,6 +193,7 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kCrossingWithoutBuffer:
         case Rule::kCrossingUsedTwice:
         case Rule::kCrossingNotOrdered:
+        case Rule::kMarginNotKept:
             return describe_wiring(finding, view);
         case Rule::kFaultDeclaredTwice:
         case Rule::kFaultWithoutReaction:

@@ -7,9 +7,13 @@
 #ifndef MAMORI_KERNEL_CONNECTION_HPP
 #define MAMORI_KERNEL_CONNECTION_HPP
 
+#include <cstddef>
+#include <cstdint>
+
+#include "mamori/kernel/base/status.hpp"
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/dataflow/data_port.hpp"
-#include "mamori/kernel/dataflow/triple_buffer.hpp"
+#include "mamori/kernel/dataflow/fifo_buffer.hpp"
 
 namespace mamori {
 
@@ -28,9 +32,12 @@ class CrossingBase {
 /// Storage of one connection between two cores or two partitions:
 ///     static mamori::Crossing<JointState> to_planner;
 ///     mamori::connect(monitor.joints, planner.joints, mamori::through(to_planner), mamori::any_age())
-/// Planned instants decide which value the reader receives, not the relative speed of the cores.
+/// Planned instants decide which value the reader receives, not the relative speed of the cores. The storage
+/// keeps the last two publications. Therefore, a reader that is late by less than one period of the writer
+/// still receives the value of its planned window start.
 ///
-/// Thread safety: one core writes, one core reads, neither waits. Time: O(sizeof(T)). Memory: three T.
+/// Thread safety: one core writes, one core reads, neither waits. Time: deliver() copies one T, latch() at
+///                most kEntriesMax. Memory: four T.
 template <typename T>
 class Crossing final : public CrossingBase {
   public:
@@ -39,42 +46,67 @@ class Crossing final : public CrossingBase {
     /// For the executive of the writing core, immediately after the publication.
     void deliver(const OutPort<T>& source) noexcept {
         const typename OutPort<T>::Sample sample = source.get_published_sample();
-        Slot& slot = buffer_.get_write_slot();
-        slot.value = sample.value;
-        slot.revision = sample.revision;
-        slot.published_at = sample.published_at;
-        buffer_.publish();
+        Entry& entry = buffer_.get_write_slot();
+        entry.value = sample.value;
+        entry.revision = sample.revision;
+        entry.published_at = sample.published_at;
+        entry.number = ++delivered_count_;
+        static_cast<void>(buffer_.publish());  // always succeeds: a full buffer overwrites its oldest entry
     }
-    /// For the executive of the reading core, at its window start. A value published after `opening` is left
-    /// for the next window: the reader is late and keeps its previous value, because the value for this
-    /// window has been overwritten. A value from before the last restart() of the sink belongs to another
-    /// mode and is ignored.
+    /// For the executive of the reading core, at its window start. The sink receives the newest value that
+    /// was published by `opening`; a later value is left for a later window. A value from before the last
+    /// restart() of the sink belongs to another mode and is ignored. If newer values have overwritten the
+    /// value of this window start, the sink counts it.
     /// @param[in,out] sink always the same sink: it stores which value it has accepted.
     template <typename Sink>
     void latch(Sink& sink, Instant opening) noexcept {
-        static_cast<void>(buffer_.update());
-        const Slot& slot = buffer_.get_read_slot();
-        if (slot.published_at <= opening && slot.published_at > sink.get_restarted_at()) {
-            sink.take({slot.value, slot.revision, slot.published_at});
+        bool is_due = true;
+        for (std::size_t i = 0U; i < kEntriesMax && is_due && buffer_.peek() == Status::kOk; ++i) {
+            const Entry& entry = buffer_.get_front();
+            is_due = entry.published_at <= opening;
+            if (is_due) {
+                take(sink, entry);
+                buffer_.drop();
+            } else if (entry.number != last_number_ + 1U) {
+                sink.note_missed();
+            }
         }
     }
 
-    /// For the executive of the reading core, before it starts: drops the value in the buffer, which is from
-    /// an earlier run. Instants cannot show this: the time line of a run may start before the end of the last
-    /// run.
+    /// For the executive of the reading core, before it starts: drops the values in the buffer, which are
+    /// from an earlier run. Instants cannot show this: the time line of a run may start before the end of the
+    /// last run.
     template <typename Sink>
     void clear(Sink& sink) noexcept {
-        buffer_.drop();
+        for (std::size_t i = 0U; i < kEntriesMax && buffer_.peek() == Status::kOk; ++i) {
+            last_number_ = buffer_.get_front().number;
+            buffer_.drop();
+        }
         sink.restart(kBeforeAll, 0U);
     }
 
   private:
-    struct Slot {
+    static constexpr std::size_t kKept = 2U;  ///< the last publication and the one before it
+    /// Waiting entries, plus one that an earlier latch() left.
+    static constexpr std::size_t kEntriesMax = kKept + 1U;
+    struct Entry {
         T value{};
         std::uint64_t revision{0U};
+        std::uint64_t number{0U};  ///< of the delivery: 1, 2, ...
         Instant published_at{};
     };
-    TripleBuffer<Slot> buffer_{};
+
+    template <typename Sink>
+    void take(Sink& sink, const Entry& entry) noexcept {
+        last_number_ = entry.number;
+        if (entry.published_at > sink.get_restarted_at()) {
+            sink.take({entry.value, entry.revision, entry.published_at});
+        }
+    }
+
+    FifoBuffer<Entry, kKept> buffer_{};
+    std::uint64_t delivered_count_{0U};  ///< used by the writing core only
+    std::uint64_t last_number_{0U};      ///< of the entry read or dropped last; used by the reading core only
 };
 
 /// Functions that the executive calls for a connection; one constant per pair of port types. nullptr: nothing

@@ -61,6 +61,19 @@ constexpr AbortPolicyPart abort_policy(AbortPolicy policy) noexcept {
     return {policy};
 }
 
+/// Made by publication_margin().
+struct PublicationMarginPart {
+    using Types = detail::NoTypes;
+    Duration margin;
+};
+/// Minimum time from the end of a window to the start of a window on another core that reads its outputs. In
+/// virtual time, a window publishes exactly at its end, and the default of 0 is sufficient. In real time, it
+/// publishes later by its release lateness and the time of the publication; state more than both.
+/// @param[in] margin >= 0; MAMORI_CHECK rejects a negative one and a reader that starts earlier.
+constexpr PublicationMarginPart publication_margin(Duration margin) noexcept {
+    return {margin};
+}
+
 /// Made by trace_hash().
 struct TraceHashPart {
     struct Types : detail::NoTypes {
@@ -94,6 +107,10 @@ constexpr void add_part(Builder& builder, const ReactionPart<Fault, Reaction>& p
 template <typename Builder>
 constexpr void add_part(Builder& builder, const AbortPolicyPart& part) noexcept {
     builder.add(part.policy);
+}
+template <typename Builder>
+constexpr void add_part(Builder& builder, const PublicationMarginPart& part) noexcept {
+    builder.table.publication_margin = part.margin;
 }
 template <typename Builder>
 constexpr void add_part(Builder& builder, const TraceHashPart&) noexcept {
@@ -141,6 +158,8 @@ constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
                       detail::kIsOfOneType<typename Types::ReactionTypes>,
                   "all faults of a system are enumerators of one enumeration, and so are all reactions");
     static_assert(detail::kTimesSaid<AbortPolicyPart, Parts...> <= 1U, "abort_policy(...) is said once");
+    static_assert(detail::kTimesSaid<PublicationMarginPart, Parts...> <= 1U,
+                  "publication_margin(...) is said once");
     static_assert(detail::kTimesSaid<TraceHashPart, Parts...> <= 1U, "trace_hash() is said once");
     detail::TableBuilder<DescribedSystem<Types>> builder{};
     builder.table.frame = frame_part.length;

@@ -53,7 +53,8 @@ struct SystemTable {
     Configuration configuration{};  ///< parameters of all components, and their configuration sets
     Modes modes{};
     AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
-    bool has_trace_hash{false};  ///< as trace_hash() requests
+    Duration publication_margin{};  ///< between the end of a writer and its reader on another core, >= 0
+    bool has_trace_hash{false};     ///< as trace_hash() requests
 
     static constexpr std::size_t kWindowCount = kWindows;
     static constexpr std::size_t kComponentCount = kComponents;
@@ -78,6 +79,7 @@ struct SystemView {
     ConfigurationView configuration{};
     ModeView modes{};
     AbortPolicy abort_policy{AbortPolicy::kSpecOnly};
+    Duration publication_margin{};
     bool has_trace_hash{false};
 };
 
@@ -100,6 +102,7 @@ constexpr SystemView make_view(
     view.configuration = make_view(table.configuration);
     view.modes = make_view(table.modes);
     view.abort_policy = table.abort_policy;
+    view.publication_margin = table.publication_margin;
     view.has_trace_hash = table.has_trace_hash;
     return view;
 }

@@ -78,8 +78,11 @@
     X(CrossingWithoutBuffer, InputFromElsewhereHasACrossing, Sink,                                         \
       "a connection between cores or partitions goes through(...) a Crossing, or to a queue")              \
     X(CrossingUsedTwice, InputHasACrossingOfItsOwn, Sink, "a Crossing serves one connection")              \
-    X(CrossingNotOrdered, ReaderNeverOpensWhileItsWriterIsOpen, Sink,                                      \
+    X(CrossingNotOrdered, ReaderStartsOutsideWritersWindow, Sink,                                      \
       "a latest value crosses cores between the end of its writer's window and the next start of it")      \
+    X(MarginNotKept, ReaderStartsAfterPublicationMargin, Sink,                                             \
+      "a reader on another core starts at least publication_margin(...) after the end of its writer's "    \
+      "window; the margin is not negative")                                                                \
     X(FaultDeclaredTwice, FaultIsDeclaredOnce, Fault, "a fault is declared once")                          \
     X(FaultWithoutReaction, FaultHasReaction, Fault, "a declared fault has a reaction: react(fault, ...)") \
     X(FaultWithTwoReactions, FaultHasOneReaction, Fault, "a declared fault has at most one reaction")      \

@@ -3,7 +3,7 @@
 /// Rules of connections: both ends are in the table, a value can be fresh, and a connection that leaves a
 /// core or a partition uses dedicated storage in a valid order. Not for users.
 ///
-/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-047, SWR-KRN-048      Design:
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-047, SWR-KRN-048, SWR-KRN-051      Design:
 /// docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_CONNECTION_CHECK_HPP
 #define MAMORI_KERNEL_CONNECTION_CHECK_HPP
@@ -30,6 +30,10 @@ constexpr void check_crossing(const SystemView& view, std::size_t i, FindingList
     }
     if (leaves_core && row.operations.is_latest && calc_distance(writer, reader) < writer.length) {
         findings.add(Rule::kCrossingNotOrdered, i);
+    }
+    if (leaves_core && (view.publication_margin < Duration{0} ||
+                        calc_distance(writer, reader, writer.length) < view.publication_margin)) {
+        findings.add(Rule::kMarginNotKept, i);
     }
     for (std::size_t j = 0U; j < i && row.crossing != nullptr; ++j) {
         if (view.connections[j].crossing == row.crossing) {

@@ -2,7 +2,7 @@
 /// @file
 /// Runs the windows of one core in real time: each opens at its place on the fixed grid of the frame.
 ///
-/// @satisfies SWR-PRT-005, SWR-PRT-006, SWR-PRT-007, SWR-PRT-038, SWR-PRT-043
+/// @satisfies SWR-PRT-005, SWR-PRT-006, SWR-PRT-007, SWR-PRT-038, SWR-PRT-043, SWR-PRT-047
 ///     Design: docs/design/posix_rt.md#grid
 #ifndef MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
 #define MAMORI_PORTS_POSIX_RT_CORE_RUNNER_HPP
@@ -59,6 +59,8 @@ class CoreRunner final {
     /// Opens every window whose place lies in the next `frame_count` frames, from the first frame on that
     /// begins now or later; returns after the last, or soon after request_stop(). Sleeps in between. An
     /// opening that comes late moves no later one: its instants are those of the grid.
+    /// A table with a connection between two cores and without publication_margin(...) is a contract
+    /// violation: in real time, execution times would decide which values the reader receives.
     /// @param[in] frame_count > 0, any. The time line ends after 292 years, and every run ends with it.
     void run(std::uint64_t frame_count) noexcept;
     /// The same without an end of its own: returns after request_stop().
