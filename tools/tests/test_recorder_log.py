@@ -228,6 +228,7 @@ def test_what_is_no_recorder_file_is_answered_in_one_line(tmp_path: Path, capsys
     for path, sentence in (
         (tmp_path, "is a directory"), (tmp_path / "gone", "not found"), (tmp_path / "pipe", "no regular file"),
         (empty, "is empty"), (foreign, "is no recorder file"), (newer, "format version 7"),
+        (".", "is a directory"), ("/", "is a directory"), (tmp_path / ("a" * 300), "name too long; check path"),
     ):  # fmt: skip
         assert log(path, "--mcap", tmp_path / "out.mcap") == 2
         said = capsys.readouterr()

@@ -15,6 +15,13 @@ from pathlib import Path
 INTEGRATION = "verification/integration/src/manual_samples.cpp"
 COMPILED = (
     "examples/minimal/main.cpp",
+    "examples/tour/event_log.cpp",
+    "examples/tour/fifo_ports.cpp",
+    "examples/tour/fsm_component.cpp",
+    "examples/tour/introspection.cpp",
+    "examples/tour/recorder.cpp",
+    "examples/tour/system_modes.cpp",
+    "examples/tour/two_cores.cpp",
     "ports/conformance/tests/porting_page_test.cpp",
     "safety/tests/integrity_page_test.cpp",
     "safety/tests/supervision/manual_page_test.cpp",

@@ -90,6 +90,24 @@ def test_first_system_builds_against_the_package_and_prints_what_the_manual_says
         assert (ran.returncode, ran.stdout) == (0, shown)
 
 
+@pytest.mark.verifies("SWR-REC-011", technique="back_to_back")
+def test_tour_builds_against_the_package_and_log_prints_its_recorder_file_as_the_manual_shows(
+    project: Project, prefix: Path, tmp_path: Path
+) -> None:
+    folder, file = tmp_path / "tour", tmp_path / "tour.rec"
+    configured = configure(project, prefix, folder, "examples/tour")
+    assert configured.returncode == 0, configured.stderr
+    built = run("cmake", "--build", folder / "build")
+    assert built.returncode == 0, built.stdout
+
+    for _ in range(2):
+        assert run(folder / "build" / "tour_recorder", file).returncode == 0
+    shown = run(sys.executable, "-P", "-m", "mamori_tools.command", "log", file)
+
+    assert (shown.returncode, shown.stderr) == (0, "")
+    assert f"```text\n{shown.stdout}```" in (project.root / "docs" / "manual" / "recorder.md").read_text(encoding="utf-8")
+
+
 def build_page(project: Project, prefix: Path, folder: Path, name: str, library: str) -> Path:
     """The first system with the end that a page of the manual shows, linked to the library that the page names. @return `folder`."""
     configure(project, prefix, folder, "examples/minimal")

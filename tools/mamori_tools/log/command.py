@@ -33,8 +33,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Raises InputError with one line if there is nothing to print. @return the exit status."""
     _refuse_input_as_output(arguments)
+    recording = read_recording(arguments.file)  # rejects a path without a file name, such as '.'
     names, complaint = _choose_names(arguments)
-    recording = read_recording(arguments.file)
     try:
         _print(arguments, recording, names)
     except BrokenPipeError:

@@ -149,7 +149,7 @@ def _read_bytes(path: Path) -> bytes:
             raise InputError(f"has {size} bytes, at most {MAX_BYTES} are read; this is no file of a flight recorder", path)
         data = path.read_bytes()
     except OSError as error:
-        raise InputError(f"recorder file cannot be read: {error.strerror}; check its permissions", path) from error
+        raise InputError(f"recorder file cannot be read: {error.strerror}; check path and permissions", path) from error
     if not data:
         raise InputError("recorder file is empty; was the program that records ever started?", path)
     if not any(data):

@@ -138,7 +138,7 @@ struct ChannelIsWithinBudget : std::true_type {
                   "residual error of frames this long is not known; send shorter frames or take profile 7");
     static_assert(
         kFault != BudgetFault::kBudget,
-        "residual error rate is over the budget; send shorter or fewer frames, take profile 4 or 7, "
+        "residual error rate exceeds the budget; send shorter or fewer frames, take profile 4 or 7, "
         "or argue a lower bit error probability (./mamori e2e shows the exact rate)");
 };
 

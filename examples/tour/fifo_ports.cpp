@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Queued inputs: an encoder publishes five counts in each major frame, and a logger reads them in one cycle.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+
+#include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/ports/virtual_time/frame_runner.hpp"
+
+using mamori::Status;
+using namespace mamori::literals;  // NOLINT: units of the times below
+
+class Encoder final : public mamori::Component {
+  public:
+    constexpr Encoder() noexcept : Component("encoder") {}
+    mamori::OutPort<std::int32_t> count{*this, "count"};
+    using Ports = mamori::Ports<&Encoder::count>;
+
+    Status on_execute(mamori::ContextHandle) noexcept override {
+        count.write(++cycles_);
+        return Status::kOk;
+    }
+
+  private:
+    std::int32_t cycles_{0};
+};
+
+/// Capacity of each queue: one value less than the encoder publishes in a major frame.
+constexpr std::size_t kCapacity = 4U;
+
+class Logger final : public mamori::Component {
+  public:
+    constexpr Logger() noexcept : Component("logger") {}
+    // A full queue overwrites its oldest value, or rejects the new one.
+    mamori::QueueInPort<std::int32_t, kCapacity> newest{*this, "newest"};
+    mamori::QueueInPort<std::int32_t, kCapacity, mamori::FullPolicy::kDoNothing> oldest{*this, "oldest"};
+    using Ports = mamori::Ports<&Logger::newest, &Logger::oldest>;
+    using Counts = std::array<std::int32_t, kCapacity>;
+
+    Status on_execute(mamori::ContextHandle) noexcept override {
+        for (std::size_t i = 0U; i < kCapacity && newest.has_waiting(); ++i) {
+            static_cast<void>(newest.read(newest_counts_[i]));
+        }
+        for (std::size_t i = 0U; i < kCapacity && oldest.has_waiting(); ++i) {
+            static_cast<void>(oldest.read(oldest_counts_[i]));
+        }
+        return Status::kOk;
+    }
+    const Counts& get_newest_counts() const noexcept { return newest_counts_; }
+    const Counts& get_oldest_counts() const noexcept { return oldest_counts_; }
+
+  private:
+    Counts newest_counts_{};
+    Counts oldest_counts_{};
+};
+
+static Encoder encoder;
+static Logger logger;
+static constexpr auto kSystem = mamori::system(
+    mamori::frame(10_ms),
+    mamori::window("count", 0_ms, 500_us, mamori::every(2_ms), mamori::budget(400_us), mamori::run(encoder)),
+    mamori::window("log", 9_ms, 1_ms, mamori::budget(900_us), mamori::run(logger)),
+    mamori::connect(encoder.count, logger.newest, mamori::fresh_within(10_ms)),
+    mamori::connect(encoder.count, logger.oldest, mamori::fresh_within(10_ms)));
+MAMORI_CHECK(kSystem);
+static mamori::ExecutiveFor executive{kSystem};
+
+class Printer final : public mamori::ports::virtual_time::FrameDevices {
+    void begin_frame(std::uint64_t, mamori::Instant) noexcept override {}
+    void end_frame(std::uint64_t frame, mamori::Instant, mamori::Duration) noexcept override {
+        std::printf("after %u ms:", static_cast<unsigned>(frame + 1U) * 10U);
+        for (const std::int32_t count : logger.get_newest_counts()) {
+            std::printf(" %d", count);
+        }
+        std::printf(" (%u overwritten),", logger.newest.get_overwritten_count());
+        for (const std::int32_t count : logger.get_oldest_counts()) {
+            std::printf(" %d", count);
+        }
+        std::printf(" (%u rejected)\n", logger.oldest.get_rejected_count());
+    }
+};
+
+int main() {
+    std::array<mamori::Duration, 2U> execution_times{100_us, 200_us};
+    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::SimulatedCore core{executive, host};
+    Printer printer;
+    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, printer};
+    const bool is_ok = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
+    for (int frame = 0; is_ok && frame < 3; ++frame) {
+        runner.run_frame();
+    }
+    return is_ok && executive.stop() == Status::kOk ? 0 : 1;
+}
