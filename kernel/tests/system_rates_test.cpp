@@ -85,6 +85,19 @@ TEST(SystemRatesTest, TheSecondPassIsKnownToBeNeededOnlyWhereItIsOverridden) {
     EXPECT_FALSE(kSystem.windows[1].has_second_pass);
 }
 
+TEST(SystemRatesTest, AWindowKnowsWhetherItHasOutputsAndFeedsAQueueOrACrossing) {
+    verifies("SWR-KRN-017", Technique::kEquivalenceClasses);
+    QueueReader reader;
+    const auto table = system(frame(1_ms), window("w", 0_us, 200_us, budget(1_us), run(g_counter)),
+                              window("r", 200_us, 200_us, budget(1_us), run(reader)),
+                              connect(g_counter.out, reader.in, any_age()));
+
+    EXPECT_TRUE(table.windows[0].has_outputs);
+    EXPECT_TRUE(table.windows[0].has_deliveries);
+    EXPECT_FALSE(table.windows[1].has_outputs);
+    EXPECT_FALSE(table.windows[1].has_deliveries);
+}
+
 TEST(SystemRatesTest, PeriodicWindowsOverlapExactlyWhenTheyMeetInSomeFrame) {
     verifies("SWR-KRN-018", Technique::kBackToBack, Polarity::kViolation);
     const std::int64_t frame_length = 60;

@@ -48,40 +48,45 @@ void DataFlow::forward_outputs(const SystemView& view, std::size_t component, In
 
 void DataFlow::mark_inputs_read(const WindowRow& row, const ExecutionContext& context,
                                 std::size_t finished_count) noexcept {
-    for (const PortRow& port : core_.view.ports.subspan(row.first_port, row.port_count)) {
-        const std::size_t position = port.component - row.first_component;
-        if (port.input == nullptr || position >= finished_count) {
+    for (std::size_t position = 0U; position < finished_count; ++position) {
+        const LifecycleState state = context.get_state_at(position);
+        if (state != LifecycleState::kActive && state != LifecycleState::kError) {
             continue;
         }
-        const LifecycleState state = context.get_state_at(position);
-        if (state == LifecycleState::kActive || state == LifecycleState::kError) {
-            port.input->mark_read();
+        const ComponentRow& owner = core_.view.component_rows[row.first_component + position];
+        for (const PortRow& port : core_.view.ports.subspan(owner.first_port, owner.port_count)) {
+            if (port.input != nullptr) {
+                port.input->mark_read();
+            }
         }
     }
 }
 
 void DataFlow::publish_outputs(const WindowRow& row, ModeMask held, Instant end) noexcept {
-    for (std::size_t p = row.first_port; p < row.first_port + row.port_count; ++p) {
-        const PortRow& port = core_.view.ports[p];
-        if (port.output == nullptr || !port.output->publish(end)) {
-            continue;
-        }
-        if (port.hash_published != nullptr) {
+    std::size_t p = row.first_port;
+    for (const PortRow& port : core_.view.ports.subspan(p, row.port_count)) {
+        if (port.output != nullptr && port.output->publish(end) && port.hash_published != nullptr) {
             trace_hash_(static_cast<std::uint64_t>(p));
             port.hash_published(*port.output, trace_hash_);
         }
-        deliver(port, held);
+        ++p;
+    }
+    if (!row.has_deliveries) {
+        return;
+    }
+    for (const ComponentRow& owner :
+         core_.view.component_rows.subspan(row.first_component, row.component_count)) {
+        deliver_outputs(owner, held, end);
     }
 }
 
-void DataFlow::deliver(const PortRow& port, ModeMask held) noexcept {
-    const ComponentRow& owner = core_.view.component_rows[port.component];
+void DataFlow::deliver_outputs(const ComponentRow& owner, ModeMask held, Instant end) noexcept {
     for (const std::size_t i :
          core_.view.outgoing_order.subspan(owner.first_outgoing, owner.outgoing_count)) {
         const ConnectionRow& connection = core_.view.connections[i];
-        if (connection.source == port.output && connection.operations.deliver != nullptr &&
+        if (connection.operations.deliver != nullptr && connection.source->was_published_at(end) &&
             is_held(connection, held)) {
-            connection.operations.deliver(*port.output, *connection.sink, connection.crossing);
+            connection.operations.deliver(*connection.source, *connection.sink, connection.crossing);
         }
     }
 }

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <memory>
 
+#include "connection_rig.hpp"
 #include "e2e_rig.hpp"
 #include "executive_rig.hpp"
 #include "mamori/kernel/dataflow/data_port.hpp"
@@ -82,6 +83,10 @@ ExecutiveRig<10U, CountingClock> g_supervised_ten;
 ExecutiveRig<20U, CountingClock> g_supervised_twenty;
 ExecutiveRig<10U, SystemClock> g_clocked_ten;
 ExecutiveRig<20U, SystemClock> g_clocked_twenty;
+ConnectionRig<10U, 8U> g_ten_connections_8;
+ConnectionRig<20U, 8U> g_twenty_connections_8;
+ConnectionRig<10U, 64U> g_ten_connections_64;
+ConnectionRig<20U, 64U> g_twenty_connections_64;
 void* volatile g_leftover;
 
 }  // namespace
@@ -137,6 +142,18 @@ extern "C" {
 [[gnu::noinline]] void measured_clocked_cycle_20() {
     g_clocked_twenty.run_supervised_cycle();
 }
+[[gnu::noinline]] void measured_connections_8_10() {
+    g_ten_connections_8.run_frame();
+}
+[[gnu::noinline]] void measured_connections_8_20() {
+    g_twenty_connections_8.run_frame();
+}
+[[gnu::noinline]] void measured_connections_64_10() {
+    g_ten_connections_64.run_frame();
+}
+[[gnu::noinline]] void measured_connections_64_20() {
+    g_twenty_connections_64.run_frame();
+}
 // Two intentional faults: the checks of the other operations must find them.
 [[gnu::noinline]] void measured_seeded_heap() {
     g_leftover = std::malloc(8U);
@@ -159,7 +176,7 @@ struct Operation {
     void (*work)();
 };
 
-constexpr std::array<Operation, 16> kOperations{{
+constexpr std::array<Operation, 20> kOperations{{
     {"port_8", &measured_port_8},
     {"port_64", &measured_port_64},
     {"seqlock_64", &measured_seqlock_64},
@@ -174,6 +191,10 @@ constexpr std::array<Operation, 16> kOperations{{
     {"supervised_cycle_20", &measured_supervised_cycle_20},
     {"clocked_cycle_10", &measured_clocked_cycle_10},
     {"clocked_cycle_20", &measured_clocked_cycle_20},
+    {"connections_8_10", &measured_connections_8_10},
+    {"connections_8_20", &measured_connections_8_20},
+    {"connections_64_10", &measured_connections_64_10},
+    {"connections_64_20", &measured_connections_64_20},
     {"seeded_heap", &measured_seeded_heap},
     {"seeded_system_call", &measured_seeded_system_call},
 }};

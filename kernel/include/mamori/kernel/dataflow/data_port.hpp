@@ -60,6 +60,10 @@ class OutPortBase : public PortBase {
     Instant get_published_at() const noexcept { return published_at_; }
     /// Revision (number of the write) of the published value; 0: no publication in this run.
     std::uint64_t get_published_revision() const noexcept { return published_revision_; }
+    /// Whether the last publication of this run was the one of `instant`.
+    bool was_published_at(Instant instant) const noexcept {
+        return published_revision_ != 0U && published_at_ == instant;
+    }
     /// Status of the published value.
     /// @return kBufferFull (a full queue that it feeds has rejected the value, see FullPolicy::kDoNothing);
     ///         otherwise kOk, also before the first publication.

@@ -64,7 +64,8 @@ class DataFlow final {
     static bool is_held(const ConnectionRow& connection, ModeMask modes) noexcept {
         return (connection.modes & modes) == modes;
     }
-    void deliver(const PortRow& port, ModeMask held) noexcept;
+    /// Gives queues and crossings what the outputs of the component have published with `end`.
+    void deliver_outputs(const ComponentRow& owner, ModeMask held, Instant end) noexcept;
     void discard_ports(std::size_t first, std::size_t count) noexcept;
 
     CoreState core_;

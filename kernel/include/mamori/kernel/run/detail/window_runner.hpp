@@ -100,7 +100,7 @@ inline WindowOutcome WindowRunner::open(const WindowRow& row, WindowState& state
     if (!is_due) {
         return WindowOutcome::kNotDue;
     }
-    if (row.port_count != 0U) {
+    if (row.has_outputs) {
         get_data_flow().publish_outputs(row, state.held_modes, end);
     }
     return WindowOutcome::kCompleted;
@@ -145,7 +145,7 @@ inline std::size_t WindowRunner::end_cycle(const WindowRow& row, WindowState& st
     } else {
         state.context.abandon(finished_count);
     }
-    if (row.port_count != 0U) {
+    if (row.latch_count != 0U) {
         get_data_flow().mark_inputs_read(row, state.context, executed_count);
     }
     if (get_core().introspection != nullptr) {

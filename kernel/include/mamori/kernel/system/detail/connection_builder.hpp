@@ -30,9 +30,13 @@ constexpr std::array<std::size_t, N> sort_by(const Key& key) noexcept {
     return order;
 }
 
-/// Fills the windows and components that a connection joins, and whether it is forward within a window.
+/// Fills the windows and components that a connection joins, and whether it is forward within a window or
+/// feeds a queue or a crossing.
 template <typename Table>
 constexpr void resolve_connections(Table& table) noexcept {
+    for (WindowRow& window : table.windows) {
+        window.has_deliveries = false;
+    }
     for (ConnectionRow& connection : table.connections) {
         for (const PortRow& port : table.ports) {
             if (port.output != nullptr && port.output == connection.source) {
@@ -49,6 +53,10 @@ constexpr void resolve_connections(Table& table) noexcept {
                                           connection.source_component < connection.sink_component;
         if (connection.is_forward_in_window) {
             table.windows[connection.sink_window].has_hand_on = true;
+        }
+        const bool has_delivery = connection.operations.may_leave_core || !connection.operations.is_latest;
+        if (connection.source_window != kNoIndex && has_delivery) {
+            table.windows[connection.source_window].has_deliveries = true;
         }
     }
 }

@@ -49,6 +49,7 @@ struct TableBuilder {
         row.parameter_count = part.list.parameters.declarations.size();
         parameter_count += row.parameter_count;
         configuration.add(part.list.parameters);
+        row.has_outputs = false;
         std::size_t next_port = 0U;
         for (std::size_t i = 0U; i < row.component_count; ++i) {
             ComponentRow& component = table.component_rows[component_count];
@@ -61,6 +62,7 @@ struct TableBuilder {
                 table.ports[port_count] = part.list.ports[next_port++];
                 table.ports[port_count].window = window_count;
                 table.ports[port_count].component = component_count;
+                row.has_outputs = row.has_outputs || table.ports[port_count].output != nullptr;
                 if constexpr (!Types::kHasTraceHash) {
                     table.ports[port_count].hash_published = nullptr;
                 }
