@@ -98,5 +98,42 @@ TEST(ParameterCompileFailTest, ASetWithoutANameIsRefused) {
     expect_refused("parameters", "set_without_name", "kSetRowInvalid, 0, 0>");
 }
 
+TEST(ParameterCompileFailTest, AParameterThatItsComponentDoesNotListIsNamed) {
+    verifies("SWR-PAR-020", Technique::kInterface, Polarity::kViolation);
+    expect_refused("parameter_lists", "parameter_not_listed",
+                   "ParameterIsListed<parameter_not_listed::Monitor, mamori::Name<'l', 'i', 'm', 'i', 't'>");
+    expect_refused("parameter_lists", "no_parameter_listed",
+                   "ParameterIsListed<no_parameter_listed::Monitor, mamori::Name<'g', 'a', 'i', 'n'>");
+    expect_refused("parameter_lists", "parameter_list_private",
+                   "ParameterIsListed<parameter_list_private::Monitor, mamori::Name<'g', 'a', 'i', 'n'>");
+}
+
+TEST(ParameterCompileFailTest, AListedParameterWithoutItsComponentIsRefused) {
+    verifies("SWR-PAR-020", Technique::kInterface, Polarity::kViolation);
+    expect_refused("parameter_lists", "parameter_not_owned",
+                   "ParameterIsOwned<parameter_not_owned::Monitor, &parameter_not_owned::Monitor::gain, 0>");
+    expect_refused("parameter_lists", "parameter_without_owner", "Parameter<double> gain{");
+}
+
+TEST(ParameterCompileFailTest, TwoParametersOfOneNameAndAParameterListedTwiceAreRefused) {
+    verifies("SWR-PAR-021", Technique::kInterface, Polarity::kViolation);
+    expect_refused("parameter_lists", "parameter_named_twice",
+                   "ParameterHasANameOfItsOwn<parameter_named_twice::Monitor, "
+                   "&parameter_named_twice::Monitor::right, 0>");
+    expect_refused("parameter_lists", "parameter_listed_twice",
+                   "ParameterHasANameOfItsOwn<parameter_listed_twice::Monitor, "
+                   "&parameter_listed_twice::Monitor::gain, 0>");
+}
+
+TEST(ParameterCompileFailTest, AParameterWithoutANameIsRefused) {
+    verifies("SWR-PAR-021", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const char* empty_or_missing : {"1", "2"}) {
+        expect_refused("parameter_lists", "parameter_without_name",
+                       "ParameterHasANameOfItsOwn<parameter_without_name::Monitor, "
+                       "&parameter_without_name::Monitor::gain, 0>",
+                       empty_or_missing);
+    }
+}
+
 }  // namespace
 }  // namespace mamori

@@ -10,7 +10,7 @@
 class Axis final : public mamori::Component {
   public:
     constexpr Axis() noexcept : Component("axis") {}
-    mamori::Parameter<double> speed{"speed", 1.0};
+    mamori::Parameter<double> speed{*this, "speed", 1.0};
     using Parameters = mamori::Parameters<&Axis::speed>;
 };
 inline Axis g_axis;

@@ -11,7 +11,7 @@ class Axis final : public mamori::Component {
     constexpr Axis() noexcept : Component("axis") {}
     mamori::InPort<double> in{*this, "in"};
     using Ports = mamori::Ports<&Axis::in>;
-    mamori::Parameter<double> speed{"speed", 1.0, mamori::between(0.5, 3.0)};
+    mamori::Parameter<double> speed{*this, "speed", 1.0, mamori::between(0.5, 3.0)};
     using Parameters = mamori::Parameters<&Axis::speed>;
 };
 class Spare final : public mamori::Component {

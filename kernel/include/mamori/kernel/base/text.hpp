@@ -37,6 +37,15 @@ constexpr bool operator==(Text a, Text b) noexcept {
     return true;
 }
 
+/// Whether a C string is a name: not nullptr and not empty.
+constexpr bool is_name(const char* characters) noexcept {
+    return characters != nullptr && characters[0] != '\0';
+}
+/// Whether two C strings, which may be nullptr, are the same name. O(length).
+constexpr bool is_same_name(const char* a, const char* b) noexcept {
+    return is_name(a) && is_name(b) && make_text(a) == make_text(b);
+}
+
 }  // namespace mamori
 
 #endif  // MAMORI_KERNEL_TEXT_HPP

@@ -101,7 +101,7 @@ template <typename Types>
 using TableOf = SystemTable<
     Types::kWindows, Types::Components::kSize, Types::Ports::kSize, Types::kConnections, Types::Faults::kSize,
     Types::kReactions,
-    ConfigurationTable<Types::kParameters, Types::kSets, Types::kAssignments, Types::kValues>,
+    ConfigurationTable<Types::Parameters::kSize, Types::kSets, Types::kAssignments, Types::kValues>,
     ModeTable<Types::kModes, Types::Members::kSize, Types::kModeTransitions, Types::kConnectionModes>>;
 
 }  // namespace detail

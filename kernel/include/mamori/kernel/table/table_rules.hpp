@@ -14,11 +14,13 @@
 ///             Row               row of the kind that the rule names
 ///             Window            window (the window of the same name)
 ///             TwoWindows        window (the window listed before it)
-///             Component         component, by its second row where it has two (its first row)
+///             Component         component, by its second row where it has two (its first row; its namesake)
 ///             Input             port row of an input
 ///             Sink              connection, which messages show by its input (the connection listed before)
 ///             UnlistedPort      component (number of its ports that are constructed after the port)
-///             Port              port row (the port row listed before)
+///             UnlistedParameter component (number of its parameters that are constructed after the one)
+///             Port              port row (the port row listed before; itself: without a name)
+///             Parameter         parameter row (the one listed before; itself: without a name)
 ///             Fault             fault (its earlier declaration)
 ///             Mode              mode; the first one where no mode is faulty
 ///             ModeMember        row of a component of a mode
@@ -66,6 +68,12 @@
       "a listed port is constructed with its component as owner: {*this, ...}")                            \
     X(PortNamedTwice, PortHasANameOfItsOwn, Port,                                                          \
       "each port of a component has a name of its own and is listed once")                                 \
+    X(ParameterNotListed, ParameterIsListed, UnlistedParameter,                                            \
+      "the public alias Parameters of a component lists each parameter that is constructed with it")       \
+    X(ParameterNotOwned, ParameterIsOwned, Parameter,                                                      \
+      "a listed parameter is constructed with its component as owner: {*this, ...}")                       \
+    X(ParameterNamedTwice, ParameterHasANameOfItsOwn, Parameter,                                           \
+      "each parameter of a component has a name of its own and is listed once")                            \
     X(PortOfUnknownComponent, ConnectionJoinsComponentsOfTheTable, Row,                                    \
       "both ends of a connection belong to components that a window runs")                                 \
     X(InputNotConnected, InputIsConnected, Input, "a mandatory input is connected")                        \

@@ -39,6 +39,8 @@ struct Row {};
 #define MAMORI_PARAMETERS_OF_Input typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_Sink typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_UnlistedPort typename...
+#define MAMORI_PARAMETERS_OF_UnlistedParameter typename...
+#define MAMORI_PARAMETERS_OF_Parameter typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_Port typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_Fault auto
 #define MAMORI_PARAMETERS_OF_Mode typename...
@@ -64,6 +66,11 @@ MAMORI_TABLE_RULES(MAMORI_RULE)
 
 namespace detail {
 
+template <template <typename...> class R, const auto& kTable, MemberKind kKind, std::size_t kComponent,
+          std::size_t kLater>
+using OfUnlisted = R<ComponentAt<kTable, kComponent>,
+                     NameOf<kTable, OfUnlistedMember<ComponentAt<kTable, kComponent>, kKind>, kLater>>;
+
 /// A rule with the faulty element as its arguments.
 namespace faulty {
 
@@ -82,8 +89,12 @@ template <template <typename, auto, std::size_t> class R, const auto& kTable, st
           std::size_t>
 using Sink = OfSink<R, kTable, kElement>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
-using UnlistedPort =
-    R<ComponentAt<kTable, kElement>, NameOf<kTable, OfUnlistedPort<ComponentAt<kTable, kElement>>, kOther>>;
+using UnlistedPort = OfUnlisted<R, kTable, MemberKind::kPort, kElement, kOther>;
+template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
+using UnlistedParameter = OfUnlisted<R, kTable, MemberKind::kParameter, kElement, kOther>;
+template <template <typename, auto, std::size_t> class R, const auto& kTable, std::size_t kElement,
+          std::size_t>
+using Parameter = OfParameter<R, kTable, kElement>;
 template <template <typename, auto, std::size_t> class R, const auto& kTable, std::size_t kElement,
           std::size_t>
 using Port = OfPort<R, kTable, kElement>;
@@ -128,9 +139,9 @@ MAMORI_TABLE_RULES(MAMORI_MESSAGE)
 /// Evaluating the size of the message of a violated rule stops the compilation.
 template <const auto& kTable>
 constexpr bool keeps_rules() noexcept {
-    // Ports first: a port that is listed twice also causes inconsistent rows.
-    constexpr Finding kOfPorts = find_faulty_port(kTable, typename TypesOf<kTable>::Components{});
-    constexpr Finding kFinding = kOfPorts.rule != Rule::kNone ? kOfPorts : check(make_view(kTable));
+    // Members first: a port that is listed twice also causes inconsistent rows.
+    constexpr Finding kOfMembers = find_faulty_member(typename TypesOf<kTable>::Components{});
+    constexpr Finding kFinding = kOfMembers.rule != Rule::kNone ? kOfMembers : check(make_view(kTable));
     if constexpr (kFinding.rule != Rule::kNone) {
         return sizeof(typename MessageOf<kFinding.rule>::template Type<kTable, kFinding.element,
                                                                        kFinding.other>) == 0U;

@@ -17,9 +17,10 @@ struct Name {};
 
 namespace detail {
 
+/// A name that is missing is spelled as an empty one.
 constexpr std::size_t calc_length(const char* text) noexcept {
     std::size_t length = 0U;
-    while (text[length] != '\0') {  // ends at the terminator of the string
+    while (text != nullptr && text[length] != '\0') {  // ends at the terminator of the string
         ++length;
     }
     return length;

@@ -38,6 +38,17 @@ constexpr std::size_t find_input(const Table& table, const InPortBase* input) no
     return kNoIndex;
 }
 
+/// Component that has the parameter of row `parameter`.
+template <typename Table>
+constexpr std::size_t find_owner(const Table& table, std::size_t parameter) noexcept {
+    for (std::size_t i = 0U; i < table.components.size(); ++i) {
+        if (table.components[i] == table.configuration.parameters[parameter].owner) {
+            return i;
+        }
+    }
+    return kNoIndex;
+}
+
 // Elements as the rules refer to them.
 template <const auto& kTable>
 using TypesOf = typename std::remove_reference_t<decltype(kTable)>::Types;
@@ -45,12 +56,19 @@ template <const auto& kTable, std::size_t kIndex>
 using ComponentAt = At<typename TypesOf<kTable>::Components, kIndex>;
 template <const auto& kTable, std::size_t kIndex>
 using PortAt = At<typename TypesOf<kTable>::Ports, kIndex>;
+template <const auto& kTable, std::size_t kIndex>
+using ParameterAt = At<typename TypesOf<kTable>::Parameters, kIndex>;
 
 template <template <typename, auto, std::size_t> class RuleOf, const auto& kTable, std::size_t kPort>
 using OfPort = RuleOf<typename PortAt<kTable, kPort>::Owner, PortAt<kTable, kPort>::kPointer,
                       calc_instance<kTable, kTable.ports[kPort].component>()>;
 template <template <typename, auto, std::size_t> class RuleOf, const auto& kTable, std::size_t kConnection>
 using OfSink = OfPort<RuleOf, kTable, find_input(kTable, kTable.connections[kConnection].sink)>;
+
+template <template <typename, auto, std::size_t> class RuleOf, const auto& kTable, std::size_t kParameter>
+using OfParameter =
+    RuleOf<typename ParameterAt<kTable, kParameter>::Owner, ParameterAt<kTable, kParameter>::kPointer,
+           calc_instance<kTable, find_owner(kTable, kParameter)>()>;
 
 }  // namespace mamori::detail
 
