@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: executives without the SystemModes that their tables need, 1: for modes, 2: for configuration sets.
 #include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
 #ifndef MAMORI_BREAK

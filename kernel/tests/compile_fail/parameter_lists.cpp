@@ -151,3 +151,47 @@ class Monitor final : public mamori::Component {
 #endif
 };
 }  // namespace parameter_without_owner
+
+// A component lists a parameter of another component.
+namespace parameter_of_other_component {
+class Other final : public mamori::Component {
+  public:
+    constexpr Other() noexcept : Component("other") {}
+    mamori::Parameter<int> gain{*this, "gain", 1};
+    using Parameters = mamori::Parameters<&Other::gain>;
+};
+class Monitor final : public mamori::Component {
+  public:
+    constexpr Monitor() noexcept : Component("monitor") {}
+    mamori::Parameter<int> gain{*this, "gain", 1};
+#ifdef MAMORI_BREAK_PARAMETER_OF_OTHER_COMPONENT
+    using Parameters = mamori::Parameters<&Other::gain>;
+#else
+    using Parameters = mamori::Parameters<&Monitor::gain>;
+#endif
+};
+Monitor g_monitor;
+constexpr auto kSystem = make_table(g_monitor);
+MAMORI_CHECK(kSystem);
+}  // namespace parameter_of_other_component
+
+// A list of parameters with a port (1) or an action (2).
+namespace list_without_parameter {
+class Monitor final : public mamori::Component {
+  public:
+    constexpr Monitor() noexcept : Component("monitor") {}
+    mamori::OutPort<double> speed{*this, "speed"};
+    mamori::Parameter<int> gain{*this, "gain", 1};
+    using Ports = mamori::Ports<&Monitor::speed>;
+#ifndef MAMORI_BREAK_LIST_WITHOUT_PARAMETER
+    using Parameters = mamori::Parameters<&Monitor::gain>;
+#elif MAMORI_BREAK_LIST_WITHOUT_PARAMETER == 1
+    using Parameters = mamori::Parameters<&Monitor::gain, &Monitor::speed>;
+#else
+    using Parameters = mamori::Parameters<&Monitor::gain, &Monitor::on_reset>;
+#endif
+};
+Monitor g_monitor;
+constexpr auto kSystem = make_table(g_monitor);
+MAMORI_CHECK(kSystem);
+}  // namespace list_without_parameter

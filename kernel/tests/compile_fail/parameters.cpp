@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the compiler rejects: parameters, constraints and configuration sets.
 // Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
+#include "mamori/kernel/parameter/parameter.hpp"
 #include "parameter_parts.hpp"
 
 // A constraint excludes every value.
@@ -163,10 +164,10 @@ constexpr auto kConfiguration = mamori::configuration(
 MAMORI_CHECK_CONFIGURATION(kConfiguration);
 }  // namespace set_named_twice
 
-// A configuration set that nobody can ask for.
+// A configuration set without a name: nullptr (1) or empty (2).
 namespace set_without_name {
 #ifdef MAMORI_BREAK_SET_WITHOUT_NAME
-constexpr const char* kName = nullptr;
+constexpr const char* kName = MAMORI_BREAK_SET_WITHOUT_NAME == 1 ? nullptr : "";
 #else
 constexpr const char* kName = "slow";
 #endif

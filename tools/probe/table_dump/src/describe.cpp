@@ -122,6 +122,9 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
             return connection + (row.age_max == Duration{0}
                                      ? ": its age limit is not stated"
                                      : ": no value is fresh within " + format(row.age_max));
+        case Rule::kAgeLimitCannotBeMet:
+            return connection + ": no value is fresh within " + format(row.age_max) +
+                   " when its reader starts";
         case Rule::kDelayNotStated:
             return connection + (row.is_delayed_by_a_frame ? " states a delay that it does not have"
                                                            : " is delayed and does not state it");
@@ -201,6 +204,7 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kInputNotConnected:
         case Rule::kInputHasTwoWriters:
         case Rule::kAgeLimitNotPositive:
+        case Rule::kAgeLimitCannotBeMet:
         case Rule::kDelayNotStated:
         case Rule::kCrossingWithoutBuffer:
         case Rule::kCrossingUsedTwice:

@@ -2,7 +2,7 @@
 /// @file
 /// Character strings with a length: construction and comparison, in constant expressions and at run time.
 ///
-/// @satisfies SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
+/// @satisfies SWR-PAR-006, SWR-PAR-021      Design: docs/design/parameters.md#configuration-sets
 #ifndef MAMORI_KERNEL_TEXT_HPP
 #define MAMORI_KERNEL_TEXT_HPP
 

@@ -130,6 +130,12 @@ class ConfigurationBuilder final {
     std::size_t value_count_{0U};
 };
 
+/// A table with the types of its parameters, so that compiler messages can name them.
+template <typename MemberTypes, typename Table>
+struct DescribedConfiguration : Table {
+    using Members = MemberTypes;
+};
+
 /// Builds the table of these sets over the parameters of `list`. check() reports the rules that it violates.
 template <typename Members, std::size_t... kAssignments, std::size_t... kValues>
 constexpr auto configuration(const ParameterList<Members>& list,
@@ -139,7 +145,7 @@ constexpr auto configuration(const ParameterList<Members>& list,
         builder{};
     builder.add(list);
     (builder.add(sets), ...);
-    return builder.finish();
+    return DescribedConfiguration<Members, decltype(builder.finish())>{builder.finish()};
 }
 
 }  // namespace mamori

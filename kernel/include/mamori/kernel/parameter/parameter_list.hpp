@@ -2,7 +2,7 @@
 /// @file
 /// Lists the parameters of components, like ports, and provides the compile-time check of a value.
 ///
-/// @satisfies SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
+/// @satisfies SWR-PAR-006, SWR-KRN-062      Design: docs/design/parameters.md#configuration-sets
 #ifndef MAMORI_KERNEL_PARAMETER_LIST_HPP
 #define MAMORI_KERNEL_PARAMETER_LIST_HPP
 
@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "mamori/kernel/base/compiler_message.hpp"
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/parameter/configuration_table.hpp"
@@ -41,13 +42,34 @@ struct ParameterList {
 
 namespace detail {
 
+/// Whether a pointer refers to a parameter that is a member of C.
+template <typename C, typename Pointer>
+inline constexpr bool kIsParameterOf = false;
+template <typename C, typename Value, typename Owner>
+inline constexpr bool kIsParameterOf<C, Value Owner::*> =
+    std::is_base_of_v<Owner, C> && std::is_base_of_v<ParameterBase, Value>;
+
+/// An empty list instead of a wrong one, so that the compiler reports one error.
+template <typename C, auto... kMembers>
+constexpr auto require_parameters(Parameters<kMembers...> list) noexcept {
+    if constexpr ((kIsParameterOf<C, decltype(kMembers)> && ...)) {
+        return list;
+    } else {
+        static_cast<void>(list);
+        static_cast<void>((sizeof(std::conditional_t<kIsParameterOf<C, decltype(kMembers)>, C,
+                                                     rules::ListNamesMembersOfItsComponent<C, kMembers>>) +
+                           ...));
+        return Parameters<>{};
+    }
+}
+
 template <typename C, typename = void>
 struct ParametersOf {
     using Type = Parameters<>;
 };
 template <typename C>
 struct ParametersOf<C, std::void_t<typename C::Parameters>> {
-    using Type = typename C::Parameters;
+    using Type = decltype(require_parameters<C>(typename C::Parameters{}));
 };
 template <typename C, typename List>
 struct ParameterMembers;
@@ -75,9 +97,6 @@ constexpr bool admits_in_default(Span<const Scalar> values) noexcept {
 
 template <typename C, auto kMember>
 constexpr ParameterDeclaration declare_parameter(C& component) noexcept {
-    using Member = std::remove_reference_t<decltype(component.*kMember)>;
-    static_assert(std::is_base_of_v<ParameterBase, Member>,
-                  "Parameters<...> names members that are parameters");
     return {{&component, &(component.*kMember)}, &admits_in_default<C, kMember>};
 }
 

@@ -25,6 +25,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/base/compiler_message.hpp"
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/context_plan.hpp"
 #include "mamori/kernel/parameter/configuration_set.hpp"

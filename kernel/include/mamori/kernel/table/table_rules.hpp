@@ -12,6 +12,7 @@
 ///   Message   the template that a compiler message shows, with the faulty element as its arguments
 ///   Faulty    what `Finding::element` counts (`other` in brackets):
 ///             Row               row of the kind that the rule names
+///             Ends              connection, which messages show by its ports and its row
 ///             Window            window (the window of the same name)
 ///             TwoWindows        window (the window listed before it)
 ///             Component         component, by its second row where it has two (its first row; its namesake)
@@ -74,12 +75,15 @@
       "a listed parameter is constructed with its component as owner: {*this, ...}")                       \
     X(ParameterNamedTwice, ParameterHasANameOfItsOwn, Parameter,                                           \
       "each parameter of a component has a name of its own and is listed once")                            \
-    X(PortOfUnknownComponent, ConnectionJoinsComponentsOfTheTable, Row,                                    \
+    X(PortOfUnknownComponent, ConnectionJoinsComponentsOfTheTable, Ends,                                   \
       "both ends of a connection belong to components that a window runs")                                 \
     X(InputNotConnected, InputIsConnected, Input, "a mandatory input is connected")                        \
     X(InputHasTwoWriters, InputHasOneWriter, Input, "an input has one writer")                             \
     X(AgeLimitNotPositive, InputCanBeFresh, Sink,                                                          \
       "a connection states how old a fresh value may be: fresh_within(...), more than 0, or any_age()")    \
+    X(AgeLimitCannotBeMet, AgeLimitCanBeMet, Sink,                                                         \
+      "fresh_within(...) is not shorter than the minimum age of the value at a start of its reader's "     \
+      "window")                                                                                            \
     X(DelayNotStated, ConnectionStatesItsDelay, Sink,                                                      \
       "a connection states delayed_by_a_frame() if its reader does not run after its writer in the same "  \
       "window, and only then")                                                                             \

@@ -3,7 +3,8 @@
 /// Checks the ports and parameters of a component type on a constant of this type, since the compiler cannot
 /// read the objects that a table refers to. Not for users.
 ///
-/// @satisfies SWR-KRN-045, SWR-KRN-046, SWR-PAR-020      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-045, SWR-KRN-046, SWR-PAR-020, SWR-PAR-021
+/// Design:  : docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_COMPONENT_CONSTANT_HPP
 #define MAMORI_KERNEL_COMPONENT_CONSTANT_HPP
 
@@ -15,7 +16,7 @@
 #include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/component/member.hpp"
 #include "mamori/kernel/system/component_part.hpp"
-#include "mamori/kernel/table/detail/component_check.hpp"
+#include "mamori/kernel/table/system_check.hpp"
 #include "mamori/kernel/table/system_finding.hpp"
 
 namespace mamori::detail {
@@ -73,7 +74,7 @@ template <typename C>
 using WayOf = std::conditional_t<kMakesConstant<WithoutName, C>, WithoutName,
                                  std::conditional_t<kMakesConstant<WithName, C>, WithName, NotConstructible>>;
 
-/// First finding of check_members() for each object of a component type.
+/// First finding of check_registration() for each object of a component type.
 template <typename List>
 struct FirstFindingOf;
 template <typename... Members>
@@ -83,7 +84,7 @@ struct FirstFindingOf<TypeList<Members...>> {
     constexpr Finding operator()(const C& component) const noexcept {
         const std::array<const Member*, sizeof...(Members)> listed{&(component.*Members::kPointer)...};
         Finding first{};
-        check_members(
+        check_registration(
             component, rules, listed.size(), [&listed](std::size_t p) noexcept { return listed[p]; },
             [&first](Rule rule, std::size_t element, std::size_t other) noexcept {
                 first = first.rule == Rule::kNone ? Finding{rule, element, other} : first;

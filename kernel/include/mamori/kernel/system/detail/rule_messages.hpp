@@ -9,6 +9,7 @@
 
 #include <cstddef>
 
+#include "mamori/kernel/base/compiler_message.hpp"
 #include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/parameter/configuration_check.hpp"
 #include "mamori/kernel/parameter/configuration_table.hpp"
@@ -23,16 +24,10 @@ namespace mamori {
 
 namespace rules {
 
-/// Always false, but evaluated only at instantiation.
-template <typename>
-inline constexpr bool kKept = false;
-/// A row that is identified by its number only.
-template <std::size_t kIndex>
-struct Row {};
-
 // Template parameters of a rule, for each kind of faulty element. The last one of a component or port
 // distinguishes instances of one type: 0 is the first in the table.
 #define MAMORI_PARAMETERS_OF_Row typename...
+#define MAMORI_PARAMETERS_OF_Ends typename...
 #define MAMORI_PARAMETERS_OF_Window typename...
 #define MAMORI_PARAMETERS_OF_TwoWindows typename...
 #define MAMORI_PARAMETERS_OF_Component typename, std::size_t
@@ -77,6 +72,10 @@ namespace faulty {
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
 using Row = R<rules::Row<kElement>>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
+using Ends = R<decltype(show_end<kTable, find_output(kTable, kTable.connections[kElement].source)>()),
+               decltype(show_end<kTable, find_input(kTable, kTable.connections[kElement].sink)>()),
+               rules::Row<kElement>>;
+template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
 using Window = R<WindowName<kTable, kElement>>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
 using TwoWindows = R<WindowName<kTable, kOther>, WindowName<kTable, kElement>>;
@@ -119,9 +118,12 @@ template <template <typename...> class R, const auto& kTable, std::size_t kEleme
 using TransitionTarget = R<NameOf<kTable, OfTarget, kElement>>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
 using ComponentInMode = R<ComponentAt<kTable, kElement>, ModeName<kTable, kOther>>;
-/// Shows the violated rule of the configuration.
+/// Shows the violated rule of the configuration, its set and parameter.
 template <template <typename...> class, const auto& kTable, std::size_t kElement, std::size_t kOther>
-using SetAssignment = ConfigurationKeeps<check(make_view(kTable.configuration)).rule, kElement, kOther>;
+using SetAssignment =
+    ConfigurationMessage<check(make_view(kTable.configuration)).rule, NameOf<kTable, OfSet, kElement>,
+                         typename TypesOf<kTable>::Parameters, kElement, kOther,
+                         find_assigned(make_view(kTable.configuration), kElement, kOther)>;
 
 }  // namespace faulty
 

@@ -17,11 +17,6 @@
 
 namespace mamori::detail {
 
-/// Number of components of the same type that the table lists before component `kIndex`.
-template <typename Components, std::size_t kIndex, std::size_t... kBefore>
-constexpr std::size_t count_same_before(std::index_sequence<kBefore...>) noexcept {
-    return ((std::is_same_v<At<Components, kBefore>, At<Components, kIndex>> ? 1U : 0U) + ... + 0U);
-}
 template <const auto& kTable, std::size_t kComponent>
 constexpr std::size_t calc_instance() noexcept {
     using Components = typename std::remove_reference_t<decltype(kTable)>::Types::Components;
@@ -32,6 +27,16 @@ template <typename Table>
 constexpr std::size_t find_input(const Table& table, const InPortBase* input) noexcept {
     for (std::size_t i = 0U; i < table.ports.size(); ++i) {
         if (table.ports[i].input == input) {
+            return i;
+        }
+    }
+    return kNoIndex;
+}
+
+template <typename Table>
+constexpr std::size_t find_output(const Table& table, const OutPortBase* output) noexcept {
+    for (std::size_t i = 0U; i < table.ports.size(); ++i) {
+        if (table.ports[i].output == output) {
             return i;
         }
     }
@@ -69,6 +74,17 @@ template <template <typename, auto, std::size_t> class RuleOf, const auto& kTabl
 using OfParameter =
     RuleOf<typename ParameterAt<kTable, kParameter>::Owner, ParameterAt<kTable, kParameter>::kPointer,
            calc_instance<kTable, find_owner(kTable, kParameter)>()>;
+
+/// One end of a connection, as far as the table has its component.
+struct PortOfNoComponentOfTheTable {};
+template <const auto& kTable, std::size_t kPort>
+constexpr auto show_end() noexcept {
+    if constexpr (kPort != kNoIndex) {
+        return PortAt<kTable, kPort>{};
+    } else {
+        return PortOfNoComponentOfTheTable{};
+    }
+}
 
 }  // namespace mamori::detail
 

@@ -3,7 +3,7 @@
 /// Rules of components: each runs in one window, once, and has its own name, ports and parameters. Not for
 /// users.
 ///
-/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-045, SWR-KRN-046, SWR-PAR-020
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-045, SWR-KRN-046, SWR-PAR-020, SWR-PAR-021
 /// Design:   docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_COMPONENT_CHECK_HPP
 #define MAMORI_KERNEL_COMPONENT_CHECK_HPP
@@ -60,8 +60,8 @@ constexpr std::size_t find_namesake(const GetListed& get_listed, std::size_t p) 
 /// @param[in] report receives the rule and its elements: for `not_listed` the number of members that were
 ///                   constructed after the faulty one, for the others positions in the list.
 template <typename GetListed, typename Report>
-constexpr void check_members(const Component& component, const MemberRules& rules, std::size_t count,
-                             const GetListed& get_listed, const Report& report) noexcept {
+constexpr void check_registration(const Component& component, const MemberRules& rules, std::size_t count,
+                                  const GetListed& get_listed, const Report& report) noexcept {
     std::size_t later = 0U;
     for (const Member* one = component.get_first(rules.kind); one != nullptr; one = one->get_next()) {
         bool is_listed = false;
@@ -106,7 +106,7 @@ constexpr void check_member_rows(const SystemView& view, std::size_t i, const Me
         const bool is_row = rule != rules.not_listed;
         findings.add(rule, is_row ? first + element : i, is_row ? first + other : element);
     };
-    check_members(*view.components[i], rules, rows.size(), get_listed, report);
+    check_registration(*view.components[i], rules, rows.size(), get_listed, report);
 }
 
 /// Checks that component `i` has a name, that no earlier one has it, and that its lists of ports and
