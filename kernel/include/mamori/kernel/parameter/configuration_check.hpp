@@ -104,12 +104,15 @@ struct ConfigurationKeeps {
 constexpr std::size_t find_assigned(const ConfigurationView& view, std::size_t set,
                                     std::size_t assignment) noexcept {
     const std::size_t row = view.sets[set].first_assignment + assignment;
-    std::size_t parameter = row < view.assignments.size() ? 0U : view.parameters.size();
-    while (parameter < view.parameters.size() &&
-           view.parameters[parameter].parameter != view.assignments[row].parameter) {
-        ++parameter;
+    if (row >= view.assignments.size()) {
+        return view.parameters.size();
     }
-    return parameter;
+    for (std::size_t p = 0U; p < view.parameters.size(); ++p) {
+        if (view.parameters[p].parameter == view.assignments[row].parameter) {
+            return p;
+        }
+    }
+    return view.parameters.size();
 }
 
 template <ConfigurationRule kRule, typename Parameters, std::size_t kSet, std::size_t kAssignment,
