@@ -20,7 +20,7 @@ class Drive final : public mamori::Component {
     constexpr Drive() noexcept : Component("drive") {}
     mamori::OutPort<double> angle{*this, "angle"};  // [rad]
     using Ports = mamori::Ports<&Drive::angle>;
-    mamori::Parameter<double> step{"step_rad", 0.1, mamori::between(0.0, 0.5)};
+    mamori::Parameter<double> step{*this, "step_rad", 0.1, mamori::between(0.0, 0.5)};
     using Parameters = mamori::Parameters<&Drive::step>;
 
     Status on_execute(mamori::ContextHandle) noexcept override {

@@ -9,6 +9,7 @@
 namespace mamori {
 namespace {
 
+using testing_support::expect_explained;
 using testing_support::expect_refused;
 using namespace verification;
 
@@ -50,7 +51,8 @@ TEST(CompileFailTest, ABudgetOverItsWindowIsRefused) {
 TEST(CompileFailTest, AConnectionOfAComponentThatNoWindowRunsIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
     expect_refused("connections", "unknown_component",
-                   "ConnectionJoinsComponentsOfTheTable<mamori::rules::Row<0>");
+                   "ConnectionJoinsComponentsOfTheTable<mamori::PortMember<Producer, &Producer::real>, "
+                   "mamori::detail::PortOfNoComponentOfTheTable, mamori::rules::Row<0>");
 }
 
 TEST(CompileFailTest, APeriodThatDoesNotDivideTheFrameIsRefused) {
@@ -84,7 +86,7 @@ TEST(CompileFailTest, AWorstCaseBelowZeroIsRefused) {
 
 TEST(CompileFailTest, AWindowThatServesNoEventIsRefused) {
     verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
-    expect_refused("windows", "window_without_events", "at least one event per cycle");
+    expect_refused("windows", "window_without_events", "WindowRowIsValid<mamori::rules::Row<0>");
 }
 
 TEST(CompileFailTest, ADeclaredFaultWithoutAReactionIsRefused) {
@@ -207,17 +209,18 @@ TEST(CompileFailTest, AFaultThatIsDeclaredTwiceIsRefused) {
 
 TEST(CompileFailTest, AMemberThatIsNoPortIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
-    expect_refused("connections", "port_is_no_port", "names members that are ports");
+    expect_refused("connections", "port_is_no_port",
+                   "ListNamesMembersOfItsComponent<port_is_no_port::Odd, &port_is_no_port::Odd::number>");
 }
 
 TEST(CompileFailTest, APayloadWithoutAFieldListIsRefused) {
     verifies("SWR-KRN-005", Technique::kInterface, Polarity::kViolation);
-    expect_refused("payloads", "payload_without_fields", "MAMORI_FIELDS");
+    expect_explained("payloads", "payload_without_fields", "MAMORI_FIELDS");
 }
 
 TEST(CompileFailTest, AFieldListThatLeavesAFieldOutIsRefused) {
     verifies("SWR-CDR-001", Technique::kInterface, Polarity::kViolation);
-    expect_refused("payloads", "fields_left_out", "decomposes into 3 elements");
+    expect_explained("payloads", "fields_left_out", "decomposes into 3 elements");
 }
 
 TEST(CompileFailTest, AFieldListInAnotherOrderThanTheTypeIsRefused) {
@@ -232,12 +235,12 @@ TEST(CompileFailTest, AFieldListThatNamesAStrangerIsRefused) {
 
 TEST(CompileFailTest, AnEnumerationWithoutItsLastEnumeratorIsNotEncoded) {
     verifies("SWR-CDR-015", Technique::kInterface, Polarity::kViolation);
-    expect_refused("payloads", "enumeration_without_last", "MAMORI_LAST_ENUMERATOR");
+    expect_explained("payloads", "enumeration_without_last", "MAMORI_LAST_ENUMERATOR");
 }
 
 TEST(CompileFailTest, AWideCharacterIsNotEncoded) {
     verifies("SWR-CDR-010", Technique::kInterface, Polarity::kViolation);
-    expect_refused("payloads", "wide_character", "wide characters have no encoding");
+    expect_explained("payloads", "wide_character", "wide characters have no encoding");
 }
 
 TEST(CompileFailTest, ALiteralThatIsTooLongIsRefused) {
@@ -261,8 +264,8 @@ TEST(CompileFailTest, ABufferOfAPayloadThatIsNotTriviallyCopyableIsRefused) {
 
 TEST(CompileFailTest, AFifoWithoutRoomOrWithTooMuchIsRefused) {
     verifies("SWR-BUF-008", Technique::kBoundaryValues, Polarity::kViolation);
-    expect_refused("payloads", "fifo_capacity", "a FIFO needs room for at least one entry", "0");
-    expect_refused("payloads", "fifo_capacity", "a FIFO has room for at most 254 entries", "255");
+    expect_explained("payloads", "fifo_capacity", "a FIFO needs room for at least one entry", "0");
+    expect_explained("payloads", "fifo_capacity", "a FIFO has room for at most 254 entries", "255");
 }
 
 TEST(CompileFailTest, AStateMachineWithAnUnreachableStateIsRefused) {
@@ -312,6 +315,96 @@ TEST(CompileFailTest, ADelayThatIsNotStatedOrNotThereIsRefused) {
     expect_refused("connections", "own_output_without_delay",
                    "ConnectionStatesItsDelay<own_output_without_delay::Filter, "
                    "&own_output_without_delay::Filter::last, 0>");
+}
+
+TEST(CompileFailTest, AListOfWhatIsNoPortOfTheComponentIsRefused) {
+    verifies("SWR-KRN-062", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("ports", "port_of_other_component",
+                   "ListNamesMembersOfItsComponent<port_of_other_component::Monitor, &Producer::real>");
+    const std::string list = "ListNamesMembersOfItsComponent<list_without_port::Monitor, ";
+    expect_refused("ports", "list_without_port", list + "&list_without_port::Monitor::gain>", "1");
+    expect_refused("ports", "list_without_port", list + "&list_without_port::Monitor::on_execute>", "2");
+    expect_refused("ports", "list_without_port", list, "3");
+    expect_refused("ports", "list_without_port", list, "4");
+}
+
+TEST(CompileFailTest, APrivateListOfPortsIsNoList) {
+    verifies("SWR-KRN-045", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("ports", "port_list_private",
+                   "PortIsListed<port_list_private::Monitor, mamori::Name<'s', 'p', 'e', 'e', 'd'>");
+}
+
+TEST(CompileFailTest, APortWithoutANameIsRefused) {
+    verifies("SWR-KRN-046", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const char* empty_or_missing : {"1", "2"}) {
+        expect_refused(
+            "ports", "port_without_name",
+            "PortHasANameOfItsOwn<port_without_name::Monitor, &port_without_name::Monitor::speed, 0>",
+            empty_or_missing);
+    }
+    expect_refused("ports", "unlisted_port_without_name",
+                   "PortIsListed<unlisted_port_without_name::Monitor, mamori::Name<>");
+}
+
+TEST(CompileFailTest, AConnectionFromAComponentThatNoWindowRunsIsRefused) {
+    verifies("SWR-KRN-060", Technique::kInterface, Polarity::kViolation);
+    expect_refused("connections", "unknown_source",
+                   "ConnectionJoinsComponentsOfTheTable<mamori::detail::PortOfNoComponentOfTheTable, "
+                   "mamori::PortMember<Consumer, &Consumer::in>, mamori::rules::Row<0>");
+}
+
+TEST(CompileFailTest, AnAgeLimitThatNoValueMeetsIsRefused) {
+    verifies("SWR-KRN-061", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const char* defect :
+         {"age_limit_too_short", "age_limit_of_delayed_value", "age_limit_between_rates"}) {
+        expect_refused("connections", defect, "AgeLimitCanBeMet<Consumer, &Consumer::in, 0>");
+    }
+}
+
+TEST(CompileFailTest, AnAgeLimitOrToleranceBelowZeroIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const char* limit_or_tolerance : {"1", "2"}) {
+        expect_refused("connections", "age_limit_negative", "InputCanBeFresh<Consumer, &Consumer::in, 0>",
+                       limit_or_tolerance);
+    }
+}
+
+TEST(CompileFailTest, AConnectionAgainstItsDirectionIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("connections", "connection_direction", "OutPort<double>", "1");
+    expect_refused("connections", "connection_direction", "connect(g_consumer.in", "2");
+}
+
+TEST(CompileFailTest, ACrossingOfAnotherPayloadTypeIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_explained("connections", "crossing_of_other_type",
+                     "the Crossing of a connection carries its payload type");
+}
+
+TEST(CompileFailTest, AWindowWithoutANameIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const char* empty_or_missing : {"1", "2"}) {
+        expect_refused("windows", "window_without_name", "WindowRowIsValid<mamori::rules::Row<1>",
+                       empty_or_missing);
+    }
+}
+
+TEST(CompileFailTest, AWindowWithoutStartLengthOrBudgetIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    const std::string name = "<mamori::Name<'s', 'e', 'n', 's', 'e'>";
+    expect_refused("windows", "window_times", "WindowIsInsideItsPeriod" + name, "1");
+    expect_refused("windows", "window_times", "WindowIsInsideItsPeriod" + name, "2");
+    expect_refused("windows", "window_times", "BudgetIsInsideWindow" + name, "3");
+}
+
+TEST(CompileFailTest, AFrameWithoutLengthIsRefused) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("windows", "frame_of_zero", "FrameIsPositive<mamori::rules::Row<0>");
+}
+
+TEST(CompileFailTest, AComponentThatAWindowRunsTwiceIsRefused) {
+    verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_refused("windows", "component_twice_in_window", "ComponentRunsInOneContext<Producer, 1>");
 }
 
 }  // namespace

@@ -76,6 +76,19 @@ TEST(ConfigurationSetTest, PartsMayComeInAnyOrder) {
     EXPECT_EQ(check_table(builder.finish()).rule, ConfigurationRule::kNone);
 }
 
+TEST(ConfigurationSetTest, TheParameterOfAnAssignmentIsFoundForTheMessage) {
+    verifies("SWR-PAR-022", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const ConfigurationView view = make_view(kConfiguration);
+    ConfigurationView without_parameters = view;
+    without_parameters.parameters = {};
+
+    EXPECT_EQ(detail::find_assigned(view, 0U, 0U), 0U);
+    EXPECT_EQ(detail::find_assigned(view, 0U, 1U), 1U);
+    EXPECT_EQ(detail::find_assigned(view, 2U, 0U), 2U);
+    EXPECT_EQ(detail::find_assigned(without_parameters, 2U, 0U), 0U) << "no parameter of the table";
+    EXPECT_EQ(detail::find_assigned(view, 2U, 9U), 3U) << "no such assignment";
+}
+
 TEST(ConfigurationSetTest, TablesWithoutSetsOrParametersKeepTheRules) {
     verifies("SWR-PAR-006", Technique::kBoundaryValues);
     static constexpr auto kWithoutSets = configuration(parameters_of(g_axis));
@@ -84,6 +97,8 @@ TEST(ConfigurationSetTest, TablesWithoutSetsOrParametersKeepTheRules) {
     MAMORI_CHECK_CONFIGURATION(kEmpty);
 
     EXPECT_TRUE(make_view(kEmpty).parameters.empty());
+    EXPECT_TRUE(detail::keeps_configuration_rules<kEmpty>());
+    EXPECT_EQ(detail::require_parameters<Axis>(Axis::Parameters{}).kCount, 2U);
     EXPECT_TRUE(make_view(kWithoutSets).sets.empty());
 }
 

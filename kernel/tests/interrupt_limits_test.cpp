@@ -193,7 +193,7 @@ constexpr std::size_t kSlotPage = Paged::kPages - 1U;
 
 TEST(InterruptLimitsParameterTest, ARequestWithinARequestIsRefusedAndACommitWithinItWaits) {
     verifies("SWR-PAR-005", Technique::kFaultInjection, Polarity::kViolation);
-    Paged sut{"large", LargeValue{}};
+    Paged sut{kNoOwner, "large", LargeValue{}};
     LargeValue one{};
     one.fill(1.0);
     Status inner = Status::kError;
@@ -217,7 +217,7 @@ TEST(InterruptLimitsParameterTest, ARequestWithinARequestIsRefusedAndACommitWith
 
 TEST(InterruptLimitsParameterTest, ACommitThatARequestOvertakesLeavesTheValueToTheNextOne) {
     verifies("SWR-PAR-005", Technique::kFaultInjection, Polarity::kViolation);
-    Paged sut{"large", LargeValue{}};
+    Paged sut{kNoOwner, "large", LargeValue{}};
     LargeValue one{};
     LargeValue two{};
     one.fill(1.0);

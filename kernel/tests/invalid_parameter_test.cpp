@@ -26,10 +26,10 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 class Valve final : public Component {
   public:
     Valve(const char* name, double initial, double lower, double upper) noexcept
-        : Component(name), opening{"opening", initial, between(lower, upper)} {}
+        : Component(name), opening{*this, "opening", initial, between(lower, upper)} {}
 
     Parameter<double> opening;
-    Parameter<bool> is_manual{"is_manual", false};
+    Parameter<bool> is_manual{*this, "is_manual", false};
     using Parameters = mamori::Parameters<&Valve::is_manual, &Valve::opening>;
     bool was_initialized{false};
 
@@ -127,10 +127,10 @@ TEST(InvalidParameterTest, LimitsOfIntegersAndElementsOfArraysCountAsWell) {
     verifies("SWR-PAR-011", Technique::kEquivalenceClasses, Polarity::kViolation);
     using Pair = std::array<int, 2U>;
 
-    EXPECT_FALSE((Parameter<int>{"p", 1, at_most(2147483648LL)}.is_valid()));
-    EXPECT_FALSE((Parameter<Pair>{"p", {1, 1}, at_least(0), between(2, 3)}.is_valid()));
-    EXPECT_FALSE((Parameter<Pair>{"p", {1, 1}, between(3, 2), at_least(0)}.is_valid()));
-    EXPECT_TRUE((Parameter<Pair>{"p", {1, 2}, at_least(0), between(2, 3)}.is_valid()));
+    EXPECT_FALSE((Parameter<int>{kNoOwner, "p", 1, at_most(2147483648LL)}.is_valid()));
+    EXPECT_FALSE((Parameter<Pair>{kNoOwner, "p", {1, 1}, at_least(0), between(2, 3)}.is_valid()));
+    EXPECT_FALSE((Parameter<Pair>{kNoOwner, "p", {1, 1}, between(3, 2), at_least(0)}.is_valid()));
+    EXPECT_TRUE((Parameter<Pair>{kNoOwner, "p", {1, 2}, at_least(0), between(2, 3)}.is_valid()));
 }
 
 }  // namespace

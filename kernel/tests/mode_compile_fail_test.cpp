@@ -9,6 +9,7 @@
 namespace mamori {
 namespace {
 
+using testing_support::expect_explained;
 using testing_support::expect_refused;
 using namespace verification;
 
@@ -34,7 +35,9 @@ TEST(ModeCompileFailTest, AMandatoryInputThatNoConnectionFeedsInAModeIsRefused) 
 
 TEST(ModeCompileFailTest, ASetInTheTableWhoseValueIsOutsideItsConstraintIsRefused) {
     verifies("SWR-MOD-002", Technique::kInterface, Polarity::kViolation);
-    expect_broken(4, "ConfigurationKeeps<mamori::ConfigurationRule::kValueOutsideConstraint, 0, 0>");
+    expect_broken(4,
+                  "kValueOutsideConstraint, mamori::Name<'s', 'l', 'o', 'w'>, "
+                  "mamori::rules::ParameterOf<Axis, &Axis::speed, 0>");
 }
 
 TEST(ModeCompileFailTest, AModeOfAComponentThatNoWindowRunsIsRefused) {
@@ -101,6 +104,27 @@ TEST(ModeCompileFailTest, AModeThatNoTransitionLeadsToIsRefused) {
     expect_broken(16, "ModeIsReachable<mamori::Name<'t', 'e', 'a', 'c', 'h'>");
 }
 
+TEST(ModeCompileFailTest, AModeWithoutANameIsRefused) {
+    verifies("SWR-MOD-003", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_broken(17, "ModeRowIsValid<mamori::rules::Row<1>");
+    expect_broken(18, "ModeRowIsValid<mamori::rules::Row<1>");
+}
+
+TEST(ModeCompileFailTest, ATransitionFromAnUnknownModeIsRefused) {
+    verifies("SWR-MOD-003", Technique::kInterface, Polarity::kViolation);
+    expect_broken(19, "TransitionJoinsKnownModes<mamori::Name<'t', 'e', 'e', 'c', 'h'>");
+}
+
+TEST(ModeCompileFailTest, AFaultySetInTheTableIsNamedWithItsParameter) {
+    verifies("SWR-PAR-022", Technique::kInterface, Polarity::kViolation);
+    expect_broken(20, "SetRowIsValid<mamori::rules::Row<0>");
+    expect_broken(21, "kUnknownParameter, mamori::Name<'s', 'l', 'o', 'w'>, mamori::rules::Assignment<0>");
+    expect_broken(22,
+                  "kParameterAssignedTwice, mamori::Name<'s', 'l', 'o', 'w'>, "
+                  "mamori::rules::ParameterOf<Axis, &Axis::speed, 0>");
+    expect_broken(23, "kSetNamedTwice, mamori::Name<'s', 'l', 'o', 'w'>, mamori::rules::Row<1>");
+}
+
 TEST(ModeCompileFailTest, AnExecutiveOfATableWithModesOrSetsNeedsTheirSwitch) {
     verifies("SWR-MOD-008", Technique::kInterface, Polarity::kViolation);
     const std::string needs = "a table with modes or configuration sets needs a SystemModes: write";
@@ -110,13 +134,14 @@ TEST(ModeCompileFailTest, AnExecutiveOfATableWithModesOrSetsNeedsTheirSwitch) {
 
 TEST(ModeCompileFailTest, AnEventOfMoreThan32BitsIsRefused) {
     verifies("SWR-MOD-003", Technique::kBoundaryValues, Polarity::kViolation);
-    expect_refused("table_enumerators", "", "events, faults and reactions have at most 32 bits", "1");
+    expect_explained("table_enumerators", "", "events, faults and reactions have at most 32 bits", "1");
 }
 
 TEST(ModeCompileFailTest, AFaultOrReactionOfMoreThan32BitsIsRefused) {
     verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
     for (const char* option : {"2", "3", "4"}) {
-        expect_refused("table_enumerators", "", "events, faults and reactions have at most 32 bits", option);
+        expect_explained("table_enumerators", "", "events, faults and reactions have at most 32 bits",
+                         option);
     }
 }
 

@@ -28,13 +28,13 @@ class Drive final : public Component {
   public:
     constexpr Drive() noexcept : Component("drive") {}
 
-    Parameter<double> limit_rad_s{"limit_rad_s", 1.0, between(0.1, 3.0)};
-    Parameter<std::array<float, 3U>> gains{
-        "gains", {1.0F, 2.0F, 0.0F}, above(0.0F), any_value(), one_of(0.0F, 1.0F)};
-    Parameter<std::uint8_t> retries{"retries", 3U};
-    Parameter<bool> is_reversed{"is_reversed", false};
-    Parameter<Gear> gear{"gear", Gear::kFirst, one_of(Gear::kFirst, Gear::kSecond)};
-    Parameter<int, 6U> baud{"baud", 9600, one_of(1200, 2400, 4800, 9600, 19200, 38400)};
+    Parameter<double> limit_rad_s{*this, "limit_rad_s", 1.0, between(0.1, 3.0)};
+    Parameter<std::array<float, 3U>> gains{*this,       "gains",     {1.0F, 2.0F, 0.0F},
+                                           above(0.0F), any_value(), one_of(0.0F, 1.0F)};
+    Parameter<std::uint8_t> retries{*this, "retries", 3U};
+    Parameter<bool> is_reversed{*this, "is_reversed", false};
+    Parameter<Gear> gear{*this, "gear", Gear::kFirst, one_of(Gear::kFirst, Gear::kSecond)};
+    Parameter<int, 6U> baud{*this, "baud", 9600, one_of(1200, 2400, 4800, 9600, 19200, 38400)};
 };
 MAMORI_CONSTINIT Drive g_drive;
 
@@ -146,7 +146,7 @@ TEST_F(ParameterTest, OfSeveralRequestsTheLastOneCountsAndARefusedOneLeavesItAlo
 
 TEST_F(ParameterTest, AnArrayIsNeverSeenHalfChangedWhileThreadsSendRequests) {
     verifies("SWR-PAR-005", Technique::kFaultInjection, Polarity::kViolation);
-    static Parameter<std::array<std::int64_t, 8U>> shared{"shared", {}};
+    static Parameter<std::array<std::int64_t, 8U>> shared{kNoOwner, "shared", {}};
     std::atomic<bool> is_done{false};
     std::atomic<int> refused_count{0};
     const auto send = [&is_done, &refused_count](std::int64_t sign) {
@@ -214,12 +214,12 @@ TEST_F(ParameterTest, ALimitAtTheEndOfTheTypeIsNoLimitUnlessItIsExcluded) {
     verifies("SWR-PAR-003", Technique::kBoundaryValues);
     using Sut = Parameter<std::uint8_t>;
 
-    EXPECT_FALSE(Sut("p", 9U, at_least(0)).get_range(0U).get_value().has_lower);
-    EXPECT_TRUE(Sut("p", 9U, at_least(1)).get_range(0U).get_value().has_lower);
-    EXPECT_TRUE(Sut("p", 9U, above(0)).get_range(0U).get_value().has_lower);
-    EXPECT_FALSE(Sut("p", 9U, at_most(255)).get_range(0U).get_value().has_upper);
-    EXPECT_TRUE(Sut("p", 9U, at_most(254)).get_range(0U).get_value().has_upper);
-    const ScalarRange below_max = Sut("p", 9U, below(255)).get_range(0U).get_value();
+    EXPECT_FALSE(Sut(kNoOwner, "p", 9U, at_least(0)).get_range(0U).get_value().has_lower);
+    EXPECT_TRUE(Sut(kNoOwner, "p", 9U, at_least(1)).get_range(0U).get_value().has_lower);
+    EXPECT_TRUE(Sut(kNoOwner, "p", 9U, above(0)).get_range(0U).get_value().has_lower);
+    EXPECT_FALSE(Sut(kNoOwner, "p", 9U, at_most(255)).get_range(0U).get_value().has_upper);
+    EXPECT_TRUE(Sut(kNoOwner, "p", 9U, at_most(254)).get_range(0U).get_value().has_upper);
+    const ScalarRange below_max = Sut(kNoOwner, "p", 9U, below(255)).get_range(0U).get_value();
     EXPECT_TRUE(below_max.has_upper && below_max.is_upper_open);
 }
 

@@ -239,6 +239,8 @@ TEST(SystemLimitsTest, TheCheckOfAConstantTableAnswersWhileRunningToo) {
     EXPECT_TRUE(detail::keeps_rules<kConstantTable>());
     EXPECT_EQ(detail::calc_length(kConstantTable.windows[0].name), 4U);
     EXPECT_EQ(detail::calc_length(""), 0U);
+    EXPECT_EQ(detail::calc_length(nullptr), 0U);
+    EXPECT_EQ(detail::require_ports<Counter>(Counter::Ports{}).kCount, 1U);
 }
 
 TEST(SystemLimitsTest, EveryRuleHasASentenceOfItsOwn) {

@@ -127,6 +127,35 @@ Finding check_table(const Table& table) {
     return check(make_view(table));
 }
 
+TEST(SystemCheckTest, AnAgeLimitFromTheMinimumAgeOnIsAccepted) {
+    verifies("SWR-KRN-061", Technique::kBoundaryValues);
+    const auto check_limit = [](Duration reader_start, Duration age_max, Duration lead_max) {
+        return check_table(system(frame(10_ms),
+                                  window("sense", 0_ms, 1_ms, every(5_ms), budget(1_ms), run(g_counter)),
+                                  window("plan", reader_start, 1_ms, budget(1_ms), run(g_relay)),
+                                  connect(g_counter.out, g_relay.in, fresh_within(age_max, lead_max))));
+    };
+
+    EXPECT_EQ(check_limit(8_ms, 2_ms, {}).rule, Rule::kNone);
+    EXPECT_EQ(check_limit(8_ms, 2_ms - 2_ns, 2_ns).rule, Rule::kNone);
+    EXPECT_EQ(check_limit(1_ms, 1_ns, {}).rule, Rule::kNone) << "starts when the writer's window ends";
+    EXPECT_EQ(check_limit(8_ms, 2_ms - 1_ns, {}).rule, Rule::kAgeLimitCannotBeMet);
+    EXPECT_EQ(check_limit(8_ms, 2_ms - 2_ns, 1_ns).rule, Rule::kAgeLimitCannotBeMet);
+}
+
+TEST(SystemCheckTest, AForwardedValueIsFreshAndADelayedOneHasTheAgeOfItsWindow) {
+    verifies("SWR-KRN-061", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_limit = [](auto& first, auto& second, Duration age_max, auto... delay) {
+        return check_table(system(frame(10_ms), window("w", 0_ms, 1_ms, budget(1_ms), run(first, second)),
+                                  connect(g_counter.out, g_relay.in, fresh_within(age_max), delay...)));
+    };
+
+    EXPECT_EQ(check_limit(g_counter, g_relay, 1_ns).rule, Rule::kNone);
+    EXPECT_EQ(check_limit(g_relay, g_counter, 9_ms, delayed_by_a_frame()).rule, Rule::kNone);
+    EXPECT_EQ(check_limit(g_relay, g_counter, 9_ms - 1_ns, delayed_by_a_frame()).rule,
+              Rule::kAgeLimitCannotBeMet);
+}
+
 TEST(SystemCheckTest, TablesAtTheLimitsKeepTheRules) {
     verifies("SWR-KRN-018", Technique::kBoundaryValues);
 

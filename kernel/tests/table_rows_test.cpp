@@ -37,7 +37,7 @@ class Node final : public Component {
     InPort<std::int64_t, Need::kOptional> in{*this, "in"};
     OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Node::in, &Node::out>;
-    Parameter<double> speed{"speed", 1.0, between(0.1, 3.0)};
+    Parameter<double> speed{*this, "speed", 1.0, between(0.1, 3.0)};
     using Parameters = mamori::Parameters<&Node::speed>;
 
     Status on_execute(ContextHandle) noexcept override {

@@ -32,5 +32,19 @@ TEST(TextTest, NamesThatDifferInACharacterOrInTheirLengthAreNotEqual) {
     }
 }
 
+TEST(TextTest, AMissingOrEmptyNameIsNoNameAndEqualsNone) {
+    verifies("SWR-PAR-021", Technique::kBoundaryValues, Polarity::kViolation);
+    static_assert(is_same_name("slow", "slow") && !is_name(nullptr));
+
+    EXPECT_TRUE(is_name("s"));
+    for (const char* missing : {static_cast<const char*>(nullptr), ""}) {
+        EXPECT_FALSE(is_name(missing));
+        EXPECT_FALSE(is_same_name(missing, missing));
+        EXPECT_FALSE(is_same_name("slow", missing));
+        EXPECT_FALSE(is_same_name(missing, "slow"));
+    }
+    EXPECT_FALSE(is_same_name("slow", "slo"));
+}
+
 }  // namespace
 }  // namespace mamori

@@ -4,17 +4,34 @@
 #include "mamori/kernel/table/system_check.hpp"
 
 namespace mamori::detail {
+namespace {
+
+/// Component of a rule that only objects can violate, since no compiler message names it; otherwise kNoIndex.
+std::size_t find_faulty_component(const SystemView& view, const Finding& finding) noexcept {
+    const Component* owner = nullptr;
+    if (finding.rule == Rule::kComponentNamedTwice || finding.rule == Rule::kPortNotListed ||
+        finding.rule == Rule::kParameterNotListed) {
+        return finding.element;
+    }
+    if (finding.rule == Rule::kPortNotOwned || finding.rule == Rule::kPortNamedTwice) {
+        owner = view.ports[finding.element].owner;
+    } else if (finding.rule == Rule::kParameterNotOwned || finding.rule == Rule::kParameterNamedTwice) {
+        owner = view.configuration.parameters[finding.element].owner;
+    }
+    std::size_t component = kNoIndex;
+    for (std::size_t i = 0U; i < view.components.size(); ++i) {
+        component = view.components[i] == owner ? i : component;
+    }
+    return component;
+}
+
+}  // namespace
 
 void SystemLife::check_table() noexcept {
     const SystemView& view = get_core().view;
     const Finding finding = check(view);
     is_table_valid_ = finding.rule == Rule::kNone;
-    // Of the rules that only the objects of components can violate, since no compiler message names these.
-    if (finding.rule == Rule::kComponentNamedTwice || finding.rule == Rule::kPortNotListed) {
-        failed_component_ = finding.element;
-    } else if (finding.rule == Rule::kPortNotOwned || finding.rule == Rule::kPortNamedTwice) {
-        failed_component_ = view.ports[finding.element].component;
-    }
+    failed_component_ = find_faulty_component(view, finding);
 }
 
 bool SystemLife::is_any_running() const noexcept {

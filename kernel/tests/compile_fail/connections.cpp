@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the compiler rejects: connections of ports.
 // Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
+#include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
 // A connection joins ports of two payload types.
@@ -248,3 +249,100 @@ constexpr auto kSystem = mamori::system(
 #endif
 MAMORI_CHECK(kSystem);
 }  // namespace own_output_without_delay
+
+// A component that no window runs feeds a connection.
+namespace unknown_source {
+constexpr auto kSystem =
+    mamori::system(mamori::frame(1_ms),
+#ifdef MAMORI_BREAK_UNKNOWN_SOURCE
+                   mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_consumer)),
+#else
+                   mamori::window("a", 0_us, 100_us, mamori::budget(50_us),
+                                  mamori::run(g_producer, g_consumer)),
+#endif
+                   mamori::connect(g_producer.real, g_consumer.in, mamori::any_age()));
+MAMORI_CHECK(kSystem);
+}  // namespace unknown_source
+
+// The value is 6 ms old when its reader starts: 6 ms is the shortest limit that a value can meet.
+namespace age_limit_too_short {
+#ifdef MAMORI_BREAK_AGE_LIMIT_TOO_SHORT
+constexpr mamori::Duration kAgeMax = 6_ms - 1_ns;
+#else
+constexpr mamori::Duration kAgeMax = 6_ms;
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(10_ms), mamori::window("sense", 0_us, 1_ms, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::window("plan", 7_ms, 1_ms, mamori::budget(50_us), mamori::run(g_consumer)),
+    mamori::connect(g_producer.real, g_consumer.in, mamori::fresh_within(kAgeMax)));
+MAMORI_CHECK(kSystem);
+}  // namespace age_limit_too_short
+
+// A reader before its writer gets the value at the next start of the window, 900 us after its end.
+namespace age_limit_of_delayed_value {
+#ifdef MAMORI_BREAK_AGE_LIMIT_OF_DELAYED_VALUE
+constexpr mamori::Duration kAgeMax = 900_us - 1_ns;
+#else
+constexpr mamori::Duration kAgeMax = 900_us;
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_consumer, g_producer)),
+    mamori::connect(g_producer.real, g_consumer.in, mamori::fresh_within(kAgeMax),
+                    mamori::delayed_by_a_frame()));
+MAMORI_CHECK(kSystem);
+}  // namespace age_limit_of_delayed_value
+
+// Between windows of 2 ms and 3 ms on two cores, the value is 400 us old at least. A tolerance of the time
+// bases counts.
+namespace age_limit_between_rates {
+#ifdef MAMORI_BREAK_AGE_LIMIT_BETWEEN_RATES
+constexpr mamori::Duration kLeadMax = 100_us - 1_ns;
+#else
+constexpr mamori::Duration kLeadMax = 100_us;
+#endif
+constexpr auto kSystem =
+    mamori::system(mamori::frame(6_ms),
+                   mamori::window("sense", 0_us, 100_us, mamori::every(2_ms), mamori::budget(50_us),
+                                  mamori::run(g_producer)),
+                   mamori::window("plan", 500_us, 100_us, mamori::every(3_ms), mamori::core(1),
+                                  mamori::budget(50_us), mamori::run(g_consumer)),
+                   mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing),
+                                   mamori::fresh_within(300_us, kLeadMax)));
+MAMORI_CHECK(kSystem);
+}  // namespace age_limit_between_rates
+
+// An age limit below zero (1), and a tolerance below zero (2).
+namespace age_limit_negative {
+#ifndef MAMORI_BREAK_AGE_LIMIT_NEGATIVE
+constexpr mamori::FreshWithin kLimit = mamori::fresh_within(1_ms);
+#elif MAMORI_BREAK_AGE_LIMIT_NEGATIVE == 1
+constexpr mamori::FreshWithin kLimit = mamori::fresh_within(mamori::Duration{-1});
+#else
+constexpr mamori::FreshWithin kLimit = mamori::fresh_within(1_ms, mamori::Duration{-1});
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer, g_consumer)),
+    mamori::connect(g_producer.real, g_consumer.in, kLimit));
+MAMORI_CHECK(kSystem);
+}  // namespace age_limit_negative
+
+// A connection ends at an output (1), or begins at an input (2).
+namespace connection_direction {
+#ifndef MAMORI_BREAK_CONNECTION_DIRECTION
+#elif MAMORI_BREAK_CONNECTION_DIRECTION == 1
+constexpr auto kConnection = mamori::connect(g_producer.real, g_second_producer.real, mamori::any_age());
+#else
+constexpr auto kConnection = mamori::connect(g_consumer.in, g_consumer.in, mamori::any_age());
+#endif
+}  // namespace connection_direction
+
+// A Crossing of another payload type.
+namespace crossing_of_other_type {
+inline mamori::Crossing<int> g_int_crossing;
+#ifdef MAMORI_BREAK_CROSSING_OF_OTHER_TYPE
+constexpr auto kConnection =
+    mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_int_crossing), mamori::any_age());
+#endif
+}  // namespace crossing_of_other_type

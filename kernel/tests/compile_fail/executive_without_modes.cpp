@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: executives without the SystemModes that their tables need, 1: for modes, 2: for configuration sets.
 #include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
 #ifndef MAMORI_BREAK
@@ -10,7 +11,7 @@
 class Axis final : public mamori::Component {
   public:
     constexpr Axis() noexcept : Component("axis") {}
-    mamori::Parameter<double> speed{"speed", 1.0};
+    mamori::Parameter<double> speed{*this, "speed", 1.0};
     using Parameters = mamori::Parameters<&Axis::speed>;
 };
 inline Axis g_axis;

@@ -10,8 +10,8 @@
 class Axis final : public mamori::Component {
   public:
     constexpr Axis() noexcept : Component("axis") {}
-    mamori::Parameter<double> speed{"speed", 1.0, mamori::between(0.5, 3.0)};
-    mamori::Parameter<int> gain{"gain", 1};
+    mamori::Parameter<double> speed{*this, "speed", 1.0, mamori::between(0.5, 3.0)};
+    mamori::Parameter<int> gain{*this, "gain", 1};
     using Parameters = mamori::Parameters<&Axis::speed, &Axis::gain>;
 };
 inline Axis g_axis;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the compiler rejects: parameters, constraints and configuration sets.
 // Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
+#include "mamori/kernel/parameter/parameter.hpp"
 #include "parameter_parts.hpp"
 
 // A constraint excludes every value.
@@ -9,9 +10,9 @@ class Monitor final : public mamori::Component {
   public:
     constexpr Monitor() noexcept : Component("monitor") {}
 #ifdef MAMORI_BREAK_CONSTRAINT_WITHOUT_VALUE
-    mamori::Parameter<double> limit{"limit", 1.0, mamori::between(3.0, 0.1)};
+    mamori::Parameter<double> limit{*this, "limit", 1.0, mamori::between(3.0, 0.1)};
 #else
-    mamori::Parameter<double> limit{"limit", 1.0, mamori::between(0.1, 3.0)};
+    mamori::Parameter<double> limit{*this, "limit", 1.0, mamori::between(0.1, 3.0)};
 #endif
 };
 MAMORI_CONSTINIT Monitor g_monitor;
@@ -20,27 +21,29 @@ MAMORI_CONSTINIT Monitor g_monitor;
 // A limit is one more than the type of the parameter can hold.
 namespace limit_not_in_type {
 #ifdef MAMORI_BREAK_LIMIT_NOT_IN_TYPE
-MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{"retries", 3U, mamori::at_most(256)};
+MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{mamori::kNoOwner, "retries", 3U,
+                                                           mamori::at_most(256)};
 #else
-MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{"retries", 3U, mamori::at_most(255)};
+MAMORI_CONSTINIT mamori::Parameter<std::uint8_t> g_retries{mamori::kNoOwner, "retries", 3U,
+                                                           mamori::at_most(255)};
 #endif
 }  // namespace limit_not_in_type
 
 // A limit of a float is a double.
 namespace limit_of_other_type {
 #ifdef MAMORI_BREAK_LIMIT_OF_OTHER_TYPE
-mamori::Parameter<float> g_gain{"gain", 1.0F, mamori::at_least(0.1)};
+mamori::Parameter<float> g_gain{mamori::kNoOwner, "gain", 1.0F, mamori::at_least(0.1)};
 #else
-mamori::Parameter<float> g_gain{"gain", 1.0F, mamori::at_least(0.1F)};
+mamori::Parameter<float> g_gain{mamori::kNoOwner, "gain", 1.0F, mamori::at_least(0.1F)};
 #endif
 }  // namespace limit_of_other_type
 
 // A constraint is a text in the notation of the RTC Profile.
 namespace constraint_as_text {
 #ifdef MAMORI_BREAK_CONSTRAINT_AS_TEXT
-mamori::Parameter<double> g_limit{"limit", 1.0, "0.1<=x<=3.0"};
+mamori::Parameter<double> g_limit{mamori::kNoOwner, "limit", 1.0, "0.1<=x<=3.0"};
 #else
-mamori::Parameter<double> g_limit{"limit", 1.0, mamori::between(0.1, 3.0)};
+mamori::Parameter<double> g_limit{mamori::kNoOwner, "limit", 1.0, mamori::between(0.1, 3.0)};
 #endif
 }  // namespace constraint_as_text
 
@@ -48,9 +51,10 @@ mamori::Parameter<double> g_limit{"limit", 1.0, mamori::between(0.1, 3.0)};
 namespace constraint_count {
 using Gains = std::array<int, 3U>;
 #ifdef MAMORI_BREAK_CONSTRAINT_COUNT
-mamori::Parameter<Gains> g_gains{"gains", Gains{1, 1, 1}, mamori::above(0), mamori::above(0)};
+mamori::Parameter<Gains> g_gains{mamori::kNoOwner, "gains", Gains{1, 1, 1}, mamori::above(0),
+                                 mamori::above(0)};
 #else
-mamori::Parameter<Gains> g_gains{"gains", Gains{1, 1, 1}, mamori::above(0)};
+mamori::Parameter<Gains> g_gains{mamori::kNoOwner, "gains", Gains{1, 1, 1}, mamori::above(0)};
 #endif
 }  // namespace constraint_count
 
@@ -58,9 +62,9 @@ mamori::Parameter<Gains> g_gains{"gains", Gains{1, 1, 1}, mamori::above(0)};
 namespace constraint_without_room {
 constexpr auto kRates = mamori::one_of(2400, 4800, 9600, 19200, 38400);
 #ifdef MAMORI_BREAK_CONSTRAINT_WITHOUT_ROOM
-mamori::Parameter<int> g_baud{"baud", 9600, kRates};
+mamori::Parameter<int> g_baud{mamori::kNoOwner, "baud", 9600, kRates};
 #else
-mamori::Parameter<int, 5U> g_baud{"baud", 9600, kRates};
+mamori::Parameter<int, 5U> g_baud{mamori::kNoOwner, "baud", 9600, kRates};
 #endif
 }  // namespace constraint_without_room
 
@@ -71,7 +75,7 @@ constexpr auto kChoices = mamori::one_of(1, 2U);
 #else
 constexpr auto kChoices = mamori::one_of(1, 2);
 #endif
-mamori::Parameter<int> g_step{"step", 1, kChoices};
+mamori::Parameter<int> g_step{mamori::kNoOwner, "step", 1, kChoices};
 }  // namespace choices_of_two_types
 
 // A default lies below the lower limit.
@@ -81,15 +85,16 @@ constexpr double kDefault = 0.09;
 #else
 constexpr double kDefault = 0.1;
 #endif
-MAMORI_CONSTINIT mamori::Parameter<double> g_limit{"limit", kDefault, mamori::between(0.1, 3.0)};
+MAMORI_CONSTINIT mamori::Parameter<double> g_limit{mamori::kNoOwner, "limit", kDefault,
+                                                   mamori::between(0.1, 3.0)};
 }  // namespace default_outside_constraint
 
 // A parameter is a pointer.
 namespace parameter_of_odd_type {
 #ifdef MAMORI_BREAK_PARAMETER_OF_ODD_TYPE
-mamori::Parameter<const char*> g_name{"name", "value"};
+mamori::Parameter<const char*> g_name{mamori::kNoOwner, "name", "value"};
 #else
-mamori::Parameter<int> g_name{"name", 1};
+mamori::Parameter<int> g_name{mamori::kNoOwner, "name", 1};
 #endif
 }  // namespace parameter_of_odd_type
 
@@ -98,7 +103,7 @@ namespace parameter_is_no_parameter {
 class Odd final : public mamori::Component {
   public:
     constexpr Odd() noexcept : Component("odd") {}
-    mamori::Parameter<double> real{"real", 0.0};
+    mamori::Parameter<double> real{*this, "real", 0.0};
     double number{0.0};
 #ifdef MAMORI_BREAK_PARAMETER_IS_NO_PARAMETER
     using Parameters = mamori::Parameters<&Odd::real, &Odd::number>;
@@ -159,10 +164,10 @@ constexpr auto kConfiguration = mamori::configuration(
 MAMORI_CHECK_CONFIGURATION(kConfiguration);
 }  // namespace set_named_twice
 
-// A configuration set that nobody can ask for.
+// A configuration set without a name: nullptr (1) or empty (2).
 namespace set_without_name {
 #ifdef MAMORI_BREAK_SET_WITHOUT_NAME
-constexpr const char* kName = nullptr;
+constexpr const char* kName = MAMORI_BREAK_SET_WITHOUT_NAME == 1 ? nullptr : "";
 #else
 constexpr const char* kName = "slow";
 #endif

@@ -9,6 +9,7 @@
 #include "mamori/kernel/payload/bounded_string.hpp"
 #include "mamori/kernel/payload/cdr.hpp"
 #include "mamori/kernel/payload/fields.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
 // A port carries a type without a field list.

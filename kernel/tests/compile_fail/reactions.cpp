@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the compiler rejects: faults and reactions.
 // Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
+#include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
 // A declared fault leads to nothing.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: the modes of a system, each time by one thing; MAMORI_BREAK says which.
+#include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
 #ifndef MAMORI_BREAK
@@ -11,7 +12,7 @@ class Axis final : public mamori::Component {
     constexpr Axis() noexcept : Component("axis") {}
     mamori::InPort<double> in{*this, "in"};
     using Ports = mamori::Ports<&Axis::in>;
-    mamori::Parameter<double> speed{"speed", 1.0, mamori::between(0.5, 3.0)};
+    mamori::Parameter<double> speed{*this, "speed", 1.0, mamori::between(0.5, 3.0)};
     using Parameters = mamori::Parameters<&Axis::speed>;
 };
 class Spare final : public mamori::Component {
@@ -19,6 +20,7 @@ class Spare final : public mamori::Component {
     constexpr Spare() noexcept : Component("spare") {}
 };
 inline Axis g_axis;
+inline Axis g_unknown_axis;
 inline Spare g_spare;
 inline Spare g_stranger;
 
@@ -36,7 +38,14 @@ constexpr auto kSystem = mamori::system(
 #elif MAMORI_BREAK != 3
     mamori::connect(g_second_producer.real, g_axis.in, mamori::only_in("teach"), mamori::any_age()),
 #endif
-    mamori::configuration_set("slow", mamori::assign(g_axis.speed, kBreak == 4 ? 0.4 : 0.5)),
+    mamori::configuration_set(kBreak == 20 ? "" : "slow",
+#if MAMORI_BREAK == 21
+                              mamori::assign(g_unknown_axis.speed, 1.0),
+#elif MAMORI_BREAK == 22
+                              mamori::assign(g_axis.speed, 1.0),
+#endif
+                              mamori::assign(g_axis.speed, kBreak == 4 ? 0.4 : 0.5)),
+    mamori::configuration_set(kBreak == 23 ? "slow" : "fast", mamori::assign(g_axis.speed, 2.0)),
     mamori::system_mode("work",
 #if MAMORI_BREAK == 5
                         mamori::runs(g_producer, g_axis, g_spare, g_stranger, g_second_producer)
@@ -44,7 +53,10 @@ constexpr auto kSystem = mamori::system(
                         mamori::runs(g_producer, g_axis, g_spare, g_second_producer)
 #endif
                             ),
-    mamori::system_mode(kBreak == 6 ? "work" : "teach",
+    mamori::system_mode(kBreak == 6    ? "work"
+                        : kBreak == 17 ? ""
+                        : kBreak == 18 ? nullptr
+                                       : "teach",
 #if MAMORI_BREAK == 7
                         mamori::runs(g_axis, g_spare),
 #elif MAMORI_BREAK == 8
@@ -70,7 +82,7 @@ constexpr auto kSystem = mamori::system(
                             kBreak == 15   ? "tech"
                             : kBreak == 16 ? "work"
                                            : "teach"),
-    mamori::mode_transition("teach", Command::kStop, "work"));
+    mamori::mode_transition(kBreak == 19 ? "teech" : "teach", Command::kStop, "work"));
 MAMORI_CHECK(kSystem);
 
 constexpr auto kIdlers = mamori::system(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken: enumerators of a table that its rows could not tell apart; MAMORI_BREAK says which.
+#include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
 #ifndef MAMORI_BREAK

@@ -2,6 +2,7 @@
 // What the compiler rejects: windows and their options.
 // Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
 #include "mamori/kernel/component/external_trigger.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
 // A window closes one nanosecond after its frame.
@@ -260,3 +261,55 @@ constexpr auto kSystem = mamori::system(
     mamori::window("b", 100_us, 100_us, kSecond, mamori::budget(50_us), mamori::run(g_second_producer)));
 MAMORI_CHECK(kSystem);
 }  // namespace trigger_used_twice
+
+// A window has an empty name (1) or none (2).
+namespace window_without_name {
+#ifdef MAMORI_BREAK_WINDOW_WITHOUT_NAME
+constexpr const char* kName = MAMORI_BREAK_WINDOW_WITHOUT_NAME == 1 ? "" : nullptr;
+#else
+constexpr const char* kName = "b";
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms), mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::window(kName, 100_us, 100_us, mamori::budget(50_us), mamori::run(g_second_producer)));
+MAMORI_CHECK(kSystem);
+}  // namespace window_without_name
+
+// A window starts before its period (1), has no length (2), or has no budget (3).
+namespace window_times {
+#ifdef MAMORI_BREAK_WINDOW_TIMES
+constexpr int kBreak = MAMORI_BREAK_WINDOW_TIMES;
+#else
+constexpr int kBreak = 0;
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms),
+    mamori::window("sense", kBreak == 1 ? mamori::Duration{-1} : 0_us, kBreak == 2 ? 0_us : 100_us,
+                   mamori::budget(kBreak == 3 ? 0_us : 50_us), mamori::run(g_producer)));
+MAMORI_CHECK(kSystem);
+}  // namespace window_times
+
+// A frame has no length.
+namespace frame_of_zero {
+#ifdef MAMORI_BREAK_FRAME_OF_ZERO
+constexpr mamori::Duration kFrame{0};
+#else
+constexpr mamori::Duration kFrame = 1_ms;
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(kFrame),
+    mamori::window("a", 0_us, 100_us, mamori::every(1_ms), mamori::budget(50_us), mamori::run(g_producer)));
+MAMORI_CHECK(kSystem);
+}  // namespace frame_of_zero
+
+// A window runs one component twice.
+namespace component_twice_in_window {
+constexpr auto kSystem =
+    mamori::system(mamori::frame(1_ms), mamori::window("a", 0_us, 100_us, mamori::budget(50_us),
+#ifdef MAMORI_BREAK_COMPONENT_TWICE_IN_WINDOW
+                                                       mamori::run(g_producer, g_producer)));
+#else
+                                                       mamori::run(g_producer, g_second_producer)));
+#endif
+MAMORI_CHECK(kSystem);
+}  // namespace component_twice_in_window

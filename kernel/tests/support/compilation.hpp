@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Compiles the sources of tests/compile_fail with the compiler of this build: as they are, which must
-/// succeed (so a case breaks nothing else), and with one case broken, which must fail with the expected
-/// words.
+/// succeed (so a case breaks nothing else), and with one case broken, which must fail and name the faulty
+/// element in the first five lines of the message.
 #ifndef MAMORI_KERNEL_TESTS_COMPILATION_HPP
 #define MAMORI_KERNEL_TESTS_COMPILATION_HPP
 
@@ -58,21 +58,49 @@ inline std::string name_macro(const std::string& defect) {
     return name;
 }
 
-/// The source compiles as it is, and is refused with `expected` in the message when one case is broken.
-/// @param defect the case; empty for a source of one case. @param value of the macro, where it has one.
-inline void expect_refused(const std::string& source, const std::string& defect, const std::string& expected,
-                           const std::string& value = "") {
+/// The first five lines of what the compiler says.
+inline std::string take_head(const std::string& output) {
+    std::size_t end = 0U;
+    for (int line = 0; line < 5 && end != std::string::npos; ++line) {
+        end = output.find('\n', end == 0U ? 0U : end + 1U);
+    }
+    return output.substr(0U, end);
+}
+
+inline const Compilation& compile_control(const std::string& source) {
     static std::map<std::string, Compilation> controls;
     if (controls.count(source) == 0U) {
         controls[source] = compile(source, "");
     }
-    const Compilation& control = controls[source];
-    const Compilation broken = compile(source, name_macro(defect) + (value.empty() ? "" : "=" + value));
+    return controls[source];
+}
 
-    ASSERT_TRUE(control.has_succeeded) << control.output;
+/// The source compiles as it is, and is refused when one case is broken.
+/// @return the output. @param defect the case; empty for a source of one case. @param value of the macro,
+/// where it has one.
+inline std::string refuse(const std::string& source, const std::string& defect, const std::string& value) {
+    const Compilation& control = compile_control(source);
+    EXPECT_TRUE(control.has_succeeded) << control.output;
+    const Compilation broken = compile(source, name_macro(defect) + (value.empty() ? "" : "=" + value));
     EXPECT_FALSE(broken.has_succeeded);
-    EXPECT_NE(broken.output.find(expected), std::string::npos) << "expected: " << expected << "\n"
-                                                               << broken.output;
+    return broken.output;
+}
+
+/// The same, and the message names `element` in its first five lines.
+inline void expect_refused(const std::string& source, const std::string& defect, const std::string& element,
+                           const std::string& value = "") {
+    const std::string output = refuse(source, defect, value);
+
+    EXPECT_NE(take_head(output).find(element), std::string::npos) << "expected: " << element << "\n"
+                                                                  << output;
+}
+
+/// The same for words that are anywhere in the message, since the compiler puts its own lines first.
+inline void expect_explained(const std::string& source, const std::string& defect, const std::string& words,
+                             const std::string& value = "") {
+    const std::string output = refuse(source, defect, value);
+
+    EXPECT_NE(output.find(words), std::string::npos) << "expected: " << words << "\n" << output;
 }
 
 }  // namespace mamori::testing_support

@@ -17,8 +17,8 @@ class Axis final : public Component {
   public:
     constexpr explicit Axis(const char* name = "axis") noexcept : Component(name) {}
 
-    Parameter<double> speed{"speed", 1.0, between(0.5, 3.0)};
-    Parameter<std::array<std::int32_t, 3U>> gains{"gains", {1, 1, 1}, above(0)};
+    Parameter<double> speed{*this, "speed", 1.0, between(0.5, 3.0)};
+    Parameter<std::array<std::int32_t, 3U>> gains{*this, "gains", {1, 1, 1}, above(0)};
     using Parameters = mamori::Parameters<&Axis::speed, &Axis::gains>;
 };
 
@@ -27,7 +27,7 @@ class NamedAxis final : public Component {
   public:
     constexpr explicit NamedAxis(const char* name) noexcept : Component(name) {}
 
-    Parameter<std::int16_t> level{"level", 0, between(-10, 10)};
+    Parameter<std::int16_t> level{*this, "level", 0, between(-10, 10)};
     using Parameters = mamori::Parameters<&NamedAxis::level>;
 };
 

@@ -84,7 +84,7 @@ class Part final : public Component {
     InPort<std::int64_t, Need::kOptional> in{*this, "in"};
     OutPort<std::int64_t> out{*this, "out"};
     using Ports = mamori::Ports<&Part::in, &Part::out>;
-    Parameter<double> speed{"speed", 1.0, between(0.1, 3.0)};
+    Parameter<double> speed{*this, "speed", 1.0, between(0.1, 3.0)};
     using Parameters = mamori::Parameters<&Part::speed>;
 
     std::vector<double> speeds;       ///< in each cycle

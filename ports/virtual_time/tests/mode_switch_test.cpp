@@ -62,7 +62,7 @@ class Drive final : public Component {
     InPort<std::int64_t> in{*this, "in"};
     OutPort<double> out{*this, "out"};
     using Ports = mamori::Ports<&Drive::in, &Drive::out>;
-    Parameter<double> scale{"scale", 1.0, between(above(0.0), at_most(2.0))};
+    Parameter<double> scale{*this, "scale", 1.0, between(above(0.0), at_most(2.0))};
     using Parameters = mamori::Parameters<&Drive::scale>;
 
     Status on_execute(ContextHandle) noexcept override {

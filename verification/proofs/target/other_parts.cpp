@@ -23,8 +23,8 @@ class Axis final : public mamori::Component {
   public:
     constexpr Axis() noexcept : Component("axis") {}
 
-    mamori::Parameter<double> speed_rad_s{"speed_rad_s", 1.0, mamori::between(0.5, 3.0)};
-    mamori::Parameter<std::array<std::int32_t, 3U>> gains{"gains", {1, 1, 1}, mamori::above(0)};
+    mamori::Parameter<double> speed_rad_s{*this, "speed_rad_s", 1.0, mamori::between(0.5, 3.0)};
+    mamori::Parameter<std::array<std::int32_t, 3U>> gains{*this, "gains", {1, 1, 1}, mamori::above(0)};
     using Parameters = mamori::Parameters<&Axis::speed_rad_s, &Axis::gains>;
 };
 

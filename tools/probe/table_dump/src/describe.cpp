@@ -70,21 +70,34 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
     }
 }
 
-/// The rules of names and of the list of ports.
+std::string describe_namesake(const Finding& finding) {
+    const std::string row = ": row " + std::to_string(finding.element);
+    return finding.element == finding.other ? row + " has no name"
+                                            : row + " has the name of row " + std::to_string(finding.other);
+}
+
+/// The rules of names and of the lists of ports and parameters.
 std::string describe_names(const Finding& finding, const SystemView& view) {
     const std::string component = "component " + quote(get_component_name(view, finding.element));
     const std::string port = "port " + quote(get_input_name(view, finding.element));
+    const std::string parameter = "parameter " + quote(get_parameter_name(view, finding.element));
     switch (finding.rule) {
         case Rule::kComponentNamedTwice:
-            return component + ": row " + std::to_string(finding.element) + " has the name of row " +
-                   std::to_string(finding.other);
+            return component + describe_namesake(finding);
         case Rule::kPortNotListed:
-            return component + " does not list port " + quote(get_unlisted_name(view, finding));
+            return component + " does not list port " +
+                   quote(get_unlisted_name(view, finding, MemberKind::kPort));
         case Rule::kPortNotOwned:
             return port + " is not constructed with its component";
         case Rule::kPortNamedTwice:
-            return port + ": row " + std::to_string(finding.element) + " has the name of row " +
-                   std::to_string(finding.other);
+            return port + describe_namesake(finding);
+        case Rule::kParameterNotListed:
+            return component + " does not list parameter " +
+                   quote(get_unlisted_name(view, finding, MemberKind::kParameter));
+        case Rule::kParameterNotOwned:
+            return parameter + " is not constructed with its component";
+        case Rule::kParameterNamedTwice:
+            return parameter + describe_namesake(finding);
         default:
             return {};
     }
@@ -109,6 +122,9 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
             return connection + (row.age_max == Duration{0}
                                      ? ": its age limit is not stated"
                                      : ": no value is fresh within " + format(row.age_max));
+        case Rule::kAgeLimitCannotBeMet:
+            return connection + ": no value is fresh within " + format(row.age_max) +
+                   " when its reader starts";
         case Rule::kDelayNotStated:
             return connection + (row.is_delayed_by_a_frame ? " states a delay that it does not have"
                                                            : " is delayed and does not state it");
@@ -178,6 +194,9 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kPortNotListed:
         case Rule::kPortNotOwned:
         case Rule::kPortNamedTwice:
+        case Rule::kParameterNotListed:
+        case Rule::kParameterNotOwned:
+        case Rule::kParameterNamedTwice:
             return describe_names(finding, view);
         case Rule::kComponentInTwoPlaces:
             return "component " + quote(get_component_name(view, finding.element)) + " runs in window " +
@@ -189,6 +208,7 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kInputNotConnected:
         case Rule::kInputHasTwoWriters:
         case Rule::kAgeLimitNotPositive:
+        case Rule::kAgeLimitCannotBeMet:
         case Rule::kDelayNotStated:
         case Rule::kCrossingWithoutBuffer:
         case Rule::kCrossingUsedTwice:

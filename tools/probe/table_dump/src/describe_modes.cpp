@@ -70,9 +70,8 @@ std::string describe_modes(const Finding& finding, const SystemView& view) {
     const ModeMemberRow member = get_row(view.modes.members, finding.element);
     switch (finding.rule) {
         case Rule::kParameterRowInvalid:
-            return "parameter " +
-                   quote(get_parameter_name(get_row(view.configuration.parameters, finding.element))) +
-                   ": row " + std::to_string(finding.element) + " is invalid";
+            return "parameter " + quote(get_parameter_name(view, finding.element)) + ": row " +
+                   std::to_string(finding.element) + " is invalid";
         case Rule::kSetRowInvalid:
             return get_set_name(view, finding.element) + ": row " + std::to_string(finding.element) +
                    " is invalid, with assignment " + std::to_string(finding.other);

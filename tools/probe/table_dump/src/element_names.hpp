@@ -48,15 +48,15 @@ inline std::string get_input_name(const SystemView& view, std::size_t port) {
     return (row.owner == nullptr ? "?" : to_text(row.owner->get_name())) + "." + get_port_name(row);
 }
 
-/// Port of component `finding.element` after which `finding.other` others are constructed.
-inline std::string get_unlisted_name(const SystemView& view, const Finding& finding) {
+/// Member of component `finding.element` after which `finding.other` others are constructed.
+inline std::string get_unlisted_name(const SystemView& view, const Finding& finding, MemberKind kind) {
     const Component* component =
         finding.element < view.components.size() ? view.components[finding.element] : nullptr;
-    const PortBase* port = component == nullptr ? nullptr : component->get_first_port();
-    for (std::size_t i = 0U; i < finding.other && port != nullptr; ++i) {
-        port = port->get_next();
+    const Member* member = component == nullptr ? nullptr : component->get_first(kind);
+    for (std::size_t i = 0U; i < finding.other && member != nullptr; ++i) {
+        member = member->get_next();
     }
-    return port == nullptr ? "?" : to_text(port->get_name());
+    return member == nullptr ? "?" : to_text(member->get_name());
 }
 
 /// `component.port -> component.port`
@@ -69,7 +69,8 @@ inline std::string get_connection_name(const SystemView& view, std::size_t conne
 }
 
 /// `component.parameter`
-inline std::string get_parameter_name(const ParameterRow& row) {
+inline std::string get_parameter_name(const SystemView& view, std::size_t parameter) {
+    const ParameterRow row = get_row(view.configuration.parameters, parameter);
     return (row.owner == nullptr ? "?" : to_text(row.owner->get_name())) + "." +
            (row.parameter == nullptr ? "?" : to_text(row.parameter->get_name()));
 }

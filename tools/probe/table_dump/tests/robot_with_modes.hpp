@@ -24,7 +24,7 @@ class Monitor final : public mamori::Component {
     constexpr Monitor() noexcept : Component("monitor") {}
     mamori::InPort<double> angle{*this, "angle"};
     using Ports = mamori::Ports<&Monitor::angle>;
-    mamori::Parameter<double> limit{"limit_rad_s", 1.0, mamori::between(0.1, 3.0)};
+    mamori::Parameter<double> limit{*this, "limit_rad_s", 1.0, mamori::between(0.1, 3.0)};
     using Parameters = mamori::Parameters<&Monitor::limit>;
 };
 
@@ -42,7 +42,7 @@ class Drive final : public mamori::Component {
     constexpr Drive() noexcept : Component("drive") {}
     mamori::InPort<double> setpoint{*this, "setpoint"};
     using Ports = mamori::Ports<&Drive::setpoint>;
-    mamori::Parameter<std::int32_t> gain{"gain", 10, mamori::between(1, 40)};
+    mamori::Parameter<std::int32_t> gain{*this, "gain", 10, mamori::between(1, 40)};
     using Parameters = mamori::Parameters<&Drive::gain>;
 };
 

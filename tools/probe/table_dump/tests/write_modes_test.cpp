@@ -99,14 +99,13 @@ TEST(WriteModesTest, ParametersHaveTheirOwnerTypeConstraintAndActiveValue) {
 class Limited final : public Component {
   public:
     constexpr Limited() noexcept : Component("limited") {}
-    Parameter<std::array<double, 6U>> each{"each",           {1.0, 1.0, 1.0, 1.0, 0.0, 9.5},
-                                           at_least(0.1),    above(-2.5),
-                                           at_most(1.0e300), below(3.0),
-                                           any_value(),      between(above(-0.5), below(1.0e1))};
-    Parameter<std::array<double, 2U>> every{"every", {1.0, 2.0}, between(above(0.0), at_most(2.0))};
-    Parameter<std::int64_t, 3U> choices{"choices", 7, one_of(-7, 7, 9)};
-    Parameter<std::uint8_t> value{"value", 255U, one_of(255)};
-    Parameter<std::array<int, 2U>> last{"last", {1, 2}, any_value(), one_of(2, 3)};
+    Parameter<std::array<double, 6U>> each{*this,         "each",      {1.0, 1.0, 1.0, 1.0, 0.0, 9.5},
+                                           at_least(0.1), above(-2.5), at_most(1.0e300),
+                                           below(3.0),    any_value(), between(above(-0.5), below(1.0e1))};
+    Parameter<std::array<double, 2U>> every{*this, "every", {1.0, 2.0}, between(above(0.0), at_most(2.0))};
+    Parameter<std::int64_t, 3U> choices{*this, "choices", 7, one_of(-7, 7, 9)};
+    Parameter<std::uint8_t> value{*this, "value", 255U, one_of(255)};
+    Parameter<std::array<int, 2U>> last{*this, "last", {1, 2}, any_value(), one_of(2, 3)};
     using Parameters = mamori::Parameters<&Limited::each, &Limited::every, &Limited::choices, &Limited::value,
                                           &Limited::last>;
 };
@@ -129,7 +128,7 @@ TEST(WriteModesTest, ConstraintsAreWrittenInTheNotationOfTheRtcProfile) {
 class Misdeclared final : public Component {
   public:
     explicit Misdeclared(double lower) noexcept
-        : Component("misdeclared"), limit{"limit", 1.0, between(lower, 2.0)} {}
+        : Component("misdeclared"), limit{*this, "limit", 1.0, between(lower, 2.0)} {}
     Parameter<double> limit;
     using Parameters = mamori::Parameters<&Misdeclared::limit>;
 };
@@ -147,11 +146,11 @@ enum class Grip { kOpen, kClosed };
 class Tuned final : public Component {
   public:
     constexpr Tuned() noexcept : Component("tuned") {}
-    Parameter<std::array<double, 3U>> gains{"gains", {0.1, -2.5, 1.0e300}};
-    Parameter<std::int64_t> low{"low", std::numeric_limits<std::int64_t>::min()};
-    Parameter<std::uint64_t> high{"high", std::numeric_limits<std::uint64_t>::max()};
-    Parameter<bool> is_on{"is_on", true};
-    Parameter<Grip> grip{"grip", Grip::kClosed};
+    Parameter<std::array<double, 3U>> gains{*this, "gains", {0.1, -2.5, 1.0e300}};
+    Parameter<std::int64_t> low{*this, "low", std::numeric_limits<std::int64_t>::min()};
+    Parameter<std::uint64_t> high{*this, "high", std::numeric_limits<std::uint64_t>::max()};
+    Parameter<bool> is_on{*this, "is_on", true};
+    Parameter<Grip> grip{*this, "grip", Grip::kClosed};
     using Parameters =
         mamori::Parameters<&Tuned::gains, &Tuned::low, &Tuned::high, &Tuned::is_on, &Tuned::grip>;
 };

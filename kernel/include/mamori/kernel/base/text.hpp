@@ -2,7 +2,7 @@
 /// @file
 /// Character strings with a length: construction and comparison, in constant expressions and at run time.
 ///
-/// @satisfies SWR-PAR-006      Design: docs/design/parameters.md#configuration-sets
+/// @satisfies SWR-PAR-006, SWR-PAR-021      Design: docs/design/parameters.md#configuration-sets
 #ifndef MAMORI_KERNEL_TEXT_HPP
 #define MAMORI_KERNEL_TEXT_HPP
 
@@ -35,6 +35,15 @@ constexpr bool operator==(Text a, Text b) noexcept {
         }
     }
     return true;
+}
+
+/// Whether a C string is a name: not nullptr and not empty.
+constexpr bool is_name(const char* characters) noexcept {
+    return characters != nullptr && characters[0] != '\0';
+}
+/// Whether two C strings, which may be nullptr, are the same name. O(length).
+constexpr bool is_same_name(const char* a, const char* b) noexcept {
+    return is_name(a) && is_name(b) && make_text(a) == make_text(b);
 }
 
 }  // namespace mamori

@@ -65,6 +65,12 @@ template <typename List, std::size_t kIndex>
 using At = typename decltype(pick<kIndex>(
     static_cast<const IndexedList<std::make_index_sequence<List::kSize>, List>*>(nullptr)))::Type;
 
+/// Number of types before position `kIndex` of a list that equal the one there.
+template <typename List, std::size_t kIndex, std::size_t... kBefore>
+constexpr std::size_t count_same_before(std::index_sequence<kBefore...>) noexcept {
+    return ((std::is_same_v<At<List, kBefore>, At<List, kIndex>> ? 1U : 0U) + ... + 0U);
+}
+
 }  // namespace mamori::detail
 
 #endif  // MAMORI_KERNEL_TYPE_LIST_HPP

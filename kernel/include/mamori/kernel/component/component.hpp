@@ -18,6 +18,7 @@
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/action_failure.hpp"
 #include "mamori/kernel/component/lifecycle.hpp"
+#include "mamori/kernel/component/member.hpp"
 
 namespace mamori {
 
@@ -33,7 +34,6 @@ class Component;
 class ExecutionContext;
 class FsmMachine;
 class ModeSwitch;
-class PortBase;
 
 /// Life-cycle data of a component in its context. Only the component and its context write it.
 class LifecycleRegion {
@@ -73,28 +73,13 @@ class LifecycleRegion {
     std::size_t position_{0U};  ///< position in the context
 };
 
-/// List of the ports that were constructed with a component.
-class PortOwner {
-  public:
-    /// The port that was constructed last; nullptr: no port. PortBase::get_next() returns the others.
-    constexpr const PortBase* get_first_port() const noexcept { return first_port_; }
-
-  protected:
-    constexpr PortOwner() noexcept = default;
-    ~PortOwner() = default;
-
-  private:
-    friend class PortBase;
-    const PortBase* first_port_{nullptr};
-};
-
 /// Base of every component. Derive, add ports and override the required actions; each default returns kOk.
 ///
 /// Thread safety: none; one context calls the actions, never reentrantly. Call everything else from the core
 ///                that runs the component. is_alive() and get_name() from anywhere.
 /// Time:          an action must return within the budget of its window; all else is O(1) plus the actions.
 /// Memory:        no heap; instances are static and constant-initialised.
-class Component : public LifecycleRegion, public PortOwner {
+class Component : public LifecycleRegion, public MemberOwner {
   public:
     Component(const Component&) = delete;
     Component& operator=(const Component&) = delete;

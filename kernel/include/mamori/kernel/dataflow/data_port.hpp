@@ -15,7 +15,6 @@
 
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/component.hpp"
-#include "mamori/kernel/dataflow/port_base.hpp"
 #include "mamori/kernel/payload/fields.hpp"
 #include "mamori/kernel/payload/trace_hash.hpp"
 
@@ -52,7 +51,7 @@ struct QueueCounts {
 /// Type-free part of an output, for the executive and the table.
 ///
 /// Thread safety: none; all from the core of its component. Time: O(1). Nothing blocks. Memory: no heap.
-class OutPortBase : public PortBase {
+class OutPortBase : public Member {
   public:
     /// Number of publications so far (wraps at 2^32).
     std::uint32_t get_sequence() const noexcept { return sequence_; }
@@ -99,7 +98,8 @@ class OutPortBase : public PortBase {
 
   protected:
     template <typename Owner>
-    constexpr OutPortBase(Owner& owner, const char* name) noexcept : PortBase(owner, name) {}
+    constexpr OutPortBase(Owner& owner, const char* name) noexcept
+        : Member(owner, MemberKind::kPort, name) {}
     ~OutPortBase() = default;
 
     /// Slot of the published value. Each publication swaps the slots, so the parity of the sequence number
@@ -120,7 +120,7 @@ class OutPortBase : public PortBase {
 /// Type-free part of an input.
 ///
 /// Thread safety: none; all from the core of its component. Time: O(1). Memory: no heap.
-class InPortBase : public PortBase {
+class InPortBase : public Member {
   public:
     /// False until the first value arrives, and from a restart() until the next value.
     bool has_value() const noexcept { return has_value_; }
@@ -166,7 +166,7 @@ class InPortBase : public PortBase {
 
   protected:
     template <typename Owner>
-    constexpr InPortBase(Owner& owner, const char* name) noexcept : PortBase(owner, name) {}
+    constexpr InPortBase(Owner& owner, const char* name) noexcept : Member(owner, MemberKind::kPort, name) {}
     ~InPortBase() = default;
 
     /// For connections: another connection, or none, feeds this input from `boundary` on. The input has no

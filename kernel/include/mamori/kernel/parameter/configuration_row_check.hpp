@@ -8,6 +8,7 @@
 
 #include <cstddef>
 
+#include "mamori/kernel/base/text.hpp"
 #include "mamori/kernel/parameter/configuration_finding.hpp"
 #include "mamori/kernel/parameter/configuration_table.hpp"
 
@@ -34,7 +35,7 @@ constexpr void visit_invalid_rows(const ConfigurationView& view, Visitor& visito
     }
     for (std::size_t s = 0U; s < view.sets.size(); ++s) {
         const ConfigurationSetRow& set = view.sets[s];
-        if (set.name == nullptr ||
+        if (!is_name(set.name) ||
             !is_range_in(set.first_assignment, set.assignment_count, view.assignments.size())) {
             visitor(ConfigurationFinding{ConfigurationRule::kSetRowInvalid, s, 0U});
             continue;

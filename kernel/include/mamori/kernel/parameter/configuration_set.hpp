@@ -82,8 +82,8 @@ template <std::size_t kParameters, std::size_t kSets, std::size_t kAssignments, 
 class ConfigurationBuilder final {
   public:
     /// Appends parameters, at most kParameters in total.
-    template <std::size_t kCount>
-    constexpr void add(const ParameterList<kCount>& list) noexcept {
+    template <typename Members>
+    constexpr void add(const ParameterList<Members>& list) noexcept {
         for (const ParameterDeclaration& declaration : list.declarations) {
             declarations_[parameter_count_] = declaration;
             table_.parameters[parameter_count_] = declaration.row;
@@ -130,15 +130,22 @@ class ConfigurationBuilder final {
     std::size_t value_count_{0U};
 };
 
+/// A table with the types of its parameters, so that compiler messages can name them.
+template <typename MemberTypes, typename Table>
+struct DescribedConfiguration : Table {
+    using Members = MemberTypes;
+};
+
 /// Builds the table of these sets over the parameters of `list`. check() reports the rules that it violates.
-template <std::size_t kCount, std::size_t... kAssignments, std::size_t... kValues>
-constexpr auto configuration(const ParameterList<kCount>& list,
+template <typename Members, std::size_t... kAssignments, std::size_t... kValues>
+constexpr auto configuration(const ParameterList<Members>& list,
                              const ConfigurationSet<kAssignments, kValues>&... sets) noexcept {
-    ConfigurationBuilder<kCount, sizeof...(kAssignments), (kAssignments + ... + 0U), (kValues + ... + 0U)>
+    ConfigurationBuilder<Members::kSize, sizeof...(kAssignments), (kAssignments + ... + 0U),
+                         (kValues + ... + 0U)>
         builder{};
     builder.add(list);
     (builder.add(sets), ...);
-    return builder.finish();
+    return DescribedConfiguration<Members, decltype(builder.finish())>{builder.finish()};
 }
 
 }  // namespace mamori

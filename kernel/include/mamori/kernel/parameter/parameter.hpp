@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A parameter of a component: a value with a constraint. It is set from outside the component and never
-/// changes during a cycle of the component. It is a member of the component, listed like a port:
+/// changes during a cycle of the component. It is a member of the component, constructed and listed like a
+/// port:
 ///
-///     mamori::Parameter<double> limit_rad_s{"limit_rad_s", 1.0, mamori::between(0.1, 3.0)};
+///     mamori::Parameter<double> limit_rad_s{*this, "limit_rad_s", 1.0, mamori::between(0.1, 3.0)};
 ///     using Parameters = mamori::Parameters<&SpeedMonitor::limit_rad_s>;
 ///
-/// @satisfies SWR-PAR-003, SWR-PAR-004, SWR-PAR-005, SWR-PAR-011
+/// @satisfies SWR-PAR-003, SWR-PAR-004, SWR-PAR-005, SWR-PAR-011, SWR-PAR-020
 /// Design:   docs/design/parameters.md#parameters
 #ifndef MAMORI_KERNEL_PARAMETER_HPP
 #define MAMORI_KERNEL_PARAMETER_HPP
@@ -14,10 +15,12 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "mamori/kernel/base/assert.hpp"
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/component/member.hpp"
 #include "mamori/kernel/parameter/constraint.hpp"
 #include "mamori/kernel/parameter/detail/parameter_elements.hpp"
 #include "mamori/kernel/parameter/parameter_base.hpp"
@@ -58,15 +61,19 @@ class Parameter final : public ParameterBase {
   public:
     using Value = T;
 
+    /// @param[in] owner         the component that has this parameter as a member, `*this`; kNoOwner: none.
     /// @param[in] name          name within the component, static storage, not nullptr.
     /// @param[in] default_value initial value; must satisfy the constraint.
     /// @param[in] constraints   none, one for all elements, or one for each element; see constraint.hpp.
-    template <typename... Cs>
-    constexpr Parameter(const char* name, const T& default_value, const Cs&... constraints) noexcept
-        : ParameterBase(name, Elements::kCount),
+    template <typename Owner, typename... Cs>
+    constexpr Parameter(Owner& owner, const char* name, const T& default_value,
+                        const Cs&... constraints) noexcept
+        : ParameterBase(owner, name, Elements::kCount),
           constraint_(make_constraint<Element, kRanges, Elements::kCount>(constraints...)),
           active_(default_value),
           requested_(default_value) {
+        static_assert(std::is_base_of_v<MemberOwner, Owner> || std::is_same_v<const Owner, const NoOwner>,
+                      "a parameter is constructed with its component, {*this, ...}, or with kNoOwner");
         const bool is_admitted = admits(default_value);
         detail::require_default_within_constraint(is_admitted);
         if (!is_admitted) {

@@ -2,7 +2,8 @@
 /// @file
 /// Type-independent interface of a parameter, for tables and tools that handle parameters of many types.
 ///
-/// @satisfies SWR-PAR-003, SWR-PAR-005, SWR-PAR-011      Design: docs/design/parameters.md#parameters
+/// @satisfies SWR-PAR-003, SWR-PAR-005, SWR-PAR-011, SWR-PAR-020      Design:
+/// docs/design/parameters.md#parameters
 #ifndef MAMORI_KERNEL_PARAMETER_BASE_HPP
 #define MAMORI_KERNEL_PARAMETER_BASE_HPP
 
@@ -11,6 +12,7 @@
 
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/component/member.hpp"
 #include "mamori/kernel/parameter/scalar.hpp"
 
 namespace mamori {
@@ -31,13 +33,8 @@ struct ScalarRange {
 /// Thread safety: check(), requests and properties fixed at construction from any thread, wait-free; the
 ///                other members only from the context that runs the component, between its cycles.
 /// Time:          O(elements * ranges of the constraint). Memory: no heap.
-class ParameterBase {
+class ParameterBase : public Member {
   public:
-    ParameterBase(const ParameterBase&) = delete;
-    ParameterBase& operator=(const ParameterBase&) = delete;
-
-    /// Name within the component; static storage, never nullptr.
-    const char* get_name() const noexcept { return name_; }
     /// Number of elements: 1 for a scalar, else the size of the array.
     std::size_t get_element_count() const noexcept { return element_count_; }
     /// False if the constraint is invalid or the default value violates it. Such a parameter keeps its
@@ -69,13 +66,13 @@ class ParameterBase {
     /// @}
 
   protected:
-    /// @param[in] name static storage, not nullptr. @param[in] element_count >= 1.
-    constexpr ParameterBase(const char* name, std::size_t element_count) noexcept
-        : name_(name), element_count_(element_count) {}
+    /// @param[in] owner component or kNoOwner. @param[in] element_count >= 1.
+    template <typename Owner>
+    constexpr ParameterBase(Owner& owner, const char* name, std::size_t element_count) noexcept
+        : Member(owner, MemberKind::kParameter, name), element_count_(element_count) {}
     ~ParameterBase() = default;
 
   private:
-    const char* name_;
     std::size_t element_count_;
 };
 

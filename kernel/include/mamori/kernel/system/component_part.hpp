@@ -38,7 +38,7 @@ struct ComponentTypes {
     using Type = C;
     using PortList = typename PortMembers<C, typename PortsOf<C>::Type>::Type;
     static constexpr std::size_t kPortCount = PortList::kSize;
-    static constexpr std::size_t kParameterCount = parameter_count<C>();
+    using ParameterList = JoinedParameters<C>;
     /// An inherited member pointer has the type of the base class: the component does not override the
     /// action. A class derived from a non-final type may override it.
     static constexpr bool kHasSecondPass =

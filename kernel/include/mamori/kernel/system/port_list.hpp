@@ -2,12 +2,13 @@
 /// @file
 /// Lists the ports of a component, as pointers to its members, and creates their rows of the table.
 ///
-/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-062      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_PORT_LIST_HPP
 #define MAMORI_KERNEL_PORT_LIST_HPP
 
 #include <type_traits>
 
+#include "mamori/kernel/base/compiler_message.hpp"
 #include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/table/connection_row.hpp"
 
@@ -29,13 +30,35 @@ struct PortMember {
 
 namespace detail {
 
+/// Whether a pointer refers to a port that is a member of C.
+template <typename C, typename Pointer>
+inline constexpr bool kIsPortOf = false;
+template <typename C, typename Port, typename Owner>
+inline constexpr bool kIsPortOf<C, Port Owner::*> =
+    std::is_base_of_v<Owner, C> &&
+    (std::is_base_of_v<InPortBase, Port> || std::is_base_of_v<OutPortBase, Port>);
+
+/// An empty list instead of a wrong one, so that the compiler reports one error.
+template <typename C, auto... kMembers>
+constexpr auto require_ports(Ports<kMembers...> list) noexcept {
+    if constexpr ((kIsPortOf<C, decltype(kMembers)> && ...)) {
+        return list;
+    } else {
+        static_cast<void>(list);
+        static_cast<void>((sizeof(std::conditional_t<kIsPortOf<C, decltype(kMembers)>, C,
+                                                     rules::ListNamesMembersOfItsComponent<C, kMembers>>) +
+                           ...));
+        return Ports<>{};
+    }
+}
+
 template <typename C, typename = void>
 struct PortsOf {
     using Type = Ports<>;
 };
 template <typename C>
 struct PortsOf<C, std::void_t<typename C::Ports>> {
-    using Type = typename C::Ports;
+    using Type = decltype(require_ports<C>(typename C::Ports{}));
 };
 
 template <typename C, typename List>
@@ -53,7 +76,6 @@ constexpr PortRow make_port_row(C& component, Port& port) noexcept {
         row.output = &port;
         row.hash_published = &Port::hash_published;
     } else {
-        static_assert(std::is_base_of_v<InPortBase, Port>, "Ports<...> names members that are ports");
         row.input = &port;
         row.is_mandatory = Port::kIsMandatory;
         if constexpr (Port::kIsQueue) {

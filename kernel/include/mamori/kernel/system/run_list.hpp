@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/component/component.hpp"
 #include "mamori/kernel/parameter/parameter_list.hpp"
 #include "mamori/kernel/system/component_part.hpp"
@@ -23,13 +24,13 @@ namespace mamori {
 template <typename... Cs>
 struct RunList {
     static constexpr std::size_t kPortCount = (detail::ComponentTypes<Cs>::kPortCount + ... + 0U);
-    static constexpr std::size_t kParameterCount = (detail::ComponentTypes<Cs>::kParameterCount + ... + 0U);
+    using Parameters = typename detail::Concat<typename detail::ComponentTypes<Cs>::ParameterList...>::Type;
 
     std::array<Component*, sizeof...(Cs)> components{};
     std::array<Duration, sizeof...(Cs)> worst_cases{};
     std::array<std::size_t, sizeof...(Cs)> port_counts{};
     std::array<PortRow, kPortCount> ports{};
-    ParameterList<kParameterCount> parameters{};
+    ParameterList<Parameters> parameters{};
 };
 
 namespace detail {
@@ -49,7 +50,7 @@ struct RunListBuilder {
         list.port_counts[component_count] = ComponentTypes<C>::kPortCount;
         ++component_count;
         add_ports(part.component, typename PortsOf<C>::Type{});
-        append_parameters_of(part.component, list.parameters, parameter_count);
+        append_parameters(part.component, list.parameters, parameter_count, typename ParametersOf<C>::Type{});
     }
     template <typename C, auto... kMembers>
     constexpr void add_ports(C& component, Ports<kMembers...>) noexcept {

@@ -25,6 +25,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/base/compiler_message.hpp"
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/context_plan.hpp"
 #include "mamori/kernel/parameter/configuration_set.hpp"
@@ -134,7 +135,7 @@ template <typename Types>
 using TableOf = SystemTable<
     Types::kWindows, Types::Components::kSize, Types::Ports::kSize, Types::kConnections, Types::Faults::kSize,
     Types::kReactions,
-    ConfigurationTable<Types::kParameters, Types::kSets, Types::kAssignments, Types::kValues>,
+    ConfigurationTable<Types::Parameters::kSize, Types::kSets, Types::kAssignments, Types::kValues>,
     ModeTable<Types::kModes, Types::Members::kSize, Types::kModeTransitions, Types::kConnectionModes>>;
 
 }  // namespace detail

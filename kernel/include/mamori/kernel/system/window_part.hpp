@@ -26,8 +26,8 @@ struct WindowPart {
     struct Types : detail::NoTypes {
         using Components = detail::TypeList<typename detail::ComponentTypes<Cs>::Type...>;
         using Ports = typename detail::Concat<typename detail::ComponentTypes<Cs>::PortList...>::Type;
+        using Parameters = typename RunList<Cs...>::Parameters;
         static constexpr std::size_t kWindows = 1U;
-        static constexpr std::size_t kParameters = RunList<Cs...>::kParameterCount;
     };
     WindowRow row{};
     RunList<Cs...> list{};

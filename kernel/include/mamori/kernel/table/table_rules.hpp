@@ -12,13 +12,16 @@
 ///   Message   the template that a compiler message shows, with the faulty element as its arguments
 ///   Faulty    what `Finding::element` counts (`other` in brackets):
 ///             Row               row of the kind that the rule names
+///             Ends              connection, which messages show by its ports and its row
 ///             Window            window (the window of the same name)
 ///             TwoWindows        window (the window listed before it)
-///             Component         component, by its second row where it has two (its first row)
+///             Component         component, by its second row where it has two (its first row; its namesake)
 ///             Input             port row of an input
 ///             Sink              connection, which messages show by its input (the connection listed before)
 ///             UnlistedPort      component (number of its ports that are constructed after the port)
-///             Port              port row (the port row listed before)
+///             UnlistedParameter component (number of its parameters that are constructed after the one)
+///             Port              port row (the port row listed before; itself: without a name)
+///             Parameter         parameter row (the one listed before; itself: without a name)
 ///             Fault             fault (its earlier declaration)
 ///             Mode              mode; the first one where no mode is faulty
 ///             ModeMember        row of a component of a mode
@@ -66,12 +69,21 @@
       "a listed port is constructed with its component as owner: {*this, ...}")                            \
     X(PortNamedTwice, PortHasANameOfItsOwn, Port,                                                          \
       "each port of a component has a name of its own and is listed once")                                 \
-    X(PortOfUnknownComponent, ConnectionJoinsComponentsOfTheTable, Row,                                    \
+    X(ParameterNotListed, ParameterIsListed, UnlistedParameter,                                            \
+      "the public alias Parameters of a component lists each parameter that is constructed with it")       \
+    X(ParameterNotOwned, ParameterIsOwned, Parameter,                                                      \
+      "a listed parameter is constructed with its component as owner: {*this, ...}")                       \
+    X(ParameterNamedTwice, ParameterHasANameOfItsOwn, Parameter,                                           \
+      "each parameter of a component has a name of its own and is listed once")                            \
+    X(PortOfUnknownComponent, ConnectionJoinsComponentsOfTheTable, Ends,                                   \
       "both ends of a connection belong to components that a window runs")                                 \
     X(InputNotConnected, InputIsConnected, Input, "a mandatory input is connected")                        \
     X(InputHasTwoWriters, InputHasOneWriter, Input, "an input has one writer")                             \
     X(AgeLimitNotPositive, InputCanBeFresh, Sink,                                                          \
       "a connection states how old a fresh value may be: fresh_within(...), more than 0, or any_age()")    \
+    X(AgeLimitCannotBeMet, AgeLimitCanBeMet, Sink,                                                         \
+      "fresh_within(...) is not shorter than the minimum age of the value at a start of its reader's "     \
+      "window")                                                                                            \
     X(DelayNotStated, ConnectionStatesItsDelay, Sink,                                                      \
       "a connection states delayed_by_a_frame() if its reader does not run after its writer in the same "  \
       "window, and only then")                                                                             \

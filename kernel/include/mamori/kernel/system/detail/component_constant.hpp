@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Checks the ports of a component type on a constant of this type, since the compiler cannot read the
-/// objects that a table refers to. Not for users.
+/// Checks the ports and parameters of a component type on a constant of this type, since the compiler cannot
+/// read the objects that a table refers to. Not for users.
 ///
-/// @satisfies SWR-KRN-045, SWR-KRN-046      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-045, SWR-KRN-046, SWR-PAR-020, SWR-PAR-021
+/// Design:  : docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_COMPONENT_CONSTANT_HPP
 #define MAMORI_KERNEL_COMPONENT_CONSTANT_HPP
 
@@ -13,8 +14,8 @@
 #include <utility>
 
 #include "mamori/kernel/base/type_list.hpp"
-#include "mamori/kernel/dataflow/port_base.hpp"
-#include "mamori/kernel/system/port_list.hpp"
+#include "mamori/kernel/component/member.hpp"
+#include "mamori/kernel/system/component_part.hpp"
 #include "mamori/kernel/table/system_check.hpp"
 #include "mamori/kernel/table/system_finding.hpp"
 
@@ -73,57 +74,74 @@ template <typename C>
 using WayOf = std::conditional_t<kMakesConstant<WithoutName, C>, WithoutName,
                                  std::conditional_t<kMakesConstant<WithName, C>, WithName, NotConstructible>>;
 
-/// First finding of check_ports() for each object of the type.
+/// First finding of check_registration() for each object of a component type.
 template <typename List>
-struct FirstPortFinding;
-template <auto... kMembers>
-struct FirstPortFinding<Ports<kMembers...>> {
+struct FirstFindingOf;
+template <typename... Members>
+struct FirstFindingOf<TypeList<Members...>> {
+    const MemberRules& rules;
     template <typename C>
     constexpr Finding operator()(const C& component) const noexcept {
-        const std::array<const PortBase*, sizeof...(kMembers)> listed{&(component.*kMembers)...};
+        const std::array<const Member*, sizeof...(Members)> listed{&(component.*Members::kPointer)...};
         Finding first{};
-        check_ports(
-            component, listed.size(), [&listed](std::size_t p) noexcept { return listed[p]; },
+        check_registration(
+            component, rules, listed.size(), [&listed](std::size_t p) noexcept { return listed[p]; },
             [&first](Rule rule, std::size_t element, std::size_t other) noexcept {
                 first = first.rule == Rule::kNone ? Finding{rule, element, other} : first;
             });
         return first;
     }
 };
-template <typename C>
-constexpr Finding find_faulty_port() noexcept {
-    return WayOf<C>::template apply<C>(FirstPortFinding<typename PortsOf<C>::Type>{});
+template <typename C, typename Members>
+constexpr Finding find_faulty_member(const MemberRules& rules) noexcept {
+    return WayOf<C>::template apply<C>(FirstFindingOf<Members>{rules});
 }
 
-/// Name of the port of type C after which `later` others are constructed.
-template <typename C>
-struct OfUnlistedPort {
+/// Name of the member of type C after which `later` others are constructed.
+template <typename C, MemberKind kKind>
+struct OfUnlistedMember {
     template <typename Table>
     static constexpr const char* get(const Table&, std::size_t later) noexcept {
         return WayOf<C>::template apply<C>([later](const C& component) noexcept {
-            const PortBase* port = component.get_first_port();
+            const Member* member = component.get_first(kKind);
             for (std::size_t i = 0U; i < later; ++i) {
-                port = port->get_next();
+                member = member->get_next();
             }
-            return port->get_name();
+            return member->get_name();
         });
     }
 };
 
-/// First faulty port of the components of a table; the elements as in table_rules.hpp.
-template <typename Table, typename... Cs>
-constexpr Finding find_faulty_port(const Table& table, TypeList<Cs...>) noexcept {
-    const std::array<Finding, sizeof...(Cs)> found{find_faulty_port<Cs>()...};
-    for (std::size_t i = 0U; i < found.size(); ++i) {
-        if (found[i].rule == Rule::kPortNotListed) {
+/// First faulty member of one kind of a list of components; the elements as in table_rules.hpp.
+/// @param[in] found first finding of each component type. @param[in] counts listed members of each.
+template <std::size_t kCount>
+constexpr Finding find_first(const std::array<Finding, kCount>& found,
+                             const std::array<std::size_t, kCount>& counts,
+                             const MemberRules& rules) noexcept {
+    std::size_t first = 0U;
+    for (std::size_t i = 0U; i < kCount; ++i) {
+        if (found[i].rule == rules.not_listed) {
             return {found[i].rule, i, found[i].element};
         }
         if (found[i].rule != Rule::kNone) {
-            const std::size_t first = table.component_rows[i].first_port;
             return {found[i].rule, first + found[i].element, first + found[i].other};
         }
+        first += counts[i];
     }
     return {};
+}
+
+/// First faulty port or parameter of the components of a table.
+template <typename... Cs>
+constexpr Finding find_faulty_member(TypeList<Cs...>) noexcept {
+    const Finding port = find_first<sizeof...(Cs)>(
+        {find_faulty_member<Cs, typename ComponentTypes<Cs>::PortList>(kPortRules)...},
+        {ComponentTypes<Cs>::PortList::kSize...}, kPortRules);
+    return port.rule != Rule::kNone
+               ? port
+               : find_first<sizeof...(Cs)>(
+                     {find_faulty_member<Cs, typename ComponentTypes<Cs>::ParameterList>(kParameterRules)...},
+                     {ComponentTypes<Cs>::ParameterList::kSize...}, kParameterRules);
 }
 
 }  // namespace mamori::detail

@@ -18,6 +18,7 @@ namespace mamori::detail {
 struct NoTypes {
     using Components = TypeList<>;
     using Ports = TypeList<>;
+    using Parameters = TypeList<>;
     using Faults = TypeList<>;
     using FaultTypes = TypeList<>;     ///< enumeration of each fault, in faults() or react()
     using ReactionTypes = TypeList<>;  ///< enumeration of each reaction
@@ -26,7 +27,6 @@ struct NoTypes {
     static constexpr std::size_t kWindows = 0U;
     static constexpr std::size_t kConnections = 0U;
     static constexpr std::size_t kReactions = 0U;
-    static constexpr std::size_t kParameters = 0U;
     static constexpr std::size_t kSets = 0U;
     static constexpr std::size_t kAssignments = 0U;
     static constexpr std::size_t kValues = 0U;
@@ -51,6 +51,7 @@ template <typename... Parts>
 struct JoinedTypes {
     using Components = typename Concat<typename TypesOfPart<Parts>::Components...>::Type;
     using Ports = typename Concat<typename TypesOfPart<Parts>::Ports...>::Type;
+    using Parameters = typename Concat<typename TypesOfPart<Parts>::Parameters...>::Type;
     using Faults = typename Concat<typename TypesOfPart<Parts>::Faults...>::Type;
     using FaultTypes = typename Concat<typename TypesOfPart<Parts>::FaultTypes...>::Type;
     using ReactionTypes = typename Concat<typename TypesOfPart<Parts>::ReactionTypes...>::Type;
@@ -59,7 +60,6 @@ struct JoinedTypes {
     static constexpr std::size_t kWindows = (TypesOfPart<Parts>::kWindows + ... + 0U);
     static constexpr std::size_t kConnections = (TypesOfPart<Parts>::kConnections + ... + 0U);
     static constexpr std::size_t kReactions = (TypesOfPart<Parts>::kReactions + ... + 0U);
-    static constexpr std::size_t kParameters = (TypesOfPart<Parts>::kParameters + ... + 0U);
     static constexpr std::size_t kSets = (TypesOfPart<Parts>::kSets + ... + 0U);
     static constexpr std::size_t kAssignments = (TypesOfPart<Parts>::kAssignments + ... + 0U);
     static constexpr std::size_t kValues = (TypesOfPart<Parts>::kValues + ... + 0U);

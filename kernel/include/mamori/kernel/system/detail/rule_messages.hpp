@@ -9,6 +9,7 @@
 
 #include <cstddef>
 
+#include "mamori/kernel/base/compiler_message.hpp"
 #include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/parameter/configuration_check.hpp"
 #include "mamori/kernel/parameter/configuration_table.hpp"
@@ -23,22 +24,18 @@ namespace mamori {
 
 namespace rules {
 
-/// Always false, but evaluated only at instantiation.
-template <typename>
-inline constexpr bool kKept = false;
-/// A row that is identified by its number only.
-template <std::size_t kIndex>
-struct Row {};
-
 // Template parameters of a rule, for each kind of faulty element. The last one of a component or port
 // distinguishes instances of one type: 0 is the first in the table.
 #define MAMORI_PARAMETERS_OF_Row typename...
+#define MAMORI_PARAMETERS_OF_Ends typename...
 #define MAMORI_PARAMETERS_OF_Window typename...
 #define MAMORI_PARAMETERS_OF_TwoWindows typename...
 #define MAMORI_PARAMETERS_OF_Component typename, std::size_t
 #define MAMORI_PARAMETERS_OF_Input typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_Sink typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_UnlistedPort typename...
+#define MAMORI_PARAMETERS_OF_UnlistedParameter typename...
+#define MAMORI_PARAMETERS_OF_Parameter typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_Port typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_Fault auto
 #define MAMORI_PARAMETERS_OF_Mode typename...
@@ -64,11 +61,20 @@ MAMORI_TABLE_RULES(MAMORI_RULE)
 
 namespace detail {
 
+template <template <typename...> class R, const auto& kTable, MemberKind kKind, std::size_t kComponent,
+          std::size_t kLater>
+using OfUnlisted = R<ComponentAt<kTable, kComponent>,
+                     NameOf<kTable, OfUnlistedMember<ComponentAt<kTable, kComponent>, kKind>, kLater>>;
+
 /// A rule with the faulty element as its arguments.
 namespace faulty {
 
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
 using Row = R<rules::Row<kElement>>;
+template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
+using Ends = R<decltype(show_end<kTable, find_output(kTable, kTable.connections[kElement].source)>()),
+               decltype(show_end<kTable, find_input(kTable, kTable.connections[kElement].sink)>()),
+               rules::Row<kElement>>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
 using Window = R<WindowName<kTable, kElement>>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
@@ -82,8 +88,12 @@ template <template <typename, auto, std::size_t> class R, const auto& kTable, st
           std::size_t>
 using Sink = OfSink<R, kTable, kElement>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
-using UnlistedPort =
-    R<ComponentAt<kTable, kElement>, NameOf<kTable, OfUnlistedPort<ComponentAt<kTable, kElement>>, kOther>>;
+using UnlistedPort = OfUnlisted<R, kTable, MemberKind::kPort, kElement, kOther>;
+template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
+using UnlistedParameter = OfUnlisted<R, kTable, MemberKind::kParameter, kElement, kOther>;
+template <template <typename, auto, std::size_t> class R, const auto& kTable, std::size_t kElement,
+          std::size_t>
+using Parameter = OfParameter<R, kTable, kElement>;
 template <template <typename, auto, std::size_t> class R, const auto& kTable, std::size_t kElement,
           std::size_t>
 using Port = OfPort<R, kTable, kElement>;
@@ -108,9 +118,12 @@ template <template <typename...> class R, const auto& kTable, std::size_t kEleme
 using TransitionTarget = R<NameOf<kTable, OfTarget, kElement>>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
 using ComponentInMode = R<ComponentAt<kTable, kElement>, ModeName<kTable, kOther>>;
-/// Shows the violated rule of the configuration.
+/// Shows the violated rule of the configuration, its set and parameter.
 template <template <typename...> class, const auto& kTable, std::size_t kElement, std::size_t kOther>
-using SetAssignment = ConfigurationKeeps<check(make_view(kTable.configuration)).rule, kElement, kOther>;
+using SetAssignment =
+    ConfigurationMessage<check(make_view(kTable.configuration)).rule, NameOf<kTable, OfSet, kElement>,
+                         typename TypesOf<kTable>::Parameters, kElement, kOther,
+                         find_assigned(make_view(kTable.configuration), kElement, kOther)>;
 
 }  // namespace faulty
 
@@ -128,9 +141,9 @@ MAMORI_TABLE_RULES(MAMORI_MESSAGE)
 /// Evaluating the size of the message of a violated rule stops the compilation.
 template <const auto& kTable>
 constexpr bool keeps_rules() noexcept {
-    // Ports first: a port that is listed twice also causes inconsistent rows.
-    constexpr Finding kOfPorts = find_faulty_port(kTable, typename TypesOf<kTable>::Components{});
-    constexpr Finding kFinding = kOfPorts.rule != Rule::kNone ? kOfPorts : check(make_view(kTable));
+    // Members first: a port that is listed twice also causes inconsistent rows.
+    constexpr Finding kOfMembers = find_faulty_member(typename TypesOf<kTable>::Components{});
+    constexpr Finding kFinding = kOfMembers.rule != Rule::kNone ? kOfMembers : check(make_view(kTable));
     if constexpr (kFinding.rule != Rule::kNone) {
         return sizeof(typename MessageOf<kFinding.rule>::template Type<kTable, kFinding.element,
                                                                        kFinding.other>) == 0U;

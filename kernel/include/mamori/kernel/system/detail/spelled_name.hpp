@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Names of a table as types, letter by letter, so that a compiler message shows them. Not for users.
+/// Locations of the names of a table, which compiler messages show. Not for users.
 ///
 /// @satisfies SWR-KRN-018      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SPELLED_NAME_HPP
 #define MAMORI_KERNEL_SPELLED_NAME_HPP
 
 #include <cstddef>
-#include <utility>
 
-namespace mamori {
+#include "mamori/kernel/base/compiler_message.hpp"
 
-/// A name, letter by letter, since C++17 has no strings as template arguments.
-template <char... kLetters>
-struct Name {};
-
-namespace detail {
-
-constexpr std::size_t calc_length(const char* text) noexcept {
-    std::size_t length = 0U;
-    while (text[length] != '\0') {  // ends at the terminator of the string
-        ++length;
-    }
-    return length;
-}
+namespace mamori::detail {
 
 // Locations of names in a table.
 struct OfWindow {
@@ -42,6 +29,12 @@ struct OfSetOfMode {
     template <typename Table>
     static constexpr const char* get(const Table& table, std::size_t i) noexcept {
         return table.modes.modes[i].set_name;
+    }
+};
+struct OfSet {
+    template <typename Table>
+    static constexpr const char* get(const Table& table, std::size_t i) noexcept {
+        return table.configuration.sets[i].name;
     }
 };
 struct OfSource {
@@ -63,18 +56,11 @@ struct OfConnectionMode {
     }
 };
 
-template <const auto& kTable, typename Of, std::size_t kIndex, std::size_t... kLetters>
-Name<Of::get(kTable, kIndex)[kLetters]...> spell(std::index_sequence<kLetters...>) noexcept;
-template <const auto& kTable, typename Of, std::size_t kIndex>
-using NameOf =
-    decltype(spell<kTable, Of, kIndex>(std::make_index_sequence<calc_length(Of::get(kTable, kIndex))>{}));
 template <const auto& kTable, std::size_t kWindow>
 using WindowName = NameOf<kTable, OfWindow, kWindow>;
 template <const auto& kTable, std::size_t kMode>
 using ModeName = NameOf<kTable, OfMode, kMode>;
 
-}  // namespace detail
-
-}  // namespace mamori
+}  // namespace mamori::detail
 
 #endif  // MAMORI_KERNEL_SPELLED_NAME_HPP

@@ -22,7 +22,7 @@ struct TableBuilder {
     using Types = typename Table::Types;
 
     Table table{};
-    ConfigurationBuilder<Types::kParameters, Types::kSets, Types::kAssignments, Types::kValues>
+    ConfigurationBuilder<Types::Parameters::kSize, Types::kSets, Types::kAssignments, Types::kValues>
         configuration{};
     std::size_t parameter_count{0U};
     std::size_t mode_count{0U};

@@ -17,11 +17,6 @@
 
 namespace mamori::detail {
 
-/// Number of components of the same type that the table lists before component `kIndex`.
-template <typename Components, std::size_t kIndex, std::size_t... kBefore>
-constexpr std::size_t count_same_before(std::index_sequence<kBefore...>) noexcept {
-    return ((std::is_same_v<At<Components, kBefore>, At<Components, kIndex>> ? 1U : 0U) + ... + 0U);
-}
 template <const auto& kTable, std::size_t kComponent>
 constexpr std::size_t calc_instance() noexcept {
     using Components = typename std::remove_reference_t<decltype(kTable)>::Types::Components;
@@ -38,6 +33,27 @@ constexpr std::size_t find_input(const Table& table, const InPortBase* input) no
     return kNoIndex;
 }
 
+template <typename Table>
+constexpr std::size_t find_output(const Table& table, const OutPortBase* output) noexcept {
+    for (std::size_t i = 0U; i < table.ports.size(); ++i) {
+        if (table.ports[i].output == output) {
+            return i;
+        }
+    }
+    return kNoIndex;
+}
+
+/// Component that has the parameter of row `parameter`.
+template <typename Table>
+constexpr std::size_t find_owner(const Table& table, std::size_t parameter) noexcept {
+    for (std::size_t i = 0U; i < table.components.size(); ++i) {
+        if (table.components[i] == table.configuration.parameters[parameter].owner) {
+            return i;
+        }
+    }
+    return kNoIndex;
+}
+
 // Elements as the rules refer to them.
 template <const auto& kTable>
 using TypesOf = typename std::remove_reference_t<decltype(kTable)>::Types;
@@ -45,12 +61,30 @@ template <const auto& kTable, std::size_t kIndex>
 using ComponentAt = At<typename TypesOf<kTable>::Components, kIndex>;
 template <const auto& kTable, std::size_t kIndex>
 using PortAt = At<typename TypesOf<kTable>::Ports, kIndex>;
+template <const auto& kTable, std::size_t kIndex>
+using ParameterAt = At<typename TypesOf<kTable>::Parameters, kIndex>;
 
 template <template <typename, auto, std::size_t> class RuleOf, const auto& kTable, std::size_t kPort>
 using OfPort = RuleOf<typename PortAt<kTable, kPort>::Owner, PortAt<kTable, kPort>::kPointer,
                       calc_instance<kTable, kTable.ports[kPort].component>()>;
 template <template <typename, auto, std::size_t> class RuleOf, const auto& kTable, std::size_t kConnection>
 using OfSink = OfPort<RuleOf, kTable, find_input(kTable, kTable.connections[kConnection].sink)>;
+
+template <template <typename, auto, std::size_t> class RuleOf, const auto& kTable, std::size_t kParameter>
+using OfParameter =
+    RuleOf<typename ParameterAt<kTable, kParameter>::Owner, ParameterAt<kTable, kParameter>::kPointer,
+           calc_instance<kTable, find_owner(kTable, kParameter)>()>;
+
+/// One end of a connection, as far as the table has its component.
+struct PortOfNoComponentOfTheTable {};
+template <const auto& kTable, std::size_t kPort>
+constexpr auto show_end() noexcept {
+    if constexpr (kPort != kNoIndex) {
+        return PortAt<kTable, kPort>{};
+    } else {
+        return PortOfNoComponentOfTheTable{};
+    }
+}
 
 }  // namespace mamori::detail
 

@@ -3,8 +3,8 @@
 /// Rules of connections: both ends are in the table, a value can be fresh, and a connection that leaves a
 /// core or a partition uses dedicated storage in a valid order. Not for users.
 ///
-/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-047, SWR-KRN-048, SWR-KRN-051      Design:
-/// docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-047, SWR-KRN-048, SWR-KRN-051, SWR-KRN-061
+/// Design:   docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_CONNECTION_CHECK_HPP
 #define MAMORI_KERNEL_CONNECTION_CHECK_HPP
 
@@ -51,6 +51,20 @@ constexpr void check_delay(const ConnectionRow& row, std::size_t i, FindingList&
     }
 }
 
+/// A value that is forwarded within its window has the instant of the window start.
+constexpr void check_age_limit(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
+    const ConnectionRow& row = view.connections[i];
+    if (row.age_max <= Duration{0} || row.lead_max < Duration{0}) {
+        findings.add(Rule::kAgeLimitNotPositive, i);
+    } else if (row.source_window != row.sink_window || row.source_component >= row.sink_component) {
+        const Duration age_min = calc_age_min(view.windows[row.source_window], view.windows[row.sink_window]);
+        // The time bases of both ends may differ by the tolerance. Without a sum, which could overflow.
+        if (age_min - row.age_max > row.lead_max) {
+            findings.add(Rule::kAgeLimitCannotBeMet, i);
+        }
+    }
+}
+
 constexpr void check_connections(const SystemView& view, FindingList& findings) noexcept {
     for (std::size_t i = 0U; i < view.connections.size(); ++i) {
         const ConnectionRow& row = view.connections[i];
@@ -58,9 +72,7 @@ constexpr void check_connections(const SystemView& view, FindingList& findings) 
             findings.add(Rule::kPortOfUnknownComponent, i);
         } else {
             check_delay(row, i, findings);
-            if (row.age_max <= Duration{0} || row.lead_max < Duration{0}) {
-                findings.add(Rule::kAgeLimitNotPositive, i);
-            }
+            check_age_limit(view, i, findings);
             check_crossing(view, i, findings);
         }
     }

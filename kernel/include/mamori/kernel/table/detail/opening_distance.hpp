@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Minimum distance between the window starts of two windows with any periods. Not for users.
+/// Minimum distance between the window starts of two windows with any periods, and minimum age of a value
+/// between them. Not for users.
 ///
-/// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-061      Design: docs/design/kernel.md#system-table
 /// Source:   J. Korst et al., "Periodic multiprocessor scheduling", PARLE 1991
 #ifndef MAMORI_KERNEL_OPENING_DISTANCE_HPP
 #define MAMORI_KERNEL_OPENING_DISTANCE_HPP
@@ -37,6 +38,12 @@ constexpr Duration calc_distance(const WindowRow& from, const WindowRow& to, Dur
     // Each remainder separately: offsets that another rule rejects may overflow in a direct subtraction.
     const std::int64_t distance = calc_rest(to.offset.ns, divisor) - calc_rest(from.offset.ns, divisor);
     return {calc_rest(calc_rest(distance, divisor) - calc_rest(delay.ns, divisor), divisor)};
+}
+
+/// Minimum age at a window start of `to` of a value that is published at a window end of `from`.
+constexpr Duration calc_age_min(const WindowRow& from, const WindowRow& to) noexcept {
+    const std::int64_t divisor = calc_gcd(from.period.ns, to.period.ns);
+    return {calc_rest(calc_distance(from, to).ns - calc_rest(from.length.ns, divisor), divisor)};
 }
 
 }  // namespace mamori::detail

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 
+#include "mamori/kernel/base/text.hpp"
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/parameter/configuration_row_check.hpp"
 #include "mamori/kernel/table/detail/finding_list.hpp"
@@ -47,7 +48,7 @@ constexpr bool is_plan_valid(const WindowRow& row) noexcept {
 }
 
 constexpr bool is_window_valid(const SystemView& view, const WindowRow& row) noexcept {
-    return row.name != nullptr && row.partition != nullptr && row.period > Duration{0} &&
+    return is_name(row.name) && row.partition != nullptr && row.period > Duration{0} &&
            row.component_count != 0U &&
            is_range_in(row.first_component, row.component_count, view.components.size()) &&
            is_range_in(row.first_port, row.port_count, view.ports.size()) &&
@@ -122,7 +123,7 @@ constexpr void check_rows(const SystemView& view, FindingList& findings) noexcep
         }
     }
     for (std::size_t m = 0U; m < view.modes.modes.size(); ++m) {
-        if (view.modes.modes[m].name == nullptr || m >= kSystemModeMax) {
+        if (!is_name(view.modes.modes[m].name) || m >= kSystemModeMax) {
             findings.add(Rule::kModeRowInvalid, m);
         }
     }
