@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
@@ -14,6 +16,7 @@
 namespace mamori {
 namespace {
 
+using testing_support::CountedAtomic;
 using testing_support::SteppedAtomic;
 using namespace verification;
 
@@ -103,6 +106,17 @@ TEST(FifoBufferTest, AFullBufferRefusesTheNewEntryAndKeepsTheOld) {
     EXPECT_EQ(pop(sut), 3);
     EXPECT_EQ(pop(sut), 6);
     EXPECT_EQ(pop(sut), -1);
+}
+
+TEST(FifoBufferTest, ARejectedEntryIsNotCopied) {
+    verifies("SWR-BUF-004", Technique::kInterface);
+    Fifo3<FullPolicy::kDoNothing> sut;
+    push_range(sut, 1, 3);
+    sut.get_write_slot() = 9;
+
+    EXPECT_EQ(sut.push(4), Status::kOutOfResources);
+
+    EXPECT_EQ(sut.get_write_slot(), 9);
 }
 
 TEST(FifoBufferTest, InAFullBufferTheOldestEntryGivesWay) {
@@ -274,6 +288,52 @@ TEST(FifoBufferTest, TheLargestCapacityHoldsThatManyEntries) {
     EXPECT_EQ(pop(sut), -1);
 }
 
+using Counted = CountedAtomic<std::uint32_t>;
+
+/// Distance between the words that a push() and a pop() have stored last [byte].
+template <typename Fifo>
+std::ptrdiff_t calc_distance_of_sides(Fifo& fifo) {
+    static_cast<void>(fifo.push(1));
+    const auto* const written = static_cast<const char*>(Counted::last_stored);
+    EXPECT_EQ(pop(fifo), 1);
+    return std::abs(static_cast<const char*>(Counted::last_stored) - written);
+}
+
+TEST(FifoBufferTest, WhatTheSidesStoreIsOnDifferentCacheLines) {
+    verifies("SWR-BUF-021", Technique::kInterface);
+    FifoBuffer<std::int32_t, 3U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing, Counted> sut;
+    constexpr std::ptrdiff_t kLine = 64;
+
+    EXPECT_GE(calc_distance_of_sides(sut), kLine);
+    static_assert(alignof(Fifo3<FullPolicy::kDoNothing>) == kLine);
+    static_assert(alignof(Fifo3<FullPolicy::kOverwrite>) == kLine);
+}
+
+TEST(FifoBufferTest, ARejectingBufferMakesNoAtomicExchange) {
+    verifies("SWR-BUF-022", Technique::kInterface);
+    FifoBuffer<std::int32_t, 3U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing, Counted> sut;
+    Counted::exchange_count = 0U;
+
+    push_range(sut, 1, 4);
+    EXPECT_EQ(pop(sut), 1);
+    push_range(sut, 5, 5);
+
+    EXPECT_EQ(Counted::exchange_count, 0U);
+}
+
+TEST(FifoBufferTest, AnOverwritingBufferExchangesToOverwriteAndToRead) {
+    verifies("SWR-BUF-022", Technique::kInterface);
+    FifoBuffer<std::int32_t, 3U, FullPolicy::kOverwrite, EmptyPolicy::kDoNothing, Counted> sut;
+    Counted::exchange_count = 0U;
+
+    push_range(sut, 1, 3);
+    EXPECT_EQ(Counted::exchange_count, 0U);
+    push_range(sut, 4, 4);
+    EXPECT_EQ(Counted::exchange_count, 1U) << "the oldest entry";
+    EXPECT_EQ(pop(sut), 2);
+    EXPECT_EQ(Counted::exchange_count, 2U);
+}
+
 /// A word that names a slot beyond the last, as only corrupted memory does.
 struct CorruptedEntry : SteppedAtomic<std::uint32_t> {
     using SteppedAtomic::SteppedAtomic;
@@ -289,16 +349,20 @@ using CorruptedFifo = FifoBuffer<std::int32_t, 3U, kFull, EmptyPolicy::kDoNothin
 
 TEST(FifoBufferDeathTest, ACorruptedWordHaltsTheWriter) {
     verifies("SWR-BUF-002", Technique::kFaultInjection, Polarity::kViolation);
-    CorruptedFifo<FullPolicy::kOverwrite> sut;
+    CorruptedFifo<FullPolicy::kOverwrite> overwriting;
+    CorruptedFifo<FullPolicy::kDoNothing> rejecting;
 
-    EXPECT_CHECK_FAILS(static_cast<void>(sut.publish()), "slot_ring.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(overwriting.publish()), "slot_ring.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(rejecting.publish()), "index_ring.hpp", 1);
 }
 
 TEST(FifoBufferDeathTest, ACorruptedWordHaltsTheReader) {
     verifies("SWR-BUF-002", Technique::kFaultInjection, Polarity::kViolation);
-    CorruptedFifo<FullPolicy::kDoNothing> sut;
+    CorruptedFifo<FullPolicy::kOverwrite> overwriting;
+    CorruptedFifo<FullPolicy::kDoNothing> rejecting;
 
-    EXPECT_CHECK_FAILS(static_cast<void>(sut.peek()), "slot_ring.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(overwriting.peek()), "slot_ring.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(rejecting.peek()), "index_ring.hpp", 1);
 }
 
 }  // namespace

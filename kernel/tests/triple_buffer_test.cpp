@@ -96,6 +96,22 @@ TEST_F(TripleBufferTest, ASlotInPlaceIsSeenWhenItIsPublishedAndNotBefore) {
     EXPECT_EQ(sut_.get_read_slot().first, 2U);
 }
 
+TEST_F(TripleBufferTest, APublicationExchangesOnlyToReplaceAValueThatWasNotTaken) {
+    verifies("SWR-BUF-022", Technique::kInterface);
+    using Word = CountedAtomic<std::uint8_t>;
+    TripleBuffer<Pair, Word> sut;
+    Word::exchange_count = 0U;
+
+    sut.publish();
+    EXPECT_EQ(Word::exchange_count, 0U) << "nothing waited";
+    sut.publish();
+    EXPECT_EQ(Word::exchange_count, 1U) << "a value waited";
+    ASSERT_TRUE(sut.update());
+    EXPECT_EQ(Word::exchange_count, 2U) << "the reader takes a value";
+    sut.publish();
+    EXPECT_EQ(Word::exchange_count, 2U) << "the last value was taken";
+}
+
 TEST_F(TripleBufferTest, IsConstantInitialised) {
     verifies("SWR-BUF-001", Technique::kInterface);
     static constexpr TripleBuffer<Pair> kBuffer;
@@ -110,7 +126,6 @@ class Crossing {
     void write_side() {
         for (std::uint32_t number = 1U; number <= kWrites; ++number) {
             Pair& slot = sut_.get_write_slot();
-            step();
             slot.first = number;
             step();
             slot.second = number;
@@ -123,7 +138,6 @@ class Crossing {
             const std::uint32_t completed_before = completed_;
             const bool is_new = sut_.update();
             const Pair& slot = sut_.get_read_slot();
-            step();
             const std::uint32_t first = slot.first;
             step();
             judge({first, slot.second}, is_new, completed_before);
@@ -198,7 +212,7 @@ TEST(TripleBufferInterleavingTest, EveryInterleavingOfThreeWritesAndThreeReadsIs
     const Exploration found = explore<Crossing<SteppedAtomic<std::uint8_t>>>();
 
     EXPECT_EQ(found.violation, "") << found.schedule;
-    EXPECT_EQ(found.interleaving_count, 107390U);
+    EXPECT_EQ(found.interleaving_count, 13648U);
 }
 
 /// Seeded defect: load and store in place of one exchange.
@@ -221,11 +235,14 @@ TEST(TripleBufferInterleavingTest, AnExchangeInTwoStepsIsFoundOut) {
     RecordProperty("violation", found.violation);
 }
 
-/// Seeded defect: the exchange loses the flag.
+/// Seeded defect: a publication loses the flag.
 struct ForgetfulExchange : SteppedAtomic<std::uint8_t> {
     using SteppedAtomic::SteppedAtomic;
     std::uint8_t exchange(std::uint8_t value, std::memory_order order) noexcept {
         return SteppedAtomic::exchange(value & 3U, order);
+    }
+    void store(std::uint8_t value, std::memory_order order) noexcept {
+        SteppedAtomic::store(value & 3U, order);
     }
 };
 

@@ -42,6 +42,7 @@ BENCHES = {
     "e2e": "the same with an end-to-end protected message: 8 B, 64 B, 1 KB",
     "scheduler": "a component per cycle, with and without supervision: 10, 100, 1000 components",
     "wake-up": "wake-up of another thread: the guarded host of the real-time port, and the floor",
+    "fifo": "one entry of a FIFO between two processors: 8 B, 64 B, 1 KB; needs two processors",
     GRID: "lateness of wake-ups at 1 kHz: the grid of the real-time port, and cyclictest; needs a fixed priority",
     EXACT: "exact instruction counts (callgrind), and no heap or system call after start",
 }

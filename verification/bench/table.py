@@ -15,7 +15,7 @@ from verification.bench.record import Run
 from verification.bench.samples import Samples
 
 Row = tuple[str, ...]
-SIZE_UNITS = {"port": "B", "e2e": "B", "scheduler": "components", "wake-up": "B", "grid": "% of wake-ups"}
+SIZE_UNITS = {"port": "B", "e2e": "B", "scheduler": "components", "wake-up": "B", "fifo": "B", "grid": "% of wake-ups"}
 
 
 def show_run(run: Run, screen: Screen) -> None:

@@ -28,7 +28,7 @@ def program(project: Project) -> Path:
 @pytest.fixture(scope="module")
 def samples(program: Path, tmp_path_factory: pytest.TempPathFactory) -> Samples:
     out = tmp_path_factory.mktemp("bench") / "samples.json"
-    words = ["--rounds", "5", "--batches", "1", "--batch-ns", "1000", "--only", "port", "e2e", "scheduler", "wake-up"]
+    words = ["--rounds", "5", "--batches", "1", "--batch-ns", "1000", "--only", "port", "e2e", "scheduler", "wake-up", "fifo"]
     subprocess.run([str(program), "--out", str(out), *words], check=True, capture_output=True, timeout=300)
     return read_samples(out)
 

@@ -151,6 +151,30 @@ def test_protected_exchange_without_its_floor_fails(left: str) -> None:
     assert [one.verdict for one in judge_protected({left: [5.0] * 5})] == [FAILED] * 3
 
 
+def judge_fifo(subjects: dict[str, list[float]]) -> list[RatioResult]:
+    cases = [make_case(size, subjects, "fifo") for size in (8, 64, 1024)]
+    return judge(parse_samples({**RECORDED, "cases": cases}), load_bars())
+
+
+@pytest.mark.verifies("SWR-BUF-020")
+def test_fifo_across_cores_is_compared_with_a_lamport_ring() -> None:
+    subjects = {"mamori FIFO": [6.5] * 5, "mamori FIFO, overwriting": [7.0] * 5, "padded Lamport ring": [5.0] * 5}
+
+    results = judge_fifo(subjects)
+
+    assert [(one.size, one.ratio, one.limit, one.kind, one.verdict) for one in results] == [
+        *((size, 1.3, 1.3, "gate", PASSED) for size in (8, 64, 1024)),
+        *((size, 1.4, 1.3, "advisory", FAILED) for size in (8, 64, 1024)),
+    ]
+
+
+@pytest.mark.verifies("SWR-BUF-020", technique="fault_injection", polarity="violation")
+def test_fifo_without_its_lower_bound_fails() -> None:
+    results = judge_fifo({"mamori FIFO": [6.5] * 5})
+
+    assert [one.verdict for one in results if one.kind == "gate"] == [FAILED] * 3
+
+
 @pytest.mark.verifies("SWR-BEN-002")
 def test_reason_of_the_build_replaces_that_of_the_configuration() -> None:
     samples = parse_samples({**RECORDED, "absent": [{"name": "iceoryx2 local", "reason": "not built"}]})

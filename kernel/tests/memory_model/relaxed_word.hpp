@@ -31,14 +31,28 @@ namespace mamori::verification {
 
 /// Orders as they are written in the code under test.
 struct AsWritten {
-    static constexpr std::memory_order weaken(std::memory_order order) { return order; }
+    static std::memory_order weaken(std::memory_order order) { return order; }
+    static std::memory_order weaken_store(std::memory_order order, std::uint64_t) { return order; }
 };
 
-/// A seeded defect: each operation that asks for kFrom gets kTo.
-template <std::memory_order kFrom, std::memory_order kTo>
+/// Threads of the suites.
+constexpr unsigned kWriter = 0U;
+constexpr unsigned kReader = 1U;
+
+/// A seeded defect: each operation of thread kThread that asks for kFrom gets kTo.
+template <std::memory_order kFrom, std::memory_order kTo, unsigned kThread>
 struct Weakened {
-    static constexpr std::memory_order weaken(std::memory_order order) {
-        return order == kFrom ? kTo : order;
+    static std::memory_order weaken(std::memory_order order) {
+        return order == kFrom && rl::thread_index() == kThread ? kTo : order;
+    }
+    static std::memory_order weaken_store(std::memory_order order, std::uint64_t) { return weaken(order); }
+};
+
+/// A seeded defect: the announcement of the overwriting FIFO, whose values are below those of an entry, gets
+/// no order.
+struct WeakAnnouncement : AsWritten {
+    static std::memory_order weaken_store(std::memory_order order, std::uint64_t value) {
+        return value < 0x100U ? std::memory_order_relaxed : order;
     }
 };
 
@@ -50,16 +64,21 @@ class RelaxedWord {
     static constexpr bool is_always_lock_free = true;                            // NOLINT: as std::atomic
     RelaxedWord(T value = T{}) { word_.store(value, rl::mo_relaxed, RL_INFO); }  // NOLINT: as std::atomic
 
-    T load(std::memory_order order) const { return word_.load(get(order), RL_INFO); }
-    void store(T value, std::memory_order order) { word_.store(value, get(order), RL_INFO); }
-    T exchange(T value, std::memory_order order) { return word_.exchange(value, get(order), RL_INFO); }
+    T load(std::memory_order order) const { return word_.load(get(Orders::weaken(order)), RL_INFO); }
+    void store(T value, std::memory_order order) {
+        word_.store(value, get(Orders::weaken_store(order, value)), RL_INFO);
+    }
+    T exchange(T value, std::memory_order order) {
+        return word_.exchange(value, get(Orders::weaken(order)), RL_INFO);
+    }
     bool compare_exchange_strong(T& expected, T value, std::memory_order success, std::memory_order failure) {
-        return word_.compare_exchange_strong(expected, value, get(success), RL_INFO, get(failure), RL_INFO);
+        return word_.compare_exchange_strong(expected, value, get(Orders::weaken(success)), RL_INFO,
+                                             get(Orders::weaken(failure)), RL_INFO);
     }
 
   private:
     static rl::memory_order get(std::memory_order order) {
-        switch (Orders::weaken(order)) {
+        switch (order) {
             case std::memory_order_relaxed:
                 return rl::mo_relaxed;
             case std::memory_order_acquire:

@@ -201,6 +201,28 @@ class SteppedAtomic {
     T value_;
 };
 
+/// Stands in for std::atomic: counts the atomic exchanges, and keeps the address of the last stored word.
+template <typename T>
+struct CountedAtomic : SteppedAtomic<T> {
+    using SteppedAtomic<T>::SteppedAtomic;
+    static inline std::uint32_t exchange_count{0U};
+    static inline const void* last_stored{nullptr};
+
+    void store(T value, std::memory_order order) noexcept {
+        last_stored = this;
+        SteppedAtomic<T>::store(value, order);
+    }
+    T exchange(T value, std::memory_order order) noexcept {
+        ++exchange_count;
+        return SteppedAtomic<T>::exchange(value, order);
+    }
+    bool compare_exchange_strong(T& expected, T value, std::memory_order success,
+                                 std::memory_order failure) noexcept {
+        ++exchange_count;
+        return SteppedAtomic<T>::compare_exchange_strong(expected, value, success, failure);
+    }
+};
+
 }  // namespace mamori::testing_support
 
 #endif  // MAMORI_KERNEL_TESTS_SUPPORT_INTERLEAVING_HPP

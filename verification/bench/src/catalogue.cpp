@@ -45,10 +45,18 @@ std::vector<Case> make_catalogue() {
     add_wake_up_floor(wake_ups);
     add_peers({ports, wake_ups});
 
+    std::vector<Case> fifos;
+    for (const std::size_t size : kFifoSizes) {
+        fifos.push_back({"fifo", size, "ns per entry, two processors", 1U, &calc_sum_of_words, {}});
+    }
+    add_mamori_fifo(fifos);
+    add_fifo_floor(fifos);
+
     std::vector<Case> all = std::move(ports);
     all.insert(all.end(), e2e.begin(), e2e.end());
     all.insert(all.end(), schedulers.begin(), schedulers.end());
     all.insert(all.end(), wake_ups.begin(), wake_ups.end());
+    all.insert(all.end(), fifos.begin(), fifos.end());
     return all;
 }
 

@@ -17,7 +17,7 @@ struct PeerCases {
     std::vector<Case>& wake_ups;
 };
 
-/// @return all cases: port write and read, the same with a protected message, scheduler, wake-up.
+/// @return all cases: port write and read, the same with a protected message, scheduler, wake-up, FIFO.
 std::vector<Case> make_catalogue();
 
 /// @name One function per file of subjects
@@ -30,6 +30,8 @@ void add_scheduler_floors(std::vector<Case>& schedulers);
 void add_mamori_executive(std::vector<Case>& schedulers);
 void add_wake_up_floor(std::vector<Case>& wake_ups);
 void add_mamori_wake_up(std::vector<Case>& wake_ups);
+void add_fifo_floor(std::vector<Case>& fifos);
+void add_mamori_fifo(std::vector<Case>& fifos);
 /// @}
 
 /// @name Written by CMake

@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
     app.add_option("--batch-ns", options.effort.batch_ns, "least time of one batch [ns]")
         ->check(CLI::Range(1, 1'000'000'000));
     app.add_option("--only", options.only, "metrics to measure")
-        ->check(CLI::IsMember({"port", "e2e", "scheduler", "wake-up"}));
+        ->check(CLI::IsMember({"port", "e2e", "scheduler", "wake-up", "fifo"}));
     CLI::App* const grid =
         app.add_subcommand("grid", "wake-ups on a grid of 1 kHz instead; needs the rights");
     grid->add_option("--cycles", options.grid.cycles, "wake-ups")

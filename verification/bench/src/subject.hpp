@@ -76,6 +76,9 @@ inline constexpr std::array<std::size_t, 4> kPortSizes{8U, 64U, 1024U, 65536U};
 /// Sizes of the payload in the cases of end-to-end protection [byte].
 inline constexpr std::array<std::size_t, 3> kE2eSizes{8U, 64U, 1024U};
 
+/// Sizes of the entries in the FIFO cases [byte].
+inline constexpr std::array<std::size_t, 3> kFifoSizes{8U, 64U, 1024U};
+
 /// Sizes of the scheduler cases [components].
 inline constexpr std::array<std::size_t, 3> kComponentCounts{10U, 100U, 1000U};
 
@@ -107,6 +110,14 @@ void add_to_e2e(std::vector<Case>& cases, const std::string& name) {
     cases[0].candidates.push_back({name, &make_subject<kSubject<kE2eSizes[0]>>});
     cases[1].candidates.push_back({name, &make_subject<kSubject<kE2eSizes[1]>>});
     cases[2].candidates.push_back({name, &make_subject<kSubject<kE2eSizes[2]>>});
+}
+
+/// Adds `kSubject<kSize>` to the FIFO case of each size, like add_to_ports().
+template <template <std::size_t> class kSubject>
+void add_to_fifos(std::vector<Case>& cases, const std::string& name) {
+    cases[0].candidates.push_back({name, &make_subject<kSubject<kFifoSizes[0]>>});
+    cases[1].candidates.push_back({name, &make_subject<kSubject<kFifoSizes[1]>>});
+    cases[2].candidates.push_back({name, &make_subject<kSubject<kFifoSizes[2]>>});
 }
 
 /// Adds `kSubject<kCount>` to the scheduler case of each size, like add_to_ports().

@@ -7,27 +7,14 @@
 #ifndef MAMORI_VERIFICATION_BENCH_WAKE_UP_PAIR_HPP
 #define MAMORI_VERIFICATION_BENCH_WAKE_UP_PAIR_HPP
 
-#include <pthread.h>
-#include <sched.h>
-
-#include <stdexcept>
 #include <thread>
 
+#include "processors.hpp"
 #include "subject.hpp"
 
 namespace mamori::verification::bench {
 
-/// Both threads of the pair stay on the processor of the caller, so that a wake-up is a switch without a
-/// migration.
-inline void pin(pthread_t thread, int processor) {
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    CPU_SET(static_cast<unsigned>(processor), &set);
-    if (pthread_setaffinity_np(thread, sizeof set, &set) != 0) {
-        throw std::runtime_error("a thread could not be kept on one processor");
-    }
-}
-
+/// Both threads stay on the processor of the caller, so that a wake-up is a switch without a migration.
 /// @tparam Mailbox created with a unique name; post(message) from one thread, and await() in another one,
 /// which sleeps until there is a message.
 template <typename Mailbox>
@@ -42,8 +29,7 @@ class WakeUpPair final : public Subject {
     WakeUpPair& operator=(const WakeUpPair&) = delete;
 
     std::uint64_t run(std::uint64_t count) override {
-        cpu_set_t own;
-        sched_getaffinity(0, sizeof own, &own);
+        const KeptAffinity affinity;
         const int processor = sched_getcpu();
         pin(pthread_self(), processor);
         pin(echo_.native_handle(), processor);
@@ -52,7 +38,6 @@ class WakeUpPair final : public Subject {
             there_.post(values_[i]);
             sum += back_.await()[0];
         }
-        sched_setaffinity(0, sizeof own, &own);
         return sum;
     }
 

@@ -3,7 +3,7 @@
 /// Bounded first-in first-out buffer from one writer to one reader, also on different cores, with the buffer
 /// policies of OpenRTM data ports. It counts rejected entries, overwritten entries and empty reads.
 ///
-/// @satisfies SWR-BUF-003, SWR-BUF-004, SWR-BUF-005, SWR-BUF-006, SWR-BUF-008
+/// @satisfies SWR-BUF-003, SWR-BUF-004, SWR-BUF-005, SWR-BUF-006, SWR-BUF-008, SWR-BUF-021, SWR-BUF-022
 /// Design:   docs/design/data_flow.md#fifo
 /// Source:   OpenRTM-aist, buffer.write.full_policy and buffer.read.empty_policy of a data port
 #ifndef MAMORI_KERNEL_FIFO_BUFFER_HPP
@@ -17,9 +17,18 @@
 
 #include "mamori/kernel/base/assert.hpp"
 #include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/dataflow/detail/core_line.hpp"
+#include "mamori/kernel/dataflow/detail/index_ring.hpp"
 #include "mamori/kernel/dataflow/detail/slot_ring.hpp"
 
 namespace mamori {
+
+/// Behaviour of a write to a full buffer (OpenRTM buffer.write.full_policy). The policy "block" is omitted,
+/// because nothing in the kernel waits.
+enum class FullPolicy : std::uint8_t {
+    kOverwrite,  ///< "overwrite": the oldest entry is overwritten
+    kDoNothing,  ///< "do_nothing": the new entry is rejected
+};
 
 /// Behaviour of a read from an empty buffer (OpenRTM buffer.read.empty_policy). The policy "block" is
 /// omitted, because nothing in the kernel waits.
@@ -33,12 +42,16 @@ enum class EmptyPolicy : std::uint8_t {
 ///
 /// Thread safety: one context calls the writer's members, another the reader's; no lock is necessary. The
 ///                counters can be read from anywhere.
-/// Time:          wait-free; push() and pop() copy one T. Nothing blocks.
-/// Memory:        kCapacity + 2 payloads, constant-initialised; no heap. Counters wrap at 2^32.
+/// Time:          wait-free; push() and pop() copy one T. With kOverwrite, an atomic exchange per overwritten
+///                and per read entry; with kDoNothing, none. Nothing blocks.
+/// Memory:        kCapacity + 2 payloads, constant-initialised; no heap. What different sides write is on
+///                different cache lines. Counters wrap at 2^32.
 template <typename T, std::size_t kCapacity, FullPolicy kFull = FullPolicy::kOverwrite,
           EmptyPolicy kEmpty = EmptyPolicy::kReadback, typename Word = std::atomic<std::uint32_t>>
 class FifoBuffer final {
     static_assert(std::is_trivially_copyable_v<T>, "the payload of a FifoBuffer must be trivially copyable");
+    static_assert(kCapacity >= 1U, "a FIFO needs room for at least one entry");
+    static_assert(kCapacity <= 254U, "a FIFO has room for at most 254 entries: slot numbers are bytes");
 
   public:
     constexpr FifoBuffer() noexcept = default;
@@ -52,25 +65,22 @@ class FifoBuffer final {
     /// Writer: appends the write slot.
     /// @return kOk; kOutOfResources (kFull is kDoNothing and kCapacity entries wait; counted as rejected).
     Status publish() noexcept {
-        const Publication outcome = ring_.publish();
-        if (outcome == Publication::kRefused) {
-            count_up(rejected_count_);
-            return Status::kOutOfResources;
+        const Status status = reserve();
+        if (status == Status::kOk) {
+            ring_.publish();
         }
-        if (outcome == Publication::kReplacedOldest) {
-            count_up(overwritten_count_);
-        }
-        const std::uint32_t level = ring_.calc_level();
-        if (level > high_water_mark_.load(std::memory_order_relaxed)) {
-            high_water_mark_.store(level, std::memory_order_relaxed);
-        }
-        return Status::kOk;
+        return status;
     }
 
-    /// Writer: get_write_slot(), copy and publish() in one call. @return as publish().
+    /// Writer: get_write_slot(), copy and publish() in one call; a rejected entry is not copied.
+    /// @return as publish().
     Status push(const T& value) noexcept {
-        get_write_slot() = value;
-        return publish();
+        const Status status = reserve();
+        if (status == Status::kOk) {
+            get_write_slot() = value;
+            ring_.publish();
+        }
+        return status;
     }
 
     /// Reader: removes the oldest entry from the queue and holds it as the front until drop() or pop(). The
@@ -78,12 +88,14 @@ class FifoBuffer final {
     /// @return kOk; kPreconditionNotMet (empty); kOutOfResources (kFull is kOverwrite and the writer was
     ///         faster in SlotRing::kTries attempts: call again).
     Status peek() noexcept {
-        if (is_held_) {
+        if (reader_.is_held) {
             return Status::kOk;
         }
         const Status status = ring_.claim();
-        is_held_ = status == Status::kOk;
-        has_front_ = has_front_ || is_held_;
+        if (status == Status::kOk) {
+            reader_.is_held = true;
+            reader_.has_front = true;
+        }
         return status;
     }
 
@@ -93,8 +105,8 @@ class FifoBuffer final {
 
     /// Reader: releases the held entry. A call without a held entry is a contract violation.
     void drop() noexcept {
-        MAMORI_REQUIRE(1, is_held_);
-        is_held_ = false;
+        MAMORI_REQUIRE(1, reader_.is_held);
+        reader_.is_held = false;
     }
 
     /// Reader: peek(), copy and drop() in one call. @param[out] value written on kOk only.
@@ -104,43 +116,55 @@ class FifoBuffer final {
     Status pop(T& value) noexcept {
         Status status = peek();
         if (status == Status::kPreconditionNotMet) {
-            count_up(empty_read_count_);
-            if (kEmpty == EmptyPolicy::kReadback && has_front_) {
+            const std::uint32_t count = get_empty_read_count();
+            reader_.empty_read_count.store(count + 1U, std::memory_order_relaxed);
+            if (kEmpty == EmptyPolicy::kReadback && reader_.has_front) {
                 status = Status::kOk;
             }
         }
         if (status == Status::kOk) {
             value = get_front();
-            is_held_ = false;
+            reader_.is_held = false;
         }
         return status;
     }
 
     /// Maximum number of entries that have waited, 0 .. kCapacity. Never too low; too high by at most the
     /// entries that the reader takes during publish().
-    std::uint32_t get_high_water_mark() const noexcept { return get(high_water_mark_); }
+    std::uint32_t get_high_water_mark() const noexcept { return ring_.get_high_water_mark(); }
     /// Number of rejected entries (kFull is kDoNothing).
-    std::uint32_t get_rejected_count() const noexcept { return get(rejected_count_); }
+    std::uint32_t get_rejected_count() const noexcept {
+        return kFull == FullPolicy::kDoNothing ? ring_.get_lost_count() : 0U;
+    }
     /// Number of entries overwritten before they were read (kFull is kOverwrite).
-    std::uint32_t get_overwritten_count() const noexcept { return get(overwritten_count_); }
+    std::uint32_t get_overwritten_count() const noexcept {
+        return kFull == FullPolicy::kOverwrite ? ring_.get_lost_count() : 0U;
+    }
     /// Number of pop() calls that found no waiting entry.
-    std::uint32_t get_empty_read_count() const noexcept { return get(empty_read_count_); }
+    std::uint32_t get_empty_read_count() const noexcept {
+        return reader_.empty_read_count.load(std::memory_order_relaxed);
+    }
 
   private:
-    using Count = std::atomic<std::uint32_t>;
+    using Ring = std::conditional_t<kFull == FullPolicy::kOverwrite, detail::SlotRing<kCapacity, Word>,
+                                    detail::IndexRing<kCapacity, Word>>;
+    struct alignas(std::uint32_t) alignas(detail::kCoreLineSize) ReaderSide {
+        std::atomic<std::uint32_t> empty_read_count{0U};  ///< a load and a store count: it has one writer
+        bool is_held{false};                              ///< the front was peeked and not yet dropped
+        bool has_front{false};                            ///< an entry was taken at least once
+    };
 
-    static std::uint32_t get(const Count& count) noexcept { return count.load(std::memory_order_relaxed); }
-    /// Each counter has one writer, so a load and a store suffice.
-    static void count_up(Count& count) noexcept { count.store(get(count) + 1U, std::memory_order_relaxed); }
+    /// Writer: looks for room for one more entry; an overwriting ring always has room.
+    Status reserve() noexcept {
+        if constexpr (kFull == FullPolicy::kDoNothing) {
+            return ring_.reserve();
+        }
+        return Status::kOk;
+    }
 
-    SlotRing<kCapacity, kFull, Word> ring_;
-    std::array<T, kCapacity + 2U> slots_{};
-    Count high_water_mark_{0U};
-    Count rejected_count_{0U};
-    Count overwritten_count_{0U};
-    Count empty_read_count_{0U};
-    bool is_held_{false};    ///< reader only: the front was peeked and not yet dropped
-    bool has_front_{false};  ///< reader only: an entry was taken at least once
+    Ring ring_;
+    ReaderSide reader_;
+    alignas(T) alignas(detail::kCoreLineSize) std::array<T, kCapacity + 2U> slots_{};
 };
 
 }  // namespace mamori

@@ -2,10 +2,11 @@
 /// @file
 /// Latest value from one writer to one reader, also on different cores. Of three slots, one belongs to the
 /// writer, one to the reader, and a shared word stores the number of the third. Each side swaps its slot for
-/// the slot in the shared word, so no slot ever has two owners and neither side ever waits.
+/// the slot in the shared word, so no slot ever has two owners and neither side ever waits. While the word
+/// stores no new value, only the writer changes it, so the writer swaps with a load and a store.
 ///
-/// @satisfies SWR-BUF-001, SWR-BUF-002, SWR-BUF-008, SWR-KRN-039      Design:
-/// docs/design/data_flow.md#triple-buffer
+/// @satisfies SWR-BUF-001, SWR-BUF-002, SWR-BUF-008, SWR-BUF-022, SWR-KRN-039
+/// Design:   docs/design/data_flow.md#triple-buffer
 #ifndef MAMORI_KERNEL_TRIPLE_BUFFER_HPP
 #define MAMORI_KERNEL_TRIPLE_BUFFER_HPP
 
@@ -21,8 +22,10 @@ namespace mamori {
 /// Exchange of the latest T. `Word` is the type of the shared word; only tests specify another type.
 ///
 /// Thread safety: one context calls the writer's members, another the reader's; no lock is necessary.
-/// Time:          wait-free; one atomic exchange per publish() and at most one per update(); write(), take()
-///                and drop() also copy one T. Nothing blocks or retries.
+/// Time:          wait-free; one atomic exchange per update() that returns true and per publish() that
+/// replaces
+///                a value not taken yet; write(), take() and drop() also copy one T. Nothing blocks or
+///                retries.
 /// Memory:        three T and three bytes, constant-initialised; no heap.
 template <typename T, typename Word = std::atomic<std::uint8_t>>
 class TripleBuffer final {
@@ -41,10 +44,18 @@ class TripleBuffer final {
 
     /// Writer: makes the write slot the latest value. Replaces a published value that was not taken yet.
     void publish() noexcept {
-        // Release: the reader sees the written value. Acquire: the reader has finished with the received
-        // slot.
         const auto entry = static_cast<std::uint8_t>(write_index_ | kFresh);
-        write_index_ = get_index(waiting_.exchange(entry, std::memory_order_acq_rel));
+        // Acquire, with the exchange in update(): the reader has finished with the slot that it left here.
+        std::uint8_t before = waiting_.load(std::memory_order_acquire);
+        if ((before & kFresh) == 0U) {
+            // The reader changes a fresh word only, so a store suffices. Release, with the exchange in
+            // update(): the reader sees the written value.
+            waiting_.store(entry, std::memory_order_release);
+        } else {
+            // Release and acquire: as above, if the reader has taken the value since the load.
+            before = waiting_.exchange(entry, std::memory_order_acq_rel);
+        }
+        write_index_ = get_index(before);
     }
 
     /// Writer: get_write_slot(), copy and publish() in one call. @param[in] value copied once.
@@ -56,10 +67,13 @@ class TripleBuffer final {
     /// Reader: takes the latest value into the read slot. @return true when a value was published since the
     /// last update() that returned true; otherwise, the read slot is unchanged.
     [[nodiscard]] bool update() noexcept {
+        // Relaxed: a value is accessed after the exchange only.
         if ((waiting_.load(std::memory_order_relaxed) & kFresh) == 0U) {
             return false;
         }
-        // Only the reader clears kFresh, so the received value is fresh: that value or a newer one.
+        // Only the reader clears kFresh, so the received value is fresh: that value or a newer one. Acquire,
+        // with the store and the exchange in publish(): the reader sees the value. Release, with the load and
+        // the exchange there: the reader has finished with the slot that it leaves here.
         read_index_ = get_index(waiting_.exchange(read_index_, std::memory_order_acq_rel));
         return true;
     }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Exchange below FifoBuffer: a ring of shared words, in which writer and reader swap slot numbers, as in the
-/// single word of a TripleBuffer. It holds no payload.
+/// Order of the slots of a FIFO that overwrites its oldest entry when it is full: a ring of shared words, in
+/// which writer and reader swap slot numbers, as in the single word of a TripleBuffer. It holds no payload.
 ///
-/// @satisfies SWR-BUF-002, SWR-BUF-003, SWR-BUF-004, SWR-BUF-008      Design: docs/design/data_flow.md#fifo
+/// @satisfies SWR-BUF-002, SWR-BUF-003, SWR-BUF-004, SWR-BUF-006, SWR-BUF-008, SWR-BUF-021, SWR-BUF-022
+/// Design:   docs/design/data_flow.md#overwriting
 #ifndef MAMORI_KERNEL_SLOT_RING_HPP
 #define MAMORI_KERNEL_SLOT_RING_HPP
 
@@ -16,31 +17,23 @@
 
 #include "mamori/kernel/base/assert.hpp"
 #include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/dataflow/detail/core_line.hpp"
 
-namespace mamori {
-
-/// Behaviour of a write to a full buffer (OpenRTM buffer.write.full_policy). The policy "block" is omitted,
-/// because nothing in the kernel waits.
-enum class FullPolicy : std::uint8_t {
-    kOverwrite,  ///< "overwrite": the oldest entry is overwritten
-    kDoNothing,  ///< "do_nothing": the new entry is rejected
-};
-
-/// Result of a publication: kReplacedOldest under kOverwrite only, kRefused under kDoNothing only.
-enum class Publication : std::uint8_t { kStored, kReplacedOldest, kRefused };
+namespace mamori::detail {
 
 /// Order of up to kCapacity published slots. Slots are numbers 0 .. kSlotCount - 1: one always belongs to the
-/// writer, one to the reader, and each word of the ring stores one.
+/// writer, one to the reader, and each word of the ring stores one. A word without a waiting entry belongs to
+/// the writer, a word with a waiting entry to the side that exchanges it first.
 ///
-/// Thread safety: one context calls the writer's members, another the reader's; no lock is necessary.
-/// Time:          O(1), wait-free; a claim makes at most kTries attempts. Memory: kCapacity + 5 words, no
-///                heap.
+/// Thread safety: one context calls the writer's members, another the reader's; no lock is necessary. The
+///                counts can be read from anywhere.
+/// Time:          O(1), wait-free; an atomic exchange per overwritten and per claimed entry. A claim makes at
+///                most kTries attempts.
+/// Memory:        kCapacity words and two groups of words, each on its own cache line; no heap.
 /// @tparam kCapacity maximum number of waiting entries, 1 .. 254. @tparam Word only tests specify another
 ///                   type.
-template <std::size_t kCapacity, FullPolicy kFull, typename Word = std::atomic<std::uint32_t>>
+template <std::size_t kCapacity, typename Word>
 class SlotRing final {
-    static_assert(kCapacity >= 1U, "a FIFO needs room for at least one entry");
-    static_assert(kCapacity <= 254U, "a FIFO has room for at most 254 entries: slot numbers are bytes");
     static_assert(Word::is_always_lock_free, "this machine has no lock-free exchange of a word");
 
   public:
@@ -53,61 +46,81 @@ class SlotRing final {
     SlotRing& operator=(const SlotRing&) = delete;
 
     /// Writer: the slot that publish() publishes.
-    Slot get_write_slot() const noexcept { return write_slot_; }
+    Slot get_write_slot() const noexcept { return writer_.slot; }
 
-    /// Writer: appends the write slot and receives another, unless the ring is full and kFull is kDoNothing.
-    /// With kOverwrite, a full ring returns the slot of its oldest entry.
-    [[nodiscard]] Publication publish() noexcept {
-        Word& cell = cells_[write_position_ % kCapacity];
-        if constexpr (kFull == FullPolicy::kDoNothing) {
-            if (is_full(cell.load(std::memory_order_relaxed))) {
-                return Publication::kRefused;
-            }
+    /// Writer: appends the write slot and receives another: of the oldest entry, which is counted as lost,
+    /// when kCapacity entries wait.
+    void publish() noexcept {
+        Word& cell = cells_[writer_.position % kCapacity];
+        const Entry entry = make_entry(writer_.position, writer_.slot);
+        raise_high_water_mark();
+        writer_.position = calc_sum(writer_.position, 1U);
+        // Release, with the acquire in catch_up(): the reader sees all words stored before.
+        writer_.announced.store(static_cast<Entry>(writer_.position), std::memory_order_release);
+        // Acquire, with the exchange in claim(): the reader has finished with the slot that it left here.
+        Entry before = cell.load(std::memory_order_acquire);
+        if (is_full(before)) {
+            // Release: as below. Acquire: as above, if the reader has taken the entry since the load.
+            before = cell.exchange(entry, std::memory_order_acq_rel);
+        } else {
+            // The reader changes a word with a waiting entry only, so a store suffices. Release, with the
+            // acquires in claim(): the reader sees the written entry and the announced position.
+            cell.store(entry, std::memory_order_release);
         }
-        const std::uint32_t next = calc_sum(write_position_, 1U);
-        announced_.store(static_cast<Entry>(next), std::memory_order_release);
-        // Release: the reader sees the written value. Acquire: the reader has finished with the received
-        // slot.
-        const Entry before =
-            cell.exchange(make_entry(write_position_, write_slot_), std::memory_order_acq_rel);
-        write_position_ = next;
-        write_slot_ = get_slot(before);
-        return is_full(before) ? Publication::kReplacedOldest : Publication::kStored;
-    }
-
-    /// Writer: waiting entries, 0 .. kCapacity; too high by at most the entries that the reader takes
-    /// meanwhile.
-    std::uint32_t calc_level() const noexcept {
-        return calc_level(write_position_, claimed_.load(std::memory_order_relaxed));
+        writer_.slot = get_slot(before);
+        if (is_full(before)) {
+            count_up(writer_.lost_count);
+        }
     }
 
     /// Reader: the slot that was claimed last; before the first claim(), a slot that was never published.
-    Slot get_read_slot() const noexcept { return read_slot_; }
+    Slot get_read_slot() const noexcept { return reader_.slot; }
 
-    /// Reader: swaps the read slot for the oldest entry.
-    /// @return kOk; kPreconditionNotMet (no entry waits); kOutOfResources (kOverwrite only: the writer
-    ///         replaced the entry in each of kTries attempts; the next call can claim the remaining entries).
+    /// Reader: swaps the read slot for the oldest entry. The exchange is necessary: reader and writer must
+    /// agree on the owner of the entry, and loads and stores cannot decide that.
+    /// @return kOk; kPreconditionNotMet (no entry waits); kOutOfResources (the writer replaced the entry in
+    /// each
+    ///         of kTries attempts; the next call can claim the remaining entries).
     Status claim() noexcept {
-        catch_up();
-        for (int i = 0; i < kTries; ++i) {
-            Word& cell = cells_[read_position_ % kCapacity];
+        // The first attempt is for a reader that no entry has passed; it needs no other shared word.
+        for (int i = 0; i <= kTries; ++i) {
+            Word& cell = cells_[reader_.position % kCapacity];
+            // Acquire, with the store and the exchange in publish(): the reader sees the written entry.
             Entry entry = cell.load(std::memory_order_acquire);
-            const std::uint32_t ahead = calc_distance(read_position_, get_position(entry));
-            if (!is_full(entry) || ahead > kPositionCount / 2U) {
-                return Status::kPreconditionNotMet;  // empty, or stale after a very long time
+            if (!is_full(entry)) {
+                return Status::kPreconditionNotMet;
             }
-            if (ahead == 0U &&
-                cell.compare_exchange_strong(entry, Entry{read_slot_}, std::memory_order_acq_rel,
+            // Release, with the acquires in publish(): the reader has finished with the slot that it leaves
+            // here. The load above has acquired the same entry. On failure, acquire: `entry` is a later one,
+            // and the reader sees the entries before it.
+            if (get_position(entry) == reader_.position &&
+                cell.compare_exchange_strong(entry, Entry{reader_.slot}, std::memory_order_release,
                                              std::memory_order_acquire)) {
-                read_slot_ = get_slot(entry);
-                read_position_ = calc_sum(read_position_, 1U);
-                claimed_.store(read_position_, std::memory_order_relaxed);
+                reader_.slot = get_slot(entry);
+                reader_.position = calc_sum(reader_.position, 1U);
+                // Relaxed: for levels only. The words of the ring pass the slots on.
+                reader_.claimed.store(reader_.position, std::memory_order_relaxed);
                 return Status::kOk;
             }
-            // `entry` is of a later lap: continue with the oldest entry that remains then.
-            read_position_ = calc_sum(get_position(entry), kPositionCount - kCapacity + 1U);
+            if (i == 0) {
+                catch_up();
+            } else if (calc_distance(reader_.position, get_position(entry)) > kPositionCount / 2U) {
+                return Status::kPreconditionNotMet;  // stale after a very long time
+            } else {
+                // `entry` is of a later lap: continue with the oldest entry that remains then.
+                reader_.position = calc_sum(get_position(entry), kPositionCount - kCapacity + 1U);
+            }
         }
         return Status::kOutOfResources;
+    }
+
+    /// Maximum number of entries that have waited; see FifoBuffer.
+    std::uint32_t get_high_water_mark() const noexcept {
+        return writer_.high_water_mark.load(std::memory_order_relaxed);
+    }
+    /// Number of overwritten entries.
+    std::uint32_t get_lost_count() const noexcept {
+        return writer_.lost_count.load(std::memory_order_relaxed);
     }
 
   private:
@@ -141,31 +154,57 @@ class SlotRing final {
     static constexpr std::uint32_t calc_distance(std::uint32_t from, std::uint32_t to) noexcept {
         return (to + kPositionCount - from) % kPositionCount;
     }
-    static constexpr std::uint32_t calc_level(std::uint32_t written, std::uint32_t read) noexcept {
-        const std::uint32_t distance = calc_distance(read, written);
-        return distance < kCapacity ? distance : static_cast<std::uint32_t>(kCapacity);
+
+    /// Each counter has one writer, so a load and a store suffice.
+    static void count_up(std::atomic<std::uint32_t>& count) noexcept {
+        count.store(count.load(std::memory_order_relaxed) + 1U, std::memory_order_relaxed);
     }
 
-    /// Skips entries that were overwritten since the last claim, after any time. The last announced entry may
-    /// not be published yet, so the entry that it replaces may still be present.
-    void catch_up() noexcept {
-        if constexpr (kFull == FullPolicy::kOverwrite) {
-            const std::uint32_t announced = announced_.load(std::memory_order_acquire);
-            if (calc_distance(read_position_, announced) > kCapacity + 1U) {
-                read_position_ = calc_sum(announced, kPositionCount - kCapacity - 1U);
+    /// Writer, before a publication: the copy of the reader's position never gives too low a level.
+    void raise_high_water_mark() noexcept {
+        if (calc_level() > writer_.high_water_mark.load(std::memory_order_relaxed)) {
+            // Relaxed: for levels only.
+            writer_.seen_claimed = reader_.claimed.load(std::memory_order_relaxed);
+            if (calc_level() > writer_.high_water_mark.load(std::memory_order_relaxed)) {
+                writer_.high_water_mark.store(calc_level(), std::memory_order_relaxed);
             }
         }
     }
+    /// Entries that wait after the next publication, by the copy of the reader's position.
+    std::uint32_t calc_level() const noexcept {
+        const std::uint32_t distance = calc_distance(writer_.seen_claimed, writer_.position);
+        return distance < kCapacity ? distance + 1U : static_cast<std::uint32_t>(kCapacity);
+    }
 
-    std::array<Word, kCapacity> cells_;
-    Word announced_{0U};  ///< position after the entry that the writer publishes or has published last
-    std::atomic<std::uint32_t> claimed_{0U};  ///< copy of read_position_, for levels only
-    std::uint32_t write_position_{0U};
-    std::uint32_t read_position_{0U};
-    Slot write_slot_{kCapacity};
-    Slot read_slot_{kCapacity + 1U};
+    /// Reader: skips entries that were overwritten since the last claim, after any time. The last announced
+    /// entry may not be published yet, so the entry that it replaces may still be present.
+    void catch_up() noexcept {
+        // Acquire, with the release in publish(): the words of all entries before the announced one are seen.
+        const std::uint32_t announced = writer_.announced.load(std::memory_order_acquire);
+        if (calc_distance(reader_.position, announced) > kCapacity + 1U) {
+            reader_.position = calc_sum(announced, kPositionCount - kCapacity - 1U);
+        }
+    }
+
+    struct alignas(Word) alignas(kCoreLineSize) WriterSide {
+        Word announced{0U};  ///< position after the entry that the writer publishes or has published last
+        std::uint32_t position{0U};      ///< the same, for the writer only
+        std::uint32_t seen_claimed{0U};  ///< copy of ReaderSide::claimed, for the writer only
+        std::atomic<std::uint32_t> high_water_mark{0U};
+        std::atomic<std::uint32_t> lost_count{0U};
+        Slot slot{kCapacity};
+    };
+    struct alignas(Word) alignas(kCoreLineSize) ReaderSide {
+        std::atomic<std::uint32_t> claimed{0U};  ///< position after the last claimed entry, for levels
+        std::uint32_t position{0U};              ///< the same, for the reader only
+        Slot slot{kCapacity + 1U};
+    };
+
+    WriterSide writer_;
+    ReaderSide reader_;
+    alignas(Word) alignas(kCoreLineSize) std::array<Word, kCapacity> cells_;
 };
 
-}  // namespace mamori
+}  // namespace mamori::detail
 
 #endif  // MAMORI_KERNEL_SLOT_RING_HPP

@@ -31,8 +31,8 @@ constexpr void check_crossing(const SystemView& view, std::size_t i, FindingList
     if (leaves_core && row.operations.is_latest && calc_distance(writer, reader) < writer.length) {
         findings.add(Rule::kCrossingNotOrdered, i);
     }
-    if (leaves_core && (view.publication_margin < Duration{0} ||
-                        calc_distance(writer, reader, writer.length) < view.publication_margin)) {
+    if (leaves_core &&
+        (view.publication_margin < Duration{0} || calc_age_min(writer, reader) < view.publication_margin)) {
         findings.add(Rule::kMarginNotKept, i);
     }
     for (std::size_t j = 0U; j < i && row.crossing != nullptr; ++j) {

@@ -30,17 +30,18 @@ constexpr std::int64_t calc_rest(std::int64_t value, std::int64_t divisor) noexc
     return rest < 0 ? rest + divisor : rest;
 }
 
-/// Minimum time from a window start of `from`, plus `delay`, to a window start of `to` that is not earlier.
-/// Two strictly periodic windows have all distances that are congruent to the first one modulo the greatest
-/// common divisor of their periods.
-constexpr Duration calc_distance(const WindowRow& from, const WindowRow& to, Duration delay = {}) noexcept {
+/// Minimum time from a window start of `from` to a window start of `to` that is not earlier. Two strictly
+/// periodic windows have all distances that are congruent to the first one modulo the greatest common divisor
+/// of their periods.
+constexpr Duration calc_distance(const WindowRow& from, const WindowRow& to) noexcept {
     const std::int64_t divisor = calc_gcd(from.period.ns, to.period.ns);
     // Each remainder separately: offsets that another rule rejects may overflow in a direct subtraction.
     const std::int64_t distance = calc_rest(to.offset.ns, divisor) - calc_rest(from.offset.ns, divisor);
-    return {calc_rest(calc_rest(distance, divisor) - calc_rest(delay.ns, divisor), divisor)};
+    return {calc_rest(distance, divisor)};
 }
 
-/// Minimum age at a window start of `to` of a value that is published at a window end of `from`.
+/// Minimum time from a window end of `from` to a window start of `to` that is not earlier: the minimum age of
+/// a value there.
 constexpr Duration calc_age_min(const WindowRow& from, const WindowRow& to) noexcept {
     const std::int64_t divisor = calc_gcd(from.period.ns, to.period.ns);
     return {calc_rest(calc_distance(from, to).ns - calc_rest(from.length.ns, divisor), divisor)};
