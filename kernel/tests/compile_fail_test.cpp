@@ -255,8 +255,6 @@ TEST(CompileFailTest, AnArrayThatIsTooLongIsRefused) {
 
 TEST(CompileFailTest, ABufferOfAPayloadThatIsNotTriviallyCopyableIsRefused) {
     verifies("SWR-BUF-008", Technique::kInterface, Polarity::kViolation);
-    expect_refused("payloads", "triple_buffer_payload",
-                   "the payload of a TripleBuffer must be trivially copyable");
     expect_refused("payloads", "fifo_payload", "the payload of a FifoBuffer must be trivially copyable");
     expect_refused("payloads", "snapshot_payload",
                    "the payload of a SnapshotCell must be trivially copyable");

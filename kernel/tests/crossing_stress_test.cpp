@@ -11,7 +11,6 @@
 
 #include "mamori/kernel/dataflow/fifo_buffer.hpp"
 #include "mamori/kernel/dataflow/snapshot_cell.hpp"
-#include "mamori/kernel/dataflow/triple_buffer.hpp"
 #include "mamori/trace/verifies.hpp"
 
 namespace mamori {
@@ -66,25 +65,6 @@ void run_both(Write write, Read read) {
     }
     writer.join();
     read();
-}
-
-TEST(CrossingStressTest, TheTripleBufferGivesWholeValuesInOrderAndTheLastOne) {
-    verifies("SWR-BUF-001", Technique::kErrorGuessing);
-    static TripleBuffer<Block> sut;
-    Judge judge;
-    Block block{};
-
-    run_both([](std::uint32_t number) { sut.write(make_block(number)); },
-             [&] {
-                 if (sut.take(block)) {
-                     judge.see(block);
-                 }
-             });
-
-    EXPECT_EQ(judge.torn, 0U);
-    EXPECT_EQ(judge.backward + judge.repeated, 0U);
-    EXPECT_EQ(judge.last, kWrites);
-    EXPECT_EQ(judge.seen + judge.skipped, kWrites);
 }
 
 TEST(CrossingStressTest, ARefusingFifoLosesNothingThatItAccepted) {

@@ -135,6 +135,26 @@ std::uint64_t count_clean() {
     return found.interleaving_count;
 }
 
+TEST(FifoInterleavingTest, TheSearchVisitsEachInterleavingOnce) {
+    verifies("SWR-BUF-003", Technique::kErrorGuessing);
+    struct Steps {
+        void write_side() {
+            for (int i = 0; i < 3; ++i) {
+                step();
+            }
+        }
+        void read_side() {
+            for (int i = 0; i < 4; ++i) {
+                step();
+            }
+        }
+        void finish() {}
+        std::string violation;
+    };
+
+    EXPECT_EQ(explore<Steps>().interleaving_count, 35U) << "7 steps, 3 of them the writer's: 7! / (3! 4!)";
+}
+
 TEST(FifoInterleavingTest, RefusingAcrossCoresTearsAndReordersNothing) {
     verifies("SWR-BUF-003", Technique::kStateTransition);
 

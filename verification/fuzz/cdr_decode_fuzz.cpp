@@ -2,7 +2,7 @@
 /// @file
 /// Fuzz target for the CDR decoder. The first byte selects type and byte order, the rest is the encoding. A
 /// rejection must leave the object unchanged. An accepted object, when encoded again, must give the same
-/// bytes except for padding. Seeds: corpus/cdr_decode.txt. Design: docs/design/data_flow.md#fuzzing
+/// bytes except for padding. Seeds: corpus/cdr_decode.txt. Design: docs/design/data_flow.md#cdr
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -4,7 +4,6 @@
 #include "mamori/kernel/component/fsm_check.hpp"
 #include "mamori/kernel/dataflow/fifo_buffer.hpp"
 #include "mamori/kernel/dataflow/snapshot_cell.hpp"
-#include "mamori/kernel/dataflow/triple_buffer.hpp"
 #include "mamori/kernel/payload/bounded_sequence.hpp"
 #include "mamori/kernel/payload/bounded_string.hpp"
 #include "mamori/kernel/payload/cdr.hpp"
@@ -105,18 +104,6 @@ inline constexpr mamori::BoundedSequence<int, 2> kNumbers = std::array{1, 2, 3};
 inline constexpr mamori::BoundedSequence<int, 3> kNumbers = std::array{1, 2, 3};
 #endif
 }  // namespace array_too_long
-
-// The buffer carries a payload that needs a copy constructor.
-namespace triple_buffer_payload {
-struct Payload {
-#ifdef MAMORI_BREAK_TRIPLE_BUFFER_PAYLOAD
-    Payload() = default;
-    Payload(const Payload& other) : value(other.value) {}
-#endif
-    double value{0.0};
-};
-mamori::TripleBuffer<Payload> g_buffer;
-}  // namespace triple_buffer_payload
 
 // The buffer carries a payload that needs a copy constructor.
 namespace fifo_payload {

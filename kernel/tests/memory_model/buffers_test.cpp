@@ -11,7 +11,6 @@
 
 #include "mamori/kernel/dataflow/fifo_buffer.hpp"
 #include "mamori/kernel/dataflow/snapshot_cell.hpp"
-#include "mamori/kernel/dataflow/triple_buffer.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "relaxed_word.hpp"
 
@@ -54,57 +53,6 @@ std::string find_defect() {
 }
 constexpr const char* kRace = "DATA RACE";
 constexpr const char* kWrong = "USER ASSERT FAILED";
-
-/// Thread 0 writes, thread 1 reads; after() runs when both have ended.
-template <typename Orders>
-struct TripleBufferSuite : rl::test_suite<TripleBufferSuite<Orders>, 2U> {
-    static constexpr unsigned kWrites = 5U;
-    using Buffer = TripleBuffer<unsigned, RelaxedWord<std::uint8_t, Orders>>;
-    Buffer sut;
-    Payloads<unsigned, sizeof(Buffer)> payloads;
-    unsigned last{0U};
-
-    void thread(unsigned index) {
-        if (index == 0U) {
-            for (unsigned number = 1U; number <= kWrites; ++number) {
-                payloads.write(&sut, sut.get_write_slot(), number);
-                sut.publish();
-            }
-        } else {
-            for (int i = 0; i < 3; ++i) {
-                read();
-            }
-        }
-    }
-    void after() {
-        read();
-        RL_ASSERT(last == kWrites);
-    }
-    void read() {
-        if (sut.update()) {
-            const unsigned number = payloads.read(&sut, sut.get_read_slot());
-            RL_ASSERT(number > last);
-            last = number;
-        }
-    }
-};
-
-TEST(MemoryModelTest, TheTripleBufferHasNoRaceUnderAnyOrderThatTheLanguageAllows) {
-    verifies("SWR-BUF-001", Technique::kStateTransition);
-
-    expect_clean<TripleBufferSuite<AsWritten>>(54707U);
-}
-
-TEST(MemoryModelTest, EachOrderOfTheTripleBufferIsNeeded) {
-    verifies("SWR-BUF-001", Technique::kFaultInjection, Polarity::kViolation);
-
-    EXPECT_EQ((find_defect<TripleBufferSuite<Weakened<kRelease, kRelaxed, kWriter>>>()), kRace);
-    EXPECT_EQ((find_defect<TripleBufferSuite<Weakened<kAcquire, kRelaxed, kWriter>>>()), kRace);
-    EXPECT_EQ((find_defect<TripleBufferSuite<Weakened<kAcqRel, kAcquire, kWriter>>>()), kRace);
-    EXPECT_EQ((find_defect<TripleBufferSuite<Weakened<kAcqRel, kRelease, kWriter>>>()), kRace);
-    EXPECT_EQ((find_defect<TripleBufferSuite<Weakened<kAcqRel, kAcquire, kReader>>>()), kRace);
-    EXPECT_EQ((find_defect<TripleBufferSuite<Weakened<kAcqRel, kRelease, kReader>>>()), kRace);
-}
 
 /// What is searched: the buffer, how often it is written and read, and whether the writer also tells by
 /// another word what it has written, so that the reader may rely on it.

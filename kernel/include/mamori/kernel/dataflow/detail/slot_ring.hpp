@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Order of the slots of a FIFO that overwrites its oldest entry when it is full: a ring of shared words, in
-/// which writer and reader swap slot numbers, as in the single word of a TripleBuffer. It holds no payload.
+/// which writer and reader swap slot numbers. It holds no payload.
 ///
 /// @satisfies SWR-BUF-002, SWR-BUF-003, SWR-BUF-004, SWR-BUF-006, SWR-BUF-008, SWR-BUF-021, SWR-BUF-022
 /// Design:   docs/design/data_flow.md#overwriting

@@ -4,7 +4,7 @@
 /// read the objects that a table refers to. Not for users.
 ///
 /// @satisfies SWR-KRN-045, SWR-KRN-046, SWR-PAR-020, SWR-PAR-021
-/// Design:  : docs/design/kernel.md#system-table
+/// Design:   docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_COMPONENT_CONSTANT_HPP
 #define MAMORI_KERNEL_COMPONENT_CONSTANT_HPP
 
