@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <cstdlib>
 
 #include "mamori/trace/verifies.hpp"
@@ -332,6 +333,29 @@ TEST(FifoBufferTest, AnOverwritingBufferExchangesToOverwriteAndToRead) {
     EXPECT_EQ(Counted::exchange_count, 1U) << "the oldest entry";
     EXPECT_EQ(pop(sut), 2);
     EXPECT_EQ(Counted::exchange_count, 2U);
+}
+
+TEST(FifoBufferSlotsTest, EachSlotIsUsedInTurnWithoutAFailedCheck) {
+    verifies("SWR-BUF-002");
+    FifoBuffer<std::int32_t, 2U, FullPolicy::kOverwrite, EmptyPolicy::kDoNothing> overwriting;
+    FifoBuffer<std::int32_t, 2U, FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> rejecting;
+    std::set<const std::int32_t*> slots_of_overwriting;
+    std::set<const std::int32_t*> slots_of_rejecting;
+    const auto pass_one = [](auto& fifo, auto& slots) {
+        slots.insert(&fifo.get_write_slot());
+        ASSERT_EQ(fifo.publish(), Status::kOk);
+        ASSERT_EQ(fifo.peek(), Status::kOk);
+        slots.insert(&fifo.get_front());
+        fifo.drop();
+    };
+
+    for (int cycle = 0; cycle < 12; ++cycle) {
+        pass_one(overwriting, slots_of_overwriting);
+        pass_one(rejecting, slots_of_rejecting);
+    }
+
+    EXPECT_EQ(slots_of_overwriting.size(), 4U);
+    EXPECT_EQ(slots_of_rejecting.size(), 4U);
 }
 
 /// A word that names a slot beyond the last, as only corrupted memory does.

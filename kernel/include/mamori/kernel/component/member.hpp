@@ -28,7 +28,8 @@ class MemberOwner {
   public:
     /// The member that was constructed last; nullptr: none. Member::get_next() returns the others.
     constexpr const Member* get_first(MemberKind kind) const noexcept {
-        return first_[static_cast<std::size_t>(kind)];
+        const Member* const first = first_[static_cast<std::size_t>(kind)];
+        return first;
     }
 
   protected:

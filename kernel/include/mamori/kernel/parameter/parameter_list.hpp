@@ -66,10 +66,12 @@ constexpr auto require_parameters(Parameters<kMembers...> list) noexcept {
 template <typename C, typename = void>
 struct ParametersOf {
     using Type = Parameters<>;
+    static constexpr bool kIsValid = true;
 };
 template <typename C>
 struct ParametersOf<C, std::void_t<typename C::Parameters>> {
     using Type = decltype(require_parameters<C>(typename C::Parameters{}));
+    static constexpr bool kIsValid = std::is_same_v<Type, typename C::Parameters>;
 };
 template <typename C, typename List>
 struct ParameterMembers;

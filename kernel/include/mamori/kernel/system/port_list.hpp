@@ -55,10 +55,12 @@ constexpr auto require_ports(Ports<kMembers...> list) noexcept {
 template <typename C, typename = void>
 struct PortsOf {
     using Type = Ports<>;
+    static constexpr bool kIsValid = true;
 };
 template <typename C>
 struct PortsOf<C, std::void_t<typename C::Ports>> {
     using Type = decltype(require_ports<C>(typename C::Ports{}));
+    static constexpr bool kIsValid = std::is_same_v<Type, typename C::Ports>;
 };
 
 template <typename C, typename List>

@@ -131,17 +131,19 @@ constexpr Finding find_first(const std::array<Finding, kCount>& found,
     return {};
 }
 
-/// First faulty port or parameter of the components of a table.
+/// First faulty port or parameter of the components of a table. A wrong list has its own message.
 template <typename... Cs>
 constexpr Finding find_faulty_member(TypeList<Cs...>) noexcept {
-    const Finding port = find_first<sizeof...(Cs)>(
-        {find_faulty_member<Cs, typename ComponentTypes<Cs>::PortList>(kPortRules)...},
-        {ComponentTypes<Cs>::PortList::kSize...}, kPortRules);
-    return port.rule != Rule::kNone
-               ? port
-               : find_first<sizeof...(Cs)>(
-                     {find_faulty_member<Cs, typename ComponentTypes<Cs>::ParameterList>(kParameterRules)...},
-                     {ComponentTypes<Cs>::ParameterList::kSize...}, kParameterRules);
+    if constexpr (((PortsOf<Cs>::kIsValid && ParametersOf<Cs>::kIsValid) && ...)) {
+        const Finding port = find_first<sizeof...(Cs)>(
+            {find_faulty_member<Cs, typename ComponentTypes<Cs>::PortList>(kPortRules)...},
+            {ComponentTypes<Cs>::PortList::kSize...}, kPortRules);
+        const Finding parameter = find_first<sizeof...(Cs)>(
+            {find_faulty_member<Cs, typename ComponentTypes<Cs>::ParameterList>(kParameterRules)...},
+            {ComponentTypes<Cs>::ParameterList::kSize...}, kParameterRules);
+        return port.rule != Rule::kNone ? port : parameter;
+    }
+    return {};
 }
 
 }  // namespace mamori::detail
