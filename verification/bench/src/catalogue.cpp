@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catalogue.hpp"
 
+#include "fifo_pair.hpp"
+
 namespace mamori::verification::bench {
 namespace {
 
 /// The first words that a reader reads are 0, 1, 0, 1 ...; a lost or stale value changes their sum.
 std::uint64_t calc_sum_of_words(std::uint64_t count, std::size_t) {
     return count / 2U;
+}
+
+/// Likewise, of the entries of `count` operations.
+std::uint64_t calc_sum_of_entries(std::uint64_t count, std::size_t size) {
+    return calc_sum_of_words(count * kFifoEntries, size);
 }
 
 /// Each cycle runs each component once.
@@ -47,7 +54,8 @@ std::vector<Case> make_catalogue() {
 
     std::vector<Case> fifos;
     for (const std::size_t size : kFifoSizes) {
-        fifos.push_back({"fifo", size, "ns per entry, two processors", 1U, &calc_sum_of_words, {}});
+        fifos.push_back(
+            {"fifo", size, "ns per entry, two processors", kFifoEntries, &calc_sum_of_entries, {}});
     }
     add_mamori_fifo(fifos);
     add_fifo_floor(fifos);

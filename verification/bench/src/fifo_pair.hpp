@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The FIFO case: a thread on one processor writes entries as fast as a thread on another processor reads
-/// them. An operation is one entry, written and read.
+/// them. An operation is kFifoEntries entries, so that the shortest batch is long compared with a wake-up.
 ///
 /// @satisfies SWR-BUF-020      Design: docs/design/bench.md#method
 #ifndef MAMORI_VERIFICATION_BENCH_FIFO_PAIR_HPP
@@ -20,6 +20,8 @@ namespace mamori::verification::bench {
 
 /// Entries that can wait in each queue of the FIFO case.
 inline constexpr std::size_t kFifoCapacity{64U};
+/// Entries of one operation.
+inline constexpr std::uint64_t kFifoEntries{256U};
 
 /// The reader sleeps between two runs, so that it does not disturb the other subjects.
 /// @tparam Queue try_push(message) and try_pop(message) return false when the queue is full or empty.
@@ -47,8 +49,9 @@ class FifoPair final : public Subject {
         const KeptAffinity affinity;
         pin(pthread_self(), writer_processor_);
         is_done_.store(false, std::memory_order_relaxed);
-        request(count);
-        for (std::uint64_t i = 0U; i < count; ++i) {
+        const std::uint64_t entries = count * kFifoEntries;
+        request(entries);
+        for (std::uint64_t i = 0U; i < entries; ++i) {
             while (!queue_.try_push(values_[i])) {
             }
         }

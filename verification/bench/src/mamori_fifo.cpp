@@ -22,7 +22,8 @@ class RejectingFifo final {
 };
 
 /// An overwriting queue accepts every entry. A count of the read entries keeps the writer from overwriting
-/// one; its cost is part of the result.
+/// one; its cost is part of the result. The reader shares it every few entries: an exchange waits for the
+/// stores before it, also for that of a word that the other processor polls.
 template <std::size_t kSize>
 class OverwritingFifo final {
   public:
@@ -41,11 +42,15 @@ class OverwritingFifo final {
         if (fifo_.pop(message) != Status::kOk) {
             return false;
         }
-        shared_read_.store(++read_, std::memory_order_release);
+        if (++read_ % kSharedEvery == 0U) {
+            shared_read_.store(read_, std::memory_order_release);
+        }
         return true;
     }
 
   private:
+    static constexpr std::uint64_t kSharedEvery{16U};
+
     Fifo<kSize, FullPolicy::kOverwrite> fifo_;
     alignas(64) std::uint64_t written_{0U};  ///< used by the writer only
     std::uint64_t seen_read_{0U};            ///< used by the writer only
