@@ -83,7 +83,7 @@ class SlotRing final {
     ///         of kTries attempts; the next call can claim the remaining entries).
     Status claim() noexcept {
         // The first attempt is for a reader that no entry has passed; it needs no other shared word.
-        for (int i = 0; i <= kTries; ++i) {
+        for (int i = 0; i < kTries + 1; ++i) {
             Word& cell = cells_[reader_.position % kCapacity];
             // Acquire, with the store and the exchange in publish(): the reader sees the written entry.
             Entry entry = cell.load(std::memory_order_acquire);
