@@ -15,6 +15,7 @@
 
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/dataflow/detail/core_line.hpp"
 #include "mamori/kernel/payload/fields.hpp"
 #include "mamori/kernel/payload/trace_hash.hpp"
 
@@ -98,8 +99,7 @@ class OutPortBase : public Member {
 
   protected:
     template <typename Owner>
-    constexpr OutPortBase(Owner& owner, const char* name) noexcept
-        : Member(owner, MemberKind::kPort, name) {}
+    constexpr OutPortBase(Owner& owner, const char* name) noexcept : Member(owner, MemberKind::kPort, name) {}
     ~OutPortBase() = default;
 
     /// Slot of the published value. Each publication swaps the slots, so the parity of the sequence number
@@ -194,13 +194,11 @@ class InPortBase : public Member {
 
 namespace detail {
 
-/// Cache line size of processors with a cache [byte].
-inline constexpr std::size_t kCacheLineSize{64U};
 /// Storage of a payload within a port. A payload of many cache lines starts at a line boundary, because
 /// copies between different alignments are slower. For a smaller payload, the padding is not worthwhile.
 template <typename T>
 struct PayloadSlot {
-    static constexpr std::size_t kLeastAlignment = sizeof(T) >= 16U * kCacheLineSize ? kCacheLineSize : 1U;
+    static constexpr std::size_t kLeastAlignment = sizeof(T) >= 16U * kCoreLineSize ? kCoreLineSize : 1U;
     alignas(T) alignas(kLeastAlignment) T value{};
 };
 

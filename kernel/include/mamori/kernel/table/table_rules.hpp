@@ -90,7 +90,7 @@
     X(CrossingWithoutBuffer, InputFromElsewhereHasACrossing, Sink,                                         \
       "a connection between cores or partitions goes through(...) a Crossing, or to a queue")              \
     X(CrossingUsedTwice, InputHasACrossingOfItsOwn, Sink, "a Crossing serves one connection")              \
-    X(CrossingNotOrdered, ReaderStartsOutsideWritersWindow, Sink,                                      \
+    X(CrossingNotOrdered, ReaderStartsOutsideWritersWindow, Sink,                                          \
       "a latest value crosses cores between the end of its writer's window and the next start of it")      \
     X(MarginNotKept, ReaderStartsAfterPublicationMargin, Sink,                                             \
       "a reader on another core starts at least publication_margin(...) after the end of its writer's "    \
