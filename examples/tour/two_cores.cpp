@@ -52,8 +52,9 @@ static Planner planner;
 static mamori::Crossing<double> to_planner;
 static mamori::Crossing<double> to_axis;
 static constexpr auto kSystem = mamori::system(
-    mamori::frame(10_ms), mamori::window("move", 0_ms, 1_ms, mamori::budget(500_us), mamori::run(axis)),
-    mamori::window("plan", 1_ms, 8_ms, mamori::core(1U), mamori::budget(7_ms), mamori::run(planner)),
+    mamori::frame(10_ms), mamori::publication_margin(200_us),
+    mamori::window("move", 0_ms, 1_ms, mamori::budget(500_us), mamori::run(axis)),
+    mamori::window("plan", 1200_us, 8_ms, mamori::core(1U), mamori::budget(7_ms), mamori::run(planner)),
     mamori::connect(axis.angle, planner.angle, mamori::through(to_planner), mamori::fresh_within(5_ms)),
     mamori::connect(planner.setpoint, axis.setpoint, mamori::through(to_axis), mamori::fresh_within(5_ms)));
 MAMORI_CHECK(kSystem);

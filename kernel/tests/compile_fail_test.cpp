@@ -177,7 +177,7 @@ TEST(CompileFailTest, ASecondAbortPolicyIsRefused) {
 
 TEST(CompileFailTest, ASecondRequestOfTheTraceHashIsRefused) {
     verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
-    expect_refused("windows", "trace_hash_twice", "trace_hash() is said once");
+    expect_refused("windows", "trace_hash_twice", "duplicate trace_hash(); specify it at most once");
 }
 
 TEST(CompileFailTest, AReactionToAFaultOfAnotherEnumerationIsRefused) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: with two cores, the data that a reader receives do not depend on execution times and release
-// lateness. Method: random tables and random schedules within the publication margin and one period of the
-// writer; each
-//         is compared with the run of the same table in virtual time.
+//       lateness.
+// Method: random tables and schedules, within the margin and one period of the writer; each run is compared
+//         with the same table in virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>

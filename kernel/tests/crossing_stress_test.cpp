@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <thread>
 
+#include "mamori/kernel/dataflow/connection.hpp"
 #include "mamori/kernel/dataflow/fifo_buffer.hpp"
 #include "mamori/kernel/dataflow/snapshot_cell.hpp"
 #include "mamori/trace/verifies.hpp"
@@ -65,6 +66,33 @@ void run_both(Write write, Read read) {
     }
     writer.join();
     read();
+}
+
+TEST(CrossingStressTest, ACrossingGivesWholeValuesInOrderAndTheLastOne) {
+    verifies("SWR-KRN-026", Technique::kErrorGuessing);
+    static Crossing<Block> sut;
+    static OutPort<Block> source{kNoOwner, "source"};
+    static InPort<Block> sink{kNoOwner, "sink"};
+    Judge judge;
+
+    run_both(
+        [](std::uint32_t number) {
+            source.write(make_block(number));
+            ASSERT_TRUE(source.publish(Instant{number}));
+            sut.deliver(source);
+        },
+        [&] {
+            sut.latch(sink, Instant{kWrites});
+            if (sink.is_new()) {
+                judge.see(sink.read());
+                sink.mark_read();
+            }
+        });
+
+    EXPECT_EQ(judge.torn, 0U);
+    EXPECT_EQ(judge.backward + judge.repeated, 0U);
+    EXPECT_EQ(judge.last, kWrites);
+    EXPECT_EQ(judge.seen + judge.skipped, kWrites);
 }
 
 TEST(CrossingStressTest, ARefusingFifoLosesNothingThatItAccepted) {

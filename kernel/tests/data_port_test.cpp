@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include "mamori/kernel/dataflow/connection.hpp"
@@ -337,6 +338,30 @@ TEST_F(DataPortTest, ACrossingBringsNothingThatWasPublishedUpToARestart) {
     crossing.deliver(out_);
     crossing.latch(in_, Instant{200});
     EXPECT_TRUE(in_.has_value());
+}
+
+/// A word whose exchange always fails, as if the writer replaced each entry in between.
+struct OvertakenWord : std::atomic<std::uint32_t> {
+    using std::atomic<std::uint32_t>::atomic;
+    bool compare_exchange_strong(std::uint32_t&, std::uint32_t, std::memory_order,
+                                 std::memory_order) noexcept {
+        return false;
+    }
+};
+
+TEST_F(DataPortTest, ACrossingCountsAWindowStartAtWhichTheWriterIsFasterInEachAttempt) {
+    verifies("SWR-KRN-052", Technique::kFaultInjection, Polarity::kViolation);
+    Crossing<std::int32_t, OvertakenWord> crossing;
+    for (const std::int64_t published_at : {100, 200}) {
+        out_.write(5);
+        ASSERT_TRUE(out_.publish(Instant{published_at}));
+        crossing.deliver(out_);
+    }
+
+    crossing.latch(in_, Instant{200});
+
+    EXPECT_FALSE(in_.has_value());
+    EXPECT_EQ(in_.get_missed_count(), 1U);
 }
 
 TEST(ConnectionOperationsTest, ARowThatConnectDidNotMakePromisesNothing) {

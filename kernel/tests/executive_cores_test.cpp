@@ -63,6 +63,7 @@ TEST_F(ExecutiveCoresTest, AValueArrivesAtTheFirstOpeningThatIsNotBeforeItsPubli
 
 TEST_F(ExecutiveCoresTest, ALateReaderReceivesTheValueOfItsPlannedWindowStart) {
     verifies("SWR-KRN-026", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-KRN-052", Technique::kBoundaryValues);
     write(0);
     read(0);
     write(1);
@@ -180,7 +181,7 @@ class ExecutiveSlowReaderTest : public ::testing::Test {
 };
 
 TEST_F(ExecutiveSlowReaderTest, AReaderThatIsLateByTwoPeriodsKeepsItsValueAndCountsIt) {
-    verifies("SWR-KRN-026", Technique::kBoundaryValues, Polarity::kViolation);
+    verifies("SWR-KRN-052", Technique::kBoundaryValues, Polarity::kViolation);
     write(0, 0);
     read(0);
     write(1, 5);
@@ -200,7 +201,7 @@ TEST_F(ExecutiveSlowReaderTest, AReaderThatIsLateByTwoPeriodsKeepsItsValueAndCou
 }
 
 TEST_F(ExecutiveSlowReaderTest, AFirstValueThatIsOverwrittenBeforeTheFirstReadIsCounted) {
-    verifies("SWR-KRN-026", Technique::kErrorGuessing, Polarity::kViolation);
+    verifies("SWR-KRN-052", Technique::kErrorGuessing, Polarity::kViolation);
     write(0, 2);
     read(0, 2000);
     write(3, 4);

@@ -18,6 +18,9 @@ std::size_t find_faulty_component(const SystemView& view, const Finding& finding
     } else if (finding.rule == Rule::kParameterNotOwned || finding.rule == Rule::kParameterNamedTwice) {
         owner = view.configuration.parameters[finding.element].owner;
     }
+    if (owner == nullptr) {
+        return kNoIndex;
+    }
     std::size_t component = kNoIndex;
     for (std::size_t i = 0U; i < view.components.size(); ++i) {
         component = view.components[i] == owner ? i : component;

@@ -18,12 +18,14 @@ constexpr Instant calc_end(Instant start, Duration frame, std::uint64_t count) n
     return start + frame * (frames > 0 ? frames : 0);
 }
 
-/// Whether the table states a publication margin, if it has a connection between two cores.
+/// Whether the table states a publication margin, if it has a connection between two cores. A connection
+/// without windows is the business of initialize(), which rejects it.
 bool has_publication_margin(const SystemView& view) noexcept {
     bool leaves_core = false;
     for (const ConnectionRow& row : view.connections) {
-        leaves_core =
-            leaves_core || view.windows[row.source_window].core != view.windows[row.sink_window].core;
+        const bool is_joined = row.source_window != kNoIndex && row.sink_window != kNoIndex;
+        leaves_core = leaves_core || (is_joined && view.windows[row.source_window].core !=
+                                                       view.windows[row.sink_window].core);
     }
     return !leaves_core || view.publication_margin > Duration{0};
 }

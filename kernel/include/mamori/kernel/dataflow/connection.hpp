@@ -3,10 +3,12 @@
 /// How a connection moves values: at window start of the sink, within a window and, between cores or
 /// partitions, through a wait-free buffer.
 ///
-/// @satisfies SWR-KRN-016, SWR-KRN-026, SWR-KRN-039      Design: docs/design/kernel.md#connections
+/// @satisfies SWR-KRN-016, SWR-KRN-026, SWR-KRN-039, SWR-KRN-052      Design:
+/// docs/design/kernel.md#connections
 #ifndef MAMORI_KERNEL_CONNECTION_HPP
 #define MAMORI_KERNEL_CONNECTION_HPP
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -38,7 +40,8 @@ class CrossingBase {
 ///
 /// Thread safety: one core writes, one core reads, neither waits. Time: deliver() copies one T, latch() at
 ///                most kEntriesMax. Memory: four T.
-template <typename T>
+/// @tparam Word only tests specify another type.
+template <typename T, typename Word = std::atomic<std::uint32_t>>
 class Crossing final : public CrossingBase {
   public:
     constexpr Crossing() noexcept = default;
@@ -60,16 +63,17 @@ class Crossing final : public CrossingBase {
     /// @param[in,out] sink always the same sink: it stores which value it has accepted.
     template <typename Sink>
     void latch(Sink& sink, Instant opening) noexcept {
-        bool is_due = true;
-        for (std::size_t i = 0U; i < kEntriesMax && is_due && buffer_.peek() == Status::kOk; ++i) {
-            const Entry& entry = buffer_.get_front();
-            is_due = entry.published_at <= opening;
-            if (is_due) {
-                take(sink, entry);
-                buffer_.drop();
-            } else if (entry.number != last_number_ + 1U) {
-                sink.note_missed();
-            }
+        Status status = buffer_.peek();
+        // Not more than can wait: what arrives meanwhile is later than `opening`.
+        for (std::size_t i = 0U; i < kEntriesMax && is_due(status, opening); ++i) {
+            take(sink, buffer_.get_front());
+            buffer_.drop();
+            status = buffer_.peek();
+        }
+        // kOk: the front is the first later value.
+        if (status == Status::kOutOfResources ||
+            (status == Status::kOk && buffer_.get_front().number != last_number_ + 1U)) {
+            sink.record_missed();
         }
     }
 
@@ -96,6 +100,10 @@ class Crossing final : public CrossingBase {
         Instant published_at{};
     };
 
+    /// Whether a peek() has found a value that was published by `opening`.
+    bool is_due(Status status, Instant opening) const noexcept {
+        return status == Status::kOk && buffer_.get_front().published_at <= opening;
+    }
     template <typename Sink>
     void take(Sink& sink, const Entry& entry) noexcept {
         last_number_ = entry.number;
@@ -104,7 +112,7 @@ class Crossing final : public CrossingBase {
         }
     }
 
-    FifoBuffer<Entry, kKept> buffer_{};
+    FifoBuffer<Entry, kKept, FullPolicy::kOverwrite, EmptyPolicy::kReadback, Word> buffer_{};
     std::uint64_t delivered_count_{0U};  ///< used by the writing core only
     std::uint64_t last_number_{0U};      ///< of the entry read or dropped last; used by the reading core only
 };
@@ -131,6 +139,9 @@ struct ConnectionOperations {
     /// Set by connect(). A flag, because with some sanitizers g++ does not compare the addresses with nullptr
     /// in a constant expression.
     bool is_set{false};
+
+    /// Whether `deliver` is set; the flags replace the comparison, see is_set.
+    constexpr bool has_delivery() const noexcept { return may_leave_core || !is_latest; }
 };
 
 namespace detail {

@@ -152,11 +152,11 @@ class InPortBase : public Member {
     /// the value after a change.
     std::uint32_t get_restart_count() const noexcept { return restart_count_; }
     /// Number of window starts for which newer values may have overwritten the planned one, because the core
-    /// of this input was late by a period of the writer or more (wraps at 2^32). The input then keeps its
-    /// older value. Always 0 for a connection within a core.
+    /// of this input was late by a period of the writer or more (wraps at 2^32). The input then holds an
+    /// older value than planned. Always 0 for a connection within a core.
     std::uint32_t get_missed_count() const noexcept { return missed_count_; }
     /// For connections between cores.
-    void note_missed() noexcept { ++missed_count_; }
+    void record_missed() noexcept { ++missed_count_; }
     /// For the executive. @param[in] age_max age limit of the connection that feeds this input, > 0.
     /// @param[in] lead_max tolerance for instants in the future, >= 0.
     void set_age_limits(Duration age_max, Duration lead_max) noexcept {

@@ -68,8 +68,9 @@ struct PublicationMarginPart {
     Duration margin;
 };
 /// Minimum time from the end of a window to the start of a window on another core that reads its outputs. In
-/// virtual time, a window publishes exactly at its end, and the default of 0 is sufficient. In real time, it
-/// publishes later by its release lateness and the time of the publication; state more than both.
+/// virtual time, a window publishes exactly at its end, and the default of 0 is sufficient. In real time, its
+/// work can return at the planned end. The publication follows after the wake-up of the runner and the
+/// copies; state more than both.
 /// @param[in] margin >= 0; MAMORI_CHECK rejects a negative one and a reader that starts earlier.
 constexpr PublicationMarginPart publication_margin(Duration margin) noexcept {
     return {margin};
@@ -160,8 +161,9 @@ constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
                   "all faults of a system are enumerators of one enumeration, and so are all reactions");
     static_assert(detail::kTimesSaid<AbortPolicyPart, Parts...> <= 1U, "abort_policy(...) is said once");
     static_assert(detail::kTimesSaid<PublicationMarginPart, Parts...> <= 1U,
-                  "publication_margin(...) is said once");
-    static_assert(detail::kTimesSaid<TraceHashPart, Parts...> <= 1U, "trace_hash() is said once");
+                  "duplicate publication_margin(...); specify it at most once");
+    static_assert(detail::kTimesSaid<TraceHashPart, Parts...> <= 1U,
+                  "duplicate trace_hash(); specify it at most once");
     detail::TableBuilder<DescribedSystem<Types>> builder{};
     builder.table.frame = frame_part.length;
     (detail::add_part(builder, parts), ...);

@@ -15,13 +15,15 @@
 ///             Ends              connection, which messages show by its ports and its row
 ///             Window            window (the window of the same name)
 ///             TwoWindows        window (the window listed before it)
-///             Component         component, by its second row where it has two (its first row; its namesake)
+///             Component         component, by its second row where it has two (its first row; a rule of
+///             names:
+///                               the component of the same name, or itself without a name)
 ///             Input             port row of an input
 ///             Sink              connection, which messages show by its input (the connection listed before)
 ///             UnlistedPort      component (number of its ports that are constructed after the port)
 ///             UnlistedParameter component (number of its parameters that are constructed after the one)
-///             Port              port row (the port row listed before; itself: without a name)
-///             Parameter         parameter row (the one listed before; itself: without a name)
+///             Port              port row (a rule of names: the row of the same name, or itself without one)
+///             Parameter         parameter row (as for a port)
 ///             Fault             fault (its earlier declaration)
 ///             Mode              mode; the first one where no mode is faulty
 ///             ModeMember        row of a component of a mode

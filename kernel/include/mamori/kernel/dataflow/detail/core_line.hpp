@@ -11,8 +11,8 @@
 
 namespace mamori::detail {
 
-/// Data aligned to this size never share a cache line with the data of another core [byte]. Cores of the Arm
-/// M profile exchange data through memory that is not cached: natural alignment, no padding.
+/// Data aligned to this size never share a cache line with the data of another core [byte]. On the Arm M
+/// profile, buffers between cores must be in memory that is not cached: natural alignment, no padding.
 #if defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M'
 inline constexpr std::size_t kCoreLineSize = alignof(std::uint32_t);
 #else

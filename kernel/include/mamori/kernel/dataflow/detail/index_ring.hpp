@@ -88,7 +88,7 @@ class IndexRing final {
             }
         }
         reader_.slot = oldest;
-        // Release, with the acquire in publish(): the reader no longer uses the slots before this one.
+        // Release, with the acquire in reserve(): the reader no longer uses the slots before this one.
         reader_.read.store(oldest, std::memory_order_release);
         return Status::kOk;
     }

@@ -39,7 +39,7 @@ class SlotRing final {
   public:
     using Slot = std::uint8_t;
     static constexpr std::size_t kSlotCount = kCapacity + 2U;
-    static constexpr int kTries = 4;
+    static constexpr int kTries = 5;
 
     constexpr SlotRing() noexcept : SlotRing(std::make_integer_sequence<Entry, kCapacity>{}) {}
     SlotRing(const SlotRing&) = delete;
@@ -79,11 +79,10 @@ class SlotRing final {
     /// Reader: swaps the read slot for the oldest entry. The exchange is necessary: reader and writer must
     /// agree on the owner of the entry, and loads and stores cannot decide that.
     /// @return kOk; kPreconditionNotMet (no entry waits); kOutOfResources (the writer replaced the entry in
-    /// each
-    ///         of kTries attempts; the next call can claim the remaining entries).
+    ///         each of kTries attempts; the next call can claim the remaining entries).
     Status claim() noexcept {
         // The first attempt is for a reader that no entry has passed; it needs no other shared word.
-        for (int i = 0; i < kTries + 1; ++i) {
+        for (int i = 0; i < kTries; ++i) {
             Word& cell = cells_[reader_.position % kCapacity];
             // Acquire, with the store and the exchange in publish(): the reader sees the written entry.
             Entry entry = cell.load(std::memory_order_acquire);

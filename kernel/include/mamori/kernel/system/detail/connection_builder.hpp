@@ -54,8 +54,7 @@ constexpr void resolve_connections(Table& table) noexcept {
         if (connection.is_forward_in_window) {
             table.windows[connection.sink_window].has_hand_on = true;
         }
-        const bool has_delivery = connection.operations.may_leave_core || !connection.operations.is_latest;
-        if (connection.source_window != kNoIndex && has_delivery) {
+        if (connection.source_window != kNoIndex && connection.operations.has_delivery()) {
             table.windows[connection.source_window].has_deliveries = true;
         }
     }

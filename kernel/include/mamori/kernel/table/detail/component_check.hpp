@@ -133,14 +133,19 @@ inline void check_component_objects(const SystemView& view, std::size_t i, Findi
 }
 
 constexpr void check_components(const SystemView& view, FindingList& findings) noexcept {
+    bool is_any_twice = false;
     for (std::size_t i = 0U; i < view.components.size(); ++i) {
         for (std::size_t j = 0U; j < i; ++j) {
             if (view.components[i] == view.components[j]) {
                 findings.add(Rule::kComponentInTwoPlaces, i, j);
+                is_any_twice = true;
                 break;
             }
         }
-        // A constant expression cannot read the objects. keeps_rules() then checks a constant of their type.
+    }
+    // A constant expression cannot read the objects. keeps_rules() then checks a constant of their type. The
+    // rows of a component that runs twice would also look like members that are listed twice.
+    for (std::size_t i = 0U; !is_any_twice && i < view.components.size(); ++i) {
         if (!__builtin_is_constant_evaluated()) {
             check_component_objects(view, i, findings);
         }
