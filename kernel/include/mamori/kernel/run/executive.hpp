@@ -174,10 +174,11 @@ class ExecutiveFor final : private detail::WindowStorage<Table::kWindowCount>, p
                       "a table with modes or configuration sets needs a SystemModes: write "
                       "SystemModes modes{make_view(kSystem)}; ExecutiveFor executive{kSystem, modes};");
     }
-    /// @param[in] modes one for all cores of the table; must outlive the executive.
-    constexpr ExecutiveFor(const Table& table, SystemModes& modes, std::size_t core = 0U) noexcept
-        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core, &modes) {}
-    explicit ExecutiveFor(const Table&& table, SystemModes& modes, std::size_t core = 0U) = delete;
+    /// @param[in] system_modes one for all cores of the table; must outlive the executive.
+    constexpr ExecutiveFor(const Table& table, SystemModes& system_modes, std::size_t core = 0U) noexcept
+        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core,
+                    &system_modes) {}
+    explicit ExecutiveFor(const Table&& table, SystemModes& system_modes, std::size_t core = 0U) = delete;
     explicit ExecutiveFor(const Table&& table, std::size_t core = 0U) = delete;
 };
 
