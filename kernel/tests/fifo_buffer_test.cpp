@@ -7,8 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <set>
 #include <cstdlib>
+#include <set>
 
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
