@@ -134,14 +134,12 @@ struct ConnectionOperations {
     void (*restart)(OutPortBase&, InPortBase&, Instant boundary) noexcept {nullptr};
     /// Before the core of the sink starts: values published until then do not reach the sink.
     void (*clear)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};
-    bool may_leave_core{false};  ///< source and sink may run on two cores or in two partitions
-    bool is_latest{false};       ///< only the newest value is kept, so the order of writer and reader matters
+    bool may_leave_core{
+        false};             ///< source and sink may run on two cores or in two partitions; `deliver` is set
+    bool is_latest{false};  ///< only the newest value is kept, so the order of writer and reader matters
     /// Set by connect(). A flag, because with some sanitizers g++ does not compare the addresses with nullptr
     /// in a constant expression.
     bool is_set{false};
-
-    /// Whether `deliver` is set; the flags replace the comparison, see is_set.
-    constexpr bool has_delivery() const noexcept { return may_leave_core || !is_latest; }
 };
 
 namespace detail {

@@ -54,7 +54,7 @@ constexpr void resolve_connections(Table& table) noexcept {
         if (connection.is_forward_in_window) {
             table.windows[connection.sink_window].has_hand_on = true;
         }
-        if (connection.source_window != kNoIndex && connection.operations.has_delivery()) {
+        if (connection.source_window != kNoIndex && connection.operations.may_leave_core) {
             table.windows[connection.source_window].has_deliveries = true;
         }
     }

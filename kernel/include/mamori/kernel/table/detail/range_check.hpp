@@ -84,7 +84,7 @@ constexpr bool is_source_in_place(const SystemView& view, std::size_t i) noexcep
     const auto is_port = [&](std::size_t p) noexcept { return view.ports[p].output == row.source; };
     const auto is_place = [&](std::size_t place) noexcept { return view.outgoing_order[place] == i; };
     return row.source_window == owner.window &&
-           (view.windows[row.source_window].has_deliveries || !row.operations.has_delivery()) &&
+           (view.windows[row.source_window].has_deliveries || !row.operations.may_leave_core) &&
            count_own(owner.first_port, owner.port_count, is_port) == 1U &&
            count_own(owner.first_outgoing, owner.outgoing_count, is_place) == 1U;
 }
