@@ -134,8 +134,8 @@ struct ConnectionOperations {
     void (*restart)(OutPortBase&, InPortBase&, Instant boundary) noexcept {nullptr};
     /// Before the core of the sink starts: values published until then do not reach the sink.
     void (*clear)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};
-    bool may_leave_core{
-        false};             ///< source and sink may run on two cores or in two partitions; `deliver` is set
+    /// Source and sink may run on two cores or in two partitions. If so, `deliver` is set.
+    bool may_leave_core{false};
     bool is_latest{false};  ///< only the newest value is kept, so the order of writer and reader matters
     /// Set by connect(). A flag, because with some sanitizers g++ does not compare the addresses with nullptr
     /// in a constant expression.
