@@ -340,6 +340,23 @@ TEST_F(DataPortTest, ACrossingBringsNothingThatWasPublishedUpToARestart) {
     EXPECT_TRUE(in_.has_value());
 }
 
+TEST_F(DataPortTest, AClearedCrossingHoldsNoneOfTheThreeValuesThatItCanHold) {
+    verifies("SWR-KRN-039", Technique::kBoundaryValues);
+    Crossing<std::int32_t> crossing;
+    for (const std::int64_t published_at : {100, 200, 300}) {
+        out_.write(5);
+        ASSERT_TRUE(out_.publish(Instant{published_at}));
+        crossing.deliver(out_);
+        crossing.latch(in_, Instant{0});  // holds the first value for a later window
+    }
+
+    crossing.clear(in_);
+    crossing.latch(in_, Instant{1000});
+
+    EXPECT_FALSE(in_.has_value());
+    EXPECT_EQ(in_.get_missed_count(), 0U);
+}
+
 /// A word whose exchange always fails, as if the writer replaced each entry in between.
 struct OvertakenWord : std::atomic<std::uint32_t> {
     using std::atomic<std::uint32_t>::atomic;

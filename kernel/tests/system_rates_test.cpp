@@ -96,6 +96,11 @@ TEST(SystemRatesTest, AWindowKnowsWhetherItHasOutputsAndFeedsAQueueOrACrossing) 
     EXPECT_TRUE(table.windows[0].has_deliveries);
     EXPECT_FALSE(table.windows[1].has_outputs);
     EXPECT_FALSE(table.windows[1].has_deliveries);
+
+    Counter stranger{"stranger"};
+    const auto other = system(frame(1_ms), window("r", 0_us, 200_us, budget(1_us), run(reader)),
+                              connect(stranger.out, reader.in, any_age()));
+    EXPECT_FALSE(other.windows[0].has_deliveries) << "the writer is in no window";
 }
 
 TEST(SystemRatesTest, PeriodicWindowsOverlapExactlyWhenTheyMeetInSomeFrame) {
