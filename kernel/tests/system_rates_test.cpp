@@ -98,9 +98,15 @@ TEST(SystemRatesTest, AWindowKnowsWhetherItHasOutputsAndFeedsAQueueOrACrossing) 
     EXPECT_FALSE(table.windows[1].has_deliveries);
 
     Counter stranger{"stranger"};
-    const auto other = system(frame(1_ms), window("r", 0_us, 200_us, budget(1_us), run(reader)),
-                              connect(stranger.out, reader.in, any_age()));
-    EXPECT_FALSE(other.windows[0].has_deliveries) << "the writer is in no window";
+    Relay relay;
+    const auto other = system(frame(1_ms), window("w", 0_us, 200_us, budget(1_us), run(g_counter)),
+                              window("r", 200_us, 200_us, budget(1_us), run(reader)),
+                              window("s", 400_us, 200_us, budget(1_us), run(relay)),
+                              connect(stranger.out, reader.in, any_age()),
+                              connect(g_counter.out, relay.in, through(g_crossing), any_age()));
+    EXPECT_TRUE(other.windows[0].has_deliveries);
+    EXPECT_FALSE(other.windows[1].has_deliveries);
+    EXPECT_FALSE(other.windows[2].has_deliveries) << "the writer of the queue is in no window";
 }
 
 TEST(SystemRatesTest, PeriodicWindowsOverlapExactlyWhenTheyMeetInSomeFrame) {

@@ -120,7 +120,7 @@ inline void check_component_objects(const SystemView& view, std::size_t i, Findi
     }
     for (std::size_t j = 0U; j < i; ++j) {
         const Component& earlier = *view.components[j];
-        if (&earlier != &component && is_same_name(earlier.get_name(), component.get_name())) {
+        if (is_same_name(earlier.get_name(), component.get_name())) {
             findings.add(Rule::kComponentNamedTwice, i, j);
             break;
         }
