@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: what the compiler cannot see of the objects of a table, initialize() rejects: names that are missing
 // or occur twice, and ports and parameters that are not listed or belong to another component. Method:
-// components that are no constants; each test breaks one thing of a table that is valid otherwise.
+// components that cannot be constants; each test breaks one thing of a table that is valid otherwise.
 #include <gtest/gtest.h>
 
 #include <vector>

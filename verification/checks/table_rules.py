@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """docs/manual/table_rules.md: every compiler message of kernel and safety, as their headers state it.
 
-The rules of a system table are in table_rules.hpp, those of state machines and configurations in enumerations, the others in assertions.
+The rules of a system table are in table_rules.hpp, the rules of state machines and configurations in enumerations, and the others in assertions.
 
 `python -P -m verification.checks.table_rules` writes the page.
 

@@ -130,7 +130,7 @@ constexpr auto kSystem = mamori::system(
 MAMORI_CHECK(kSystem);
 }  // namespace port_of_other_component
 
-// A list of ports with what is no port: 1 a parameter, 2 an action, 3 an object, 4 an action of the base.
+// A list with an entry that is not a port: 1 a parameter, 2 an action, 3 an object, 4 an action of the base.
 namespace list_without_port {
 inline mamori::OutPort<double> g_port{mamori::kNoOwner, "port"};
 class Monitor final : public mamori::Component {
