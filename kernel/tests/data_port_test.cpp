@@ -369,6 +369,8 @@ struct OvertakenWord : std::atomic<std::uint32_t> {
 TEST_F(DataPortTest, ACrossingCountsAWindowStartAtWhichTheWriterIsFasterInEachAttempt) {
     verifies("SWR-KRN-052", Technique::kFaultInjection, Polarity::kViolation);
     Crossing<std::int32_t, OvertakenWord> crossing;
+    crossing.latch(in_, Instant{0});
+    EXPECT_EQ(in_.get_missed_count(), 0U) << "nothing was delivered yet";
     for (const std::int64_t published_at : {100, 200}) {
         out_.write(5);
         ASSERT_TRUE(out_.publish(Instant{published_at}));
