@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Queued inputs: an encoder publishes five counts in each major frame, and a logger reads them in one cycle.
+// Queues: an encoder writes five counts in each cycle, and a logger reads them in one cycle.
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 
 #include "mamori/kernel/dataflow/queue_in_port.hpp"
+#include "mamori/kernel/dataflow/queue_out_port.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
@@ -13,22 +14,27 @@
 using mamori::Status;
 using namespace mamori::literals;  // NOLINT: units of the times below
 
+constexpr std::size_t kCountsPerCycle = 5U;
+
 class Encoder final : public mamori::Component {
   public:
     constexpr Encoder() noexcept : Component("encoder") {}
-    mamori::OutPort<std::int32_t> count{*this, "count"};
+    mamori::QueueOutPort<std::int32_t, kCountsPerCycle> count{*this, "count"};
     using Ports = mamori::Ports<&Encoder::count>;
 
     Status on_execute(mamori::ContextHandle) noexcept override {
-        count.write(++cycles_);
-        return Status::kOk;
+        Status status = Status::kOk;
+        for (std::size_t i = 0U; i < kCountsPerCycle && status == Status::kOk; ++i) {
+            status = count.write(++count_);
+        }
+        return status;
     }
 
   private:
-    std::int32_t cycles_{0};
+    std::int32_t count_{0};
 };
 
-/// Capacity of each queue: one value less than the encoder publishes in a major frame.
+/// Capacity of each queue: one value less than the encoder writes in a cycle.
 constexpr std::size_t kCapacity = 4U;
 
 class Logger final : public mamori::Component {
@@ -60,8 +66,7 @@ class Logger final : public mamori::Component {
 static Encoder encoder;
 static Logger logger;
 static constexpr auto kSystem = mamori::system(
-    mamori::frame(10_ms),
-    mamori::window("count", 0_ms, 500_us, mamori::every(2_ms), mamori::budget(400_us), mamori::run(encoder)),
+    mamori::frame(10_ms), mamori::window("count", 0_ms, 500_us, mamori::budget(400_us), mamori::run(encoder)),
     mamori::window("log", 9_ms, 1_ms, mamori::budget(900_us), mamori::run(logger)),
     mamori::connect(encoder.count, logger.newest, mamori::fresh_within(10_ms)),
     mamori::connect(encoder.count, logger.oldest, mamori::fresh_within(10_ms)));

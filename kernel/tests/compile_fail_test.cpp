@@ -18,6 +18,17 @@ TEST(CompileFailTest, AConnectionOfTwoPayloadTypesIsRefused) {
     expect_refused("connections", "payload_mismatch", "connect() joins ports of one payload type");
 }
 
+TEST(CompileFailTest, AQueuedOutputOfAnotherPayloadTypeIsRefused) {
+    verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
+    verifies("SWR-KRN-053", Technique::kInterface, Polarity::kViolation);
+    expect_refused("connections", "queue_payload_mismatch", "connect() joins ports of one payload type");
+}
+
+TEST(CompileFailTest, AQueuedOutputWithoutRoomIsRefused) {
+    verifies("SWR-KRN-053", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("connections", "queue_without_room", "a QueueOutPort has room for 1 to 254 values");
+}
+
 TEST(CompileFailTest, AMandatoryInputWithoutASourceIsRefused) {
     verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
     expect_refused("connections", "input_not_connected", "InputIsConnected<Consumer, &Consumer::in, 0>");
@@ -370,7 +381,7 @@ TEST(CompileFailTest, AnAgeLimitOrToleranceBelowZeroIsRefused) {
 TEST(CompileFailTest, AConnectionAgainstItsDirectionIsRefused) {
     verifies("SWR-KRN-018", Technique::kErrorGuessing, Polarity::kViolation);
     expect_refused("connections", "connection_direction", "OutPort<double>", "1");
-    expect_refused("connections", "connection_direction", "connect(g_consumer.in", "2");
+    expect_refused("connections", "connection_direction", "connect() joins an output to an input", "2");
 }
 
 TEST(CompileFailTest, ACrossingOfAnotherPayloadTypeIsRefused) {

@@ -176,7 +176,7 @@ TEST_F(DataPortTest, AnInputHasNoValueUntilOneArrives) {
 TEST_F(DataPortTest, AnInputThatKeepsTheLatestValueCountsNothing) {
     verifies("SWR-KRN-016", Technique::kInterface);
 
-    const QueueCounts counts = count_no_queue(in_);
+    const PortCounts counts = count_latest(in_);
 
     EXPECT_EQ(counts.capacity, 0U);
     EXPECT_EQ(counts.high_water_mark, 0U);

@@ -96,7 +96,7 @@ struct Judge {
             wrong += port.published_at.ns != (std::int64_t{port.sequence} - 1) * 1000 + 400 ? 1U : 0U;
         }
         if (g_introspection.read_port(1U, port) == Status::kOk) {
-            wrong += port.queue.high_water_mark > port.queue.capacity ? 1U : 0U;
+            wrong += port.counts.high_water_mark > port.counts.capacity ? 1U : 0U;
         }
     }
 };
@@ -210,7 +210,7 @@ TEST(IntrospectionStressTest, TheRowsOfAHangingComponentStayAndItsWindowNamesIt)
     EXPECT_EQ(component_row.state, LifecycleState::kActive);
     EXPECT_EQ(component_row.observed_at, Instant{0}) << "as start() left it";
     ASSERT_EQ(sut.read_port(0U, port_row), Status::kOk);
-    EXPECT_EQ(port_row.queue.empty_reads, 0U);
+    EXPECT_EQ(port_row.counts.empty_reads, 0U);
 
     endless.is_let_go.store(true, std::memory_order_release);
     host.abandoned.join();
@@ -221,7 +221,7 @@ TEST(IntrospectionStressTest, TheRowsOfAHangingComponentStayAndItsWindowNamesIt)
     EXPECT_EQ(component_row.state, LifecycleState::kError);
     EXPECT_EQ(component_row.last_failure.status, Status::kError);
     ASSERT_EQ(sut.read_port(0U, port_row), Status::kOk);
-    EXPECT_EQ(port_row.queue.empty_reads, endless.rounds.load());
+    EXPECT_EQ(port_row.counts.empty_reads, endless.rounds.load());
 }
 
 TEST(IntrospectionStressTest, WhileNothingHangsRowsFollowEachCycle) {

@@ -258,7 +258,7 @@ TEST_F(IntrospectionTest, AnOutputShowsItsSequenceAndWhenItWasPublished) {
     EXPECT_EQ(read_port(0U).sequence, 2U);
     EXPECT_EQ(read_port(0U).published_at, Instant{1400});
     EXPECT_EQ(read_port(0U).calc_age(), Duration{-400}) << "published at the close";
-    EXPECT_EQ(read_port(0U).queue.capacity, 0U);
+    EXPECT_EQ(read_port(0U).counts.capacity, 0U);
 }
 
 TEST_F(IntrospectionTest, AnInputShowsItsAgeAndItsStatus) {
@@ -290,7 +290,7 @@ TEST_F(IntrospectionTest, AQueueShowsItsHighWaterMarkAndWhatItLost) {
     EXPECT_TRUE(read_port(3U).has_value);
     EXPECT_EQ(read_port(3U).published_at, Instant{3400}) << "the oldest of the two that wait";
     EXPECT_EQ(read_port(3U).status, PortStatus::kOk);
-    const QueueCounts queue = read_port(3U).queue;
+    const PortCounts queue = read_port(3U).counts;
 
     EXPECT_EQ(queue.capacity, 2U);
     EXPECT_EQ(queue.high_water_mark, 2U);
@@ -301,7 +301,7 @@ TEST_F(IntrospectionTest, AQueueShowsItsHighWaterMarkAndWhatItLost) {
     for (std::int64_t frame_number = 5; frame_number < 8; ++frame_number) {
         run_second(frame_number);
     }
-    EXPECT_EQ(read_port(3U).queue.empty_reads, 1U);
+    EXPECT_EQ(read_port(3U).counts.empty_reads, 1U);
 }
 
 TEST_F(IntrospectionTest, AWalkVisitsEachRowInOrderWithItsName) {

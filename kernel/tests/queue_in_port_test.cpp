@@ -94,7 +94,7 @@ TEST(QueueInPortTest, AnEmptyQueueHasNothingToTell) {
 
     EXPECT_FALSE(sut.in.has_waiting());
     EXPECT_FALSE(sut.in.has_value());
-    const QueueCounts counts = QueueInPort<std::int64_t, 2U>::count(sut.in);
+    const PortCounts counts = QueueInPort<std::int64_t, 2U>::count(sut.in);
     EXPECT_EQ(counts.capacity, 2U);
     EXPECT_EQ(counts.high_water_mark + counts.rejected + counts.overwritten + counts.empty_reads, 0U);
 }

@@ -238,7 +238,7 @@ void add_ports(Damages& d) {
         d.add_null(at + "owner", invalid, p, of(&PortRow::owner));
         d.add_null(at + "input", invalid, p, of(&PortRow::input));
         d.add_null(at + "output", invalid, p, of(&PortRow::output));
-        d.add_null(at + "count_queue", invalid, p, of(&PortRow::count_queue));
+        d.add_null(at + "count", invalid, p, of(&PortRow::count));
         d.add_index(at + "window", invalid, p, t.windows.size(), of(&PortRow::window));
         d.add_index(at + "component", invalid, p, t.components.size(), of(&PortRow::component));
     }
@@ -263,6 +263,7 @@ void add_connections(Damages& d) {
         // Not every connection has them.
         d.add_null(at + "deliver", {}, n, operation(&ConnectionOperations::deliver));
         d.add_null(at + "hand_on", {}, n, operation(&ConnectionOperations::hand_on));
+        d.add_null(at + "note_discarded", {}, n, operation(&ConnectionOperations::note_discarded));
         d.list.push_back({at + "age limit 0", {Rule::kAgeLimitNotPositive}, n, [n](Table& x) {
                               x.connections[n].age_max = Duration{0};
                           }});

@@ -14,12 +14,14 @@ void DataFlow::attach_inputs() noexcept {
 void DataFlow::clear_ports() noexcept {
     for (const PortRow& port : core_.view.ports) {
         if (port.output != nullptr && core_.is_own(port.window)) {
+            note_discarded(port);
             port.output->begin_run();
         }
     }
     for (const ConnectionRow& connection : core_.view.connections) {
         if (core_.is_own(connection.sink_window)) {
-            connection.operations.clear(*connection.source, *connection.sink, connection.crossing);
+            connection.operations.restart(*connection.source, *connection.sink, connection.crossing,
+                                          kBeforeAll);
         }
     }
 }
@@ -89,6 +91,20 @@ void DataFlow::deliver_outputs(const ComponentRow& owner, ModeMask held, Instant
             connection.operations.deliver(*connection.source, *connection.sink, connection.crossing);
         }
     }
+    report_losses(owner.first_port, owner.port_count);
+}
+
+void DataFlow::report_losses(std::size_t first, std::size_t count) noexcept {
+    if (core_.observer == nullptr) {
+        return;
+    }
+    std::size_t p = first;
+    for (const PortRow& port : core_.view.ports.subspan(first, count)) {
+        if (port.output != nullptr && port.output->take_loss(core_.frame_start)) {
+            core_.observer->on_values_lost(p, core_.release);
+        }
+        ++p;
+    }
 }
 
 void DataFlow::discard_outputs(std::size_t window) noexcept {
@@ -104,7 +120,22 @@ void DataFlow::discard_outputs_of(std::size_t component) noexcept {
 void DataFlow::discard_ports(std::size_t first, std::size_t count) noexcept {
     for (const PortRow& port : core_.view.ports.subspan(first, count)) {
         if (port.output != nullptr) {
+            note_discarded(port);
             port.output->discard();
+        }
+    }
+    report_losses(first, count);
+}
+
+void DataFlow::note_discarded(const PortRow& port) noexcept {
+    const ComponentRow& owner = core_.view.component_rows[port.component];
+    const ModeMask held = core_.windows[port.window].held_modes;
+    for (const std::size_t i :
+         core_.view.outgoing_order.subspan(owner.first_outgoing, owner.outgoing_count)) {
+        const ConnectionRow& connection = core_.view.connections[i];
+        if (connection.source == port.output && connection.operations.note_discarded != nullptr &&
+            is_held(connection, held)) {
+            connection.operations.note_discarded(*connection.source, *connection.sink);
         }
     }
 }
@@ -120,7 +151,8 @@ void DataFlow::restart_inputs(WindowState& state, ModeMask modes) noexcept {
             const ConnectionRow& connection = core_.view.connections[i];
             const bool was_held = is_held(connection, before);
             if (was_held != is_held(connection, modes) && was_held != begins) {
-                connection.operations.restart(*connection.source, *connection.sink, core_.frame_start);
+                connection.operations.restart(*connection.source, *connection.sink, connection.crossing,
+                                              core_.frame_start);
             }
         }
     }

@@ -71,13 +71,14 @@ void Introspection::publish_port(std::size_t index, Instant opening) noexcept {
         row.has_value = row.sequence != 0U;
         row.published_at = port.output->get_published_at();
         row.status = port.output->get_status();
+        row.counts = port.output->get_counts();
     } else {
         row.name = port.input->get_name();
         row.is_input = true;
         row.has_value = port.input->has_value();
         row.published_at = port.input->get_published_at();
         row.status = port.input->calc_status(opening);
-        row.queue = port.count_queue(*port.input);
+        row.counts = port.count(*port.input);
     }
     ports_[index].cell.write(row);
 }

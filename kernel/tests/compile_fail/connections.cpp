@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the compiler rejects: connections of ports.
 // Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
+#include "mamori/kernel/dataflow/queue_out_port.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
@@ -14,6 +15,25 @@ namespace payload_mismatch {
     mamori::connect(g_producer.real, g_consumer.in, mamori::any_age());
 #endif
 }  // namespace payload_mismatch
+
+// A queued output has another payload type than its input.
+namespace queue_payload_mismatch {
+#ifdef MAMORI_BREAK_QUEUE_PAYLOAD_MISMATCH
+inline mamori::QueueOutPort<std::int32_t, 2U> g_queue{mamori::kNoOwner, "queue"};
+#else
+inline mamori::QueueOutPort<double, 2U> g_queue{mamori::kNoOwner, "queue"};
+#endif
+[[maybe_unused]] constexpr auto kConnection = mamori::connect(g_queue, g_consumer.in, mamori::any_age());
+}  // namespace queue_payload_mismatch
+
+// A queued output has room for no value.
+namespace queue_without_room {
+#ifdef MAMORI_BREAK_QUEUE_WITHOUT_ROOM
+inline mamori::QueueOutPort<double, 0U> g_queue{mamori::kNoOwner, "queue"};
+#else
+inline mamori::QueueOutPort<double, 254U> g_queue{mamori::kNoOwner, "queue"};
+#endif
+}  // namespace queue_without_room
 
 // A mandatory input has no source.
 namespace input_not_connected {

@@ -211,7 +211,7 @@ std::uint64_t count_lost() noexcept {
     std::uint64_t count = 0U;
     for (const PortRow& port : kSystem.ports) {
         if (port.input != nullptr) {
-            const QueueCounts counts = port.count_queue(*port.input);
+            const PortCounts counts = port.count(*port.input);
             count += counts.rejected + counts.overwritten;
         }
     }

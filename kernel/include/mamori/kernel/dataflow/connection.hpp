@@ -3,8 +3,8 @@
 /// How a connection moves values: at window start of the sink, within a window and, between cores or
 /// partitions, through a wait-free buffer.
 ///
-/// @satisfies SWR-KRN-016, SWR-KRN-026, SWR-KRN-039, SWR-KRN-052      Design:
-/// docs/design/kernel.md#connections
+/// @satisfies SWR-KRN-016, SWR-KRN-026, SWR-KRN-039, SWR-KRN-052, SWR-KRN-054
+/// Design:   docs/design/kernel.md#connections, docs/design/kernel.md#counters
 #ifndef MAMORI_KERNEL_CONNECTION_HPP
 #define MAMORI_KERNEL_CONNECTION_HPP
 
@@ -47,13 +47,15 @@ class Crossing final : public CrossingBase {
     constexpr Crossing() noexcept = default;
 
     /// For the executive of the writing core, immediately after the publication.
-    void deliver(const OutPort<T>& source) noexcept {
-        const typename OutPort<T>::Sample sample = source.get_published_sample();
+    void deliver(const TypedOutPort<T>& source) noexcept {
+        const typename TypedOutPort<T>::Sample sample = source.get_published_sample();
         Entry& entry = buffer_.get_write_slot();
         entry.value = sample.value;
         entry.revision = sample.revision;
         entry.published_at = sample.published_at;
         entry.number = ++delivered_count_;
+        entry.discarded = source.get_discarded_in_run();
+        entry.run = source.get_run_revision();
         static_cast<void>(buffer_.publish());  // always succeeds: a full buffer overwrites its oldest entry
     }
     /// For the executive of the reading core, at its window start. The sink receives the newest value that
@@ -98,6 +100,8 @@ class Crossing final : public CrossingBase {
         std::uint64_t revision{0U};
         std::uint64_t number{0U};  ///< of the delivery: 1, 2, ...
         Instant published_at{};
+        std::uint32_t discarded{0U};  ///< by the source before it, in its run
+        std::uint32_t run{0U};        ///< revision of the source at the start of its run
     };
 
     /// Whether a peek() has found a value that was published by `opening`.
@@ -108,20 +112,41 @@ class Crossing final : public CrossingBase {
     void take(Sink& sink, const Entry& entry) noexcept {
         last_number_ = entry.number;
         if (entry.published_at > sink.get_restarted_at()) {
+            count_gap(sink, entry);
             sink.take({entry.value, entry.revision, entry.published_at});
         }
+    }
+    /// Counts the values between the one that arrived last and `entry`. At the start of a run of the source,
+    /// its counters begin with the run; at another restart of the sink, with `entry`.
+    template <typename Sink>
+    void count_gap(Sink& sink, const Entry& entry) noexcept {
+        const bool is_new_run = entry.run != run_;
+        if (is_new_run || sink.get_restart_count() != counted_restarts_) {
+            counted_restarts_ = sink.get_restart_count();
+            run_ = entry.run;
+            discarded_ = is_new_run ? 0U : entry.discarded;
+            sink.begin_counts(is_new_run ? entry.run : static_cast<std::uint32_t>(entry.revision - 1U));
+        }
+        sink.add_lost(entry.discarded - discarded_);
+        discarded_ = entry.discarded;
     }
 
     FifoBuffer<Entry, kKept, FullPolicy::kOverwrite, EmptyPolicy::kReadback, Word> buffer_{};
     std::uint64_t delivered_count_{0U};  ///< used by the writing core only
-    std::uint64_t last_number_{0U};      ///< of the entry read or dropped last; used by the reading core only
+    // Used by the reading core only.
+    std::uint64_t last_number_{0U};       ///< of the entry read or dropped last
+    std::uint32_t run_{kNoRun};           ///< Entry::run of the entry that arrived last
+    std::uint32_t discarded_{0U};         ///< Entry::discarded of the entry that arrived last
+    std::uint32_t counted_restarts_{0U};  ///< restarts of the sink that its counters contain
+    static constexpr std::uint32_t kNoRun = 0xFFFFFFFFU;
 };
 
 /// Functions that the executive calls for a connection; one constant per pair of port types. nullptr: nothing
 /// to do. The crossing is that of the row; nullptr, and not used, where the connection has none. Ports and
 /// crossing have the types passed to connect(); nothing checks them again.
 ///
-/// Calling context: deliver and hand_on on the core of the source, latch on the core of the sink.
+/// Calling context: deliver, hand_on and note_discarded on the core of the source, latch on the core of the
+///                  sink.
 struct ConnectionOperations {
     /// After a publication of the source.
     void (*deliver)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};
@@ -130,10 +155,11 @@ struct ConnectionOperations {
     /// Forwards the value after the cycle of the source, when the sink follows in the same window.
     void (*hand_on)(OutPortBase&, InPortBase&, Instant opening) noexcept {nullptr};
     /// When the connection ends or starts with the major frame at `boundary`, before the first latch in that
-    /// frame. Values published until then belong to another mode.
-    void (*restart)(OutPortBase&, InPortBase&, Instant boundary) noexcept {nullptr};
-    /// Before the core of the sink starts: values published until then do not reach the sink.
-    void (*clear)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};
+    /// frame: values published until then belong to another mode. With kBeforeAll, before the core of the
+    /// sink starts: values published until then belong to another run.
+    void (*restart)(OutPortBase&, InPortBase&, CrossingBase*, Instant boundary) noexcept {nullptr};
+    /// Before the staged values of the source are discarded: the sink counts those that it has not received.
+    void (*note_discarded)(const OutPortBase&, InPortBase&) noexcept {nullptr};
     /// Source and sink may run on two cores or in two partitions. If so, `deliver` is set.
     bool may_leave_core{false};
     bool is_latest{false};  ///< only the newest value is kept, so the order of writer and reader matters
@@ -148,72 +174,98 @@ namespace detail {
 template <typename T, typename Sink>
 struct LatestConnection {
     static void latch(OutPortBase& source, InPortBase& sink, CrossingBase*, Instant) noexcept {
-        static_cast<Sink&>(sink).take(static_cast<OutPort<T>&>(source).get_published_sample());
+        static_cast<Sink&>(sink).take(static_cast<TypedOutPort<T>&>(source).get_published_sample());
     }
     static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
-        static_cast<Sink&>(sink).take(static_cast<OutPort<T>&>(source).get_staged_sample(opening));
+        static_cast<Sink&>(sink).take(static_cast<TypedOutPort<T>&>(source).get_staged_sample(opening));
     }
     /// On one core, the revision decides, because a value may be forwarded exactly at the boundary. A value
     /// that an earlier window of the same major frame has published belongs to the new mode.
-    static void restart(OutPortBase& source, InPortBase& sink, Instant boundary) noexcept {
+    static void restart(OutPortBase& source, InPortBase& sink, CrossingBase*, Instant boundary) noexcept {
         const std::uint64_t published = source.get_published_revision();
         const bool is_of_new_mode = published != 0U && source.get_published_at() > boundary;
-        static_cast<Sink&>(sink).restart(boundary, is_of_new_mode ? published - 1U : published);
+        static_cast<Sink&>(sink).restart(boundary, is_of_new_mode ? published - 1U : source.get_revision());
     }
-    static void clear(OutPortBase&, InPortBase& sink, CrossingBase*) noexcept {
-        static_cast<Sink&>(sink).restart(kBeforeAll, 0U);  // same core: begin_run() resets the source
+    static void note_discarded(const OutPortBase& source, InPortBase& sink) noexcept {
+        sink.note_discarded(source.get_staged_count(), source.get_revision());
     }
-    static constexpr ConnectionOperations kOperations{nullptr, &latch, &hand_on, &restart,
-                                                      &clear,  false,  true,     true};
+    static constexpr ConnectionOperations kOperations{nullptr,         &latch, &hand_on, &restart,
+                                                      &note_discarded, false,  true,     true};
 };
 
 /// As LatestConnection, through a buffer.
 template <typename T, typename Sink>
 struct CrossingConnection {
     static void deliver(OutPortBase& source, InPortBase&, CrossingBase* crossing) noexcept {
-        static_cast<Crossing<T>*>(crossing)->deliver(static_cast<OutPort<T>&>(source));
+        static_cast<Crossing<T>*>(crossing)->deliver(static_cast<TypedOutPort<T>&>(source));
     }
     static void latch(OutPortBase&, InPortBase& sink, CrossingBase* crossing, Instant opening) noexcept {
         static_cast<Crossing<T>*>(crossing)->latch(static_cast<Sink&>(sink), opening);
     }
     /// This core must not read what another core may be publishing: latch() compares instants instead.
-    static void restart(OutPortBase&, InPortBase& sink, Instant boundary) noexcept {
-        static_cast<Sink&>(sink).restart(boundary, 0U);
-    }
-    static void clear(OutPortBase&, InPortBase& sink, CrossingBase* crossing) noexcept {
-        static_cast<Crossing<T>*>(crossing)->clear(static_cast<Sink&>(sink));
+    static void restart(OutPortBase&, InPortBase& sink, CrossingBase* crossing, Instant boundary) noexcept {
+        if (boundary == kBeforeAll) {
+            static_cast<Crossing<T>*>(crossing)->clear(static_cast<Sink&>(sink));
+        } else {
+            static_cast<Sink&>(sink).restart(boundary, 0U);
+        }
     }
     static constexpr ConnectionOperations kOperations{&deliver, &latch, nullptr, &restart,
-                                                      &clear,   true,   true,    true};
+                                                      nullptr,  true,   true,    true};
 };
 
-/// A sink that queues every publication; the writer of the queue may be on another core.
-template <typename T, typename Sink>
+/// A sink that queues every value; the writer of the queue may be on another core.
+/// @tparam Source OutPort or QueueOutPort.
+template <typename Source, typename Sink>
 struct QueueConnection {
     static void deliver(OutPortBase& source, InPortBase& sink, CrossingBase*) noexcept {
-        push(source, sink, static_cast<OutPort<T>&>(source).get_published_sample());
+        push_all(source, sink, static_cast<Source&>(source).get_published_sample());
     }
     static void latch(OutPortBase&, InPortBase& sink, CrossingBase*, Instant opening) noexcept {
         static_cast<Sink&>(sink).open(opening);
     }
     static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
-        push(source, sink, static_cast<OutPort<T>&>(source).get_staged_sample(opening));
+        push_all(source, sink, static_cast<Source&>(source).get_staged_sample(opening));
         static_cast<Sink&>(sink).show_oldest();
     }
-    static void restart(OutPortBase&, InPortBase& sink, Instant boundary) noexcept {
-        static_cast<Sink&>(sink).restart(boundary, 0U);
+    static void restart(OutPortBase&, InPortBase& sink, CrossingBase*, Instant boundary) noexcept {
+        if (boundary == kBeforeAll) {
+            static_cast<Sink&>(sink).clear();
+        } else {
+            static_cast<Sink&>(sink).restart(boundary, 0U);
+        }
     }
-    static void clear(OutPortBase&, InPortBase& sink, CrossingBase*) noexcept {
-        static_cast<Sink&>(sink).clear();
+    static void note_discarded(const OutPortBase& source, InPortBase& sink) noexcept {
+        static_cast<Sink&>(sink).note_discarded(source.get_staged_count(), source.get_revision());
     }
     static constexpr ConnectionOperations kOperations{
-        &deliver, &latch, &hand_on, &restart, &clear, Sink::kMayLeaveCore, false, true};
+        &deliver, &latch, &hand_on, &restart, &note_discarded, Sink::kMayLeaveCore, false, true};
 
   private:
-    static void push(OutPortBase& source, InPortBase& sink,
-                     const typename OutPort<T>::Sample& sample) noexcept {
-        if (static_cast<Sink&>(sink).push(sample) != Status::kOk) {
+    using Sample = typename Source::Sample;
+    /// @param[in] newest of the values of one cycle.
+    static void push_all(OutPortBase& source, InPortBase& sink, const Sample& newest) noexcept {
+        if constexpr (Source::kIsQueue) {
+            if (newest.revision == 0U) {
+                return;  // nothing is staged
+            }
+            const auto values = static_cast<Source&>(source).get_values();
+            std::uint64_t revision = newest.revision - values.size();
+            for (const typename Source::Payload& value : values) {
+                ++revision;
+                push(source, sink, {value, revision, newest.published_at});
+            }
+        } else {
+            push(source, sink, newest);
+        }
+    }
+    static void push(OutPortBase& source, InPortBase& sink, const Sample& sample) noexcept {
+        Sink& queue = static_cast<Sink&>(sink);
+        const std::uint32_t overwritten_count = queue.get_overwritten_count();
+        if (queue.push(sample) != Status::kOk) {
             source.note_refused(sample.revision);
+        } else if (queue.get_overwritten_count() != overwritten_count) {
+            source.note_overwritten();
         }
     }
 };

@@ -4,7 +4,8 @@
 /// values at window boundaries, so the values read do not depend on execution times (logical execution time).
 /// Within one window, the executive forwards a value to the components that are later in its order.
 ///
-/// @satisfies SWR-KRN-015, SWR-KRN-016, SWR-KRN-038, SWR-KRN-040      Design: docs/design/kernel.md#ports
+/// @satisfies SWR-KRN-015, SWR-KRN-016, SWR-KRN-038, SWR-KRN-040, SWR-KRN-054
+/// Design:   docs/design/kernel.md#ports, docs/design/kernel.md#counters
 #ifndef MAMORI_KERNEL_DATA_PORT_HPP
 #define MAMORI_KERNEL_DATA_PORT_HPP
 
@@ -40,12 +41,17 @@ inline constexpr Instant kBeforeAll{std::numeric_limits<std::int64_t>::min()};
 /// Whether a connection must feed an input. The system table rejects an unconnected mandatory input.
 enum class Need : std::uint8_t { kMandatory, kOptional };
 
-/// Counters of an input with a queue; all 0 for an input that keeps the latest value. Counters wrap at 2^32.
-struct QueueCounts {
-    std::uint32_t capacity{0U};         ///< maximum number of values that can wait; 0: no queue
+/// Counters of a port. Counters wrap at 2^32; what does not apply to a port is 0.
+struct PortCounts {
+    std::uint32_t written{0U};     ///< outputs: OutPortBase::get_written_count()
+    std::uint32_t received{0U};    ///< inputs: values that arrived; of a queue: values that were read
+    std::uint32_t superseded{0U};  ///< inputs: values that a newer one replaced before they arrived
+    std::uint32_t lost{0U};        ///< outputs: OutPortBase::get_lost_count(); inputs: see their function
+    std::uint32_t waiting{0U};     ///< values in a queue
+    std::uint32_t capacity{0U};    ///< maximum number of values that can wait; 0: no queue
     std::uint32_t high_water_mark{0U};  ///< maximum number of values that have waited, 0 .. capacity
-    std::uint32_t rejected{0U};         ///< values rejected because the queue was full
-    std::uint32_t overwritten{0U};      ///< values overwritten before they were read
+    std::uint32_t rejected{0U};         ///< of `lost`: values rejected because the queue was full
+    std::uint32_t overwritten{0U};      ///< of `lost`: values overwritten before they were read
     std::uint32_t empty_reads{0U};      ///< reads that found no waiting value
 };
 
@@ -72,30 +78,77 @@ class OutPortBase : public Member {
         return is_refused ? PortStatus::kBufferFull : PortStatus::kOk;
     }
     /// True when a written value waits for publication.
-    bool is_staged() const noexcept { return is_staged_; }
+    bool is_staged() const noexcept { return staged_count_ != 0U; }
+    /// Number of values that wait for publication: at most 1, and at most the capacity of a QueueOutPort.
+    std::uint32_t get_staged_count() const noexcept { return staged_count_; }
+    /// Revision of the last write that was accepted, since construction; 0: no write.
+    std::uint64_t get_revision() const noexcept { return revision_; }
+    /// Number of writes since construction, also of rejected ones (wraps at 2^32).
+    std::uint32_t get_written_count() const noexcept {
+        return static_cast<std::uint32_t>(revision_) + rejected_count_;
+    }
+    /// Number of values that no connection receives: a full QueueOutPort rejected them, or their window was
+    /// discarded (wraps at 2^32). An input of the same window may have received such a value before.
+    std::uint32_t get_lost_count() const noexcept { return rejected_count_ + discarded_count_; }
+    /// The counters above.
+    PortCounts get_counts() const noexcept {
+        PortCounts counts;
+        counts.written = get_written_count();
+        counts.lost = get_lost_count();
+        counts.rejected = rejected_count_;
+        return counts;
+    }
+    /// For connections between cores: get_revision() at the start of the run (wraps at 2^32).
+    std::uint32_t get_run_revision() const noexcept { return run_revision_; }
+    /// For connections between cores: number of values discarded in this run.
+    std::uint32_t get_discarded_in_run() const noexcept { return discarded_count_ - run_discarded_count_; }
 
     /// Publishes the staged value. For the executive, at window end.
     /// @param[in] now instant of publication. @return true when a value was staged.
     bool publish(Instant now) noexcept {
-        if (!is_staged_) {
+        if (staged_count_ == 0U) {
             return false;
         }
         ++sequence_;  // the staged slot becomes the published slot
         published_at_ = now;
         published_revision_ = revision_;
-        is_staged_ = false;
+        staged_count_ = 0U;
         return true;
     }
-    /// Discards the staged value, because its window overran. The published value does not change.
-    void discard() noexcept { is_staged_ = false; }
+    /// Discards the staged values, because their window overran, and counts them as lost. The published value
+    /// does not change.
+    void discard() noexcept {
+        discarded_count_ += staged_count_;
+        has_loss_ = has_loss_ || staged_count_ != 0U;
+        staged_count_ = 0U;
+    }
     /// For the executive, before a run: no value of the run is staged or published. The value remains
     /// readable.
     void begin_run() noexcept {
-        is_staged_ = false;
+        discard();
         published_revision_ = 0U;
+        run_revision_ = static_cast<std::uint32_t>(revision_);
+        run_discarded_count_ = discarded_count_;
+        reported_frame_ = kBeforeAll;
+        has_loss_ = false;
     }
     /// For connections: a full queue rejected the value of a write. @param[in] revision number of the write.
-    void note_refused(std::uint64_t revision) noexcept { refused_revision_ = revision; }
+    void note_refused(std::uint64_t revision) noexcept {
+        refused_revision_ = revision;
+        has_loss_ = true;
+    }
+    /// For connections: a full queue overwrote an older value.
+    void note_overwritten() noexcept { has_loss_ = true; }
+    /// For the executive: whether to report a loss of this run now, at most once per major frame. A second
+    /// loss in a frame is reported in the next frame. @param[in] frame start of the major frame.
+    bool take_loss(Instant frame) noexcept {
+        if (!has_loss_ || reported_frame_ == frame) {
+            return false;
+        }
+        has_loss_ = false;
+        reported_frame_ = frame;
+        return true;
+    }
 
   protected:
     template <typename Owner>
@@ -114,7 +167,15 @@ class OutPortBase : public Member {
     std::uint64_t published_revision_{0U};  ///< revision of the published value
     std::uint64_t refused_revision_{0U};    ///< revision of the last write that a full queue rejected
     std::uint32_t sequence_{0U};
-    bool is_staged_{false};
+    std::uint32_t rejected_count_{0U};
+    std::uint8_t staged_count_{0U};
+    bool has_loss_{false};  ///< not reported yet
+
+  private:
+    std::uint32_t discarded_count_{0U};
+    std::uint32_t run_revision_{0U};         ///< revision at the start of the run
+    std::uint32_t run_discarded_count_{0U};  ///< discarded_count_ at the start of the run
+    Instant reported_frame_{kBeforeAll};     ///< major frame of the last report
 };
 
 /// Type-free part of an input.
@@ -157,6 +218,37 @@ class InPortBase : public Member {
     std::uint32_t get_missed_count() const noexcept { return missed_count_; }
     /// For connections between cores.
     void record_missed() noexcept { ++missed_count_; }
+    /// For connections: the last `count` values of the source were discarded. Those up to the value held here
+    /// are not lost for this input: it received them within the window.
+    /// @param[in] revision of the last discarded value, >= that of the value held here.
+    void note_discarded(std::uint32_t count, std::uint64_t revision) noexcept {
+        const std::uint32_t lost = count_newer(count, revision, revision_);
+        undecided_lost_count_ = get_undecided_lost_count() + lost;
+        undecided_since_ = static_cast<std::uint32_t>(revision_);
+        lost_count_ += lost;
+    }
+    /// For connections between cores: `count` values before the next one that arrives were discarded.
+    void add_lost(std::uint32_t count) noexcept { lost_count_ += count; }
+    /// For connections: the counters begin after the value with this revision.
+    void begin_counts(std::uint32_t revision) noexcept {
+        if (revision == static_cast<std::uint32_t>(revision_)) {
+            return;
+        }
+        base_ += revision - static_cast<std::uint32_t>(revision_) - get_undecided_lost_count();
+        undecided_lost_count_ = 0U;
+    }
+
+    /// Counters of an input with the latest value. Of the values that its connection wrote, up to the one
+    /// that arrived last: written = received + superseded + lost. What was under way when a run or a mode
+    /// ended is not counted.
+    PortCounts get_latest_counts() const noexcept {
+        PortCounts counts;
+        counts.received = received_count_;
+        counts.lost = lost_count_;
+        counts.superseded = static_cast<std::uint32_t>(revision_) - base_ - received_count_ -
+                            (lost_count_ - get_undecided_lost_count());
+        return counts;
+    }
     /// For the executive. @param[in] age_max age limit of the connection that feeds this input, > 0.
     /// @param[in] lead_max tolerance for instants in the future, >= 0.
     void set_age_limits(Duration age_max, Duration lead_max) noexcept {
@@ -165,8 +257,16 @@ class InPortBase : public Member {
     }
 
   protected:
+    /// @return how many of `count` values up to `revision` are newer than `held`.
+    static std::uint32_t count_newer(std::uint32_t count, std::uint64_t revision,
+                                     std::uint64_t held) noexcept {
+        const std::uint64_t newer_count = revision - held;
+        return newer_count < count ? static_cast<std::uint32_t>(newer_count) : count;
+    }
+
     template <typename Owner>
-    constexpr InPortBase(Owner& owner, const char* name) noexcept : Member(owner, MemberKind::kPort, name) {}
+    constexpr InPortBase(Owner& owner, const char* name) noexcept
+        : Member(owner, MemberKind::kPort, name), has_value_(false), is_new_(false) {}
     ~InPortBase() = default;
 
     /// For connections: another connection, or none, feeds this input from `boundary` on. The input has no
@@ -174,6 +274,7 @@ class InPortBase : public Member {
     /// @param[in] revision last revision of the source before the boundary; 0 when instants decide which
     ///                     values are accepted, and when there is no source.
     void restart(Instant boundary, std::uint64_t revision) noexcept {
+        begin_counts(static_cast<std::uint32_t>(revision));
         restarted_at_ = boundary;
         revision_ = revision;
         ++restart_count_;
@@ -188,8 +289,21 @@ class InPortBase : public Member {
     std::uint64_t revision_{0U};  ///< revision of the value held here
     std::uint32_t restart_count_{0U};
     std::uint32_t missed_count_{0U};
-    bool has_value_{false};
-    bool is_new_{false};
+    std::uint32_t received_count_{0U};
+    // Bits, so that one instruction sets both.
+    bool has_value_ : 1;
+    bool is_new_ : 1;
+
+  private:
+    /// Lost values that are newer than the value held here.
+    std::uint32_t get_undecided_lost_count() const noexcept {
+        return undecided_since_ == static_cast<std::uint32_t>(revision_) ? undecided_lost_count_ : 0U;
+    }
+
+    std::uint32_t lost_count_{0U};
+    std::uint32_t undecided_lost_count_{0U};
+    std::uint32_t undecided_since_{0U};  ///< revision held here when they were lost
+    std::uint32_t base_{0U};             ///< revisions that no counter contains
 };
 
 namespace detail {
@@ -204,37 +318,20 @@ struct PayloadSlot {
 
 }  // namespace detail
 
-/// Counters of an input that keeps the latest value: all 0.
-inline QueueCounts count_no_queue(const InPortBase&) noexcept {
-    return {};
+/// Counters of an input that keeps the latest value. For the system table.
+inline PortCounts count_latest(const InPortBase& port) noexcept {
+    return port.get_latest_counts();
 }
 
-/// Output of type T. The value is a trivially copyable payload with a field list (or a plain number).
-///
-/// Thread safety: written by its component, published by the executive of the same core.
-/// Time: O(sizeof(T)) for write, O(1) for publish. Memory: two T, each aligned to 64 bytes from 1 KiB on.
+/// Part of an output of type T that connections use. The value is a trivially copyable payload with a field
+/// list (or a plain number).
 template <typename T>
-class OutPort final : public OutPortBase {
+class TypedOutPort : public OutPortBase {
     static_assert(is_payload<T>(),
                   "a payload needs MAMORI_FIELDS(Type, field, ...) and must be trivially copyable");
 
   public:
     using Payload = T;
-
-    /// @param[in] owner the component that has this port as a member: `OutPort<double> speed{*this,
-    /// "speed"}`.
-    /// @param[in] name  port name with static storage, not nullptr.
-    constexpr OutPort(Component& owner, const char* name) noexcept : OutPortBase(owner, name) {}
-    /// A port that belongs to no component and to no table.
-    constexpr OutPort(NoOwner owner, const char* name) noexcept : OutPortBase(owner, name) {}
-
-    /// Stages a value for publication at window end; a second write in one cycle replaces the first. For the
-    /// actions of its component.
-    void write(const T& value) noexcept {
-        slots_[get_staged_slot()].value = value;
-        ++revision_;
-        is_staged_ = true;
-    }
 
     /// Last published value; a value-initialised T before the first publication. The referenced value does
     /// not change until the second write() after the publication.
@@ -253,19 +350,58 @@ class OutPort final : public OutPortBase {
     /// For connections within a window: the staged value before its publication, or none.
     /// @param[in] now window start, which becomes the instant of the value.
     Sample get_staged_sample(Instant now) const noexcept {
-        return {slots_[get_staged_slot()].value, is_staged_ ? revision_ : 0U, now};
+        return {slots_[get_staged_slot()].value, is_staged() ? revision_ : 0U, now};
+    }
+
+  protected:
+    template <typename Owner>
+    constexpr TypedOutPort(Owner& owner, const char* name) noexcept : OutPortBase(owner, name) {}
+    ~TypedOutPort() = default;
+
+    /// The staged value becomes `value`.
+    void stage(const T& value) noexcept {
+        slots_[get_staged_slot()].value = value;
+        ++revision_;
+    }
+    void hash_publication(TraceHash& hash) const noexcept {
+        hash(get_sequence());
+        hash(get_published_at().ns);
+    }
+
+  private:
+    std::array<detail::PayloadSlot<T>, 2U> slots_{};
+};
+
+/// Output of type T that publishes the latest value of a cycle.
+///
+/// Thread safety: written by its component, published by the executive of the same core.
+/// Time: O(sizeof(T)) for write, O(1) for publish. Memory: two T, each aligned to 64 bytes from 1 KiB on.
+template <typename T>
+class OutPort final : public TypedOutPort<T> {
+  public:
+    static constexpr bool kIsQueue = false;
+
+    /// @param[in] owner the component that has this port as a member: `OutPort<double> speed{*this,
+    /// "speed"}`.
+    /// @param[in] name  port name with static storage, not nullptr.
+    constexpr OutPort(Component& owner, const char* name) noexcept : TypedOutPort<T>(owner, name) {}
+    /// A port that belongs to no component and to no table.
+    constexpr OutPort(NoOwner owner, const char* name) noexcept : TypedOutPort<T>(owner, name) {}
+
+    /// Stages a value for publication at window end; a second write in one cycle replaces the first, which is
+    /// superseded. For the actions of its component.
+    void write(const T& value) noexcept {
+        this->stage(value);
+        this->staged_count_ = 1U;
     }
 
     /// Adds the sequence number, the instant and the value of the last publication to a hash.
     /// @param[in] port an output of this type; for tables, which have no types.
     static void hash_published(const OutPortBase& port, TraceHash& hash) noexcept {
-        hash(port.get_sequence());
-        hash(port.get_published_at().ns);
-        hash.add(static_cast<const OutPort&>(port).get_published());
+        const auto& self = static_cast<const OutPort&>(port);
+        self.hash_publication(hash);
+        hash.add(self.get_published());
     }
-
-  private:
-    std::array<detail::PayloadSlot<T>, 2U> slots_{};
 };
 
 /// Input of type T that holds the latest value.
@@ -298,11 +434,12 @@ class InPort final : public InPortBase {
         slot_.value = T{};
     }
     /// Accepts a sample whose revision is higher than that of the current value. For connections.
-    void take(const typename OutPort<T>::Sample& sample) noexcept {
+    void take(const typename TypedOutPort<T>::Sample& sample) noexcept {
         if (sample.revision > revision_) {
             slot_.value = sample.value;
             revision_ = sample.revision;
             published_at_ = sample.published_at;
+            ++received_count_;
             has_value_ = true;
             is_new_ = true;
         }

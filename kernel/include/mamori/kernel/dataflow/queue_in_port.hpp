@@ -4,12 +4,13 @@
 /// policies of OpenRTM. The source may run on another core. Planned instants decide which entries a cycle can
 /// read, not the relative speed of the cores.
 ///
-/// @satisfies SWR-KRN-028, SWR-KRN-029, SWR-KRN-037, SWR-KRN-039      Design:
-/// docs/design/kernel.md#connections Source:   OpenRTM-aist, buffer.write.full_policy and
-/// buffer.read.empty_policy of a data port
+/// @satisfies SWR-KRN-028, SWR-KRN-029, SWR-KRN-037, SWR-KRN-039, SWR-KRN-054
+/// Design:   docs/design/kernel.md#connections, docs/design/kernel.md#counters
+/// Source:   OpenRTM-aist, buffer.write.full_policy and buffer.read.empty_policy of a data port
 #ifndef MAMORI_KERNEL_QUEUE_IN_PORT_HPP
 #define MAMORI_KERNEL_QUEUE_IN_PORT_HPP
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -76,26 +77,54 @@ class QueueInPort final : public InPortBase {
     /// Number of read() calls that found no waiting value.
     std::uint32_t get_empty_read_count() const noexcept { return empty_read_count_; }
 
-    /// All counters above. @param[in] base an input of this type. For the system table.
-    static QueueCounts count(const InPortBase& base) noexcept {
-        const auto& self = static_cast<const QueueInPort&>(base);
-        return {static_cast<std::uint32_t>(kCapacity), self.get_high_water_mark(), self.get_rejected_count(),
-                self.get_overwritten_count(), self.get_empty_read_count()};
+    /// All counters. Of the values that the source wrote, up to the one that it appended last:
+    /// written = received + superseded + lost + waiting. Values that another one replaced before publication,
+    /// and values of modes in which the connection is inactive, count as superseded. Values of another run or
+    /// mode that were dropped unread count as lost. While the source runs on another core, `waiting` may
+    /// contain a value that has just been read.
+    PortCounts get_counts() const noexcept {
+        PortCounts counts;
+        counts.received = received_count_;
+        counts.capacity = static_cast<std::uint32_t>(kCapacity);
+        counts.high_water_mark = get_high_water_mark();
+        counts.rejected = get_rejected_count();
+        counts.overwritten = get_overwritten_count();
+        counts.empty_reads = get_empty_read_count();
+        const std::uint32_t lost = counts.rejected + counts.overwritten + dropped_count_;
+        counts.lost = lost + source_.discarded_count.load(std::memory_order_relaxed);
+        counts.superseded = source_.superseded_count.load(std::memory_order_relaxed);
+        counts.waiting = source_.pushed_count.load(std::memory_order_relaxed) - received_count_ - lost;
+        return counts;
+    }
+    /// As get_counts(). @param[in] base an input of this type. For the system table.
+    static PortCounts count(const InPortBase& base) noexcept {
+        return static_cast<const QueueInPort&>(base).get_counts();
     }
 
     /// For connections, on the core of the source: appends a sample whose revision is higher than that of the
     /// last sample. A full queue counts the values that it rejects or overwrites; nothing blocks.
     /// @return kOk (also when there was nothing to append); kOutOfResources (kFull is kDoNothing, and
     ///         kCapacity values wait).
-    Status push(const typename OutPort<T>::Sample& sample) noexcept {
-        if (sample.revision <= pushed_revision_) {
+    Status push(const typename TypedOutPort<T>::Sample& sample) noexcept {
+        if (sample.revision <= source_.revision) {
             return Status::kOk;
         }
-        pushed_revision_ = sample.revision;
+        const auto gap = static_cast<std::uint32_t>(sample.revision - source_.revision - 1U);
+        count_up(source_.superseded_count, gap - source_.discarded_since);
+        count_up(source_.pushed_count, 1U);
+        source_.discarded_since = 0U;
+        source_.revision = sample.revision;
         Entry& entry = buffer_.get_write_slot();
         entry.value = sample.value;
         entry.published_at = sample.published_at;
         return buffer_.publish();
+    }
+
+    /// For connections, on the core of the source: as InPortBase::note_discarded().
+    void note_discarded(std::uint32_t count, std::uint64_t revision) noexcept {
+        const std::uint32_t lost = count_newer(count, revision, source_.revision);
+        source_.discarded_since += lost;
+        count_up(source_.discarded_count, lost);
     }
 
     /// For connections: makes the waiting values and the value read last unreadable; see open().
@@ -111,7 +140,7 @@ class QueueInPort final : public InPortBase {
         opening_ = kBeforeAll;
         for (std::size_t i = 0U; i < kEntriesMax; ++i) {
             if (buffer_.peek() == Status::kOk) {
-                buffer_.drop();
+                drop_unread();
             }
         }
     }
@@ -123,7 +152,7 @@ class QueueInPort final : public InPortBase {
         const bool is_first = !is_open();
         opening_ = opening;
         for (std::size_t i = 0U; i < kEntriesMax && is_front_of_another_mode(is_first); ++i) {
-            buffer_.drop();
+            drop_unread();
         }
         show_oldest();
     }
@@ -156,6 +185,15 @@ class QueueInPort final : public InPortBase {
         return published_at < restarted_at_ || (is_first_opening && published_at == restarted_at_);
     }
 
+    void drop_unread() noexcept {
+        ++dropped_count_;
+        buffer_.drop();
+    }
+    /// Each counter has one writer, so a load and a store suffice.
+    static void count_up(std::atomic<std::uint32_t>& count, std::uint32_t by) noexcept {
+        count.store(count.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+    }
+
     Status fetch() noexcept {
         const Status status = buffer_.peek();
         if (status == Status::kOutOfResources) {
@@ -169,16 +207,27 @@ class QueueInPort final : public InPortBase {
         published_at_ = buffer_.get_front().published_at;
         has_value_ = true;
         was_read_ = true;
+        ++received_count_;
         buffer_.drop();
         return Status::kOk;
     }
 
+    /// Written by the core of the source only.
+    struct SourceSide {
+        std::uint64_t revision{0U};         ///< of the value that was appended or rejected last
+        std::uint32_t discarded_since{0U};  ///< discarded values that are newer
+        std::atomic<std::uint32_t> discarded_count{0U};
+        std::atomic<std::uint32_t> superseded_count{0U};
+        std::atomic<std::uint32_t> pushed_count{0U};  ///< appended and rejected values
+    };
+
     FifoBuffer<Entry, kCapacity, kFull, EmptyPolicy::kDoNothing> buffer_{};
+    SourceSide source_{};
     T value_{};  ///< value read last
     Instant opening_{};
-    std::uint64_t pushed_revision_{0U};  ///< used by the source only
     std::uint32_t empty_read_count_{0U};
-    bool was_read_{false};  ///< since the last restart()
+    std::uint32_t dropped_count_{0U};  ///< values of another run or mode that were not read
+    bool was_read_{false};             ///< since the last restart()
 };
 
 }  // namespace mamori

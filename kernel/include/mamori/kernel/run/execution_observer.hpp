@@ -3,7 +3,7 @@
 /// Observation of one executive: execution records of each component, and calls for rare events. Supervision
 /// uses it, so that it does not depend on the cooperation of the supervised code.
 ///
-/// @satisfies SWR-KRN-030, SWR-KRN-031, SWR-MOD-005      Design: docs/design/kernel.md#observation
+/// @satisfies SWR-KRN-030, SWR-KRN-031, SWR-KRN-055, SWR-MOD-005      Design: docs/design/kernel.md#observation
 #ifndef MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
 #define MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
 
@@ -36,6 +36,13 @@ class ExecutionObserver {
     virtual void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept = 0;
     /// Window `window` started `lateness` (> 0) after its planned start; called before its components run.
     virtual void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept = 0;
+    /// Values of output `port` were lost: their window was discarded, or a queue that the output writes to or
+    /// a QueueOutPort was full. At most one call per port and major frame; PortCounts of the port and of the
+    /// inputs that it feeds contain the numbers.
+    virtual void on_values_lost(std::size_t port, Instant now) noexcept {
+        static_cast<void>(port);
+        static_cast<void>(now);
+    }
     /// This core starts a step of a mode switch. @param[in] index mode, or configuration set of kSet.
     virtual void on_mode_step(ModeStep step, std::size_t index, Instant now) noexcept {
         static_cast<void>(step);

@@ -69,7 +69,7 @@ struct PortSnapshot {
     Instant published_at{};              ///< publication instant of the value; invalid unless has_value
     std::uint32_t sequence{0U};          ///< outputs: publications so far (wraps at 2^32); inputs: 0
     PortStatus status{PortStatus::kOk};  ///< inputs: calc_status() at observed_at; outputs: get_status()
-    QueueCounts queue{};                 ///< inputs with a queue; else all 0
+    PortCounts counts{};                 ///< since construction
 
     /// Age of the value at observed_at [ns]; negative for a value that this window published at its end.
     constexpr Duration calc_age() const noexcept { return observed_at - published_at; }

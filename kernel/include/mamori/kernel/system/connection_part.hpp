@@ -31,26 +31,31 @@ struct ConnectionPart {
 };
 
 /// Connects `source` to `sink`, which must have the same payload type.
-/// @param[in] source  must outlive the table.
+/// @param[in] source  OutPort or QueueOutPort; must outlive the table.
 /// @param[in] sink    InPort or QueueInPort; must outlive the table.
 /// @param[in] options fresh_within(...) or any_age(); through(...), only_in(...), delayed_by_a_frame(); each
 ///                    at most once.
-template <typename T, typename Sink, typename... Options>
-constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(OutPort<T>& source, Sink& sink,
+template <typename Source, typename Sink, typename... Options>
+constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(Source& source, Sink& sink,
                                                                               Options... options) noexcept {
-    static_assert(std::is_base_of_v<InPortBase, Sink>, "connect() joins an output to an input");
-    static_assert(std::is_same_v<T, typename Sink::Payload>, "connect() joins ports of one payload type");
+    constexpr bool joins_ports =
+        std::is_base_of_v<OutPortBase, Source> && std::is_base_of_v<InPortBase, Sink>;
+    static_assert(joins_ports, "connect() joins an output to an input");
     static_assert(detail::kIsEachSaidOnce<Options...>, "each option of a connection is said once");
     static_assert(detail::kTimesSaid<FreshWithin, Options...> + detail::kTimesSaid<AnyAge, Options...> <= 1U,
                   "a connection states fresh_within(...) or any_age(), not both");
     ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> part{};
-    part.row.source = &source;
-    part.row.sink = &sink;
-    if constexpr (std::is_same_v<T, typename Sink::Payload>) {
-        using Connection = std::conditional_t<Sink::kIsQueue, detail::QueueConnection<T, Sink>,
-                                              detail::LatestConnection<T, Sink>>;
-        part.row.operations = Connection::kOperations;
-        (detail::apply<T, Sink>(part, options), ...);
+    if constexpr (joins_ports) {
+        using T = typename Source::Payload;
+        static_assert(std::is_same_v<T, typename Sink::Payload>, "connect() joins ports of one payload type");
+        part.row.source = &source;
+        part.row.sink = &sink;
+        if constexpr (std::is_same_v<T, typename Sink::Payload>) {
+            using Connection = std::conditional_t<Sink::kIsQueue, detail::QueueConnection<Source, Sink>,
+                                                  detail::LatestConnection<T, Sink>>;
+            part.row.operations = Connection::kOperations;
+            (detail::apply<T, Sink>(part, options), ...);
+        }
     }
     return part;
 }

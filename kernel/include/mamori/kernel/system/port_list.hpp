@@ -81,7 +81,7 @@ constexpr PortRow make_port_row(C& component, Port& port) noexcept {
         row.input = &port;
         row.is_mandatory = Port::kIsMandatory;
         if constexpr (Port::kIsQueue) {
-            row.count_queue = &Port::count;
+            row.count = &Port::count;
         }
     }
     return row;

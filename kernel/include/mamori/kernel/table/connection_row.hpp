@@ -27,8 +27,8 @@ struct PortRow {
     bool is_mandatory{false};         ///< of an input; false for an output
     std::size_t window{kNoIndex};     ///< index of the window of its owner
     std::size_t component{kNoIndex};  ///< index of its owner in the table
-    /// Returns the counts of an input with a queue.
-    QueueCounts (*count_queue)(const InPortBase&) noexcept {&count_no_queue};
+    /// Returns the counters of an input.
+    PortCounts (*count)(const InPortBase&) noexcept {&count_latest};
     /// Adds a publication of an output to the trace hash; nullptr: an input, or no trace_hash() requested.
     void (*hash_published)(const OutPortBase&, TraceHash&) noexcept {nullptr};
 };

@@ -3,7 +3,8 @@
 /// Part of an executive that moves the values of one core: from published outputs to inputs, forward within a
 /// window, and into publication. Not for users.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-026, SWR-KRN-039, SWR-KRN-050, SWR-MOD-009
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-023, SWR-KRN-026, SWR-KRN-039, SWR-KRN-050, SWR-KRN-054,
+///            SWR-KRN-055, SWR-MOD-009
 /// Design:   docs/design/kernel.md#parts-of-the-executive, docs/design/kernel.md#connections
 #ifndef MAMORI_KERNEL_DATA_FLOW_HPP
 #define MAMORI_KERNEL_DATA_FLOW_HPP
@@ -67,6 +68,9 @@ class DataFlow final {
     /// Gives queues and crossings what the outputs of the component have published with `end`.
     void deliver_outputs(const ComponentRow& owner, ModeMask held, Instant end) noexcept;
     void discard_ports(std::size_t first, std::size_t count) noexcept;
+    void note_discarded(const PortRow& port) noexcept;
+    /// Reports each output whose values were lost, at most once per major frame.
+    void report_losses(std::size_t first, std::size_t count) noexcept;
 
     CoreState core_;
     TraceHash trace_hash_{};

@@ -70,7 +70,7 @@ constexpr bool is_component_valid(const SystemView& view, std::size_t i) noexcep
 constexpr bool is_port_valid(const SystemView& view, const PortRow& row) noexcept {
     return (row.input == nullptr) != (row.output == nullptr) && row.owner != nullptr &&
            row.window < view.windows.size() && row.component < view.components.size() &&
-           is_function(row.count_queue);
+           is_function(row.count);
 }
 
 /// Whether an end of a connection is in the table, or marked as not in the table.
