@@ -71,6 +71,26 @@ TEST_F(ModeInputTest, ItIsTheSameThroughCrossings) {
               (Values{2001, 2002, 2003, 1004, 1005, 1006}));
 }
 
+TEST_F(ModeInputTest, AnInputDoesNotCountValuesThatAConnectionOfAnotherModeLoses) {
+    verifies("SWR-KRN-054", Technique::kBoundaryValues);
+    const auto table =
+        system(frame(1000_ns), window("first", 0_ns, 400_ns, budget(300_ns), run(watcher, planner)),
+               window("second", 400_ns, 500_ns, budget(400_ns), run(drive)),
+               connect(planner.out, drive.in, only_in("work"), any_age()),
+               connect(watcher.out, drive.in, only_in("halt"), any_age()),
+               system_mode("work", runs(watcher, planner, drive)), safe_mode("halt", runs(watcher, drive)));
+    SystemModes modes{make_view(table)};
+    ExecutiveFor<std::decay_t<decltype(table)>> sut{table, modes};
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    planner.cycle_time = 400_ns;
+
+    EXPECT_EQ(sut.run_window(0U, host.now, host), WindowOutcome::kOverrun);
+
+    EXPECT_EQ(watcher.out.get_lost_count() + planner.out.get_lost_count(), 2U);
+    EXPECT_EQ(count_latest(drive.in).lost, 1U) << "that of the planner";
+}
+
 TEST(ModeInputValueTest, AnInputWithoutValueReadsAsAFreshOne) {
     verifies("SWR-MOD-009", Technique::kErrorGuessing, Polarity::kViolation);
     Robot robot;
