@@ -40,7 +40,9 @@ constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(So
                                                                               Options... options) noexcept {
     constexpr bool joins_ports =
         std::is_base_of_v<OutPortBase, Source> && std::is_base_of_v<InPortBase, Sink>;
-    static_assert(joins_ports, "connect() joins an output to an input");
+    // Written out, so that the message names the wrong type.
+    static_assert(std::is_base_of_v<OutPortBase, Source>, "connect() joins an output to an input");
+    static_assert(std::is_base_of_v<InPortBase, Sink>, "connect() joins an output to an input");
     static_assert(detail::kIsEachSaidOnce<Options...>, "each option of a connection is said once");
     static_assert(detail::kTimesSaid<FreshWithin, Options...> + detail::kTimesSaid<AnyAge, Options...> <= 1U,
                   "a connection states fresh_within(...) or any_age(), not both");
