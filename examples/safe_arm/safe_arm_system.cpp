@@ -47,16 +47,14 @@ static constexpr auto kSafeArm = mamori::system(
     mamori::connect(channel.out, gate.command, mamori::any_age()));
 MAMORI_CHECK(kSafeArm);
 
-static_assert(kSafeArm.kWindowCount == kWindowCount && kSafeArm.components.size() == kComponentCount &&
-              kSafeArm.components[kReaderIndex] == &reader &&
+static_assert(kSafeArm.components.size() == kComponentCount && kSafeArm.components[kReaderIndex] == &reader &&
               kSafeArm.components[kMonitorIndex] == &monitor &&
               kSafeArm.components[kSupervisorIndex] == &supervisor &&
               kSafeArm.components[kControllerIndex] == &controller &&
               kSafeArm.components[kChannelIndex] == &channel && kSafeArm.components[kGateIndex] == &gate);
 
-static_assert(kSafeArm.windows[kFirstWindow].offset == 0_us &&
-              kSafeArm.windows[kLastWindow].offset > kSafeArm.windows[kLastWindow - 1U].offset &&
-              kLastWindow + 1U == kWindowCount);
+constexpr std::size_t kFirstWindow = mamori::index_of(kSafeArm, "protect");
+constexpr std::size_t kLastWindow = mamori::index_of(kSafeArm, "act");
 
 static mamori::ExecutiveFor executive_of_table{kSafeArm};
 mamori::Executive& executive = executive_of_table;

@@ -31,10 +31,9 @@ inline constexpr std::size_t kControllerIndex = 3U;
 inline constexpr std::size_t kChannelIndex = 4U;
 inline constexpr std::size_t kGateIndex = 5U;
 inline constexpr std::size_t kComponentCount = 6U;
-inline constexpr std::size_t kWindowCount = 4U;
-/// Places of the windows that open first and last in a frame.
-inline constexpr std::size_t kFirstWindow = 0U;
-inline constexpr std::size_t kLastWindow = 3U;
+/// Windows that start first and last in a major frame.
+extern const std::size_t kFirstWindow;
+extern const std::size_t kLastWindow;
 
 /// Messages that the channel can hold back: a delay of 63 ms at one message per frame.
 inline constexpr std::size_t kChannelCapacity = 64U;

@@ -405,5 +405,15 @@ TEST(CompileFailTest, AComponentThatAWindowRunsTwiceIsRefused) {
     expect_refused("windows", "component_twice_in_window", "ComponentRunsInOneContext<Producer, 1>");
 }
 
+TEST(CompileFailTest, AnIndexOfAComponentThatIsNotInTheTableIsRejected) {
+    verifies("SWR-KRN-063", Technique::kInterface, Polarity::kViolation);
+    expect_explained("index_of", "component_of_no_window", "is_component_of_the_table");
+}
+
+TEST(CompileFailTest, AnArrayBoundByAWindowThatIsNotInTheTableIsRejected) {
+    verifies("SWR-KRN-063", Technique::kInterface, Polarity::kViolation);
+    expect_explained("index_of", "array_bound", "is_window_of_the_table");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -57,6 +57,38 @@ TEST(SystemTest, WindowsHoldTheirPlaceBudgetAndComponents) {
               (std::array<Component*, 5>{&g_portless, &g_counter, &g_relay, &g_second_relay, &g_listener}));
 }
 
+TEST(SystemTest, AComponentAndAWindowGiveTheirIndexInConstantExpressions) {
+    verifies("SWR-KRN-063");
+    static_assert(index_of(kSystem, g_portless) == 0U);
+    static_assert(index_of(kSystem, g_listener) == 4U);
+    static_assert(index_of(kSystem, "sense") == 0U);
+    const std::array<int, index_of(kSystem, "act") + 1U> per_window{};
+
+    EXPECT_EQ(per_window.size(), kSystem.windows.size());
+}
+
+TEST(SystemTest, IndicesAreThoseOfTheViewAtRunTime) {
+    verifies("SWR-KRN-063");
+    const SystemView view = make_view(kSystem);
+
+    for (std::size_t i = 0U; i < view.components.size(); ++i) {
+        EXPECT_EQ(index_of(view, *view.components[i]), i);
+    }
+    for (std::size_t i = 0U; i < view.windows.size(); ++i) {
+        EXPECT_EQ(index_of(view, view.windows[i].name), i);
+    }
+}
+
+TEST(SystemTest, AnIndexOfWhatIsNotInTheTableEndsInTheAssertion) {
+    verifies("SWR-KRN-063", Technique::kInterface, Polarity::kViolation);
+    const SystemView view = make_view(kSystem);
+    const Portless stranger;
+
+    EXPECT_DEATH(static_cast<void>(index_of(view, stranger)), "is_component_of_the_table");
+    EXPECT_DEATH(static_cast<void>(index_of(view, "tell")), "is_window_of_the_table");
+    EXPECT_DEATH(static_cast<void>(index_of(view, nullptr)), "is_window_of_the_table");
+}
+
 TEST(SystemTest, PortsAreListedWithOwnerWindowAndNeed) {
     verifies("SWR-KRN-017");
 

@@ -37,6 +37,7 @@
 #include "mamori/kernel/system/system_part.hpp"
 #include "mamori/kernel/system/system_rules.hpp"
 #include "mamori/kernel/system/window_part.hpp"
+#include "mamori/kernel/table/index_of.hpp"
 #include "mamori/kernel/table/mode_builder.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
