@@ -44,7 +44,11 @@ static constexpr auto kSafeArm = mamori::system(
     mamori::connect(supervisor.stop, controller.stop, mamori::any_age()),
     mamori::connect(controller.command, channel.in, mamori::any_age()),
     mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
-    mamori::connect(channel.out, gate.command, mamori::any_age()));
+    mamori::connect(channel.out, gate.command, mamori::any_age()),
+    mamori::modelled_time(reader, kSafetyComponentTime), mamori::modelled_time(monitor, kSafetyComponentTime),
+    mamori::modelled_time(supervisor, kSafetyComponentTime),
+    mamori::modelled_time(controller, kControllerTime), mamori::modelled_time(channel, kSafetyComponentTime),
+    mamori::modelled_time(gate, kSafetyComponentTime));
 MAMORI_CHECK(kSafeArm);
 
 static_assert(kSafeArm.components.size() == kComponentCount && kSafeArm.components[kReaderIndex] == &reader &&
@@ -60,13 +64,8 @@ static mamori::ExecutiveFor executive_of_table{kSafeArm};
 mamori::Executive& executive = executive_of_table;
 static mamori::IntrospectionFor introspection_of_table{kSafeArm};
 mamori::Introspection& introspection = introspection_of_table;
-
-std::array<mamori::Duration, kComponentCount> make_modelled_times() noexcept {
-    std::array<mamori::Duration, kComponentCount> times{};
-    times.fill(kSafetyComponentTime);
-    times[kControllerIndex] = kControllerTime;
-    return times;
-}
+static mamori::ports::virtual_time::VirtualHostFor host_of_table{kSafeArm};
+mamori::ports::virtual_time::VirtualHost& virtual_host = host_of_table;
 
 mamori::Status watch_components() noexcept {
     using mamori::safety::SupervisionScope;

@@ -17,6 +17,7 @@
 #include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
+#include "mamori/ports/virtual_time/virtual_host.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
 #include "motion_controller.hpp"
 #include "safety_supervisor.hpp"
@@ -55,13 +56,12 @@ extern DriveGate gate;
 extern mamori::Executive& executive;
 /// Of the same table; shows nothing until it is attached to the executive.
 extern mamori::Introspection& introspection;
+/// Simulates it in virtual time.
+extern mamori::ports::virtual_time::VirtualHost& virtual_host;
 
 /// Modelled execution times.
 inline constexpr mamori::Duration kSafetyComponentTime = 30_us;
 inline constexpr mamori::Duration kControllerTime = 120_us;
-
-/// Of each component, in the order of the table.
-std::array<mamori::Duration, kComponentCount> make_modelled_times() noexcept;
 
 /// Puts the components under supervision. The channel carries and does not decide; what it does wrong shows
 /// in its messages. The controller is not safety-related: its failure is a fault with a reaction and leaves

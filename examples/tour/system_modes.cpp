@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // System modes: an operator starts the drive, and a monitor demands the safe mode.
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -63,7 +62,8 @@ static constexpr auto kSystem = mamori::system(
     mamori::system_mode("work", mamori::runs(drive, monitor), mamori::parameters("fast")),
     mamori::safe_mode("halt", mamori::runs(monitor)),
     mamori::mode_transition("idle", Command::kStart, "work"),
-    mamori::mode_transition("work", Command::kStop, "idle"));
+    mamori::mode_transition("work", Command::kStop, "idle"), mamori::modelled_time(drive, 100_us),
+    mamori::modelled_time(monitor, 100_us));
 MAMORI_CHECK(kSystem);
 static mamori::SystemModes drive_modes{mamori::make_view(kSystem)};
 static mamori::ExecutiveFor executive{kSystem, drive_modes};
@@ -92,8 +92,7 @@ class Operator final : public mamori::ports::virtual_time::FrameDevices {
 };
 
 int main() {
-    std::array<mamori::Duration, 2U> execution_times{100_us, 100_us};
-    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
     mamori::ports::virtual_time::SimulatedCore core{executive, host};
     Operator devices;
     mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};

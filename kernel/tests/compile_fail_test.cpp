@@ -415,5 +415,21 @@ TEST(CompileFailTest, AnArrayBoundByAWindowThatIsNotInTheTableIsRejected) {
     expect_explained("index_of", "array_bound", "is_window_of_the_table");
 }
 
+TEST(CompileFailTest, AModelledTimeOfAComponentThatNoWindowRunsIsRejected) {
+    verifies("SWR-KRN-064", Technique::kInterface, Polarity::kViolation);
+    expect_refused("modelled_times", "",
+                   "ModelledTimeHasAComponentOfTheTable<Consumer, mamori::rules::Row<0>", "1");
+}
+
+TEST(CompileFailTest, ASecondModelledTimeOfAComponentIsRejected) {
+    verifies("SWR-KRN-064", Technique::kInterface, Polarity::kViolation);
+    expect_refused("modelled_times", "", "ModelledTimeIsStatedOnce<Producer, mamori::rules::Row<2>", "2");
+}
+
+TEST(CompileFailTest, AModelledTimeBelowZeroIsRejected) {
+    verifies("SWR-KRN-064", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("modelled_times", "", "ModelledTimeIsNotNegative<Producer, mamori::rules::Row<0>", "3");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -67,6 +67,36 @@ TEST(SystemTest, AComponentAndAWindowGiveTheirIndexInConstantExpressions) {
     EXPECT_EQ(per_window.size(), kSystem.windows.size());
 }
 
+TEST(SystemTest, ModelledTimesAreRowsOfTheirOwn) {
+    verifies("SWR-KRN-064");
+    Portless fast;
+    Portless slow;
+    const auto table = system(frame(1_ms), window("all", 0_us, 100_us, budget(50_us), run(fast, slow)),
+                              modelled_time(slow, 30_us), modelled_time(fast, 0_us));
+
+    EXPECT_EQ(table.modelled_times[0].component, &slow);
+    EXPECT_EQ(table.modelled_times[0].duration, 30_us);
+    EXPECT_EQ(check_modelled_times(table.modelled_times, table.components).rule, Rule::kNone);
+    EXPECT_EQ(sizeof(kSystem), sizeof(SystemTable<2U, 5U, 6U, 3U>)) << "no byte without modelled times";
+}
+
+TEST(SystemTest, TheFirstInvalidModelledTimeIsFound) {
+    verifies("SWR-KRN-064", Technique::kBoundaryValues, Polarity::kViolation);
+    const Portless stranger;
+    const auto find = [](const ModelledTimeRow& row, Duration first) {
+        const std::array<ModelledTimeRow, 2U> rows{{{&g_relay, first}, row}};
+        return check_modelled_times(rows, kSystem.components);
+    };
+
+    EXPECT_EQ(find({&g_counter, 0_us}, 0_us).rule, Rule::kNone);
+    EXPECT_EQ(find({&g_counter, Duration{-1}}, 0_us).rule, Rule::kModelledTimeNegative);
+    EXPECT_EQ(find({&g_counter, Duration{-1}}, 0_us).element, 1U);
+    EXPECT_EQ(find({&g_counter, Duration{-1}}, Duration{-1}).element, 0U);
+    EXPECT_EQ(find({&stranger, 0_us}, 0_us).rule, Rule::kModelledTimeOfUnknownComponent);
+    EXPECT_EQ(find({nullptr, 0_us}, 0_us).rule, Rule::kModelledTimeOfUnknownComponent);
+    EXPECT_EQ(find({&g_relay, 1_us}, 0_us).rule, Rule::kModelledTimeStatedTwice);
+}
+
 TEST(SystemTest, IndicesAreThoseOfTheViewAtRunTime) {
     verifies("SWR-KRN-063");
     const SystemView view = make_view(kSystem);

@@ -86,6 +86,7 @@ static_assert(kSystem.components.size() == kComponentCount &&
               kSystem.components[kControllerIndex] == &controller);
 
 mamori::ExecutiveFor executive_of_table{kSystem};
+virtual_time::VirtualHostFor host_of_table{kSystem};
 
 bool is_pushed(Instant since, Instant now) noexcept {
     return now >= since && now < since + kPush;
@@ -94,6 +95,7 @@ bool is_pushed(Instant since, Instant now) noexcept {
 }  // namespace
 
 mamori::Executive& executive = executive_of_table;
+virtual_time::VirtualHost& host = host_of_table;
 
 Status prepare() noexcept {
     executive.set_observer(&supervision);
@@ -118,8 +120,8 @@ void ObedientDevices::begin_frame(std::uint64_t, Instant now) noexcept {
     inputs.start_button = is_pushed(kFirstStart, now) || is_pushed(kSecondStart, now);
     inputs.reset_button = is_pushed(kReset, now);
     const Duration controller_time = now < kControllerHangs ? kControllerTime : virtual_time::kNever;
-    // The controller is in the model's table, so this cannot be rejected.
-    static_cast<void>(host_.set_duration(kControllerIndex, controller_time));
+    // The controller is in the table, so this cannot be rejected.
+    static_cast<void>(host_.set_duration(controller, controller_time));
 }
 
 void ObedientDevices::end_frame(std::uint64_t, Instant now, Duration length) noexcept {

@@ -53,8 +53,6 @@ int run_program() noexcept {
         is_refused(executive.start(), "start")) {
         return kNotStarted;
     }
-    std::array<mamori::Duration, 8U> durations{};
-    virtual_time::VirtualHost host{durations};
     ObedientDevices devices{host};
     virtual_time::SimulatedCore core{executive, host};
     virtual_time::FrameRunner runner{{&core, 1U}, devices};

@@ -22,6 +22,7 @@
 #ifndef MAMORI_KERNEL_SYSTEM_HPP
 #define MAMORI_KERNEL_SYSTEM_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -39,6 +40,7 @@
 #include "mamori/kernel/system/window_part.hpp"
 #include "mamori/kernel/table/index_of.hpp"
 #include "mamori/kernel/table/mode_builder.hpp"
+#include "mamori/kernel/table/modelled_time_row.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori {
@@ -64,6 +66,10 @@ constexpr void add_part(Builder& builder, const ReactionPart<Fault, Reaction>& p
 template <typename Builder>
 constexpr void add_part(Builder& builder, const AbortPolicyPart& part) noexcept {
     builder.add(part.policy);
+}
+template <typename Builder, typename C>
+constexpr void add_part(Builder& builder, const ModelledTimePart<C>& part) noexcept {
+    builder.add(part.row);
 }
 template <typename Builder>
 constexpr void add_part(Builder& builder, const PublicationMarginPart& part) noexcept {
@@ -100,6 +106,8 @@ using TableOf = SystemTable<
 template <typename PartTypes>
 struct DescribedSystem : detail::TableOf<PartTypes> {
     using Types = PartTypes;
+    /// Rows that no executive reads, so the view of the table does not have them.
+    std::array<ModelledTimeRow, Types::ModelledComponents::kSize> modelled_times{};
 };
 
 /// Builds the table from a major frame and its parts, in any order. Windows, components, ports, connections,

@@ -16,9 +16,8 @@ namespace mamori {
 
 class Component;
 
-namespace detail {
-
-/// Index of `component` in a list of pointers to components; kNoIndex: none.
+/// Index of `component` in `components`, an array or span of pointers to components; kNoIndex: not one of
+/// them. O(components). Any calling context.
 template <typename Components>
 constexpr std::size_t find_component(const Components& components, const Component* component) noexcept {
     for (std::size_t i = 0U; i < components.size(); ++i) {
@@ -28,6 +27,8 @@ constexpr std::size_t find_component(const Components& components, const Compone
     }
     return kNoIndex;
 }
+
+namespace detail {
 
 /// Index of the row with this name; kNoIndex: none.
 template <typename Rows>
@@ -48,7 +49,7 @@ constexpr std::size_t find_named(const Rows& rows, const char* name) noexcept {
 ///                      violation.
 template <typename Table>
 constexpr std::size_t index_of(const Table& table, const Component& component) noexcept {
-    const std::size_t index = detail::find_component(table.components, &component);
+    const std::size_t index = find_component(table.components, &component);
     const bool is_component_of_the_table = index != kNoIndex;
     MAMORI_REQUIRE(1, is_component_of_the_table);
     return index;
