@@ -24,14 +24,6 @@
 
 namespace safe_arm {
 
-/// Places of the components in the table below.
-inline constexpr std::size_t kReaderIndex = 0U;
-inline constexpr std::size_t kMonitorIndex = 1U;
-inline constexpr std::size_t kSupervisorIndex = 2U;
-inline constexpr std::size_t kControllerIndex = 3U;
-inline constexpr std::size_t kChannelIndex = 4U;
-inline constexpr std::size_t kGateIndex = 5U;
-inline constexpr std::size_t kComponentCount = 6U;
 /// Windows that start first and last in a major frame.
 extern const std::size_t kFirstWindow;
 extern const std::size_t kLastWindow;

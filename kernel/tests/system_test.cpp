@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "support/flow_components.hpp"
 
 namespace mamori {
@@ -114,9 +115,9 @@ TEST(SystemTest, AnIndexOfWhatIsNotInTheTableEndsInTheAssertion) {
     const SystemView view = make_view(kSystem);
     const Portless stranger;
 
-    EXPECT_DEATH(static_cast<void>(index_of(view, stranger)), "is_component_of_the_table");
-    EXPECT_DEATH(static_cast<void>(index_of(view, "tell")), "is_window_of_the_table");
-    EXPECT_DEATH(static_cast<void>(index_of(view, nullptr)), "is_window_of_the_table");
+    EXPECT_CHECK_FAILS(static_cast<void>(index_of(view, stranger)), "table/index_of.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(index_of(view, "tell")), "table/index_of.hpp", 2);
+    EXPECT_CHECK_FAILS(static_cast<void>(index_of(view, nullptr)), "table/index_of.hpp", 2);
 }
 
 TEST(SystemTest, PortsAreListedWithOwnerWindowAndNeed) {
