@@ -117,6 +117,12 @@ template <typename... Parts>
 constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
     using Types = detail::JoinedTypes<Parts...>;
     static_assert(Types::kModes <= kSystemModeMax, "a system has at most 32 modes");
+    using Modes = detail::ModesOf<typename Types::ModeEnumerators>;
+    static_assert(
+        Types::ModeEnumerators::kSize == 0U || Types::ModeEnumerators::kSize == Types::kModes,
+        "a mode without an enumerator; write system_mode<...>() and safe_mode<...>() for all modes");
+    static_assert(Modes::kAreInOrder,
+                  "the modes of a system are the enumerators 0, 1, ... of one enumeration, in this order");
     static_assert(detail::kIsOfOneType<typename Types::Events>,
                   "the events of all transitions of a system are enumerators of one enumeration");
     static_assert(detail::kIsOfOneType<typename Types::FaultTypes> &&
@@ -129,6 +135,7 @@ constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
                   "duplicate trace_hash(); specify it at most once");
     detail::TableBuilder<DescribedSystem<Types>> builder{};
     builder.table.frame = frame_part.length;
+    builder.table.modes.mode_enumeration = Modes::kTag;
     (detail::add_part(builder, parts), ...);
     builder.table.configuration = builder.configuration.finish();
     detail::resolve_connections(builder.table);
