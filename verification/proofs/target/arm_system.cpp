@@ -105,7 +105,7 @@ bool is_pushed(Instant since, Instant now) noexcept {
 }  // namespace
 
 mamori::Executive& executive = executive_of_table;
-virtual_time::VirtualHost& host = host_of_table;
+virtual_time::VirtualHost& virtual_host = host_of_table;
 
 Status prepare() noexcept {
     executive.set_observer(&supervision);
