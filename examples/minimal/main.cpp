@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A wheel and a monitor that brakes it: two components, one table, 200 ms of virtual time.
-#include <array>
 #include <cstdio>
 
 #include "mamori/kernel/run/executive.hpp"
@@ -49,7 +48,8 @@ static constexpr auto kSystem =
                    mamori::window("drive", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(wheel)),
                    mamori::window("watch", 2_ms, 2_ms, mamori::budget(1_ms), mamori::run(monitor)),
                    mamori::connect(wheel.speed, monitor.speed, mamori::any_age()),
-                   mamori::connect(monitor.brake, wheel.brake, mamori::any_age()));
+                   mamori::connect(monitor.brake, wheel.brake, mamori::any_age()),
+                   mamori::modelled_time(wheel, 100_us), mamori::modelled_time(monitor, 200_us));
 MAMORI_CHECK(kSystem);
 static mamori::ExecutiveFor executive{kSystem};
 
@@ -65,8 +65,7 @@ class Printer final : public mamori::ports::virtual_time::FrameDevices {
 };
 
 int main() {
-    std::array<mamori::Duration, 2U> execution_times{100_us, 200_us};
-    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
     mamori::ports::virtual_time::SimulatedCore core{executive, host};
     Printer printer;
     mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, printer};

@@ -49,9 +49,7 @@ int run_cost_command(const RunOptions& options) {
     if (!obstacle.empty()) {
         return fail(kExitFailed, obstacle);
     }
-    std::array<mamori::Duration, kComponentCount> times = make_modelled_times();
-    mamori::ports::virtual_time::VirtualHost clock{times};
-    Machine machine{plant, clock, fault, record};
+    Machine machine{plant, virtual_host, fault, record};
     mamori::timing::CostOptions cost;
     cost.cycles = options.frames;
     cost.counted = {options.first_counted, options.count_every};
@@ -59,7 +57,8 @@ int run_cost_command(const RunOptions& options) {
     cost.out = options.out;
     cost.save_table = save_table;
     cost.tell_notes = make_notes;
-    const mamori::timing::TimingResult result = mamori::timing::run_cost({{executive, clock}}, machine, cost);
+    const mamori::timing::TimingResult result =
+        mamori::timing::run_cost({{executive, virtual_host}}, machine, cost);
     if (!result.message.empty()) {
         return fail(get_exit_status(result.outcome), result.message);
     }

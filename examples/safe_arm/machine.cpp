@@ -56,9 +56,9 @@ void Machine::apply_software_faults(Instant now) noexcept {
             break;  // faults of the plant
     }
     channel.set_fault(channel_fault);
-    // Both are in the model's table, so neither call can be refused.
-    static_cast<void>(host_.set_duration(kControllerIndex, controller_time));
-    static_cast<void>(host_.set_duration(kSupervisorIndex, supervisor_time));
+    // Both are in the table, so neither call can be refused.
+    static_cast<void>(host_.set_duration(controller, controller_time));
+    static_cast<void>(host_.set_duration(supervisor, supervisor_time));
 }
 
 void Machine::end_frame(std::uint64_t, Instant now, Duration length) noexcept {

@@ -67,10 +67,8 @@ int run_scenario(const safe_arm::RunOptions& options) {
         return fail(kExitFailed, obstacle);
     }
 
-    std::array<Duration, safe_arm::kComponentCount> times = safe_arm::make_modelled_times();
-    mamori::ports::virtual_time::VirtualHost host{times};
-    safe_arm::Machine machine{plant, host, fault, record};
-    mamori::ports::virtual_time::SimulatedCore core{safe_arm::executive, host};
+    safe_arm::Machine machine{plant, safe_arm::virtual_host, fault, record};
+    mamori::ports::virtual_time::SimulatedCore core{safe_arm::executive, safe_arm::virtual_host};
     mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, machine};
 
     const auto wall_start = std::chrono::steady_clock::now();

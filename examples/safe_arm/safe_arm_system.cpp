@@ -3,6 +3,7 @@
 #include "safe_arm_system.hpp"
 
 #include "arm_assumptions.hpp"
+#include "mamori/safety/supervision/watch_check.hpp"
 
 namespace safe_arm {
 
@@ -13,8 +14,6 @@ mamori::safety::ArmOutputs outputs;
 static std::array<mamori::Event, 256U> event_storage;
 mamori::EventLog event_log{event_storage};
 mamori::ports::virtual_time::VirtualWatchdog watchdog{kWatchdogTimeout};
-static mamori::safety::ExecutionStorage<kComponentCount> supervision_storage;
-mamori::safety::ExecutionSupervisor supervision{supervision_storage, kLatenessMax};
 
 static ArmChecks checks{watchdog};
 static constexpr std::array kAssumptions = make_arm_assumptions(checks);
@@ -24,7 +23,7 @@ static DecisionFlow decision_flow;
 
 ArmReader reader{inputs};
 JointMonitor monitor;
-SafetySupervisor supervisor{supervision, kControllerIndex, watchdog, event_log, assumptions, decision_flow};
+SafetySupervisor supervisor{supervision, controller, watchdog, event_log, assumptions, decision_flow};
 MotionController controller;
 mamori::ports::virtual_time::SimulatedChannel<TorqueCommand, kChannelCapacity> channel{"channel"};
 DriveGate gate{outputs};
@@ -44,52 +43,36 @@ static constexpr auto kSafeArm = mamori::system(
     mamori::connect(supervisor.stop, controller.stop, mamori::any_age()),
     mamori::connect(controller.command, channel.in, mamori::any_age()),
     mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
-    mamori::connect(channel.out, gate.command, mamori::any_age()));
+    mamori::connect(channel.out, gate.command, mamori::any_age()),
+    mamori::modelled_time(reader, kSafetyComponentTime), mamori::modelled_time(monitor, kSafetyComponentTime),
+    mamori::modelled_time(supervisor, kSafetyComponentTime),
+    mamori::modelled_time(controller, kControllerTime), mamori::modelled_time(channel, kSafetyComponentTime),
+    mamori::modelled_time(gate, kSafetyComponentTime));
 MAMORI_CHECK(kSafeArm);
 
-static_assert(kSafeArm.kWindowCount == kWindowCount && kSafeArm.components.size() == kComponentCount &&
-              kSafeArm.components[kReaderIndex] == &reader &&
-              kSafeArm.components[kMonitorIndex] == &monitor &&
-              kSafeArm.components[kSupervisorIndex] == &supervisor &&
-              kSafeArm.components[kControllerIndex] == &controller &&
-              kSafeArm.components[kChannelIndex] == &channel && kSafeArm.components[kGateIndex] == &gate);
-
-static_assert(kSafeArm.windows[kFirstWindow].offset == 0_us &&
-              kSafeArm.windows[kLastWindow].offset > kSafeArm.windows[kLastWindow - 1U].offset &&
-              kLastWindow + 1U == kWindowCount);
+static mamori::safety::ExecutionStorageFor<kSafeArm> supervision_storage;
+mamori::safety::ExecutionSupervisor supervision{supervision_storage, kLatenessMax};
+constexpr std::size_t kFirstWindow = mamori::index_of(kSafeArm, "protect");
+constexpr std::size_t kLastWindow = mamori::index_of(kSafeArm, "act");
 
 static mamori::ExecutiveFor executive_of_table{kSafeArm};
 mamori::Executive& executive = executive_of_table;
 static mamori::IntrospectionFor introspection_of_table{kSafeArm};
 mamori::Introspection& introspection = introspection_of_table;
+static mamori::ports::virtual_time::VirtualHostFor host_of_table{kSafeArm};
+mamori::ports::virtual_time::VirtualHost& virtual_host = host_of_table;
 
-std::array<mamori::Duration, kComponentCount> make_modelled_times() noexcept {
-    std::array<mamori::Duration, kComponentCount> times{};
-    times.fill(kSafetyComponentTime);
-    times[kControllerIndex] = kControllerTime;
-    return times;
-}
+static constexpr mamori::safety::ComponentLimits kSafetyLimits{
+    kAliveLimits, {0_us, kSafetyComponentMax}, mamori::safety::SupervisionScope::kGlobal};
+static constexpr std::array kLimits = {
+    mamori::safety::watch(reader, kSafetyLimits), mamori::safety::watch(monitor, kSafetyLimits),
+    mamori::safety::watch(supervisor, kSafetyLimits), mamori::safety::watch(gate, kSafetyLimits),
+    mamori::safety::watch(controller,
+                          {kAliveLimits, {0_us, kControllerMax}, mamori::safety::SupervisionScope::kLocal})};
+static_assert(mamori::safety::is_watch_list_of<kSafeArm, kLimits>());
 
 mamori::Status watch_components() noexcept {
-    using mamori::safety::SupervisionScope;
-    struct Row {
-        std::size_t component;
-        mamori::Duration longest;
-        SupervisionScope scope;
-    };
-    constexpr std::array<Row, 5U> kRows{{{kReaderIndex, kSafetyComponentMax, SupervisionScope::kGlobal},
-                                         {kMonitorIndex, kSafetyComponentMax, SupervisionScope::kGlobal},
-                                         {kSupervisorIndex, kSafetyComponentMax, SupervisionScope::kGlobal},
-                                         {kGateIndex, kSafetyComponentMax, SupervisionScope::kGlobal},
-                                         {kControllerIndex, kControllerMax, SupervisionScope::kLocal}}};
-    for (const Row& row : kRows) {
-        const mamori::Status result =
-            supervision.watch(row.component, {kAliveLimits, {mamori::Duration{0}, row.longest}, row.scope});
-        if (result != mamori::Status::kOk) {
-            return result;
-        }
-    }
-    return mamori::Status::kOk;
+    return supervision.watch(kLimits);
 }
 
 }  // namespace safe_arm

@@ -17,24 +17,16 @@
 #include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
+#include "mamori/ports/virtual_time/virtual_host.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
 #include "motion_controller.hpp"
 #include "safety_supervisor.hpp"
 
 namespace safe_arm {
 
-/// Places of the components in the table below.
-inline constexpr std::size_t kReaderIndex = 0U;
-inline constexpr std::size_t kMonitorIndex = 1U;
-inline constexpr std::size_t kSupervisorIndex = 2U;
-inline constexpr std::size_t kControllerIndex = 3U;
-inline constexpr std::size_t kChannelIndex = 4U;
-inline constexpr std::size_t kGateIndex = 5U;
-inline constexpr std::size_t kComponentCount = 6U;
-inline constexpr std::size_t kWindowCount = 4U;
-/// Places of the windows that open first and last in a frame.
-inline constexpr std::size_t kFirstWindow = 0U;
-inline constexpr std::size_t kLastWindow = 3U;
+/// Windows that start first and last in a major frame.
+extern const std::size_t kFirstWindow;
+extern const std::size_t kLastWindow;
 
 /// Messages that the channel can hold back: a delay of 63 ms at one message per frame.
 inline constexpr std::size_t kChannelCapacity = 64U;
@@ -56,13 +48,12 @@ extern DriveGate gate;
 extern mamori::Executive& executive;
 /// Of the same table; shows nothing until it is attached to the executive.
 extern mamori::Introspection& introspection;
+/// Simulates it in virtual time.
+extern mamori::ports::virtual_time::VirtualHost& virtual_host;
 
 /// Modelled execution times.
 inline constexpr mamori::Duration kSafetyComponentTime = 30_us;
 inline constexpr mamori::Duration kControllerTime = 120_us;
-
-/// Of each component, in the order of the table.
-std::array<mamori::Duration, kComponentCount> make_modelled_times() noexcept;
 
 /// Puts the components under supervision. The channel carries and does not decide; what it does wrong shows
 /// in its messages. The controller is not safety-related: its failure is a fault with a reaction and leaves

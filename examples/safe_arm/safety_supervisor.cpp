@@ -11,6 +11,7 @@ using mamori::Status;
 using namespace mamori::safety;  // NOLINT: this component is made of them
 
 Status SafetySupervisor::on_initialize() noexcept {
+    controller_index_ = supervision_.find(controller_);
     for (std::size_t fault = 0U; fault < kArmFaultCount; ++fault) {
         const Status result =
             faults_.set_confirmation(static_cast<FaultIndex>(fault), {kConfirmFrames[fault]});
@@ -111,9 +112,9 @@ void SafetySupervisor::report_faults(SelfTestStatus self_test, Instant instant) 
 /// In the safe state each frame is judged anew: a controller that still hangs expires again in every frame,
 /// one that runs again is silent no more, and the fault register alone remembers that it was.
 bool SafetySupervisor::is_controller_silent() noexcept {
-    const bool is_expired = supervision_.get_local_status(controller_) == LocalStatus::kExpired;
+    const bool is_expired = supervision_.get_local_status(controller_index_) == LocalStatus::kExpired;
     if (is_expired && machine_.get_state() == SafeState::kSafe) {
-        static_cast<void>(supervision_.acknowledge(controller_));
+        static_cast<void>(supervision_.acknowledge(controller_index_));
     }
     return is_expired;
 }

@@ -44,12 +44,12 @@ inline constexpr std::array<const char*, 5U> kArmEventNames{
 class SafetySupervisor final : public mamori::Component {
   public:
     /// @param[in] supervision judges the components of this executive; must have static storage.
-    /// @param[in] controller  place of the controller in the system table.
+    /// @param[in] controller  of the table of `supervision`; static storage.
     /// @param[in] watchdog    serviced through the gate; static storage.
     /// @param[in] log         takes the events; static storage.
     /// @param[in] assumptions stepped here, once per frame; static storage.
     /// @param[in] flow        of this component; static storage.
-    constexpr SafetySupervisor(mamori::safety::ExecutionSupervisor& supervision, std::size_t controller,
+    constexpr SafetySupervisor(mamori::safety::ExecutionSupervisor& supervision, const Component& controller,
                                mamori::safety::Watchdog& watchdog, mamori::EventLog& log,
                                mamori::safety::AssumptionMonitor& assumptions, DecisionFlow& flow) noexcept
         : Component("safety_supervisor"),
@@ -66,7 +66,8 @@ class SafetySupervisor final : public mamori::Component {
     using Ports =
         mamori::Ports<&SafetySupervisor::reading, &SafetySupervisor::arm_state, &SafetySupervisor::stop>;
 
-    /// Sets the debouncing of the faults. @return kOk; else what the fault register refused.
+    /// Sets the debouncing of the faults and finds the controller. @return kOk; else what the fault register
+    /// refused.
     mamori::Status on_initialize() noexcept override;
     mamori::Status on_execute(mamori::ContextHandle context) noexcept override;
 
@@ -94,7 +95,8 @@ class SafetySupervisor final : public mamori::Component {
                      std::int64_t argument) noexcept;
 
     mamori::safety::ExecutionSupervisor& supervision_;
-    std::size_t controller_;
+    const Component& controller_;
+    std::size_t controller_index_{mamori::kNoIndex};  ///< as `supervision_` finds it
     std::array<mamori::safety::FaultRecord, kArmFaultCount> fault_storage_{};
     mamori::safety::FaultRegister faults_{fault_storage_};
     mamori::safety::SafeStateMachine machine_{kStopBounds};

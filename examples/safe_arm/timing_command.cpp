@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "timing_command.hpp"
 
-#include <array>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "arm_start.hpp"
 #include "mamori/timing/timing_run.hpp"
@@ -63,7 +64,9 @@ int run_timing_command(const RunOptions& options) {
     if (options.with_requests) {
         executive.set_introspection(&introspection);
     }
-    static std::array<mamori::ports::posix_rt::WindowThread, kWindowCount> threads;
+    // Never destroyed: work that hangs may outlive this function.
+    static auto& threads =
+        *new std::vector<mamori::ports::posix_rt::WindowThread>(executive.get_view().windows.size());
     RealTimeMachine machine{plant};
     mamori::timing::TimingOptions timing;
     timing.cycles = options.frames;
@@ -74,7 +77,7 @@ int run_timing_command(const RunOptions& options) {
     timing.tell_notes = [&machine] { return make_notes(machine); };
     timing.tell_findings = [] { return make_findings(supervisor.get_state(), supervisor.get_first_fault()); };
     const mamori::timing::TimingResult result =
-        mamori::timing::run_timing({{executive, threads, &machine}}, timing);
+        mamori::timing::run_timing({{executive, {threads.data(), threads.size()}, &machine}}, timing);
     if (!result.message.empty()) {
         return fail(get_exit_status(result.outcome), result.message);
     }

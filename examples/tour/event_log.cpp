@@ -54,7 +54,8 @@ class Battery final : public mamori::Component {
 
 static Battery battery;
 static constexpr auto kSystem = mamori::system(
-    mamori::frame(10_ms), mamori::window("battery", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(battery)));
+    mamori::frame(10_ms), mamori::window("battery", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(battery)),
+    mamori::modelled_time(battery, 100_us));
 MAMORI_CHECK(kSystem);
 static mamori::ExecutiveFor executive{kSystem};
 
@@ -75,8 +76,7 @@ class NoDevices final : public mamori::ports::virtual_time::FrameDevices {
 };
 
 int main() {
-    std::array<mamori::Duration, 1U> execution_times{100_us};
-    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
     mamori::ports::virtual_time::SimulatedCore core{executive, host};
     NoDevices devices;
     mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};

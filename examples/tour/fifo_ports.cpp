@@ -69,7 +69,8 @@ static constexpr auto kSystem = mamori::system(
     mamori::frame(10_ms), mamori::window("count", 0_ms, 500_us, mamori::budget(400_us), mamori::run(encoder)),
     mamori::window("log", 9_ms, 1_ms, mamori::budget(900_us), mamori::run(logger)),
     mamori::connect(encoder.count, logger.newest, mamori::fresh_within(10_ms)),
-    mamori::connect(encoder.count, logger.oldest, mamori::fresh_within(10_ms)));
+    mamori::connect(encoder.count, logger.oldest, mamori::fresh_within(10_ms)),
+    mamori::modelled_time(encoder, 100_us), mamori::modelled_time(logger, 200_us));
 MAMORI_CHECK(kSystem);
 static mamori::ExecutiveFor executive{kSystem};
 
@@ -89,8 +90,7 @@ class Printer final : public mamori::ports::virtual_time::FrameDevices {
 };
 
 int main() {
-    std::array<mamori::Duration, 2U> execution_times{100_us, 200_us};
-    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
     mamori::ports::virtual_time::SimulatedCore core{executive, host};
     Printer printer;
     mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, printer};

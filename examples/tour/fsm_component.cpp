@@ -58,8 +58,10 @@ Status Lamp::on_action(mamori::ContextHandle) noexcept {
 }
 
 static constexpr auto kSystem =
-    mamori::system(mamori::frame(10_ms), mamori::window("grip", 0_ms, 2_ms, mamori::event_driven(2U),
-                                                        mamori::budget(1_ms), mamori::run(gripper, lamp)));
+    mamori::system(mamori::frame(10_ms),
+                   mamori::window("grip", 0_ms, 2_ms, mamori::event_driven(2U), mamori::budget(1_ms),
+                                  mamori::run(gripper, lamp)),
+                   mamori::modelled_time(gripper, 100_us), mamori::modelled_time(lamp, 100_us));
 MAMORI_CHECK(kSystem);
 static mamori::ExecutiveFor executive{kSystem};
 
@@ -80,8 +82,7 @@ class Operator final : public mamori::ports::virtual_time::FrameDevices {
 };
 
 int main() {
-    std::array<mamori::Duration, 2U> execution_times{100_us, 100_us};
-    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
     mamori::ports::virtual_time::SimulatedCore core{executive, host};
     Operator devices;
     mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Introspection: a tool reads copies of the state of a running system, in which a sensor fails.
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -42,7 +41,8 @@ static Monitor monitor;
 static constexpr auto kSystem = mamori::system(
     mamori::frame(10_ms), mamori::window("sense", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(sensor)),
     mamori::window("watch", 2_ms, 2_ms, mamori::budget(1_ms), mamori::run(monitor)),
-    mamori::connect(sensor.speed, monitor.speed, mamori::fresh_within(5_ms)));
+    mamori::connect(sensor.speed, monitor.speed, mamori::fresh_within(5_ms)),
+    mamori::modelled_time(sensor, 100_us), mamori::modelled_time(monitor, 200_us));
 MAMORI_CHECK(kSystem);
 static mamori::ExecutiveFor executive{kSystem};
 static mamori::IntrospectionFor introspection{kSystem};
@@ -73,8 +73,7 @@ class NoDevices final : public mamori::ports::virtual_time::FrameDevices {
 };
 
 int main() {
-    std::array<mamori::Duration, 2U> execution_times{100_us, 200_us};
-    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
     mamori::ports::virtual_time::SimulatedCore core{executive, host};
     NoDevices devices;
     mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};

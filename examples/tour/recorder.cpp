@@ -37,7 +37,8 @@ class Pump final : public mamori::Component {
 
 static Pump pump;
 static constexpr auto kSystem = mamori::system(
-    mamori::frame(10_ms), mamori::window("pump", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(pump)));
+    mamori::frame(10_ms), mamori::window("pump", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(pump)),
+    mamori::modelled_time(pump, 100_us));
 MAMORI_CHECK(kSystem);
 static mamori::ExecutiveFor executive{kSystem};
 static mamori::ports::posix_rt::MappedFile file;
@@ -68,8 +69,7 @@ int main(int argc, char** argv) {
     }
     std::printf("session %u begins with record %u\n", recorder.get_session(),
                 static_cast<unsigned>(recorder.get_next_sequence()));
-    std::array<mamori::Duration, 1U> execution_times{100_us};
-    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
     mamori::ports::virtual_time::SimulatedCore core{executive, host};
     NoDevices devices;
     mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};

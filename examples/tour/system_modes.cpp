@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // System modes: an operator starts the drive, and a monitor demands the safe mode.
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -51,6 +50,7 @@ class Monitor final : public mamori::Component {
 };
 
 enum class Command { kStart, kStop };
+enum class Mode { kIdle, kWork, kHalt };
 
 static Drive drive;
 static Monitor monitor;
@@ -59,11 +59,12 @@ static constexpr auto kSystem = mamori::system(
     mamori::window("watch", 2_ms, 2_ms, mamori::budget(1_ms), mamori::run(monitor)),
     mamori::connect(drive.angle, monitor.angle, mamori::fresh_within(10_ms)),
     mamori::configuration_set("fast", mamori::assign(drive.step, 0.5)),
-    mamori::system_mode("idle", mamori::runs(monitor)),
-    mamori::system_mode("work", mamori::runs(drive, monitor), mamori::parameters("fast")),
-    mamori::safe_mode("halt", mamori::runs(monitor)),
+    mamori::system_mode<Mode::kIdle>("idle", mamori::runs(monitor)),
+    mamori::system_mode<Mode::kWork>("work", mamori::runs(drive, monitor), mamori::parameters("fast")),
+    mamori::safe_mode<Mode::kHalt>("halt", mamori::runs(monitor)),
     mamori::mode_transition("idle", Command::kStart, "work"),
-    mamori::mode_transition("work", Command::kStop, "idle"));
+    mamori::mode_transition("work", Command::kStop, "idle"), mamori::modelled_time(drive, 100_us),
+    mamori::modelled_time(monitor, 100_us));
 MAMORI_CHECK(kSystem);
 static mamori::SystemModes drive_modes{mamori::make_view(kSystem)};
 static mamori::ExecutiveFor executive{kSystem, drive_modes};
@@ -80,20 +81,20 @@ class Operator final : public mamori::ports::virtual_time::FrameDevices {
         }
     }
     void end_frame(std::uint64_t frame, mamori::Instant, mamori::Duration) noexcept override {
-        const std::size_t mode = drive_modes.get_mode();
+        const Mode mode = drive_modes.get_mode<Mode>();
         if (frame == 0U || mode != mode_) {
             mode_ = mode;
             std::printf("frame %2u: mode %s, angle %.1f rad\n", static_cast<unsigned>(frame),
-                        executive.get_view().modes.modes[mode].name, drive.angle.get_published());
+                        executive.get_view().modes.modes[static_cast<std::size_t>(mode)].name,
+                        drive.angle.get_published());
         }
     }
 
-    std::size_t mode_{0U};
+    Mode mode_{Mode::kIdle};
 };
 
 int main() {
-    std::array<mamori::Duration, 2U> execution_times{100_us, 100_us};
-    mamori::ports::virtual_time::VirtualHost host{execution_times};
+    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
     mamori::ports::virtual_time::SimulatedCore core{executive, host};
     Operator devices;
     mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};

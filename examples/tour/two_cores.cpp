@@ -56,7 +56,8 @@ static constexpr auto kSystem = mamori::system(
     mamori::window("move", 0_ms, 1_ms, mamori::budget(500_us), mamori::run(axis)),
     mamori::window("plan", 1200_us, 8_ms, mamori::core(1U), mamori::budget(7_ms), mamori::run(planner)),
     mamori::connect(axis.angle, planner.angle, mamori::through(to_planner), mamori::fresh_within(5_ms)),
-    mamori::connect(planner.setpoint, axis.setpoint, mamori::through(to_axis), mamori::fresh_within(5_ms)));
+    mamori::connect(planner.setpoint, axis.setpoint, mamori::through(to_axis), mamori::fresh_within(5_ms)),
+    mamori::modelled_time(axis, 100_us), mamori::modelled_time(planner, 5_ms));
 MAMORI_CHECK(kSystem);
 static mamori::ExecutiveFor executive_0{kSystem, 0U};
 static mamori::ExecutiveFor executive_1{kSystem, 1U};
@@ -67,7 +68,7 @@ class Devices final : public mamori::ports::virtual_time::FrameDevices {
     explicit Devices(mamori::ports::virtual_time::VirtualHost& planner_host) noexcept : host_(planner_host) {}
 
     void begin_frame(std::uint64_t frame, mamori::Instant) noexcept override {
-        static_cast<void>(host_.set_duration(1U, frame == 2U ? 8_ms : 5_ms));
+        static_cast<void>(host_.set_duration(planner, frame == 2U ? 8_ms : 5_ms));
     }
     void end_frame(std::uint64_t frame, mamori::Instant, mamori::Duration) noexcept override {
         std::printf("after %u ms: angle %.1f rad, %s\n", static_cast<unsigned>(frame + 1U) * 10U,
@@ -80,9 +81,8 @@ class Devices final : public mamori::ports::virtual_time::FrameDevices {
 
 int main() {
     namespace virtual_time = mamori::ports::virtual_time;
-    std::array<mamori::Duration, 2U> execution_times{100_us, 5_ms};
-    virtual_time::VirtualHost host_0{execution_times};
-    virtual_time::VirtualHost host_1{execution_times};
+    virtual_time::VirtualHostFor host_0{kSystem};
+    virtual_time::VirtualHostFor host_1{kSystem};
     std::array<virtual_time::SimulatedCore, 2U> cores{virtual_time::SimulatedCore{executive_0, host_0},
                                                       virtual_time::SimulatedCore{executive_1, host_1}};
     Devices devices{host_1};

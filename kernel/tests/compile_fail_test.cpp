@@ -416,5 +416,31 @@ TEST(CompileFailTest, AComponentThatAWindowRunsTwiceIsRefused) {
     expect_refused("windows", "component_twice_in_window", "ComponentRunsInOneContext<Producer, 1>");
 }
 
+TEST(CompileFailTest, AnIndexOfAComponentThatIsNotInTheTableIsRejected) {
+    verifies("SWR-KRN-063", Technique::kInterface, Polarity::kViolation);
+    expect_explained("index_of", "component_of_no_window", "is_component_of_the_table");
+}
+
+TEST(CompileFailTest, AnArrayBoundByAWindowThatIsNotInTheTableIsRejected) {
+    verifies("SWR-KRN-063", Technique::kInterface, Polarity::kViolation);
+    expect_explained("index_of", "array_bound", "is_window_of_the_table");
+}
+
+TEST(CompileFailTest, AModelledTimeOfAComponentThatNoWindowRunsIsRejected) {
+    verifies("SWR-KRN-064", Technique::kInterface, Polarity::kViolation);
+    expect_refused("modelled_times", "",
+                   "ModelledTimeHasAComponentOfTheTable<Consumer, mamori::rules::Row<0>", "1");
+}
+
+TEST(CompileFailTest, ASecondModelledTimeOfAComponentIsRejected) {
+    verifies("SWR-KRN-064", Technique::kInterface, Polarity::kViolation);
+    expect_refused("modelled_times", "", "ModelledTimeIsStatedOnce<Producer, mamori::rules::Row<2>", "2");
+}
+
+TEST(CompileFailTest, AModelledTimeBelowZeroIsRejected) {
+    verifies("SWR-KRN-064", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("modelled_times", "", "ModelledTimeIsNotNegative<Producer, mamori::rules::Row<0>", "3");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -150,5 +150,15 @@ TEST(ModeCompileFailTest, EventsOfTwoEnumerationsInOneTableAreRefused) {
     expect_refused("table_enumerators", "", "are enumerators of one enumeration", "5");
 }
 
+TEST(ModeCompileFailTest, EnumeratorsThatDoNotNameTheModesAreRejected) {
+    verifies("SWR-MOD-010", Technique::kInterface, Polarity::kViolation);
+    const char* const in_order = "the modes of a system are the enumerators 0, 1, ... of one enumeration";
+
+    expect_explained("mode_enumerators", "", "a mode without an enumerator", "1");
+    expect_explained("mode_enumerators", "", in_order, "2");
+    expect_explained("mode_enumerators", "", in_order, "3");
+    expect_explained("mode_enumerators", "", "a mode is an enumerator", "4");
+}
+
 }  // namespace
 }  // namespace mamori

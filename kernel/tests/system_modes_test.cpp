@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "support/mode_system.hpp"
 
 namespace mamori {
@@ -273,6 +274,27 @@ TEST(SystemModesSetupTest, ARefusedFirstSetKeepsTheSystemFromStarting) {
 
     EXPECT_EQ(robot.core_0.start(), Status::kBadParameter);
     EXPECT_EQ(robot.planner.speed.get(), 1.0) << "no value of the set was switched";
+}
+
+TEST_F(SystemModesTest, TheModeIsGivenAsItsEnumerator) {
+    verifies("SWR-MOD-010");
+    EXPECT_EQ(sut_.modes.get_mode<RobotMode>(), RobotMode::kIdle);
+
+    ASSERT_EQ(sut_.modes.request(Command::kTeach), Status::kOk);
+    sut_.run_frames(20);
+
+    EXPECT_EQ(sut_.modes.get_mode<RobotMode>(), RobotMode::kTeach);
+    EXPECT_EQ(sut_.modes.get_mode(), static_cast<std::size_t>(RobotMode::kTeach));
+}
+
+TEST_F(SystemModesTest, AnotherEnumerationOfModesEndsInTheAssertion) {
+    verifies("SWR-MOD-010", Technique::kInterface, Polarity::kViolation);
+    enum class Lamp { kOff };
+    sut_.table.modes.mode_enumeration = nullptr;
+    const SystemModes names_only{make_view(sut_.table)};
+
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.modes.get_mode<Lamp>()), "run/system_modes.hpp", 2);
+    EXPECT_CHECK_FAILS(static_cast<void>(names_only.get_mode<RobotMode>()), "run/system_modes.hpp", 2);
 }
 
 }  // namespace

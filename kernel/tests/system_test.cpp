@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "support/flow_components.hpp"
 
 namespace mamori {
@@ -55,6 +56,68 @@ TEST(SystemTest, WindowsHoldTheirPlaceBudgetAndComponents) {
     EXPECT_EQ(kSystem.windows[1].component_count, 2U);
     EXPECT_EQ(kSystem.components,
               (std::array<Component*, 5>{&g_portless, &g_counter, &g_relay, &g_second_relay, &g_listener}));
+}
+
+TEST(SystemTest, AComponentAndAWindowGiveTheirIndexInConstantExpressions) {
+    verifies("SWR-KRN-063");
+    static_assert(index_of(kSystem, g_portless) == 0U);
+    static_assert(index_of(kSystem, g_listener) == 4U);
+    static_assert(index_of(kSystem, "sense") == 0U);
+    const std::array<int, index_of(kSystem, "act") + 1U> per_window{};
+
+    EXPECT_EQ(per_window.size(), kSystem.windows.size());
+}
+
+TEST(SystemTest, ModelledTimesAreRowsOfTheirOwn) {
+    verifies("SWR-KRN-064");
+    Portless fast;
+    Portless slow;
+    const auto table = system(frame(1_ms), window("all", 0_us, 100_us, budget(50_us), run(fast, slow)),
+                              modelled_time(slow, 30_us), modelled_time(fast, 0_us));
+
+    EXPECT_EQ(table.modelled_times[0].component, &slow);
+    EXPECT_EQ(table.modelled_times[0].duration, 30_us);
+    EXPECT_EQ(check_modelled_times(table.modelled_times, table.components).rule, Rule::kNone);
+    EXPECT_EQ(sizeof(kSystem), sizeof(SystemTable<2U, 5U, 6U, 3U>)) << "no byte without modelled times";
+}
+
+TEST(SystemTest, TheFirstInvalidModelledTimeIsFound) {
+    verifies("SWR-KRN-064", Technique::kBoundaryValues, Polarity::kViolation);
+    const Portless stranger;
+    const auto find = [](const ModelledTimeRow& row, Duration first) {
+        const std::array<ModelledTimeRow, 2U> rows{{{&g_relay, first}, row}};
+        return check_modelled_times(rows, kSystem.components);
+    };
+
+    EXPECT_EQ(find({&g_counter, 0_us}, 0_us).rule, Rule::kNone);
+    EXPECT_EQ(find({&g_counter, Duration{-1}}, 0_us).rule, Rule::kModelledTimeNegative);
+    EXPECT_EQ(find({&g_counter, Duration{-1}}, 0_us).element, 1U);
+    EXPECT_EQ(find({&g_counter, Duration{-1}}, Duration{-1}).element, 0U);
+    EXPECT_EQ(find({&stranger, 0_us}, 0_us).rule, Rule::kModelledTimeOfUnknownComponent);
+    EXPECT_EQ(find({nullptr, 0_us}, 0_us).rule, Rule::kModelledTimeOfUnknownComponent);
+    EXPECT_EQ(find({&g_relay, 1_us}, 0_us).rule, Rule::kModelledTimeStatedTwice);
+}
+
+TEST(SystemTest, IndicesAreThoseOfTheViewAtRunTime) {
+    verifies("SWR-KRN-063");
+    const SystemView view = make_view(kSystem);
+
+    for (std::size_t i = 0U; i < view.components.size(); ++i) {
+        EXPECT_EQ(index_of(view, *view.components[i]), i);
+    }
+    for (std::size_t i = 0U; i < view.windows.size(); ++i) {
+        EXPECT_EQ(index_of(view, view.windows[i].name), i);
+    }
+}
+
+TEST(SystemTest, AnIndexOfWhatIsNotInTheTableEndsInTheAssertion) {
+    verifies("SWR-KRN-063", Technique::kInterface, Polarity::kViolation);
+    const SystemView view = make_view(kSystem);
+    const Portless stranger;
+
+    EXPECT_CHECK_FAILS(static_cast<void>(index_of(view, stranger)), "table/index_of.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(index_of(view, "tell")), "table/index_of.hpp", 2);
+    EXPECT_CHECK_FAILS(static_cast<void>(index_of(view, nullptr)), "table/index_of.hpp", 2);
 }
 
 TEST(SystemTest, PortsAreListedWithOwnerWindowAndNeed) {

@@ -17,8 +17,17 @@ namespace safe_arm {
 // take that of an inline variable for one.
 namespace {
 
-constexpr std::size_t kOther = 0U;
-constexpr std::size_t kController = 1U;
+class Supervised final : public mamori::Component {
+  public:
+    constexpr explicit Supervised(const char* name) noexcept : Component(name) {}
+};
+Supervised g_other{"other"};
+Supervised g_controller{"controller"};
+constexpr auto kSupervised = mamori::system(
+    mamori::frame(kFrame),
+    mamori::window("all", 0_us, kFrame, mamori::budget(kFrame), mamori::run(g_other, g_controller)));
+constexpr std::size_t kOther = mamori::index_of(kSupervised, g_other);
+constexpr std::size_t kController = mamori::index_of(kSupervised, g_controller);
 
 class SpyWatchdog final : public mamori::safety::Watchdog {
   public:
@@ -50,9 +59,9 @@ class SafetySupervisorFixture : public ::testing::Test {
         using mamori::safety::SupervisionScope;
         g_check.answer = mamori::safety::SelfTestStatus::kPassed;
         const mamori::safety::DeadlineLimits deadline{mamori::Duration{0}, kSafetyComponentMax};
-        ASSERT_EQ(supervision_.watch(kOther, {kAliveLimits, deadline, SupervisionScope::kGlobal}),
+        ASSERT_EQ(supervision_.watch(g_other, {kAliveLimits, deadline, SupervisionScope::kGlobal}),
                   mamori::Status::kOk);
-        ASSERT_EQ(supervision_.watch(kController, {kAliveLimits, deadline, SupervisionScope::kLocal}),
+        ASSERT_EQ(supervision_.watch(g_controller, {kAliveLimits, deadline, SupervisionScope::kLocal}),
                   mamori::Status::kOk);
         ASSERT_EQ(sut_.initialize(), mamori::Status::kOk);
         reading_.power_good = true;
@@ -99,14 +108,14 @@ class SafetySupervisorFixture : public ::testing::Test {
         return command;
     }
 
-    mamori::safety::ExecutionStorage<2U> storage_;
+    mamori::safety::ExecutionStorageFor<kSupervised> storage_;
     mamori::safety::ExecutionSupervisor supervision_{storage_, kLatenessMax};
     std::array<mamori::Event, 32U> events_{};
     mamori::EventLog log_{events_};
     SpyWatchdog watchdog_;
     mamori::safety::AssumptionMonitor assumptions_{kAssumptions};
     DecisionFlow flow_;
-    SafetySupervisor sut_{supervision_, kController, watchdog_, log_, assumptions_, flow_};
+    SafetySupervisor sut_{supervision_, g_controller, watchdog_, log_, assumptions_, flow_};
     JointReading reading_{};
     JointState state_{};
     mamori::Instant now_{};

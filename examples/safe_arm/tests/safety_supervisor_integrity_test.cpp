@@ -80,7 +80,7 @@ TEST_F(SupervisorIntegrityTest, WatchdogIsNotServedOnceAStepCameOutOfItsOrder) {
         SpyWatchdog watchdog;
         DecisionFlow flow;
         mamori::safety::AssumptionMonitor assumptions{kAssumptions};
-        SafetySupervisor sut{supervision_, kController, watchdog, log_, assumptions, flow};
+        SafetySupervisor sut{supervision_, g_controller, watchdog, log_, assumptions, flow};
         ASSERT_EQ(sut.initialize(), Status::kOk);
         ASSERT_EQ(sut.on_execute({0, now_}), Status::kOk);
         ASSERT_EQ(watchdog.services, 1) << static_cast<int>(point);

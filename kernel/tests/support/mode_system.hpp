@@ -17,6 +17,7 @@
 
 namespace mamori::testing_support {
 
+enum class RobotMode { kIdle, kWork, kTeach, kHalt };
 enum class Command { kStart, kTeach, kStop, kNobodys };
 enum class Trouble { kNone, kRefusal, kDelay, kHang };
 
@@ -209,13 +210,15 @@ inline auto make_robot_table(RobotParts& p) {
         connect(p.drive.out, p.viewer.in, through(p.to_viewer), only_in("work"), any_age()),
         configuration_set("slow", assign(p.drive.speed, 0.5), assign(p.planner.speed, 0.5)),
         configuration_set("fast", assign(p.drive.speed, 2.0), assign(p.planner.speed, 2.0)),
-        system_mode("idle", runs(p.monitor, p.guard)),
-        system_mode("work", runs(p.monitor, p.guard, p.planner, p.drive, p.viewer), parameters("fast")),
-        system_mode("teach", runs(p.monitor, p.guard, p.hand, p.drive, p.viewer), parameters("slow")),
-        safe_mode("halt", runs(p.monitor, p.guard)), mode_transition("idle", Command::kStart, "work"),
-        mode_transition("idle", Command::kTeach, "teach"), mode_transition("work", Command::kTeach, "teach"),
-        mode_transition("work", Command::kStop, "idle"), mode_transition("teach", Command::kStart, "work"),
-        mode_transition("teach", Command::kStop, "idle"));
+        system_mode<RobotMode::kIdle>("idle", runs(p.monitor, p.guard)),
+        system_mode<RobotMode::kWork>("work", runs(p.monitor, p.guard, p.planner, p.drive, p.viewer),
+                                      parameters("fast")),
+        system_mode<RobotMode::kTeach>("teach", runs(p.monitor, p.guard, p.hand, p.drive, p.viewer),
+                                       parameters("slow")),
+        safe_mode<RobotMode::kHalt>("halt", runs(p.monitor, p.guard)),
+        mode_transition("idle", Command::kStart, "work"), mode_transition("idle", Command::kTeach, "teach"),
+        mode_transition("work", Command::kTeach, "teach"), mode_transition("work", Command::kStop, "idle"),
+        mode_transition("teach", Command::kStart, "work"), mode_transition("teach", Command::kStop, "idle"));
 }
 
 struct Robot : RobotParts {

@@ -32,6 +32,10 @@ void VirtualHost::advance_to(Instant instant) noexcept {
     now_ = instant;
 }
 
+Status VirtualHost::set_duration(const Component& component, Duration duration) noexcept {
+    return set_duration(find_component(components_, &component), duration);
+}
+
 Status VirtualHost::set_duration(std::size_t component, Duration duration) noexcept {
     if (component >= durations_.size() || duration < Duration{0}) {
         return Status::kBadParameter;

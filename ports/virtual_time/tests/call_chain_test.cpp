@@ -93,7 +93,7 @@ class LongerHost final : public WindowHost {
     bool has_returned(std::size_t window) const noexcept override { return host_.has_returned(window); }
 
   private:
-    VirtualHost host_{Span<Duration>{}};
+    IndexedVirtualHost host_{Span<Duration>{}};
 };
 
 Probe probe;
@@ -130,7 +130,7 @@ constexpr std::size_t kCallsMax = 5U;
 
 TEST(CallChainTest, OnExecuteOfAnUnobservedWindowIsAtMostFiveCallsFromRunWindow) {
     verifies("SWR-KRN-041");
-    VirtualHost host{Span<Duration>{}};
+    IndexedVirtualHost host{Span<Duration>{}};
 
     const std::vector<std::string> chain = find_chain(kAlone, host, false);
 
@@ -140,7 +140,7 @@ TEST(CallChainTest, OnExecuteOfAnUnobservedWindowIsAtMostFiveCallsFromRunWindow)
 
 TEST(CallChainTest, OnExecuteOfASupervisedWindowIsAtMostFiveCallsFromRunWindow) {
     verifies("SWR-KRN-041", Technique::kEquivalenceClasses);
-    VirtualHost host{Span<Duration>{}};
+    IndexedVirtualHost host{Span<Duration>{}};
 
     const std::vector<std::string> chain = find_chain(kAlone, host, true);
 
@@ -150,7 +150,7 @@ TEST(CallChainTest, OnExecuteOfASupervisedWindowIsAtMostFiveCallsFromRunWindow) 
 
 TEST(CallChainTest, OnExecuteOfAForwardingWindowIsAtMostFiveCallsFromRunWindow) {
     verifies("SWR-KRN-041", Technique::kEquivalenceClasses);
-    VirtualHost host{Span<Duration>{}};
+    IndexedVirtualHost host{Span<Duration>{}};
 
     const std::vector<std::string> chain = find_chain(kForward, host, true);
 

@@ -51,7 +51,7 @@ class VirtualHostRig final : public conformance::HostRig {
 
   private:
     std::array<Duration, kComponentCount> durations_{};
-    VirtualHost host_{durations_};
+    IndexedVirtualHost host_{durations_};
 };
 
 class VirtualWatchdogRig final : public conformance::WatchdogRig {
@@ -96,7 +96,7 @@ class FrameRunnerRig final : public conformance::TimerRig {
 
   private:
     std::array<Duration, kWindowCount> durations_{};
-    VirtualHost host_{durations_};
+    IndexedVirtualHost host_{durations_};
     NoDevices devices_;
     std::array<SimulatedCore, 1U> cores_;
     FrameRunner runner_{cores_, devices_};

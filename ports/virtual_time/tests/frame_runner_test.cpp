@@ -80,7 +80,7 @@ struct Plant {
         connect(sensor.out, channel.in, any_age()), connect(channel.out, doubler.in, any_age()));
     std::array<Duration, 3> durations{};
     ExecutiveFor<decltype(table)> executive{table};
-    VirtualHost host{durations};
+    IndexedVirtualHost host{durations};
     SpyDevices devices{sensor, doubler};
     SimulatedCore core{executive, host};
     FrameRunner runner{{&core, 1U}, devices};

@@ -95,8 +95,7 @@ Course run(Tool tool) {
     }
     EXPECT_EQ(executive.initialize(), Status::kOk);
     EXPECT_EQ(executive.start(), Status::kOk);
-    std::array<Duration, 2> durations{};
-    VirtualHost host{durations};
+    VirtualHostFor host{table};
     AskingDevices devices{host, tool == Tool::kPerFrame ? &introspection : nullptr};
     SimulatedCore core{executive, host};
     FrameRunner runner{{&core, 1U}, devices};

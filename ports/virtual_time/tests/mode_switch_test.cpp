@@ -105,9 +105,8 @@ struct Machine : MachineParts {
     SystemModes modes{make_view(table)};
     ExecutiveFor<Table> ask{table, modes};
     ExecutiveFor<Table> act{table, modes, 1U};
-    std::array<Duration, 4U> durations{};
-    VirtualHost ask_host{durations};
-    VirtualHost act_host{durations};
+    VirtualHostFor<Table> ask_host{table};
+    VirtualHostFor<Table> act_host{table};
     std::array<SimulatedCore, 2U> cores{{{ask, ask_host}, {act, act_host}}};
     NoDevices devices;
     FrameRunner runner{cores, devices};
@@ -150,7 +149,7 @@ TEST(ModeSwitchTest, TwentyRunsWithAComponentThatHangsInASwitchGiveOneHashAndEnd
     for (int run = 0; run < 20; ++run) {
         Machine machine;
         machine.run_frames(100);
-        ASSERT_EQ(machine.ask_host.set_duration(2U, kNever), Status::kOk);
+        ASSERT_EQ(machine.ask_host.set_duration(machine.hand, kNever), Status::kOk);
         machine.run_frames(30);
 
         EXPECT_EQ(machine.modes.get_mode(), 2U);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
 
@@ -24,7 +25,7 @@ class VirtualHostTest : public ::testing::Test {
     }
 
     std::array<Duration, 2> durations_{10_ns, 0_ns};
-    VirtualHost sut_{durations_};
+    IndexedVirtualHost sut_{durations_};
     int calls_{0};
 };
 
@@ -131,6 +132,57 @@ TEST_F(VirtualHostTest, ANegativeModelledTimeEndsInTheAssertion) {
     durations_[0] = Duration{-1};
 
     EXPECT_CHECK_FAILS(static_cast<void>(run(0U, Instant{100})), "virtual_host.cpp", 2);
+}
+
+class Plain final : public Component {
+  public:
+    constexpr Plain() noexcept : Component("plain") {}
+};
+class Other final : public Component {
+  public:
+    constexpr Other() noexcept : Component("other") {}
+};
+Plain g_plain;
+Other g_other;
+Plain g_stranger;
+constexpr auto kTimed =
+    system(frame(1_us), window("all", 0_ns, 100_ns, budget(100_ns), run(g_plain, g_other)),
+           modelled_time(g_other, 30_ns));
+MAMORI_CHECK(kTimed);
+
+TEST(VirtualHostForTest, TimesComeFromTheTableAndAreZeroWithoutARow) {
+    verifies("SWR-KRN-065");
+    VirtualHostFor host{kTimed};
+    const auto nothing = [](void*, std::size_t, std::size_t) noexcept {};
+
+    EXPECT_EQ(host.run_within({nothing, nullptr, 0U, 0U, 0U, 1U, Pass::kExecute}, Instant{100}), 1U);
+    EXPECT_EQ(host.get_now(), Instant{0});
+    EXPECT_EQ(host.run_within({nothing, nullptr, 0U, 1U, 0U, 1U, Pass::kExecute}, Instant{100}), 1U);
+    EXPECT_EQ(host.get_now(), Instant{30});
+}
+
+TEST(VirtualHostForTest, ATimeIsChangedByItsComponentForOneHostOnly) {
+    verifies("SWR-KRN-065", Technique::kInterface);
+    VirtualHostFor host{kTimed};
+    VirtualHostFor second{kTimed};
+    const auto nothing = [](void*, std::size_t, std::size_t) noexcept {};
+
+    EXPECT_EQ(host.set_duration(g_other, 50_ns), Status::kOk);
+    EXPECT_EQ(host.run_within({nothing, nullptr, 0U, 0U, 0U, 2U, Pass::kExecute}, Instant{100}), 2U);
+    EXPECT_EQ(host.get_now(), Instant{50});
+    EXPECT_EQ(second.run_within({nothing, nullptr, 0U, 0U, 0U, 2U, Pass::kExecute}, Instant{100}), 2U);
+    EXPECT_EQ(second.get_now(), Instant{30});
+}
+
+TEST(VirtualHostForTest, AComponentOfNoTableAndANegativeTimeAreRejected) {
+    verifies("SWR-KRN-065", Technique::kInterface, Polarity::kViolation);
+    VirtualHostFor host{kTimed};
+    std::array<Duration, 1U> durations{};
+    IndexedVirtualHost without_table{durations};
+
+    EXPECT_EQ(host.set_duration(g_stranger, 1_ns), Status::kBadParameter);
+    EXPECT_EQ(host.set_duration(g_plain, Duration{-1}), Status::kBadParameter);
+    EXPECT_EQ(without_table.set_duration(g_plain, 1_ns), Status::kBadParameter);
 }
 
 }  // namespace

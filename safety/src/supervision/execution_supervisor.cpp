@@ -31,6 +31,16 @@ Status ExecutionSupervisor::watch(std::size_t component, const ComponentLimits& 
     return Status::kOk;
 }
 
+Status ExecutionSupervisor::watch(Span<const WatchRow> rows) noexcept {
+    for (const WatchRow& row : rows) {
+        const Status result = watch(find_component(table_components_, row.component), row.limits);
+        if (result != Status::kOk) {
+            return result;
+        }
+    }
+    return Status::kOk;
+}
+
 Status ExecutionSupervisor::deactivate(std::size_t component) noexcept {
     const Status result = alive_.deactivate(component);
     if (result == Status::kOk) {

@@ -34,7 +34,7 @@ class NoDevices final : public FrameDevices {
 };
 
 /// A system that runs frame by frame.
-template <typename Table, std::size_t kComponents>
+template <typename Table>
 class Machine {
   public:
     explicit Machine(const Table& table) : table_(table), executive_(table_) {
@@ -51,8 +51,7 @@ class Machine {
   private:
     const Table table_;
     ExecutiveFor<Table> executive_;
-    std::array<Duration, kComponents> durations_{};
-    VirtualHost host_{durations_};
+    ports::virtual_time::VirtualHostFor<Table> host_{table_};
     SimulatedCore core_{executive_, host_};
     NoDevices devices_;
     FrameRunner runner_{{&core_, 1U}, devices_};
@@ -81,12 +80,12 @@ class ProtectedSpeedTest : public ::testing::Test {
 
     Planner planner_;
     Drive drive_;
-    Machine<decltype(make_speed_table(planner_, drive_)), 2U> machine_{make_speed_table(planner_, drive_)};
+    Machine<decltype(make_speed_table(planner_, drive_))> machine_{make_speed_table(planner_, drive_)};
 };
 
 TEST(ProtectedSpeedPageTest, TheSystemOfThePageDrives) {
     verifies("SWR-E2E-040");
-    Machine<std::remove_const_t<decltype(kSystem)>, 2U> machine{kSystem};
+    Machine<std::remove_const_t<decltype(kSystem)>> machine{kSystem};
 
     machine.run(5);
     EXPECT_EQ(drive.worth, E2eWorth::kNew);
@@ -157,9 +156,9 @@ TEST_F(ProtectedSpeedTest, SilentSenderIsSeenByTheReceiverAlone) {
 
 TEST_F(ProtectedSpeedTest, FrameThatWasDiscardedWithItsWindowIsOneLoss) {
     verifies("SWR-E2E-038", Technique::kFaultInjection, Polarity::kViolation);
-    ASSERT_EQ(machine_.get_host().set_duration(1U, 2_ms), Status::kOk);  // over its budget
+    ASSERT_EQ(machine_.get_host().set_duration(planner_, 2_ms), Status::kOk);  // over its budget
     machine_.run(1);
-    ASSERT_EQ(machine_.get_host().set_duration(1U, 0_ms), Status::kOk);
+    ASSERT_EQ(machine_.get_host().set_duration(planner_, 0_ms), Status::kOk);
     machine_.run(1);
     EXPECT_EQ(drive_.worth, E2eWorth::kHeld);
 
@@ -188,7 +187,7 @@ class ProtectedWayTest : public ::testing::Test {
     Planner planner_;
     Way way_{"way"};
     Drive drive_;
-    Machine<decltype(make_way_table(planner_, way_, drive_)), 3U> machine_{
+    Machine<decltype(make_way_table(planner_, way_, drive_))> machine_{
         make_way_table(planner_, way_, drive_)};
 };
 

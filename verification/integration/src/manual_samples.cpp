@@ -140,8 +140,7 @@ namespace cost {
 
 static mamori::timing::TimingResult count(bool is_paced, const std::uint64_t (&numbers)[3], const char* folder,
                                           mamori::ports::virtual_time::FrameDevices& devices) {
-    std::array<mamori::Duration, 1U> times{100_us};  // modelled time of each component
-    mamori::ports::virtual_time::VirtualHost clock{times};
+    mamori::ports::virtual_time::VirtualHostFor clock{kSystem};
     mamori::timing::CostOptions options;
     options.is_paced = is_paced;                   // --by clock
     options.cycles = numbers[0];                   // --cycles

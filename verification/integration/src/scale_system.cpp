@@ -29,8 +29,8 @@ namespace {
 
 using ports::virtual_time::FrameDevices;
 using ports::virtual_time::FrameRunner;
+using ports::virtual_time::IndexedVirtualHost;
 using ports::virtual_time::SimulatedCore;
-using ports::virtual_time::VirtualHost;
 
 /// A value that depends on every bit of the previous values, in integers and in real numbers.
 class Mixture {
@@ -223,8 +223,8 @@ std::uint64_t count_lost() noexcept {
 ScaleResult run_scale(std::uint64_t frames, bool is_watched) {
     std::array<Duration, Table::kComponentCount> durations{};
     durations.fill(2_us);
-    VirtualHost host_0{durations};
-    VirtualHost host_1{durations};
+    IndexedVirtualHost host_0{durations};
+    IndexedVirtualHost host_1{durations};
     initialize(g_core_0, is_watched);
     initialize(g_core_1, is_watched);
     MAMORI_REQUIRE(2, g_core_0.start() == Status::kOk && g_core_1.start() == Status::kOk);

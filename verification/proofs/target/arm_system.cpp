@@ -12,6 +12,7 @@
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
+#include "mamori/safety/supervision/watch_check.hpp"
 #include "safety_supervisor.hpp"
 
 namespace proof {
@@ -23,8 +24,6 @@ using mamori::Instant;
 using mamori::Status;
 namespace virtual_time = mamori::ports::virtual_time;
 
-constexpr std::size_t kControllerIndex = 3U;
-constexpr std::size_t kComponentCount = 6U;
 constexpr double kCountsPerRad = 100000.0;
 
 // The sequence of the run: start, an encoder that jumps, reset and start, a controller that hangs.
@@ -41,8 +40,7 @@ mamori::safety::ArmOutputs outputs;
 std::array<mamori::Event, 256U> event_storage;
 mamori::EventLog event_log{event_storage};
 virtual_time::VirtualWatchdog watchdog{safe_arm::kWatchdogTimeout};
-mamori::safety::ExecutionStorage<kComponentCount> supervision_storage;
-mamori::safety::ExecutionSupervisor supervision{supervision_storage, safe_arm::kLatenessMax};
+extern mamori::safety::ExecutionSupervisor supervision;
 Facts facts;
 
 safe_arm::ArmChecks checks{watchdog};
@@ -53,9 +51,9 @@ safe_arm::DecisionFlow decision_flow;
 
 safe_arm::ArmReader reader{inputs};
 safe_arm::JointMonitor monitor;
-safe_arm::SafetySupervisor supervisor{supervision, kControllerIndex, watchdog,
-                                      event_log,   assumptions,      decision_flow};
 HoldController controller;
+safe_arm::SafetySupervisor supervisor{supervision, controller,  watchdog,
+                                      event_log,   assumptions, decision_flow};
 virtual_time::SimulatedChannel<safe_arm::TorqueCommand, 4U> channel{"channel"};
 safe_arm::DriveGate gate{outputs};
 
@@ -82,10 +80,23 @@ constexpr auto kSystem = mamori::system(
     mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
     mamori::connect(channel.out, gate.command, mamori::any_age()));
 MAMORI_CHECK(kSystem);
-static_assert(kSystem.components.size() == kComponentCount &&
-              kSystem.components[kControllerIndex] == &controller);
+
+mamori::safety::ExecutionStorageFor<kSystem> supervision_storage;
+mamori::safety::ExecutionSupervisor supervision{supervision_storage, safe_arm::kLatenessMax};
+constexpr mamori::safety::ComponentLimits kGlobalLimits{safe_arm::kAliveLimits,
+                                                        {Duration{0}, safe_arm::kControllerMax},
+                                                        mamori::safety::SupervisionScope::kGlobal};
+constexpr mamori::safety::ComponentLimits kLocalLimits{safe_arm::kAliveLimits,
+                                                       {Duration{0}, safe_arm::kControllerMax},
+                                                       mamori::safety::SupervisionScope::kLocal};
+constexpr std::array kLimits = {
+    mamori::safety::watch(reader, kGlobalLimits),     mamori::safety::watch(monitor, kGlobalLimits),
+    mamori::safety::watch(supervisor, kGlobalLimits), mamori::safety::watch(controller, kLocalLimits),
+    mamori::safety::watch(channel, kGlobalLimits),    mamori::safety::watch(gate, kGlobalLimits)};
+static_assert(mamori::safety::is_watch_list_of<kSystem, kLimits>());
 
 mamori::ExecutiveFor executive_of_table{kSystem};
+virtual_time::VirtualHostFor host_of_table{kSystem};
 
 bool is_pushed(Instant since, Instant now) noexcept {
     return now >= since && now < since + kPush;
@@ -94,17 +105,13 @@ bool is_pushed(Instant since, Instant now) noexcept {
 }  // namespace
 
 mamori::Executive& executive = executive_of_table;
+virtual_time::VirtualHost& virtual_host = host_of_table;
 
 Status prepare() noexcept {
     executive.set_observer(&supervision);
-    for (std::size_t i = 0U; i < kComponentCount; ++i) {
-        const auto scope = i == kControllerIndex ? mamori::safety::SupervisionScope::kLocal
-                                                 : mamori::safety::SupervisionScope::kGlobal;
-        const Status result =
-            supervision.watch(i, {safe_arm::kAliveLimits, {Duration{0}, safe_arm::kControllerMax}, scope});
-        if (result != Status::kOk) {
-            return result;
-        }
+    const Status result = supervision.watch(kLimits);
+    if (result != Status::kOk) {
+        return result;
     }
     return reader.configure({safe_arm::make_uniform(kCountsPerRad), safe_arm::make_uniform(kCountsPerRad)});
 }
@@ -118,8 +125,8 @@ void ObedientDevices::begin_frame(std::uint64_t, Instant now) noexcept {
     inputs.start_button = is_pushed(kFirstStart, now) || is_pushed(kSecondStart, now);
     inputs.reset_button = is_pushed(kReset, now);
     const Duration controller_time = now < kControllerHangs ? kControllerTime : virtual_time::kNever;
-    // The controller is in the model's table, so this cannot be rejected.
-    static_cast<void>(host_.set_duration(kControllerIndex, controller_time));
+    // The controller is in the table, so this cannot be rejected.
+    static_cast<void>(host_.set_duration(controller, controller_time));
 }
 
 void ObedientDevices::end_frame(std::uint64_t, Instant now, Duration length) noexcept {

@@ -17,6 +17,8 @@ namespace proof {
 
 /// Runs the static table, which is in arm_system.cpp.
 extern mamori::Executive& executive;
+/// Simulates the table; only the controller takes time.
+extern mamori::ports::virtual_time::VirtualHost& virtual_host;
 
 /// Creates all objects that must exist before the executive is initialised.
 /// @return kOk; otherwise the status of the component or the supervision that rejected its setup.

@@ -53,10 +53,8 @@ int run_program() noexcept {
         is_refused(executive.start(), "start")) {
         return kNotStarted;
     }
-    std::array<mamori::Duration, 8U> durations{};
-    virtual_time::VirtualHost host{durations};
-    ObedientDevices devices{host};
-    virtual_time::SimulatedCore core{executive, host};
+    ObedientDevices devices{virtual_host};
+    virtual_time::SimulatedCore core{executive, virtual_host};
     virtual_time::FrameRunner runner{{&core, 1U}, devices};
     for (std::uint64_t frame = 0U; frame < kFrameCount; ++frame) {
         runner.run_frame();

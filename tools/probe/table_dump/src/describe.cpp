@@ -221,6 +221,10 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kReactionWithoutTime:
         case Rule::kReactionToUnknownFault:
             return describe_reactions(finding, view);
+        case Rule::kModelledTimeNegative:
+        case Rule::kModelledTimeOfUnknownComponent:
+        case Rule::kModelledTimeStatedTwice:
+            return "modelled time: row " + std::to_string(finding.element) + " is invalid";
         case Rule::kParameterRowInvalid:
         case Rule::kSetRowInvalid:
         case Rule::kConfigurationRefused:

@@ -58,7 +58,7 @@ class CostRunTest : public ::testing::Test {
     SystemTable<1U, 1U, 0U, 0U> table_ =
         system(frame(1_ms), window("only", 0_ms, 1_ms, budget(1_ms), mamori::run(worker_)));
     ExecutiveFor<decltype(table_)> executive_{table_};
-    ports::virtual_time::VirtualHost clock_{{}};
+    ports::virtual_time::IndexedVirtualHost clock_{{}};
     CountingDevices devices_;
     CostOptions options_;
 };

@@ -9,7 +9,6 @@
 /// by the clock.
 ///
 /// Design: docs/design/cost.md#proof
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -88,11 +87,10 @@ int run_subject(int argc, char** argv) {
     options.cycles = std::strtoull(argv[5], nullptr, 10);
     options.counted = {std::strtoull(argv[7], nullptr, 10), std::strtoull(argv[9], nullptr, 10)};
     options.out = argv[11];
-    std::array<Duration, 3U> times{};
+    ports::virtual_time::VirtualHostFor clock{kSubject};
     if (argc == 13 && options.is_paced) {
-        times[1] = ports::virtual_time::kNever;
+        static_cast<void>(clock.set_duration(constant, ports::virtual_time::kNever));
     }
-    ports::virtual_time::VirtualHost clock{times};
     NoDevices devices;
     if (executive.initialize() != Status::kOk || executive.start() != Status::kOk) {
         return 1;

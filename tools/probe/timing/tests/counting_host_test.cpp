@@ -18,9 +18,9 @@ namespace {
 using ports::posix_rt::FrameClock;
 using ports::virtual_time::FrameDevices;
 using ports::virtual_time::FrameRunner;
+using ports::virtual_time::IndexedVirtualHost;
 using ports::virtual_time::kNever;
 using ports::virtual_time::SimulatedCore;
-using ports::virtual_time::VirtualHost;
 using namespace verification;
 using literals::operator""_ms;
 using literals::operator""_us;
@@ -66,7 +66,7 @@ class CountingHostTest : public ::testing::Test {
                window("slow", 2_ms, 3_ms, budget(2_ms), run(first_, second_)));
     ExecutiveFor<decltype(table_)> executive_{table_};
     std::array<Duration, 3U> times_{100_us, 200_us, 300_us};
-    VirtualHost clock_{times_};
+    IndexedVirtualHost clock_{times_};
     NoDevices devices_;
     FrameClock wall_ = FrameClock::starting_in(Duration{0});
     std::uint64_t overrun_count_{0U};

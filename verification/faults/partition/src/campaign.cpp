@@ -259,7 +259,7 @@ std::vector<Opening> run_in_virtual_time(const std::vector<TimedOpening>& openin
     SystemLog* const before = system_log;
     system_log = &log;
     std::array<Duration, 1U> durations{1_us};
-    ports::virtual_time::VirtualHost host{durations};
+    ports::virtual_time::IndexedVirtualHost host{durations};
     ports::virtual_time::SimulatedCore core{executive, host};
     NoDevices devices;
     ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};

@@ -3,7 +3,7 @@
 /// Modes and parameters of a running system. Accepts requests from any thread and makes all cores execute
 /// them in the same major frame, step by step. A failed step leads to the safe mode, latched.
 ///
-/// @satisfies SWR-MOD-004, SWR-MOD-005, SWR-MOD-006, SWR-MOD-007
+/// @satisfies SWR-MOD-004, SWR-MOD-005, SWR-MOD-006, SWR-MOD-007, SWR-MOD-010
 /// Design:   docs/design/modes.md#the-switch
 #ifndef MAMORI_KERNEL_SYSTEM_MODES_HPP
 #define MAMORI_KERNEL_SYSTEM_MODES_HPP
@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "mamori/kernel/base/assert.hpp"
 #include "mamori/kernel/base/enumerator.hpp"
@@ -82,6 +83,15 @@ class SystemModes final {
     /// Current mode of all cores, as its index in the table. During a mode switch: the previous mode. Without
     /// modes: 0.
     std::size_t get_mode() const noexcept { return mode_.load(std::memory_order_acquire); }
+    /// The same as the enumerator of system_mode<...>().
+    /// @tparam Mode enumeration of the modes of the table; any other, or a table whose modes have names only,
+    ///              is a contract violation.
+    template <typename Mode>
+    Mode get_mode() const noexcept {
+        static_assert(std::is_enum_v<Mode>, "a mode is an enumerator: get_mode<Mode>()");
+        MAMORI_REQUIRE(2, view_.modes.mode_enumeration == &detail::kEnumerationTag<Mode>);
+        return static_cast<Mode>(get_mode());
+    }
     /// The step that is agreed and not completed; kNone if no switch is in progress.
     ModeStep get_step() const noexcept { return ModePlan{plan_.load(std::memory_order_acquire)}.get_step(); }
     /// First failure since the last reset; cause kNone: none. While a failure is latched, a table

@@ -10,14 +10,18 @@
 ///     mamori::connect(planner.setpoint, drive.setpoint, mamori::only_in("work"), mamori::any_age()),
 ///     mamori::connect(hand.setpoint, drive.setpoint, mamori::any_age()),     // hand runs in "teach" only
 ///
-/// @satisfies SWR-MOD-001      Design: docs/design/modes.md#the-table
+/// @satisfies SWR-MOD-001, SWR-MOD-010      Design: docs/design/modes.md#the-table
 #ifndef MAMORI_KERNEL_MODE_PART_HPP
 #define MAMORI_KERNEL_MODE_PART_HPP
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
 
 #include "mamori/kernel/base/enumerator.hpp"
+#include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/system/detail/part_types.hpp"
 #include "mamori/kernel/table/mode_table.hpp"
 
@@ -69,6 +73,56 @@ constexpr SystemModePart<Cs...> safe_mode(const char* name, const Runs<Cs...>& m
                                           ModeParameters set = {}) noexcept {
     return {{name, set.set_name, kNoIndex, true}, members.components};
 }
+
+/// Enumerator of a mode, as a type.
+template <auto kMode>
+struct ModeEnumerator {};
+/// Made by system_mode<kMode>() and safe_mode<kMode>().
+template <auto kMode, typename... Cs>
+struct EnumeratedModePart : SystemModePart<Cs...> {
+    struct Types : SystemModePart<Cs...>::Types {
+        using ModeEnumerators = detail::TypeList<ModeEnumerator<kMode>>;
+    };
+};
+/// The same with an enumerator, which SystemModes::get_mode<Mode>() returns.
+/// @tparam kMode its number is the index of the mode in the table, 0 for the first; all modes of a table are
+/// of
+///               the same enumeration, or none has an enumerator.
+template <auto kMode, typename... Cs>
+constexpr EnumeratedModePart<kMode, Cs...> system_mode(const char* name, const Runs<Cs...>& members,
+                                                       ModeParameters set = {}) noexcept {
+    return {system_mode(name, members, set)};
+}
+template <auto kMode, typename... Cs>
+constexpr EnumeratedModePart<kMode, Cs...> safe_mode(const char* name, const Runs<Cs...>& members,
+                                                     ModeParameters set = {}) noexcept {
+    return {safe_mode(name, members, set)};
+}
+
+namespace detail {
+
+/// Whether the numbers of `kModes` are 0, 1, ...
+template <typename Sequence, auto... kModes>
+inline constexpr bool kAreNumbered = false;
+template <std::size_t... kIndices, auto... kModes>
+inline constexpr bool kAreNumbered<std::index_sequence<kIndices...>, kModes...> =
+    ((to_number(kModes) == kIndices) && ...);
+
+/// Enumeration of the modes of a description.
+template <typename List>
+struct ModesOf {
+    static constexpr bool kAreInOrder = true;
+    static constexpr const std::uint8_t* kTag = nullptr;
+};
+template <auto kFirst, auto... kRest>
+struct ModesOf<TypeList<ModeEnumerator<kFirst>, ModeEnumerator<kRest>...>> {
+    static constexpr bool kAreInOrder =
+        (std::is_same_v<decltype(kFirst), decltype(kRest)> && ...) &&
+        kAreNumbered<std::make_index_sequence<1U + sizeof...(kRest)>, kFirst, kRest...>;
+    static constexpr const std::uint8_t* kTag = &kEnumerationTag<std::remove_const_t<decltype(kFirst)>>;
+};
+
+}  // namespace detail
 
 /// Made by mode_transition().
 template <typename Event>

@@ -22,6 +22,7 @@
 #ifndef MAMORI_KERNEL_SYSTEM_HPP
 #define MAMORI_KERNEL_SYSTEM_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -37,7 +38,9 @@
 #include "mamori/kernel/system/system_part.hpp"
 #include "mamori/kernel/system/system_rules.hpp"
 #include "mamori/kernel/system/window_part.hpp"
+#include "mamori/kernel/table/index_of.hpp"
 #include "mamori/kernel/table/mode_builder.hpp"
+#include "mamori/kernel/table/modelled_time_row.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori {
@@ -63,6 +66,10 @@ constexpr void add_part(Builder& builder, const ReactionPart<Fault, Reaction>& p
 template <typename Builder>
 constexpr void add_part(Builder& builder, const AbortPolicyPart& part) noexcept {
     builder.add(part.policy);
+}
+template <typename Builder, typename C>
+constexpr void add_part(Builder& builder, const ModelledTimePart<C>& part) noexcept {
+    builder.add(part.row);
 }
 template <typename Builder>
 constexpr void add_part(Builder& builder, const PublicationMarginPart& part) noexcept {
@@ -99,6 +106,8 @@ using TableOf = SystemTable<
 template <typename PartTypes>
 struct DescribedSystem : detail::TableOf<PartTypes> {
     using Types = PartTypes;
+    /// Rows that no executive reads, so the view of the table does not have them.
+    std::array<ModelledTimeRow, Types::ModelledComponents::kSize> modelled_times{};
 };
 
 /// Builds the table from a major frame and its parts, in any order. Windows, components, ports, connections,
@@ -108,6 +117,12 @@ template <typename... Parts>
 constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
     using Types = detail::JoinedTypes<Parts...>;
     static_assert(Types::kModes <= kSystemModeMax, "a system has at most 32 modes");
+    using Modes = detail::ModesOf<typename Types::ModeEnumerators>;
+    static_assert(
+        Types::ModeEnumerators::kSize == 0U || Types::ModeEnumerators::kSize == Types::kModes,
+        "a mode without an enumerator; write system_mode<...>() and safe_mode<...>() for all modes");
+    static_assert(Modes::kAreInOrder,
+                  "the modes of a system are the enumerators 0, 1, ... of one enumeration, in this order");
     static_assert(detail::kIsOfOneType<typename Types::Events>,
                   "the events of all transitions of a system are enumerators of one enumeration");
     static_assert(detail::kIsOfOneType<typename Types::FaultTypes> &&
@@ -120,6 +135,7 @@ constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
                   "duplicate trace_hash(); specify it at most once");
     detail::TableBuilder<DescribedSystem<Types>> builder{};
     builder.table.frame = frame_part.length;
+    builder.table.modes.mode_enumeration = Modes::kTag;
     (detail::add_part(builder, parts), ...);
     builder.table.configuration = builder.configuration.finish();
     detail::resolve_connections(builder.table);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Parts of a description that apply to the whole system: major frame, abort policy, publication margin and
-/// trace hash.
+/// Parts of a description that apply to the whole system: major frame, abort policy, publication margin,
+/// trace hash and modelled times.
 ///
-/// @satisfies SWR-KRN-017, SWR-KRN-050, SWR-KRN-051      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-050, SWR-KRN-051, SWR-KRN-064      Design:
+/// docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SYSTEM_PART_HPP
 #define MAMORI_KERNEL_SYSTEM_PART_HPP
 
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/context_plan.hpp"
 #include "mamori/kernel/system/detail/part_types.hpp"
+#include "mamori/kernel/table/modelled_time_row.hpp"
 
 namespace mamori {
 
@@ -30,6 +32,23 @@ struct AbortPolicyPart {
 /// Actions that are called when a component enters Error, for the whole system; default kSpecOnly.
 constexpr AbortPolicyPart abort_policy(AbortPolicy policy) noexcept {
     return {policy};
+}
+
+/// Made by modelled_time().
+template <typename C>
+struct ModelledTimePart {
+    struct Types : detail::NoTypes {
+        using ModelledComponents = detail::TypeList<C>;
+    };
+    ModelledTimeRow row{};
+};
+/// Execution time of `component` in a simulation, for each first pass; without this part 0. Only a simulated
+/// host reads it, for example VirtualHostFor.
+/// @param[in] component run by a window; must outlive the table. @param[in] duration >= 0; MAMORI_CHECK
+///                      rejects a negative one, another component and a second time of one component.
+template <typename C>
+constexpr ModelledTimePart<C> modelled_time(const C& component, Duration duration) noexcept {
+    return {{&component, duration}};
 }
 
 /// Made by publication_margin().

@@ -9,21 +9,10 @@
 
 #include <cstddef>
 
-#include "mamori/kernel/base/text.hpp"
+#include "mamori/kernel/table/index_of.hpp"
 #include "mamori/kernel/table/mode_table.hpp"
 
 namespace mamori::detail {
-
-/// Index of the row with this name; kNoIndex: none.
-template <typename Rows>
-constexpr std::size_t find_named(const Rows& rows, const char* name) noexcept {
-    for (std::size_t i = 0U; i < rows.size() && name != nullptr; ++i) {
-        if (rows[i].name != nullptr && make_text(rows[i].name) == make_text(name)) {
-            return i;
-        }
-    }
-    return kNoIndex;
-}
 
 template <typename Table>
 constexpr void resolve_names(Table& table) noexcept {

@@ -57,6 +57,7 @@ struct ModeTable {
     std::array<ModeTransitionRow, kTransitions> transitions{};
     std::array<ConnectionModeRow, kConnectionModes> connection_modes{};
     const std::uint8_t* event_enumeration{nullptr};  ///< tag of the enumeration of all events
+    const std::uint8_t* mode_enumeration{nullptr};   ///< tag of the enumeration of all modes; nullptr: none
 };
 
 /// The same rows without their number in the type; refers to the table, which must outlive the view.
@@ -66,12 +67,18 @@ struct ModeView {
     Span<const ModeTransitionRow> transitions{};
     Span<const ConnectionModeRow> connection_modes{};
     const std::uint8_t* event_enumeration{nullptr};  ///< nullptr: rows filled directly, any enumeration
+    const std::uint8_t* mode_enumeration{nullptr};   ///< nullptr: the modes have names only
 };
 
 /// @param[in] table must outlive the view.
 template <std::size_t kM, std::size_t kC, std::size_t kT, std::size_t kN>
 constexpr ModeView make_view(const ModeTable<kM, kC, kT, kN>& table) noexcept {
-    return {table.modes, table.members, table.transitions, table.connection_modes, table.event_enumeration};
+    return {table.modes,
+            table.members,
+            table.transitions,
+            table.connection_modes,
+            table.event_enumeration,
+            table.mode_enumeration};
 }
 
 /// Mode in which a failed mode switch ends; kNoIndex: the table declares none. O(modes).

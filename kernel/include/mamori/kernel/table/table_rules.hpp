@@ -24,6 +24,7 @@
 ///             UnlistedParameter component (number of its parameters that are constructed after the one)
 ///             Port              port row (a rule of names: the row of the same name, or itself without one)
 ///             Parameter         parameter row (as for a port)
+///             ModelledTime      row of a modelled time (the earlier row)
 ///             Fault             fault (its earlier declaration)
 ///             Mode              mode; the first one where no mode is faulty
 ///             ModeMember        row of a component of a mode
@@ -109,6 +110,11 @@
       "element")                                                                                           \
     X(ConfigurationRefused, ConfigurationKeeps, SetAssignment,                                             \
       "a configuration set has a name of its own and gives each of its parameters one admitted value")     \
+    X(ModelledTimeNegative, ModelledTimeIsNotNegative, ModelledTime, "a modelled time is not negative")    \
+    X(ModelledTimeOfUnknownComponent, ModelledTimeHasAComponentOfTheTable, ModelledTime,                   \
+      "a modelled time is that of a component that a window runs")                                         \
+    X(ModelledTimeStatedTwice, ModelledTimeIsStatedOnce, ModelledTime,                                     \
+      "the modelled time of a component is stated once")                                                   \
     X(ModeRowInvalid, ModeRowIsValid, Row, "a mode has a name and is one of the first 32")                 \
     X(ModeNamedTwice, ModeHasANameOfItsOwn, Mode, "each mode has a name of its own")                       \
     X(ModeOfUnknownComponent, ModeRunsComponentsOfTheTable, ModeMember,                                    \

@@ -4,7 +4,7 @@
 /// once per supervision cycle (alive, deadline, budget) and sums the judgements up to the status of the
 /// whole.
 ///
-/// @satisfies SWR-SUP-007, SWR-SUP-008, SWR-SUP-009, SWR-SUP-010
+/// @satisfies SWR-SUP-007, SWR-SUP-008, SWR-SUP-009, SWR-SUP-010, SWR-SUP-040
 /// Design:   docs/design/supervision.md#local-and-global-status
 /// Source:   IEC 61508-2:2010 Table A.10 (monitoring of program sequence)
 #ifndef MAMORI_SAFETY_EXECUTION_SUPERVISOR_HPP
@@ -14,8 +14,11 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
+#include "mamori/kernel/component/component.hpp"
 #include "mamori/kernel/run/execution_observer.hpp"
+#include "mamori/kernel/table/index_of.hpp"
 #include "mamori/safety/supervision/alive_supervisor.hpp"
 #include "mamori/safety/supervision/deadline_supervisor.hpp"
 
@@ -47,6 +50,17 @@ struct ComponentLimits {
     SupervisionScope scope{SupervisionScope::kGlobal};
 };
 
+/// Limits of one component of the system table. Made by watch().
+struct WatchRow {
+    const Component* component{nullptr};
+    ComponentLimits limits{};
+};
+/// Row of a constant list of limits, which is_watch_list_of() checks (watch_check.hpp).
+/// @param[in] component of the system table; must outlive the list. @param[in] limits valid.
+constexpr WatchRow watch(const Component& component, const ComponentLimits& limits) noexcept {
+    return {&component, limits};
+}
+
 /// Storage of one component. Written by ExecutionSupervisor only.
 struct ComponentSlot {
     std::atomic<bool> is_overrun_pending{false};  ///< set from a guard's context
@@ -60,10 +74,15 @@ struct ComponentSlot {
 /// Storage for the components 0 .. kComponentCount - 1 of the system table.
 template <std::size_t kComponentCount>
 struct ExecutionStorage {
+    using Slots = ExecutionStorage;
     std::array<ExecutionRecord, kComponentCount> records{};  ///< written by the executive as well
     std::array<ComponentSlot, kComponentCount> components{};
     std::array<AliveSlot, kComponentCount> alive{};
 };
+
+/// Storage for the components of the system table `kTable`, which has static storage.
+template <const auto& kTable>
+struct ExecutionStorageFor : ExecutionStorage<std::remove_reference_t<decltype(kTable)>::kComponentCount> {};
 
 /// The first late release since the last acknowledgement, and how many there were.
 struct LateRelease {
@@ -73,11 +92,23 @@ struct LateRelease {
     Instant at{};
 };
 
-/// Supervises the components of one executive, named by their position in the system table.
+/// Supervises the components of one executive. A component is identified by itself; only where the table is
+/// not constant, by its index. A component of the table can refer to a supervisor that is declared before the
+/// table and defined after it:
+///
+///     extern mamori::safety::ExecutionSupervisor supervision;
+///     static Decider decider{supervision};
+///     static constexpr auto kSystem = mamori::system(...);
+///     static mamori::safety::ExecutionStorageFor<kSystem> storage;
+///     mamori::safety::ExecutionSupervisor supervision{storage, 50_us};
+///     static constexpr std::array kLimits = {mamori::safety::watch(reader, {{2U, 4U}, {0_us, 40_us}})};
+///     static_assert(mamori::safety::is_watch_list_of<kSystem, kLimits>());
+///     ... supervision.watch(kLimits);
 ///
 /// Thread safety: on_budget_overrun may be called from another context; all other members from one and the
 ///                same execution context.
-/// Time:          step() and get_first_expired() are O(components), the others are O(1). Nothing blocks.
+/// Time:          step(), get_first_expired() and the functions that take a Component are O(components), the
+///                others are O(1). Nothing blocks.
 /// Memory:        no heap; all state is in the storage, which must outlive this object.
 class ExecutionSupervisor final : public ExecutionObserver {
   public:
@@ -95,20 +126,45 @@ class ExecutionSupervisor final : public ExecutionObserver {
         MAMORI_REQUIRE(1, lateness_max >= Duration{0});
     }
 
+    /// @param[in] storage      of the table that the executive runs.
+    /// @param[in] lateness_max as above.
+    template <const auto& kTable>
+    constexpr ExecutionSupervisor(ExecutionStorageFor<kTable>& storage, Duration lateness_max) noexcept
+        : ExecutionSupervisor(static_cast<typename ExecutionStorageFor<kTable>::Slots&>(storage),
+                              lateness_max) {
+        table_components_ = kTable.components;
+    }
+
+    /// @return index of the component in the table of the storage; kNoIndex: it is not in the table, or the
+    ///         storage is not of a table. For a caller that needs it in each cycle.
+    std::size_t find(const Component& component) const noexcept {
+        return find_component(table_components_, &component);
+    }
+
     /// Starts supervising a component, active. A component that is not watched may be silent and slow, but
     /// a budget overrun expires it all the same, with global scope.
     /// @return kOk; kBadParameter (component or limits out of range); kPreconditionNotMet (already watched).
     Status watch(std::size_t component, const ComponentLimits& limits) noexcept;
+    Status watch(const Component& component, const ComponentLimits& limits) noexcept {
+        return watch(find(component), limits);
+    }
+    /// The same for each row in order, up to the first that is rejected.
+    /// @param[in] rows checked by is_watch_list_of(): then only a component that is already watched is
+    ///                 rejected.
+    Status watch(Span<const WatchRow> rows) noexcept;
 
     /// Tells that the component is meant to be silent, or to run again.
     /// @return as AliveSupervisor::deactivate and AliveSupervisor::activate.
     Status deactivate(std::size_t component) noexcept;
+    Status deactivate(const Component& component) noexcept { return deactivate(find(component)); }
     Status activate(std::size_t component) noexcept { return alive_.activate(component); }
+    Status activate(const Component& component) noexcept { return activate(find(component)); }
 
     /// Takes an expired component back to kOk. Only for a deliberate reset; an overrun or a run outside its
     /// limits that no step() has judged yet is kept.
     /// @return kOk; kBadParameter (component out of range); kPreconditionNotMet (not expired).
     Status acknowledge(std::size_t component) noexcept;
+    Status acknowledge(const Component& component) noexcept { return acknowledge(find(component)); }
 
     /// Ends one supervision cycle and judges all components, worst condition first.
     /// @param[in] now start of the cycle, as in ContextHandle::now.
@@ -119,13 +175,18 @@ class ExecutionSupervisor final : public ExecutionObserver {
     /// @return result of the last step(); kFailed before the first.
     GlobalStatus get_global_status() const noexcept { return global_status_; }
 
-    /// @param[in] component 0 .. count - 1. @return its status at the last step().
+    /// @param[in] component of the table, or 0 .. count - 1; any other is a contract violation.
+    /// @return its status at the last step().
     LocalStatus get_local_status(std::size_t component) const noexcept {
         return components_[component].status;
     }
+    LocalStatus get_local_status(const Component& component) const noexcept {
+        return get_local_status(find(component));
+    }
 
-    /// @param[in] component 0 .. count - 1. @return why it expired; kNone unless it did.
+    /// @param[in] component as above. @return why it expired; kNone unless it did.
     ExpiryCause get_cause(std::size_t component) const noexcept { return components_[component].cause; }
+    ExpiryCause get_cause(const Component& component) const noexcept { return get_cause(find(component)); }
 
     /// @return component that expired first of those still expired, the lowest index of one step;
     ///         kNoComponent when none is.
@@ -156,6 +217,7 @@ class ExecutionSupervisor final : public ExecutionObserver {
     LateRelease late_release_{};
     bool is_release_late_{false};
     GlobalStatus global_status_{GlobalStatus::kFailed};
+    Span<Component* const> table_components_{};
 };
 
 }  // namespace mamori::safety

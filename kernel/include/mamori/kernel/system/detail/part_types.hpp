@@ -20,10 +20,12 @@ struct NoTypes {
     using Ports = TypeList<>;
     using Parameters = TypeList<>;
     using Faults = TypeList<>;
-    using FaultTypes = TypeList<>;     ///< enumeration of each fault, in faults() or react()
-    using ReactionTypes = TypeList<>;  ///< enumeration of each reaction
-    using Members = TypeList<>;        ///< components that the modes run, mode by mode
-    using Events = TypeList<>;         ///< enumeration of the event of each transition
+    using FaultTypes = TypeList<>;          ///< enumeration of each fault, in faults() or react()
+    using ReactionTypes = TypeList<>;       ///< enumeration of each reaction
+    using Members = TypeList<>;             ///< components that the modes run, mode by mode
+    using Events = TypeList<>;              ///< enumeration of the event of each transition
+    using ModeEnumerators = TypeList<>;     ///< of the modes that have one
+    using ModelledComponents = TypeList<>;  ///< component of each modelled time
     static constexpr std::size_t kWindows = 0U;
     static constexpr std::size_t kConnections = 0U;
     static constexpr std::size_t kReactions = 0U;
@@ -57,6 +59,8 @@ struct JoinedTypes {
     using ReactionTypes = typename Concat<typename TypesOfPart<Parts>::ReactionTypes...>::Type;
     using Members = typename Concat<typename TypesOfPart<Parts>::Members...>::Type;
     using Events = typename Concat<typename TypesOfPart<Parts>::Events...>::Type;
+    using ModeEnumerators = typename Concat<typename TypesOfPart<Parts>::ModeEnumerators...>::Type;
+    using ModelledComponents = typename Concat<typename TypesOfPart<Parts>::ModelledComponents...>::Type;
     static constexpr std::size_t kWindows = (TypesOfPart<Parts>::kWindows + ... + 0U);
     static constexpr std::size_t kConnections = (TypesOfPart<Parts>::kConnections + ... + 0U);
     static constexpr std::size_t kReactions = (TypesOfPart<Parts>::kReactions + ... + 0U);

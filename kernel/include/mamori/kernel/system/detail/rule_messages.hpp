@@ -16,6 +16,7 @@
 #include "mamori/kernel/system/detail/component_constant.hpp"
 #include "mamori/kernel/system/detail/spelled_name.hpp"
 #include "mamori/kernel/system/detail/table_element.hpp"
+#include "mamori/kernel/table/modelled_time_row.hpp"
 #include "mamori/kernel/table/system_check.hpp"
 #include "mamori/kernel/table/system_finding.hpp"
 #include "mamori/kernel/table/table_rules.hpp"
@@ -37,6 +38,7 @@ namespace rules {
 #define MAMORI_PARAMETERS_OF_UnlistedParameter typename...
 #define MAMORI_PARAMETERS_OF_Parameter typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_Port typename, auto, std::size_t
+#define MAMORI_PARAMETERS_OF_ModelledTime typename...
 #define MAMORI_PARAMETERS_OF_Fault auto
 #define MAMORI_PARAMETERS_OF_Mode typename...
 #define MAMORI_PARAMETERS_OF_ModeMember typename...
@@ -97,6 +99,8 @@ using Parameter = OfParameter<R, kTable, kElement>;
 template <template <typename, auto, std::size_t> class R, const auto& kTable, std::size_t kElement,
           std::size_t>
 using Port = OfPort<R, kTable, kElement>;
+template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
+using ModelledTime = R<At<typename TypesOf<kTable>::ModelledComponents, kElement>, rules::Row<kElement>>;
 template <template <auto> class R, const auto& kTable, std::size_t kElement, std::size_t>
 using Fault = R<At<typename TypesOf<kTable>::Faults, kElement>::kValue>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
@@ -143,7 +147,10 @@ template <const auto& kTable>
 constexpr bool keeps_rules() noexcept {
     // Members first: a port that is listed twice also causes inconsistent rows.
     constexpr Finding kOfMembers = find_faulty_member(typename TypesOf<kTable>::Components{});
-    constexpr Finding kFinding = kOfMembers.rule != Rule::kNone ? kOfMembers : check(make_view(kTable));
+    constexpr Finding kOfRows = kOfMembers.rule != Rule::kNone ? kOfMembers : check(make_view(kTable));
+    constexpr Finding kFinding = kOfRows.rule != Rule::kNone
+                                     ? kOfRows
+                                     : check_modelled_times(kTable.modelled_times, kTable.components);
     if constexpr (kFinding.rule != Rule::kNone) {
         return sizeof(typename MessageOf<kFinding.rule>::template Type<kTable, kFinding.element,
                                                                        kFinding.other>) == 0U;

@@ -12,6 +12,7 @@
 #include "mamori/kernel/component/context_plan.hpp"
 #include "mamori/kernel/parameter/configuration_set.hpp"
 #include "mamori/kernel/table/mode_table.hpp"
+#include "mamori/kernel/table/modelled_time_row.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori::detail {
@@ -35,6 +36,7 @@ struct TableBuilder {
     std::size_t connection_count{0U};
     std::size_t fault_count{0U};
     std::size_t reaction_count{0U};
+    std::size_t modelled_time_count{0U};
 
     template <typename Part>
     constexpr void add_window(const Part& part) noexcept {
@@ -91,6 +93,9 @@ struct TableBuilder {
     }
     constexpr void add(const FaultRow& row) noexcept { table.faults[fault_count++] = row; }
     constexpr void add(const ReactionRow& row) noexcept { table.reactions[reaction_count++] = row; }
+    constexpr void add(const ModelledTimeRow& row) noexcept {
+        table.modelled_times[modelled_time_count++] = row;
+    }
     constexpr void add(AbortPolicy policy) noexcept { table.abort_policy = policy; }
 };
 

@@ -13,6 +13,7 @@
 
 #include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/table/index_of.hpp"
 #include "mamori/kernel/table/table_index.hpp"
 
 namespace mamori::detail {
@@ -46,12 +47,7 @@ constexpr std::size_t find_output(const Table& table, const OutPortBase* output)
 /// Component that has the parameter of row `parameter`.
 template <typename Table>
 constexpr std::size_t find_owner(const Table& table, std::size_t parameter) noexcept {
-    for (std::size_t i = 0U; i < table.components.size(); ++i) {
-        if (table.components[i] == table.configuration.parameters[parameter].owner) {
-            return i;
-        }
-    }
-    return kNoIndex;
+    return find_component(table.components, table.configuration.parameters[parameter].owner);
 }
 
 // Elements as the rules refer to them.

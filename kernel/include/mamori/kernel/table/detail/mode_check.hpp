@@ -11,7 +11,7 @@
 
 #include "mamori/kernel/table/detail/finding_list.hpp"
 #include "mamori/kernel/table/detail/mode_transition_check.hpp"
-#include "mamori/kernel/table/mode_builder.hpp"
+#include "mamori/kernel/table/index_of.hpp"
 #include "mamori/kernel/table/mode_table.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
