@@ -3,7 +3,8 @@
 /// Observation of one executive: execution records of each component, and calls for rare events. Supervision
 /// uses it, so that it does not depend on the cooperation of the supervised code.
 ///
-/// @satisfies SWR-KRN-030, SWR-KRN-031, SWR-KRN-055, SWR-MOD-005      Design: docs/design/kernel.md#observation
+/// @satisfies SWR-KRN-030, SWR-KRN-031, SWR-KRN-055, SWR-MOD-005      Design:
+/// docs/design/kernel.md#observation
 #ifndef MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
 #define MAMORI_KERNEL_EXECUTION_OBSERVER_HPP
 
