@@ -405,5 +405,12 @@ TEST(CompileFailTest, AComponentThatAWindowRunsTwiceIsRefused) {
     expect_refused("windows", "component_twice_in_window", "ComponentRunsInOneContext<Producer, 1>");
 }
 
+TEST(CompileFailTest, ACheckedTableThatBreaksARuleOrIsThatOfAnotherExecutiveIsRefused) {
+    verifies("SWR-KRN-070", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_explained("windows", "checked_table", "the system table violates a rule", "1");
+    expect_explained("windows", "checked_table", "the storage of the executive is that of another table",
+                     "2");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -13,11 +13,24 @@ import pytest
 from mamori_tools.host.project import ROOT, Project
 from verification.proofs.image import QEMU, RUN_TIMEOUT_S
 from verification.proofs.size import BASE, Limits, Size, judge, make_table, measure, read_limits, read_map, write_evidence
+from verification.proofs.toolchain import CORTEX_M4, run_tool
 
 ROWS = read_limits()
 SIZE = Size(text=100, ram=50, data=40, parts={"kernel": 60, "application": 40})
 LIMITS = Limits(BASE, "a title", text_max=100, ram_max=50)
 EVERY_IMAGE = pytest.mark.parametrize("row", ROWS, ids=lambda row: row.name.replace(" ", "_"))
+# Function of a part that only some systems use -> images that use it.
+PARTS = {
+    "mamori::detail::check_everything(": (),
+    "mamori::SystemModes::": ("parameters", "modes"),
+    "mamori::detail::ModeFollower::take_next_plan(": ("parameters", "modes"),
+    "mamori::FsmMachine::": ("state machine",),
+    "mamori::Introspection::": ("introspection",),
+    "mamori::ExecutionContext::run_second_pass(": (),
+    "mamori::detail::observe_pass(": ("eight", "supervision", "introspection"),
+    "mamori::FlightRecorder::open(": ("flight recorder",),
+    "__aeabi_dmul": ("rates",),
+}
 
 
 @pytest.fixture(scope="module")
@@ -98,3 +111,19 @@ def test_map_with_a_long_name_and_merged_texts_is_read() -> None:
     )
 
     assert list(read_map(text)) == [(".text", "a.o", 16), (".text", "b.o", 0), (".text", "c.o", 30), (".text", "", 2)]
+
+
+@EVERY_IMAGE
+@pytest.mark.verifies("SWR-KRN-071")
+def test_part_is_linked_only_where_it_is_used(sizes: dict[str, Size], folder: Path, row: Limits) -> None:
+    assert row.name in sizes
+    symbols = run_tool([f"{CORTEX_M4.prefix}nm", "-C", str(folder / f"{row.name.replace(' ', '_')}.elf")])
+    linked = {part for part in PARTS if f" {part}" in symbols}
+
+    assert linked == {part for part, images in PARTS.items() if row.name in images}
+
+
+@pytest.mark.verifies("SWR-KRN-072")
+def test_smallest_system_has_no_division_of_the_library(sizes: dict[str, Size], folder: Path) -> None:
+    assert BASE in sizes
+    assert "ldivmod" not in run_tool([f"{CORTEX_M4.prefix}nm", str(folder / f"{BASE}.elf")])

@@ -5,19 +5,34 @@
 
 #include "board.hpp"
 #include "mamori/kernel/base/constant_init.hpp"
-#include "mamori/kernel/component/fsm_check.hpp"
-#include "mamori/kernel/component/fsm_component.hpp"
-#include "mamori/kernel/record/event_log.hpp"
-#include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/kernel/run/executive.hpp"
-#include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/safety/e2e/e2e.hpp"
-#include "mamori/safety/supervision/execution_supervisor.hpp"
 
 #if defined(SIZE_EIGHT)
 #define SIZE_SUPERVISION
 #define SIZE_E2E
+#endif
+#if defined(SIZE_FLIGHT_RECORDER)
+#define SIZE_EVENT_LOG
+#endif
+
+// Headers of a feature that an image lacks would only take time of the compiler.
+#if defined(SIZE_FSM)
+#include "mamori/kernel/component/fsm_check.hpp"
+#include "mamori/kernel/component/fsm_component.hpp"
+#endif
+#if defined(SIZE_EVENT_LOG)
+#include "mamori/kernel/record/event_log.hpp"
+#include "mamori/kernel/record/flight_recorder.hpp"
+#endif
+#if defined(SIZE_INTROSPECTION)
+#include "mamori/kernel/run/introspection.hpp"
+#endif
+#if defined(SIZE_E2E)
+#include "mamori/safety/e2e/e2e.hpp"
+#endif
+#if defined(SIZE_SUPERVISION)
+#include "mamori/safety/supervision/execution_supervisor.hpp"
 #endif
 
 namespace proof {
@@ -26,34 +41,39 @@ namespace {
 using namespace mamori::literals;  // NOLINT: units of the table
 using mamori::Status;
 
-// ---- Parts of the features. A part that an image does not name is not linked.
-std::array<mamori::Event, 8U> event_storage;
-mamori::EventLog event_log{event_storage};
-std::array<std::byte, 512U> recorder_region;
-mamori::FlightRecorder recorder;
+#if defined(SIZE_EVENT_LOG)
+MAMORI_CONSTINIT std::array<mamori::Event, 8U> event_storage;
+MAMORI_CONSTINIT mamori::EventLog event_log{event_storage};
+#endif
+#if defined(SIZE_FLIGHT_RECORDER)
+MAMORI_CONSTINIT std::array<std::byte, 512U> recorder_region;
+MAMORI_CONSTINIT mamori::FlightRecorder recorder;
+#endif
 
+#if defined(SIZE_E2E)
 using Profile = mamori::safety::E2eProfile04<1U>;  // one table of its checksum, not eight
 constexpr std::size_t kFrameLength = Profile::kHeaderSize + sizeof(std::int32_t);
 constexpr mamori::safety::SentIdChannel kChannel{0x0A0B0C0DU, kFrameLength, kFrameLength};
 constexpr mamori::safety::E2eInLimits<mamori::safety::HardenedSequence> kLimits{
     30_ms, {1U}, 4U, {{1U, 0U}, {1U, 0U}, {1U, 0U}}};
 using Protected = mamori::safety::E2eMessage<std::int32_t, Profile, kChannel>;
-
-#if defined(SIZE_E2E)
 using Payload = Protected::Frame;
 #else
 using Payload = std::int32_t;
 #endif
 
+#if defined(SIZE_SUPERVISION)
 #if defined(SIZE_EIGHT)
 constexpr std::size_t kComponentCount = 8U;
 #else
 constexpr std::size_t kComponentCount = 2U;
 #endif
-mamori::safety::ExecutionStorage<kComponentCount> supervision_storage;
-mamori::safety::ExecutionSupervisor supervision{supervision_storage, 1_ms};
+MAMORI_CONSTINIT mamori::safety::ExecutionStorage<kComponentCount> supervision_storage;
+MAMORI_CONSTINIT mamori::safety::ExecutionSupervisor supervision{supervision_storage, 1_ms};
 constexpr mamori::safety::ComponentLimits kSupervised{{2U, 4U}, {0_ms, 1_ms}};
+#endif
 
+#if defined(SIZE_FSM)
 enum : mamori::FsmIndex { kClosed, kOpen };
 constexpr std::array<mamori::FsmState, 2U> kStates{{{"closed"}, {"open"}}};
 constexpr std::array<mamori::FsmMessage, 1U> kMessages{{{"push"}}};
@@ -65,6 +85,7 @@ class Door final : public mamori::FsmComponentFor<4U> {
   public:
     constexpr Door() noexcept : FsmComponentFor("door", kDoorTable) {}
 };
+#endif
 
 // ---- The two components of every image.
 class Wheel final : public mamori::Component {
@@ -120,7 +141,7 @@ class Monitor final : public mamori::Component {
             return Status::kError;
         }
 #endif
-#if defined(SIZE_EVENT_LOG) || defined(SIZE_FLIGHT_RECORDER)
+#if defined(SIZE_EVENT_LOG)
         event_log.write(context.now, mamori::Severity::kInfo, 1U, 1U, now);
 #endif
         brake.write(now >= (brake.get_published() ? 4 : 8));
@@ -207,16 +228,15 @@ constexpr auto kSystem = mamori::system(
     mamori::connect(wheel.speed, monitor.speed, mamori::any_age()),
     mamori::connect(monitor.brake, wheel.brake, mamori::any_age()));
 #endif
-MAMORI_CHECK(kSystem);
 
 #if defined(SIZE_MODES) || defined(SIZE_PARAMETERS)
 MAMORI_CONSTINIT mamori::SystemModes modes{mamori::make_view(kSystem)};
-MAMORI_CONSTINIT mamori::ExecutiveFor executive{kSystem, modes};
+MAMORI_CONSTINIT mamori::ExecutiveFor executive{mamori::kChecked<kSystem>, modes};
 #else
-MAMORI_CONSTINIT mamori::ExecutiveFor executive{kSystem};
+MAMORI_CONSTINIT mamori::ExecutiveFor executive{mamori::kChecked<kSystem>};
 #endif
 #if defined(SIZE_TWO_CORES)
-MAMORI_CONSTINIT mamori::ExecutiveFor second{kSystem, 1U};
+MAMORI_CONSTINIT mamori::ExecutiveFor second{mamori::kChecked<kSystem>, 1U};
 #endif
 #if defined(SIZE_INTROSPECTION)
 MAMORI_CONSTINIT mamori::IntrospectionFor introspection{kSystem};
@@ -276,7 +296,7 @@ Status use_feature() noexcept {
 #elif defined(SIZE_INTROSPECTION)
     mamori::WindowSnapshot window{};
     return introspection.read_window(0U, window);
-#elif defined(SIZE_EVENT_LOG) || defined(SIZE_FLIGHT_RECORDER)
+#elif defined(SIZE_EVENT_LOG)
     return event_log.get(0U).code == 1U ? Status::kOk : Status::kError;
 #elif defined(SIZE_TWO_CORES)
     return second.stop();

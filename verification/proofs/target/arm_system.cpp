@@ -9,6 +9,7 @@
 #include "hold_controller.hpp"
 #include "joint_monitor.hpp"
 #include "mamori/kernel/record/event_log.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
@@ -86,6 +87,7 @@ static_assert(kSystem.components.size() == kComponentCount &&
               kSystem.components[kControllerIndex] == &controller);
 
 mamori::ExecutiveFor executive_of_table{kSystem};
+mamori::IntrospectionFor introspection{kSystem};
 
 bool is_pushed(Instant since, Instant now) noexcept {
     return now >= since && now < since + kPush;
@@ -97,6 +99,7 @@ mamori::Executive& executive = executive_of_table;
 
 Status prepare() noexcept {
     executive.set_observer(&supervision);
+    executive.set_introspection(&introspection);
     for (std::size_t i = 0U; i < kComponentCount; ++i) {
         const auto scope = i == kControllerIndex ? mamori::safety::SupervisionScope::kLocal
                                                  : mamori::safety::SupervisionScope::kGlobal;
