@@ -442,5 +442,12 @@ TEST(CompileFailTest, AModelledTimeBelowZeroIsRejected) {
     expect_refused("modelled_times", "", "ModelledTimeIsNotNegative<Producer, mamori::rules::Row<0>", "3");
 }
 
+TEST(CompileFailTest, ACheckedTableThatBreaksARuleOrIsThatOfAnotherExecutiveIsRefused) {
+    verifies("SWR-KRN-070", Technique::kErrorGuessing, Polarity::kViolation);
+    expect_explained("windows", "checked_table", "the system table violates a rule", "1");
+    expect_explained("windows", "checked_table", "the storage of the executive is that of another table",
+                     "2");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -236,6 +236,7 @@ def list_test_steps(project: Project, campaign: Action, tier: Tier) -> tuple[Ste
         proof_step("symbol proof", "symbols", tier=Tier.QUICK),
         proof_step("bare-metal proof", "bare_metal", needs=()),
         proof_step("stack proof", "stack", needs=()),
+        proof_step("size proof", "size", needs=()),
         proof_step("loop proof", "loops", needs=(), tier=Tier.QUICK),
         proof_step("consumer proof", "consumer"),
         proof_step("plain CMake proof", "plain_cmake"),

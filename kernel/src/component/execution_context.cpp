@@ -2,9 +2,9 @@
 #include "mamori/kernel/component/execution_context.hpp"
 
 #include "action_scope.hpp"
-#include "mamori/kernel/component/detail/fsm_machine.hpp"
+#include "mamori/kernel/base/remainder.hpp"
+#include "mamori/kernel/component/detail/event_server.hpp"
 #include "mamori/kernel/component/external_trigger.hpp"
-#include "mamori/kernel/component/fsm_check.hpp"
 #include "mamori/kernel/component/multi_mode.hpp"
 
 namespace mamori {
@@ -28,7 +28,7 @@ bool is_sound(const ContextPlan& plan) noexcept {
         return false;
     }
     for (const Duration& alternative : plan.alternative_periods) {
-        if (alternative <= plan.period || alternative.ns % plan.period.ns != 0) {
+        if (alternative <= plan.period || detail::calc_remainder(alternative.ns, plan.period.ns) != 0) {
             return false;
         }
     }
@@ -79,13 +79,13 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
     }
     for (Component* component : participants) {
         if (component->machine_ != nullptr) {
-            component->machine_->context_id_.store(id, std::memory_order_relaxed);
+            component->machine_->set_context_id(id);
         }
     }
     id_ = id;
     plan_ = plan;
     period_ = plan.period;
-    pending_period_ = plan.period;
+    pending_divisor_ = 1;
     divisor_ = 1;
     participants_ = participants;
     return Status::kOk;
@@ -94,24 +94,14 @@ Status ExecutionContext::attach(std::int32_t id, Span<Component* const> particip
 Status ExecutionContext::judge_machines(Span<Component* const> participants,
                                         ExecutionKind kind) const noexcept {
     for (Component* component : participants) {
-        const FsmMachine* const machine = component->machine_;
+        const EventServer* const machine = component->machine_;
         if (machine == nullptr) {
             continue;
         }
-        if (kind != ExecutionKind::kEventDriven) {
-            return Status::kPreconditionNotMet;
-        }
-        const FsmTable& table = machine->get_table();
-        if (check(table).rule != FsmRule::kNone) {
-            return Status::kBadParameter;
-        }
-        for (const FsmBehavior& behavior : machine->get_profile()) {
-            const std::size_t count =
-                behavior.id.kind == FsmElement::Kind::kState ? table.states.size() : table.transitions.size();
-            if (behavior.action_component == nullptr || behavior.action_component->context_ != this ||
-                behavior.id.index >= count) {
-                return Status::kBadParameter;
-            }
+        const Status verdict =
+            kind == ExecutionKind::kEventDriven ? machine->judge(*this) : Status::kPreconditionNotMet;
+        if (verdict != Status::kOk) {
+            return verdict;
         }
     }
     return Status::kOk;
@@ -121,7 +111,7 @@ void ExecutionContext::release_participants(Span<Component* const> participants)
     for (Component* component : participants) {
         component->context_ = nullptr;
         if (component->machine_ != nullptr) {
-            component->machine_->context_id_.store(-1, std::memory_order_relaxed);
+            component->machine_->set_context_id(-1);
         }
         component->turn_ &= Component::kNotActive;
         if (component->mode_switch_ != nullptr) {
@@ -147,7 +137,7 @@ Status ExecutionContext::detach() noexcept {
     participants_ = {};
     plan_ = {};
     period_ = {};
-    pending_period_ = {};
+    pending_divisor_ = 1;
     divisor_ = 1;
     id_ = -1;
     return Status::kOk;
@@ -323,16 +313,16 @@ Status ExecutionContext::set_rate(double rate_hz) noexcept {
     if (is_busy()) {
         return Status::kPreconditionNotMet;
     }
-    pending_period_ = wished;
+    pending_divisor_ = wished.ns / plan_.period.ns;
     return Status::kOk;
 }
 
 bool ExecutionContext::apply_pending_rate() noexcept {
-    if (pending_period_ == period_ || is_busy()) {
+    if (pending_divisor_ == divisor_ || is_busy()) {
         return false;
     }
-    period_ = pending_period_;
-    divisor_ = period_.ns / plan_.period.ns;
+    divisor_ = pending_divisor_;
+    period_ = plan_.period * divisor_;
     windows_to_skip_ = 0;
     for (Component* component : participants_) {
         component->turn_ |= Component::kRateNotice;

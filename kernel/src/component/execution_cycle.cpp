@@ -7,6 +7,7 @@
 #endif
 
 #include "action_scope.hpp"
+#include "mamori/kernel/component/detail/event_server.hpp"
 #include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/kernel/component/external_trigger.hpp"
 #include "mamori/kernel/component/multi_mode.hpp"
@@ -48,11 +49,13 @@ void ExecutionContext::run_first_pass(void* argument, std::size_t first, std::si
         context.move_to(i);
         Component& component = *participants[i];
         if (component.turn_ != 0U) {
-            const bool was_active = context.execute_unusual(i);
+            [[maybe_unused]] const bool was_active = context.execute_unusual(i);
             if (!context.is_in_cycle()) {
                 return;  // aborted: the cycle of this step has ended
             }
-            end_step(observer, i, was_active);
+            if constexpr (kIsObserved) {
+                end_step(*observer, i, was_active);
+            }
             continue;
         }
         const Status answer = component.on_execute(handle);
@@ -68,33 +71,31 @@ void ExecutionContext::run_first_pass(void* argument, std::size_t first, std::si
         if constexpr (kObservation == StepObservation::kRecords) {
             static_cast<void>(observer->measure(records[i]));
         } else if constexpr (kIsObserved) {
-            end_step(observer, i, true);
+            end_step(*observer, i, true);
         }
     }
 }
 
-ExecutionContext::Pass ExecutionContext::get_first_pass(StepObservation observation) noexcept {
-    if (observation == StepObservation::kNone) {
-        return &run_first_pass<StepObservation::kNone>;
-    }
+ExecutionContext::Pass ExecutionContext::get_first_pass() noexcept {
+    return &run_first_pass<StepObservation::kNone>;
+}
+
+ExecutionContext::Pass ExecutionContext::get_observed_pass(StepObservation observation) noexcept {
     return observation == StepObservation::kRecords ? &run_first_pass<StepObservation::kRecords>
                                                     : &run_first_pass<StepObservation::kAfterStep>;
 }
 
 /// Performs all observations that may be required after a step.
-void ExecutionContext::end_step(StepObserver* observer, std::size_t position, bool was_active) noexcept {
-    if (observer == nullptr) {
-        return;
-    }
+void ExecutionContext::end_step(StepObserver& observer, std::size_t position, bool was_active) noexcept {
     Duration used{-1};
-    if (observer->records != nullptr && was_active) {
-        used = observer->measure(observer->records[position]);
-    } else if (observer->records != nullptr) {
+    if (observer.records != nullptr && was_active) {
+        used = observer.measure(observer.records[position]);
+    } else if (observer.records != nullptr) {
         // A step in Error or Inactive does not indicate that the component is alive.
-        observer->step_start = observer->host->get_step_end();
+        observer.step_start = observer.host->get_step_end();
     }
-    if (observer->after_step != nullptr) {
-        observer->after_step(observer->argument, position, used);
+    if (observer.after_step != nullptr) {
+        observer.after_step(observer.argument, position, used);
     }
 }
 
@@ -120,7 +121,7 @@ bool ExecutionContext::execute_unusual(std::size_t position) noexcept {
             if (is_data_flow) {
                 judge(component, ComponentAction::kExecute, component.on_execute(handle), handle);
             } else if (component.machine_ != nullptr) {
-                serve_events(component, handle);
+                component.machine_->serve(*this, component, handle);
             }
             return true;
         case LifecycleState::kInactive:

@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Event processing of a state machine in an event-driven context.
+// Event processing of a state machine in an event-driven context, and what the machine demands of it.
 #include "mamori/kernel/component/detail/fsm_machine.hpp"
 #include "mamori/kernel/component/execution_context.hpp"
+#include "mamori/kernel/component/fsm_check.hpp"
 
 namespace mamori {
 
-void ExecutionContext::serve_events(Component& component, ContextHandle handle) noexcept {
-    FsmMachine& machine = *component.machine_;
+void FsmMachine::serve(ExecutionContext& context, Component& component, ContextHandle handle) noexcept {
+    context.serve_events(*this, component, handle);
+}
+
+/// A profile names components of the same context, and elements of the table.
+Status FsmMachine::judge(const ExecutionContext& context) const noexcept {
+    if (check(table_).rule != FsmRule::kNone) {
+        return Status::kBadParameter;
+    }
+    for (const FsmBehavior& behavior : profile_) {
+        const std::size_t count =
+            behavior.id.kind == FsmElement::Kind::kState ? table_.states.size() : table_.transitions.size();
+        if (behavior.action_component == nullptr || !context.find(*behavior.action_component).has_value() ||
+            behavior.id.index >= count) {
+            return Status::kBadParameter;
+        }
+    }
+    return Status::kOk;
+}
+
+void ExecutionContext::serve_events(FsmMachine& machine, Component& component,
+                                    ContextHandle handle) noexcept {
     if (machine.step_.phase != FsmStep::Phase::kNone) {
         // An earlier cycle was aborted between two states: the machine is in neither of them.
         judge(component, ComponentAction::kAction, Status::kError, handle);

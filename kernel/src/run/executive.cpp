@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/run/executive.hpp"
 
-#include "mamori/kernel/run/introspection.hpp"
+#include "mamori/kernel/base/remainder.hpp"
 
 namespace mamori {
 
@@ -50,6 +50,14 @@ void Executive::end_operation() noexcept {
     show_windows();
 }
 
+void Executive::show_windows() noexcept {
+    // If the table violates a rule, indices in its rows may be out of range.
+    const detail::CoreState& core = life_.get_core();
+    if (core.introspection != nullptr && life_.is_table_valid()) {
+        core.introspection->show_windows(core, life_.get_data_flow().get_trace_hash());
+    }
+}
+
 void Executive::set_observer(ExecutionObserver* observer) noexcept {
     MAMORI_REQUIRE(5, !is_busy_);
     detail::CoreState& core = life_.get_core();
@@ -58,13 +66,14 @@ void Executive::set_observer(ExecutionObserver* observer) noexcept {
         observer == nullptr ? Span<ExecutionRecord>{} : observer->get_records();
     MAMORI_REQUIRE(4, records.empty() || records.size() >= core.view.components.size());
     core.records = records.data();
+    core.parts.observe = &detail::observe_pass;
     life_.get_runner().prepare_work();
 }
 
 /// Before the first window of a major frame: executes changes that affect all windows of the core.
 void Executive::begin_frame(Instant release) noexcept {
     detail::CoreState& core = life_.get_core();
-    core.frame_start = Instant{release.ns / core.view.frame.ns * core.view.frame.ns};
+    core.frame_start = Instant{release.ns - detail::calc_remainder(release.ns, core.view.frame.ns)};
     for (detail::WindowState& state : core.windows) {
         static_cast<void>(state.context.apply_pending_rate());
     }
@@ -97,7 +106,8 @@ WindowOutcome Executive::run_window(std::size_t index, Instant release, WindowHo
         is_busy_ = false;
     }
     if (core.introspection != nullptr && life_.is_table_valid()) {
-        show_window(index, release, start, outcome, host);
+        core.introspection->show_window(index, state.context, release, start, outcome, host,
+                                        life_.get_data_flow().get_trace_hash());
     }
     return outcome;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/run/introspection.hpp"
 
+#include "mamori/kernel/run/detail/core_state.hpp"
+
 namespace mamori {
 namespace {
 
@@ -28,6 +30,15 @@ std::size_t Introspection::find_core_row(std::size_t core) const noexcept {
     return kNoIndex;
 }
 
+void Introspection::publish_windows(const detail::CoreState& core, std::uint64_t trace_hash) noexcept {
+    for (std::size_t w = 0U; w < core.view.windows.size(); ++w) {
+        if (core.is_own(w)) {
+            publish_window(w, core.windows[w].context, core.release, trace_hash);
+        }
+    }
+}
+
+/// Records the end of an instance of `window`. @param[in] lateness, used [ns] >= 0.
 void Introspection::note_opening(std::size_t window, Duration lateness, Duration used,
                                  WindowOutcome outcome) noexcept {
     WindowSnapshot& row = windows_[window].kept;
@@ -44,8 +55,8 @@ void Introspection::note_opening(std::size_t window, Duration lateness, Duration
     }
 }
 
-void Introspection::note_turns(std::size_t window, std::size_t finished_count,
-                               const ExecutionContext& context) noexcept {
+void Introspection::count_turns(std::size_t window, std::size_t finished_count,
+                                const ExecutionContext& context) noexcept {
     const std::size_t first = view_.windows[window].first_component;
     for (std::size_t i = 0U; i < finished_count; ++i) {
         const LifecycleState state = context.get_state_at(i);
@@ -55,7 +66,7 @@ void Introspection::note_turns(std::size_t window, std::size_t finished_count,
     }
 }
 
-void Introspection::note_used(std::size_t component, Duration used) noexcept {
+void Introspection::raise_used(std::size_t component, Duration used) noexcept {
     ComponentSnapshot& row = components_[component].kept;
     row.worst_used = calc_max(row.worst_used, used);
 }
@@ -98,6 +109,8 @@ void Introspection::publish_component(std::size_t index, LifecycleState state, I
     }
 }
 
+/// Publishes the rows of `window`. @param[in] opening planned start of the last window instance.
+/// @param[in] trace_hash of its core, after that instance.
 void Introspection::publish_window(std::size_t window, const ExecutionContext& context, Instant opening,
                                    std::uint64_t trace_hash) noexcept {
     const WindowRow& table_row = view_.windows[window];

@@ -14,13 +14,9 @@ bool ModeFollower::check_set(std::size_t set) noexcept {
     return is_accepted;
 }
 
-Status ModeFollower::initialize() noexcept {
+Status ModeFollower::initialize_parameters() noexcept {
     const CoreState& core = get_core();
     const SystemView& view = core.view;
-    if (modes_ == nullptr) {
-        const bool is_needed = !view.modes.modes.empty() || !view.configuration.sets.empty();
-        return is_needed ? Status::kPreconditionNotMet : Status::kOk;
-    }
     if (!modes_->is_of(view) || core.core >= kModeCoreMax) {
         return Status::kBadParameter;
     }
@@ -54,11 +50,8 @@ Status ModeFollower::prepare_parameters() noexcept {
     return prepared.get_status();
 }
 
-Status ModeFollower::join() noexcept {
+Status ModeFollower::join_switches() noexcept {
     const CoreState& core = get_core();
-    if (modes_ == nullptr) {
-        return Status::kOk;
-    }
     Status result = prepare_parameters();
     if (result == Status::kOk) {
         result = modes_->join(core.core);
@@ -79,13 +72,6 @@ Status ModeFollower::join() noexcept {
         state.set = kNoIndex;
     }
     return Status::kOk;
-}
-
-void ModeFollower::leave() noexcept {
-    if (has_joined_) {
-        has_joined_ = false;
-        modes_->leave(get_core().core);
-    }
 }
 
 void ModeFollower::fail_step(ModeFailureCause cause, std::size_t component) noexcept {
@@ -121,7 +107,7 @@ void ModeFollower::report_plan() noexcept {
     modes_->finish(core.core, plan_);
 }
 
-void ModeFollower::begin_frame() noexcept {
+void ModeFollower::take_next_plan() noexcept {
     const CoreState& core = get_core();
     const std::int64_t frame = core.frame_start.ns / core.view.frame.ns;
     if (is_plan_open_) {
@@ -330,3 +316,38 @@ std::size_t ModeFollower::enter_components(WindowState& state, Instant deadline,
 }
 
 }  // namespace mamori::detail
+
+namespace mamori {
+
+using detail::ModeFollower;
+using detail::WindowState;
+
+Status SystemModes::initialize_core(ModeFollower& follower) noexcept {
+    return follower.initialize_parameters();
+}
+
+Status SystemModes::join_core(ModeFollower& follower) noexcept {
+    return follower.join_switches();
+}
+
+void SystemModes::leave_core(ModeFollower& follower) noexcept {
+    follower.has_joined_ = false;
+    leave(follower.get_core().core);
+}
+
+void SystemModes::begin_core_frame(ModeFollower& follower) noexcept {
+    follower.take_next_plan();
+}
+
+std::size_t SystemModes::open_window(ModeFollower& follower, WindowState& state, Instant deadline,
+                                     WindowHost& host) noexcept {
+    follower.cross_boundary(state);
+    return follower.leave_components(state, deadline, host);
+}
+
+std::size_t SystemModes::close_window(ModeFollower& follower, WindowState& state, Instant deadline,
+                                      WindowHost& host) noexcept {
+    return follower.enter_components(state, deadline, host);
+}
+
+}  // namespace mamori

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/run/detail/system_life.hpp"
 
-#include "mamori/kernel/table/system_check.hpp"
-
 namespace mamori::detail {
 namespace {
 
@@ -32,7 +30,7 @@ std::size_t find_faulty_component(const SystemView& view, const Finding& finding
 
 void SystemLife::check_table() noexcept {
     const SystemView& view = get_core().view;
-    const Finding finding = check(view);
+    const Finding finding = get_core().parts.check(view);
     is_table_valid_ = finding.rule == Rule::kNone;
     failed_component_ = find_faulty_component(view, finding);
 }
@@ -114,6 +112,13 @@ Status SystemLife::attach_contexts() noexcept {
         }
     }
     return Status::kOk;
+}
+
+/// Whether the table can run without SystemModes.
+Status ModeFollower::judge_absence() const noexcept {
+    const SystemView& view = data_flow_.get_core().view;
+    const bool is_needed = !view.modes.modes.empty() || !view.configuration.sets.empty();
+    return is_needed ? Status::kPreconditionNotMet : Status::kOk;
 }
 
 Status SystemLife::initialize() noexcept {

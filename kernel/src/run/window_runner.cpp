@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/run/detail/window_runner.hpp"
 
-#include "mamori/kernel/run/introspection.hpp"
-
 namespace mamori::detail {
 
 using Pass = WindowHost::Pass;
-using StepObservation = ExecutionContext::StepObservation;
 
 void WindowRunner::prepare_work() noexcept {
     CoreState& core = get_core();
@@ -14,40 +11,23 @@ void WindowRunner::prepare_work() noexcept {
     for (std::size_t w = 0U; w < rows.size(); ++w) {
         const WindowRow& row = rows[w];
         WindowState& state = core.windows[w];
-        StepObservation observation = StepObservation::kNone;
-        void* argument = &state.context;
         state.core = &core;
-        state.is_observed = core.records != nullptr || row.has_hand_on;
-        if (state.is_observed) {
-            const bool needs_step_end = row.has_hand_on || core.introspection != nullptr;
-            observation = needs_step_end ? StepObservation::kAfterStep : StepObservation::kRecords;
-            argument = &state.step_observer;
-        }
-        state.first_pass = {ExecutionContext::get_first_pass(observation),
-                            argument,
+        state.is_observed = false;
+        state.first_pass = {ExecutionContext::get_first_pass(),
+                            &state.context,
                             w,
                             row.first_component,
                             0U,
                             row.component_count,
                             Pass::kExecute};
+        if (core.parts.observe != nullptr) {
+            core.parts.observe(core, state);
+        }
     }
 }
 
 void WindowRunner::show_steps(const WindowState& state, std::size_t executed_count) noexcept {
     get_core().introspection->note_turns(state.get_window(), executed_count, state.context);
-}
-
-void WindowRunner::end_step(void* argument, std::size_t position, Duration used) noexcept {
-    const WindowState& state = *static_cast<const WindowState*>(argument);
-    const CoreState& core = *state.core;
-    const WindowRow& row = core.view.windows[state.get_window()];
-    const std::size_t component = row.first_component + position;
-    if (core.introspection != nullptr && used >= Duration{0}) {
-        core.introspection->note_used(component, used);
-    }
-    if (row.has_hand_on) {
-        DataFlow::forward_outputs(core.view, component, state.release, state.held_modes);
-    }
 }
 
 void WindowRunner::end_overrun(WindowState& state, std::size_t component, WindowHost& host) noexcept {

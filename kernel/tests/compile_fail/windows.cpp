@@ -2,6 +2,7 @@
 // What the compiler rejects: windows and their options.
 // Each namespace compiles, and does not with its MAMORI_BREAK_<NAME>.
 #include "mamori/kernel/component/external_trigger.hpp"
+#include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "parts.hpp"
 
@@ -313,3 +314,22 @@ constexpr auto kSystem =
 #endif
 MAMORI_CHECK(kSystem);
 }  // namespace component_twice_in_window
+
+// A table that violates a rule is called checked, and an executive has the storage of another table.
+namespace checked_table {
+constexpr auto kSystem = mamori::system(mamori::frame(1_ms), mamori::window("a", 0_us, 100_us,
+#if defined(MAMORI_BREAK_CHECKED_TABLE) && MAMORI_BREAK_CHECKED_TABLE == 1
+                                                                            mamori::budget(200_us),
+#else
+                                                                            mamori::budget(50_us),
+#endif
+                                                                            mamori::run(g_producer)));
+constexpr auto kOther = mamori::system(
+    mamori::frame(1_ms), mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::window("b", 200_us, 100_us, mamori::budget(50_us), mamori::run(g_second_producer)));
+#if defined(MAMORI_BREAK_CHECKED_TABLE) && MAMORI_BREAK_CHECKED_TABLE == 2
+mamori::ExecutiveFor<decltype(kSystem)> executive{mamori::kChecked<kOther>};
+#else
+mamori::ExecutiveFor executive{mamori::kChecked<kSystem>};
+#endif
+}  // namespace checked_table

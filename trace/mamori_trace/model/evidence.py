@@ -145,6 +145,14 @@ class CostRun:
     place: Place
 
 
+@dataclass(slots=True)
+class SizeRun:
+    """The memory of small systems on a controller; its reader has checked `record`."""
+
+    record: dict[str, Any]
+    place: Place
+
+
 @dataclass(frozen=True, slots=True, order=True)
 class AnalysisFinding:
     """A finding of a static analysis; `rule` is the name that its tool uses."""
@@ -182,6 +190,7 @@ class Evidence:
     has_campaign: bool = False
     timing_runs: list[TimingRun] = field(default_factory=list)
     cost_runs: list[CostRun] = field(default_factory=list)
+    size_runs: list[SizeRun] = field(default_factory=list)
     coverage_runs: list[CoverageRun] = field(default_factory=list)
     environment: dict[str, Any] = field(default_factory=dict)
     environment_place: Place = Place("environment.json", 1)

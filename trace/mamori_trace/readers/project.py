@@ -33,6 +33,7 @@ from mamori_trace.readers.reviews import read_reviews
 from mamori_trace.readers.rule_pack import read_rule_pack
 from mamori_trace.readers.schema import read_schema
 from mamori_trace.readers.script_tags import read_script_tags
+from mamori_trace.readers.size import read_size
 from mamori_trace.readers.source_names import SourceNames
 from mamori_trace.readers.sources import calc_sources
 from mamori_trace.readers.techniques import read_techniques
@@ -142,6 +143,7 @@ def read_evidence(folder: Path, project: Project) -> Evidence:
     read_campaign(folder, project.root, evidence, project.problems)
     read_timing(folder, project.root, evidence, project.problems)
     read_cost(folder, project.root, evidence, project.problems)
+    read_size(folder, project.root, evidence, project.problems)
     read_evidence_records(folder, project.root, evidence, project.problems)
     evidence.unbind()
     names = SourceNames(project.root, {function.file for function in project.functions})

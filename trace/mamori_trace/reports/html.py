@@ -25,6 +25,7 @@ from mamori_trace.reports.campaign_view import find_slowest, list_filled, make_s
 from mamori_trace.reports.cost_view import make_cost_views
 from mamori_trace.reports.inline_json import format_inline
 from mamori_trace.reports.page_data import make_page_data, order_items
+from mamori_trace.reports.size_view import make_size_views
 from mamori_trace.reports.static_lists import format_files, format_suites
 from mamori_trace.reports.static_view import StaticView
 from mamori_trace.reports.technique_view import list_techniques
@@ -116,6 +117,7 @@ def _make_context(project: Project) -> dict[str, Any]:
         "slowest": find_slowest(scenarios),
         "timing": timing,
         "costs": costs,
+        "sizes": make_size_views(project),
         "answers": make_answers(project, verdicts, findings, scenarios, [*timing, *costs]),
         "answer_lines_max": LINES_MAX,
         "verdict_words": tuple(reversed(WORST_FIRST)),

@@ -9,6 +9,7 @@
 #include "hold_controller.hpp"
 #include "joint_monitor.hpp"
 #include "mamori/kernel/record/event_log.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
@@ -97,6 +98,7 @@ static_assert(mamori::safety::is_watch_list_of<kSystem, kLimits>());
 
 mamori::ExecutiveFor executive_of_table{kSystem};
 virtual_time::VirtualHostFor host_of_table{kSystem};
+mamori::IntrospectionFor introspection{kSystem};
 
 bool is_pushed(Instant since, Instant now) noexcept {
     return now >= since && now < since + kPush;
@@ -109,6 +111,7 @@ virtual_time::VirtualHost& virtual_host = host_of_table;
 
 Status prepare() noexcept {
     executive.set_observer(&supervision);
+    executive.set_introspection(&introspection);
     const Status result = supervision.watch(kLimits);
     if (result != Status::kOk) {
         return result;

@@ -14,6 +14,16 @@
 
 namespace mamori {
 
+namespace detail {
+// One copy for all spans and uses: an access contains only the call. Cold: not expected, so out of the way.
+[[noreturn, gnu::noinline, gnu::cold]] inline void fail_index() noexcept {
+    MAMORI_FAIL_ASSERTION(1, "index < size_");
+}
+[[noreturn, gnu::noinline, gnu::cold]] inline void fail_range() noexcept {
+    MAMORI_FAIL_ASSERTION(2, "first <= size_ && count <= size_ - first");
+}
+}  // namespace detail
+
 /// Pointer and size. The owner of the elements must outlive every copy of the span.
 /// An array of U converts only when U has the layout of T. An array of a derived class does not convert.
 ///
@@ -36,12 +46,16 @@ class Span final {
 
     /// @param[in] index 0 .. size() - 1; otherwise a contract violation, which calls the assertion handler.
     constexpr T& operator[](std::size_t index) const noexcept {
-        MAMORI_REQUIRE(1, index < size_);
+        if (index >= size_) {
+            detail::fail_index();
+        }
         return data_[index];
     }
     /// `count` elements from `first` on. A range that exceeds this span is a contract violation.
     constexpr Span subspan(std::size_t first, std::size_t count) const noexcept {
-        MAMORI_REQUIRE(2, first <= size_ && count <= size_ - first);
+        if (first > size_ || count > size_ - first) {
+            detail::fail_range();
+        }
         return {data_ + first, count};
     }
     constexpr std::size_t size() const noexcept { return size_; }

@@ -41,9 +41,21 @@ constexpr bool operator==(Text a, Text b) noexcept {
 constexpr bool is_name(const char* characters) noexcept {
     return characters != nullptr && characters[0] != '\0';
 }
+
+namespace detail {
+/// Whether two C strings are equal; neither is nullptr. O(length).
+constexpr bool is_same_text(const char* a, const char* b) noexcept {
+    std::size_t i = 0U;
+    while (a[i] != '\0' && a[i] == b[i]) {
+        ++i;
+    }
+    return a[i] == b[i];
+}
+}  // namespace detail
+
 /// Whether two C strings, which may be nullptr, are the same name. O(length).
 constexpr bool is_same_name(const char* a, const char* b) noexcept {
-    return is_name(a) && is_name(b) && make_text(a) == make_text(b);
+    return is_name(a) && is_name(b) && detail::is_same_text(a, b);
 }
 
 }  // namespace mamori

@@ -32,6 +32,7 @@ struct ContextHandle {
 
 class Component;
 class ExecutionContext;
+class EventServer;
 class FsmMachine;
 class ModeSwitch;
 
@@ -67,7 +68,7 @@ class LifecycleRegion {
     std::uint32_t turn_{kNotActive};  ///< set of the above flags; 0: the next invocation is on_execute alone
     bool is_changing_{false};         ///< on_initialize or on_finalize is running
     ExecutionContext* context_{nullptr};  ///< context that it participates in; nullptr: none
-    FsmMachine* machine_{nullptr};        ///< nullptr: not a state machine
+    EventServer* machine_{nullptr};       ///< nullptr: not a state machine
     ModeSwitch* mode_switch_{nullptr};    ///< nullptr: no modes
     ActionFailure last_failure_{};
     std::size_t position_{0U};  ///< position in the context

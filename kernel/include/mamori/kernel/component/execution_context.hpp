@@ -177,7 +177,7 @@ class ExecutionContext final {
     void execute(std::size_t position) noexcept { execute_range(position, 1U); }
     /// execute() of `count` positions from `first` on.
     void execute_range(std::size_t first, std::size_t count) noexcept {
-        get_first_pass(StepObservation::kNone)(this, first, first + count);
+        get_first_pass()(this, first, first + count);
     }
     /// Calls on_state_update when still Active after on_execute in this cycle; nothing when kEventDriven.
     void update_state(std::size_t position) noexcept { update_range(position, 1U); }
@@ -218,8 +218,10 @@ class ExecutionContext final {
     };
     /// The passes as WindowHost::Work::run. A call runs the steps at the positions `first` .. `end` - 1.
     using Pass = void (*)(void* argument, std::size_t first, std::size_t end) noexcept;
-    /// The first pass. Its argument is the context for kNone, otherwise a StepObserver of the context.
-    static Pass get_first_pass(StepObservation observation) noexcept;
+    /// The first pass without observation. Its argument is the context.
+    static Pass get_first_pass() noexcept;
+    /// The first pass with one. Its argument is a StepObserver of the context.
+    static Pass get_observed_pass(StepObservation observation) noexcept;
     /// The second pass. @param[in] argument the context.
     static void run_second_pass(void* argument, std::size_t first, std::size_t end) noexcept;
     /// Ends the cycle, even if steps are missing. No step may be running.
@@ -236,6 +238,7 @@ class ExecutionContext final {
     /// @}
 
   private:
+    friend class FsmMachine;
     friend class MultiModeComponent;
     class ActionScope;
     static constexpr std::size_t kNoPosition = std::numeric_limits<std::size_t>::max();
@@ -251,7 +254,7 @@ class ExecutionContext final {
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
     template <StepObservation kObservation>
     static void run_first_pass(void* argument, std::size_t first, std::size_t end) noexcept;
-    static void end_step(StepObserver* observer, std::size_t position, bool was_active) noexcept;
+    static void end_step(StepObserver& observer, std::size_t position, bool was_active) noexcept;
     bool execute_unusual(std::size_t position) noexcept;
     void judge_execution(std::size_t position, Status answer) noexcept;
     void give_notices(Component& component, ContextHandle handle) noexcept;
@@ -259,7 +262,7 @@ class ExecutionContext final {
                      ContextHandle handle) noexcept;
     Status tell_mode(Component& component, Instant now) noexcept;
     Status judge_machines(Span<Component* const> participants, ExecutionKind kind) const noexcept;
-    void serve_events(Component& component, ContextHandle handle) noexcept;
+    void serve_events(FsmMachine& machine, Component& component, ContextHandle handle) noexcept;
     void act(const FsmMachine& machine, FsmElement element, ContextHandle handle) noexcept;
     /// Marks the participant at `position` as the owner of the next action. Call within an ActionScope.
     void move_to(std::size_t position) noexcept {
@@ -275,9 +278,9 @@ class ExecutionContext final {
     std::atomic<std::size_t> acting_position_{kNoPosition};
     Span<Component* const> participants_{};
     ContextPlan plan_{};
-    Duration period_{};          ///< current
-    Duration pending_period_{};  ///< requested; equal to period_ without a request
+    Duration period_{};  ///< current
     std::int64_t divisor_{1};
+    std::int64_t pending_divisor_{1};  ///< requested; equal to divisor_ without a request
     std::int64_t windows_to_skip_{0};
     Instant cycle_start_{};
     std::size_t refusing_position_{kNoPosition};

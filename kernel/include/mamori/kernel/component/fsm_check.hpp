@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/base/text.hpp"
 #include "mamori/kernel/component/fsm_table.hpp"
 
 namespace mamori {
@@ -37,14 +38,6 @@ struct FsmFinding {
 };
 
 namespace detail {
-
-constexpr bool is_same_text(const char* a, const char* b) noexcept {
-    std::size_t i = 0U;
-    while (a[i] != '\0' && a[i] == b[i]) {
-        ++i;
-    }
-    return a[i] == b[i];
-}
 
 /// @param[in] first number of the first row, for the finding.
 template <typename Row>

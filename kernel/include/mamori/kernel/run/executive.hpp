@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "mamori/kernel/base/assert.hpp"
 #include "mamori/kernel/component/execution_context.hpp"
@@ -24,6 +25,7 @@
 #include "mamori/kernel/run/execution_observer.hpp"
 #include "mamori/kernel/run/system_modes.hpp"
 #include "mamori/kernel/run/window_outcome.hpp"
+#include "mamori/kernel/table/checked_table.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori {
@@ -135,17 +137,13 @@ class Executive {
     }
 
   protected:
-    constexpr Executive(const SystemView& view, Span<detail::WindowState> windows, std::size_t core,
-                        SystemModes* modes) noexcept
-        : life_(view, windows, core, modes) {}
+    constexpr Executive(const detail::CoreState& core, SystemModes* modes) noexcept : life_(core, modes) {}
     ~Executive() = default;
 
   private:
     void begin_frame(Instant release) noexcept;
     void end_operation() noexcept;
     void show_windows() noexcept;
-    void show_window(std::size_t window, Instant release, Instant start, WindowOutcome outcome,
-                     const WindowHost& host) noexcept;
 
     detail::SystemLife life_;  ///< contains the other parts
     bool is_busy_{false};      ///< an operation or a window is in progress: no other one may begin
@@ -164,23 +162,51 @@ struct WindowStorage {
 /// the executive if the type of the table shows the need, else initialize() does.
 template <typename Table>
 class ExecutiveFor final : private detail::WindowStorage<Table::kWindowCount>, public Executive {
+    using Storage = detail::WindowStorage<Table::kWindowCount>;
+
   public:
     /// @param[in] table must outlive the executive; check it with MAMORI_CHECK.
     /// @param[in] core  core whose windows it runs, below kModeCoreMax with a SystemModes. Each core of a
     ///                  system has its own executive.
     constexpr explicit ExecutiveFor(const Table& table, std::size_t core = 0U) noexcept
-        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core, nullptr) {
+        : Executive({make_view(table), Storage::windows, core, {}}, nullptr) {
+        require_no_modes();
+    }
+    /// @param[in] system_modes one for all cores of the table; must outlive the executive.
+    constexpr ExecutiveFor(const Table& table, SystemModes& system_modes, std::size_t core = 0U) noexcept
+        : Executive({make_view(table), Storage::windows, core, {}}, &system_modes) {}
+    /// The same with a table that the compiler has checked: what the table does not need is not linked.
+    template <const auto& kTable>
+    constexpr explicit ExecutiveFor(CheckedTable<kTable>, std::size_t core = 0U) noexcept
+        : Executive({make_view(kTable), Storage::windows, core, get_parts<kTable>()}, nullptr) {
+        require_no_modes();
+    }
+    template <const auto& kTable>
+    constexpr ExecutiveFor(CheckedTable<kTable>, SystemModes& system_modes, std::size_t core = 0U) noexcept
+        : Executive({make_view(kTable), Storage::windows, core, get_parts<kTable>()}, &system_modes) {}
+    explicit ExecutiveFor(const Table&& table, SystemModes& system_modes, std::size_t core = 0U) = delete;
+    explicit ExecutiveFor(const Table&& table, std::size_t core = 0U) = delete;
+
+  private:
+    template <const auto& kTable>
+    static constexpr detail::ExecutionParts get_parts() noexcept {
+        static_assert(std::is_same_v<typename CheckedTable<kTable>::Table, Table>,
+                      "the storage of the executive is that of another table");
+        constexpr detail::ExecutionParts kParts = detail::choose_parts(make_view(kTable));
+        return kParts;
+    }
+
+    static constexpr void require_no_modes() noexcept {
         static_assert(!Table::kNeedsModes,
                       "a table with modes or configuration sets needs a SystemModes: write "
                       "SystemModes modes{make_view(kSystem)}; ExecutiveFor executive{kSystem, modes};");
     }
-    /// @param[in] system_modes one for all cores of the table; must outlive the executive.
-    constexpr ExecutiveFor(const Table& table, SystemModes& system_modes, std::size_t core = 0U) noexcept
-        : Executive(make_view(table), detail::WindowStorage<Table::kWindowCount>::windows, core,
-                    &system_modes) {}
-    explicit ExecutiveFor(const Table&& table, SystemModes& system_modes, std::size_t core = 0U) = delete;
-    explicit ExecutiveFor(const Table&& table, std::size_t core = 0U) = delete;
 };
+template <const auto& kTable>
+ExecutiveFor(CheckedTable<kTable>, std::size_t = 0U) -> ExecutiveFor<typename CheckedTable<kTable>::Table>;
+template <const auto& kTable>
+ExecutiveFor(CheckedTable<kTable>, SystemModes&, std::size_t = 0U)
+    -> ExecutiveFor<typename CheckedTable<kTable>::Table>;
 
 }  // namespace mamori
 

@@ -19,6 +19,7 @@
 
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/dataflow/snapshot_cell.hpp"
+#include "mamori/kernel/run/detail/execution_display.hpp"
 #include "mamori/kernel/run/introspection_rows.hpp"
 
 namespace mamori {
@@ -55,11 +56,12 @@ std::size_t visit_rows(Span<ShownRow<Row>> rows, Visitor& visitor) noexcept {
 ///
 /// Thread safety: const members for any number of readers, at any time. The other members are for the
 ///                executives, each of which writes the rows of its own core.
-/// Time:          publish_window() is wait-free and O(windows of the table + components and ports of the
-///                window); one read is O(1), read_core() O(windows). Nothing blocks.
-/// Memory:        no heap; refers to the table, and in publish_window() to its components and ports. One row
+/// Time:          the executive shows a window wait-free, in O(windows of the table + components and ports of
+///                the window); one read is O(1), read_core() O(windows). Nothing blocks.
+/// Memory:        no heap; refers to the table, and while a window is shown to its components and ports. One
+/// row
 ///                of stack per call.
-class Introspection {
+class Introspection : public detail::ExecutionDisplay {
   public:
     Introspection(const Introspection&) = delete;
     Introspection& operator=(const Introspection&) = delete;
@@ -109,21 +111,24 @@ class Introspection {
     std::size_t get_component_count() const noexcept { return components_.size(); }
     std::size_t get_port_count() const noexcept { return ports_.size(); }
 
-    /// @name For the executive of the core that owns the row. An index outside the table is a contract
-    ///       violation.
+    /// @name For the executive of the core that owns the row
     /// @{
-    /// Records the end of an instance of `window`. @param[in] lateness, used [ns] >= 0.
-    void note_opening(std::size_t window, Duration lateness, Duration used, WindowOutcome outcome) noexcept;
-    /// Counts a cycle for those of the first `finished_count` components of `window` that are Active or in
-    /// Error: they completed their first pass within the budget.
-    void note_turns(std::size_t window, std::size_t finished_count, const ExecutionContext& context) noexcept;
-    /// Records that the first pass of `component` took `used` [ns]. May also be called from an action that
-    /// the platform host has aborted and that still counts as hanging.
-    void note_used(std::size_t component, Duration used) noexcept;
-    /// Publishes the rows of `window`. Precondition: the table violates no rule. @param[in] opening planned
-    /// start of the last window instance. @param[in] trace_hash of its core, after that instance.
-    void publish_window(std::size_t window, const ExecutionContext& context, Instant opening,
-                        std::uint64_t trace_hash) noexcept;
+    // Inline, so that the object code of a user holds the virtual table and its type information, which the
+    // kernel is compiled without.
+    void show_windows(const detail::CoreState& core, std::uint64_t trace_hash) noexcept override {
+        publish_windows(core, trace_hash);
+    }
+    void show_window(std::size_t window, const ExecutionContext& context, Instant release, Instant start,
+                     WindowOutcome outcome, const WindowHost& host,
+                     std::uint64_t trace_hash) noexcept override {
+        note_opening(window, start - release, host.get_now() - start, outcome);
+        publish_window(window, context, release, trace_hash);
+    }
+    void note_turns(std::size_t window, std::size_t finished_count,
+                    const ExecutionContext& context) noexcept override {
+        count_turns(window, finished_count, context);
+    }
+    void note_used(std::size_t component, Duration used) noexcept override { raise_used(component, used); }
     /// Whether its rows are those of `view`.
     bool is_of(const SystemView& view) const noexcept {
         return view_.components.data() == view.components.data();
@@ -141,6 +146,13 @@ class Introspection {
     ~Introspection() = default;
 
   private:
+    void publish_windows(const detail::CoreState& core, std::uint64_t trace_hash) noexcept;
+    void count_turns(std::size_t window, std::size_t finished_count,
+                     const ExecutionContext& context) noexcept;
+    void raise_used(std::size_t component, Duration used) noexcept;
+    void note_opening(std::size_t window, Duration lateness, Duration used, WindowOutcome outcome) noexcept;
+    void publish_window(std::size_t window, const ExecutionContext& context, Instant opening,
+                        std::uint64_t trace_hash) noexcept;
     std::size_t find_core_row(std::size_t core) const noexcept;
     void publish_component(std::size_t index, LifecycleState state, Instant opening) noexcept;
     void publish_port(std::size_t index, Instant opening) noexcept;

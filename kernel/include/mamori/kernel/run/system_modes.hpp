@@ -18,6 +18,7 @@
 #include "mamori/kernel/base/enumerator.hpp"
 #include "mamori/kernel/base/status.hpp"
 #include "mamori/kernel/parameter/configuration_admin.hpp"
+#include "mamori/kernel/run/detail/mode_execution.hpp"
 #include "mamori/kernel/run/detail/mode_plan.hpp"
 #include "mamori/kernel/run/mode_step.hpp"
 #include "mamori/kernel/table/system_table.hpp"
@@ -44,7 +45,7 @@ inline constexpr std::int64_t kModeStepFrames = 3;
 /// Time:          O(transitions) for a request; O(cores) per major frame; O(values of the set) in prepare()
 ///                and in the major frame in which a step with a set ends. Nothing blocks.
 /// Memory:        no heap; refers to the table.
-class SystemModes final {
+class SystemModes final : public detail::ModeExecution {
   public:
     /// @param[in] view        its table must outlive this object; check it with MAMORI_CHECK. More than 4095
     ///                        configuration sets are a contract violation.
@@ -133,6 +134,15 @@ class SystemModes final {
     /// @}
 
   private:
+    Status initialize_core(detail::ModeFollower& follower) noexcept override;
+    Status join_core(detail::ModeFollower& follower) noexcept override;
+    void leave_core(detail::ModeFollower& follower) noexcept override;
+    void begin_core_frame(detail::ModeFollower& follower) noexcept override;
+    std::size_t open_window(detail::ModeFollower& follower, detail::WindowState& state, Instant deadline,
+                            WindowHost& host) noexcept override;
+    std::size_t close_window(detail::ModeFollower& follower, detail::WindowState& state, Instant deadline,
+                             WindowHost& host) noexcept override;
+
     static constexpr std::uint32_t find_first_set(const ModeView& view) noexcept {
         return view.modes.empty() || view.modes[0U].set == kNoIndex
                    ? static_cast<std::uint32_t>(kNoConfigurationSet)

@@ -33,7 +33,7 @@ namespace mamori {
 /// assumed that a span has the rows that it counts, that a pointer other than nullptr refers to a living
 /// object, and that each name is terminated. Constant expression for a constexpr table; O(rows squared).
 /// Names and ports of the component objects are checked at run time only; a constant initialiser skips them.
-/// Executive::initialize() always checks them.
+/// Executive::initialize() always checks them (initial_check.hpp).
 /// @param[out] storage receives the first findings; may be shorter than their number.
 /// @return number of findings; 0: the table violates no rule.
 constexpr std::size_t check_all(const SystemView& view, Span<Finding> storage) noexcept {

@@ -7,10 +7,10 @@
 #ifndef MAMORI_KERNEL_FSM_MACHINE_HPP
 #define MAMORI_KERNEL_FSM_MACHINE_HPP
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/component/detail/event_server.hpp"
 #include "mamori/kernel/component/detail/fsm_event_queue.hpp"
 #include "mamori/kernel/component/fsm_table.hpp"
 
@@ -30,7 +30,7 @@ struct FsmStep {
 /// Thread safety: get_queue() and post() as the queue, get_context_id() from anywhere; the rest from the core
 ///                that runs the component.
 /// Time:          O(transitions). Memory: no heap; the table, profile and cells must outlive it.
-class FsmMachine final {
+class FsmMachine final : public EventServer {
   public:
     /// @param[in] owner passed to the guards. The other parameters: see FsmComponent.
     constexpr FsmMachine(const FsmComponent& owner, const FsmTable& table, FsmProfile profile,
@@ -53,14 +53,14 @@ class FsmMachine final {
     const FsmEventQueue& get_queue() const noexcept { return queue_; }
     /// @return as FsmEventQueue::post().
     Status post(const FsmEvent& event, std::uint32_t epoch) noexcept { return queue_.post(event, epoch); }
-    /// Id of the context that processes the events; -1: none. From any thread or interrupt.
-    std::int32_t get_context_id() const noexcept { return context_id_.load(std::memory_order_relaxed); }
+
+    Status judge(const ExecutionContext& context) const noexcept override;
+    void restart() noexcept override;
+    void serve(ExecutionContext& context, Component& component, ContextHandle handle) noexcept override;
 
   private:
     friend class ExecutionContext;
 
-    /// Resets to the initial state with an empty queue.
-    void restart() noexcept;
     /// Transition of the current state for the event; nullptr when there is none, which is counted as
     /// ignored.
     const FsmTransition* choose_transition(const FsmEvent& event) noexcept;
@@ -72,8 +72,6 @@ class FsmMachine final {
     FsmStep step_{};
     std::uint32_t ignored_count_{0U};
     FsmIndex state_;
-    /// Id of the context that the component is attached to, for senders on other threads.
-    std::atomic<std::int32_t> context_id_{-1};
 };
 
 }  // namespace mamori

@@ -14,13 +14,13 @@
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/kernel/component/window_host.hpp"
+#include "mamori/kernel/run/detail/execution_display.hpp"
+#include "mamori/kernel/run/detail/execution_parts.hpp"
 #include "mamori/kernel/run/detail/mode_plan.hpp"
 #include "mamori/kernel/run/execution_observer.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori {
-
-class Introspection;
 
 namespace detail {
 
@@ -55,9 +55,10 @@ struct CoreState {
     SystemView view;
     Span<WindowState> windows;
     std::size_t core;
+    ExecutionParts parts;
     ExecutionObserver* observer{nullptr};
     ExecutionRecord* records{nullptr};  ///< records of the observer, one per component of the table
-    Introspection* introspection{nullptr};
+    ExecutionDisplay* introspection{nullptr};
     Instant release{};              ///< planned start of the last window instance
     Instant frame_start{kNoFrame};  ///< start of the major frame of the last window instance
 

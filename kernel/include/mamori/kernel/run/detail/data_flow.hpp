@@ -23,8 +23,7 @@ namespace mamori::detail {
 /// Memory:        the state of the core and the trace hash.
 class DataFlow final {
   public:
-    constexpr DataFlow(const SystemView& view, Span<WindowState> windows, std::size_t core) noexcept
-        : core_{view, windows, core} {}
+    constexpr explicit DataFlow(const CoreState& core) noexcept : core_(core) {}
     DataFlow(const DataFlow&) = delete;
     DataFlow& operator=(const DataFlow&) = delete;
 

@@ -12,6 +12,7 @@
 
 #include "mamori/kernel/run/detail/core_state.hpp"
 #include "mamori/kernel/run/detail/data_flow.hpp"
+#include "mamori/kernel/run/detail/mode_execution.hpp"
 #include "mamori/kernel/run/system_modes.hpp"
 
 namespace mamori::detail {
@@ -23,9 +24,8 @@ namespace mamori::detail {
 class ModeFollower final {
   public:
     /// @param[in] modes of all cores; nullptr: the table has neither modes nor configuration sets.
-    constexpr ModeFollower(const SystemView& view, Span<WindowState> windows, std::size_t core,
-                           SystemModes* modes) noexcept
-        : data_flow_(view, windows, core), modes_(modes) {}
+    constexpr ModeFollower(const CoreState& core, SystemModes* modes) noexcept
+        : data_flow_(core), modes_(modes), execution_(modes) {}
     ModeFollower(const ModeFollower&) = delete;
     ModeFollower& operator=(const ModeFollower&) = delete;
 
@@ -36,39 +36,53 @@ class ModeFollower final {
     /// Checks every value of every set and gives the parameters of the core their first values.
     /// @return kOk; kPreconditionNotMet (SystemModes is missing); kBadParameter (SystemModes is that of
     ///         another table or has no room for this core, or a value is rejected).
-    Status initialize() noexcept;
+    Status initialize() noexcept { return is_used() ? execution_->initialize_core(*this) : judge_absence(); }
     /// Gives the parameters of the core their values and takes part in mode switches from now on.
     /// @return kOk; kPreconditionNotMet (other cores are switching modes); kBadParameter (a value is
     ///         rejected).
-    Status join() noexcept;
+    Status join() noexcept { return is_used() ? execution_->join_core(*this) : Status::kOk; }
     /// Takes part in mode switches no longer, if the core took part.
-    void leave() noexcept;
+    void leave() noexcept {
+        if (has_joined_) {
+            execution_->leave_core(*this);
+        }
+    }
     bool has_joined() const noexcept { return has_joined_; }
     /// The current mode; two modes between leaving one and entering the other; 0: no modes.
     ModeMask get_held_modes() const noexcept { return held_modes_; }
 
     /// Reports the end of the last plan and takes the next one. Call at the start of each major frame after
     /// join().
-    void begin_frame() noexcept;
+    void begin_frame() noexcept { execution_->begin_core_frame(*this); }
 
-    /// @name In each window instance of a running context, if is_used(): cross_boundary() and
-    /// leave_components() before the cycle, enter_components() after it.
+    /// @name In each window instance of a running context, if is_used(): open_window() before the cycle,
+    /// close_window() after it.
     /// @{
     bool is_used() const noexcept { return modes_ != nullptr; }
     /// At the first start of the window in a major frame, gives it the parameters and connections of the
-    /// plan.
-    void cross_boundary(WindowState& state) noexcept;
-    /// Deactivates the components that leave. Each is called once, regardless of its result.
+    /// plan. Then deactivates the components that leave. Each is called once, regardless of its result.
     /// @return the component that exhausted the budget; kNoIndex: none.
-    std::size_t leave_components(WindowState& state, Instant deadline, WindowHost& host) noexcept;
-    /// Activates the components that enter; none after a failure.
-    /// @return as leave_components().
-    std::size_t enter_components(WindowState& state, Instant deadline, WindowHost& host) noexcept;
+    std::size_t open_window(WindowState& state, Instant deadline, WindowHost& host) noexcept {
+        return execution_->open_window(*this, state, deadline, host);
+    }
+    /// Activates the components that enter; none after a failure. @return as open_window().
+    std::size_t close_window(WindowState& state, Instant deadline, WindowHost& host) noexcept {
+        return execution_->close_window(*this, state, deadline, host);
+    }
     /// End of the last mode step. The cycle of its window begins there.
     Instant get_last_step_end() const noexcept { return last_step_end_; }
     /// @}
 
   private:
+    friend class mamori::SystemModes;
+
+    Status judge_absence() const noexcept;
+    Status initialize_parameters() noexcept;
+    Status join_switches() noexcept;
+    void take_next_plan() noexcept;
+    void cross_boundary(WindowState& state) noexcept;
+    std::size_t leave_components(WindowState& state, Instant deadline, WindowHost& host) noexcept;
+    std::size_t enter_components(WindowState& state, Instant deadline, WindowHost& host) noexcept;
     bool check_set(std::size_t set) noexcept;
     Status prepare_parameters() noexcept;
     void take_plan(ModePlan plan, bool is_late) noexcept;
@@ -85,7 +99,8 @@ class ModeFollower final {
     DataFlow data_flow_;
     Instant last_step_end_{};
     SystemModes* modes_;
-    ModePlan plan_{};  ///< taken last
+    ModeExecution* execution_;  ///< the same object, as far as this part needs it
+    ModePlan plan_{};           ///< taken last
     ModeMask held_modes_{0U};
     ModeStep step_{ModeStep::kNone};  ///< of the plan; kNone: this core has nothing to execute
     bool is_plan_open_{false};        ///< the plan was taken and its end was not reported

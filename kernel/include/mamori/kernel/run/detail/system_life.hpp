@@ -2,7 +2,7 @@
 /// @file
 /// Part of an executive that brings the components of one core to Active and back. Not for users.
 ///
-/// @satisfies SWR-KRN-024, SWR-KRN-033, SWR-KRN-039, SWR-KRN-049, SWR-PAR-011
+/// @satisfies SWR-KRN-024, SWR-KRN-033, SWR-KRN-039, SWR-KRN-049, SWR-KRN-070, SWR-PAR-011
 /// Design:   docs/design/kernel.md#parts-of-the-executive
 #ifndef MAMORI_KERNEL_SYSTEM_LIFE_HPP
 #define MAMORI_KERNEL_SYSTEM_LIFE_HPP
@@ -24,9 +24,7 @@ namespace mamori::detail {
 /// Memory:        that of WindowRunner and three members.
 class SystemLife final {
   public:
-    constexpr SystemLife(const SystemView& view, Span<WindowState> windows, std::size_t core,
-                         SystemModes* modes) noexcept
-        : runner_(view, windows, core, modes) {}
+    constexpr SystemLife(const CoreState& core, SystemModes* modes) noexcept : runner_(core, modes) {}
     SystemLife(const SystemLife&) = delete;
     SystemLife& operator=(const SystemLife&) = delete;
 
@@ -35,7 +33,7 @@ class SystemLife final {
     CoreState& get_core() noexcept { return runner_.get_core(); }
     const CoreState& get_core() const noexcept { return get_data_flow().get_core(); }
 
-    /// Checks the table. initialize() does so as well.
+    /// Checks the table as far as the compiler has not. initialize() does so as well.
     void check_table() noexcept;
     /// The last check_table() found no violated rule.
     bool is_table_valid() const noexcept { return is_table_valid_; }

@@ -22,9 +22,7 @@ namespace mamori::detail {
 /// Memory:        that of ModeFollower.
 class WindowRunner final {
   public:
-    constexpr WindowRunner(const SystemView& view, Span<WindowState> windows, std::size_t core,
-                           SystemModes* modes) noexcept
-        : modes_(view, windows, core, modes) {}
+    constexpr WindowRunner(const CoreState& core, SystemModes* modes) noexcept : modes_(core, modes) {}
     WindowRunner(const WindowRunner&) = delete;
     WindowRunner& operator=(const WindowRunner&) = delete;
 
@@ -56,7 +54,6 @@ class WindowRunner final {
     void report_overrun(std::size_t window, std::size_t component, Instant now) noexcept;
     void stop_late(WindowState& state, Instant start, WindowHost& host) noexcept;
     static void stop_steps(void* argument, std::size_t first, std::size_t end) noexcept;
-    static void end_step(void* argument, std::size_t position, Duration used) noexcept;
 
     ModeFollower modes_;
 };
@@ -81,8 +78,7 @@ inline WindowOutcome WindowRunner::open(const WindowRow& row, WindowState& state
     const Instant deadline = start + row.budget < end ? start + row.budget : end;
     std::size_t responsible = kNoIndex;
     if (modes_.is_used()) {
-        modes_.cross_boundary(state);
-        responsible = modes_.leave_components(state, deadline, host);
+        responsible = modes_.open_window(state, deadline, host);
     }
     const bool is_due = responsible == kNoIndex && state.context.take_turn();
     if (is_due) {
@@ -91,7 +87,7 @@ inline WindowOutcome WindowRunner::open(const WindowRow& row, WindowState& state
         responsible = end_cycle(row, state, executed_count, deadline, host);
     }
     if (modes_.is_used() && responsible == kNoIndex) {
-        responsible = modes_.enter_components(state, deadline, host);
+        responsible = modes_.close_window(state, deadline, host);
     }
     if (responsible != kNoIndex) {
         end_overrun(state, responsible, host);
@@ -117,13 +113,9 @@ inline void WindowRunner::begin_cycle(const WindowRow& row, WindowState& state, 
     }
     if (state.is_observed) {
         const Instant last_step_end = modes_.get_last_step_end();
-        state.step_observer = {&state.context,
-                               core.records == nullptr ? nullptr : core.records + row.first_component,
-                               &host,
-                               deadline,
-                               last_step_end > start ? last_step_end : start,
-                               row.has_hand_on || core.introspection != nullptr ? &end_step : nullptr,
-                               &state};
+        state.step_observer.host = &host;
+        state.step_observer.deadline = deadline;
+        state.step_observer.step_start = last_step_end > start ? last_step_end : start;
     }
 }
 
@@ -135,7 +127,7 @@ inline std::size_t WindowRunner::end_cycle(const WindowRow& row, WindowState& st
     std::size_t finished_count = executed_count;
     if (row.has_second_pass && executed_count == row.component_count) {
         finished_count =
-            host.run_within({&ExecutionContext::run_second_pass, &state.context, state.get_window(),
+            host.run_within({get_core().parts.second_pass, &state.context, state.get_window(),
                              row.first_component, 0U, row.component_count, WindowHost::Pass::kStateUpdate},
                             deadline);
     }

@@ -109,24 +109,30 @@ constexpr void check_member_rows(const SystemView& view, std::size_t i, const Me
     check_registration(*view.components[i], rules, rows.size(), get_listed, report);
 }
 
-/// Checks that component `i` has a name, that no earlier one has it, and that its lists of ports and
-/// parameters contain exactly its registered ones.
-inline void check_component_objects(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
-    const Component& component = *view.components[i];
-    const ComponentRow& row = view.component_rows[i];
-    const WindowRow& window = view.windows[row.window];
-    if (!is_name(component.get_name())) {
+/// Checks that component `i` has a name and that no earlier one has it.
+inline void check_component_name(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
+    const char* name = view.components[i]->get_name();
+    if (!is_name(name)) {
         findings.add(Rule::kComponentNamedTwice, i, i);
     }
     for (std::size_t j = 0U; j < i; ++j) {
-        const Component& earlier = *view.components[j];
-        if (is_same_name(earlier.get_name(), component.get_name())) {
+        if (is_same_name(view.components[j]->get_name(), name)) {
             findings.add(Rule::kComponentNamedTwice, i, j);
             break;
         }
     }
+}
+
+/// Checks that the list of ports of component `i` contains exactly its registered ones.
+inline void check_ports_of(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
+    const ComponentRow& row = view.component_rows[i];
     check_member_rows(view, i, kPortRules, view.ports.subspan(row.first_port, row.port_count), row.first_port,
                       findings);
+}
+
+/// The same for its parameters.
+inline void check_parameters_of(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
+    const WindowRow& window = view.windows[view.component_rows[i].window];
     check_member_rows(view, i, kParameterRules,
                       view.configuration.parameters.subspan(window.first_parameter, window.parameter_count),
                       window.first_parameter, findings);
@@ -147,7 +153,9 @@ constexpr void check_components(const SystemView& view, FindingList& findings) n
     // rows of a component that runs twice would also look like members that are listed twice.
     for (std::size_t i = 0U; !is_any_twice && i < view.components.size(); ++i) {
         if (!__builtin_is_constant_evaluated()) {
-            check_component_objects(view, i, findings);
+            check_component_name(view, i, findings);
+            check_ports_of(view, i, findings);
+            check_parameters_of(view, i, findings);
         }
     }
 }
