@@ -100,7 +100,7 @@ constexpr auto kNamesakes =
 constexpr auto kSecretive = make_table(secretive);
 constexpr auto kTuned = make_table(tuned);
 constexpr auto kTwins = make_table(adjustable, twin);
-constexpr auto kWithoutCount = change(kForward, [](auto& table) { table.ports[0].count_queue = nullptr; });
+constexpr auto kWithoutCount = change(kForward, [](auto& table) { table.ports[0].count = nullptr; });
 constexpr auto kWithoutLatch =
     change(kForward, [](auto& table) { table.connections[0].operations.latch = nullptr; });
 constexpr auto kWithoutRestart =

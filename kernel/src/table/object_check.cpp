@@ -11,7 +11,7 @@ namespace {
 /// Functions that the compiler assumes to be set, see is_function().
 void check_functions(const SystemView& view, FindingList& findings) noexcept {
     for (std::size_t i = 0U; i < view.ports.size(); ++i) {
-        if (view.ports[i].count_queue == nullptr) {
+        if (view.ports[i].count == nullptr) {
             findings.add(Rule::kPortRowInvalid, i);
         }
     }
