@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The 26 headers that a user of the kernel needs, in one include. docs/manual/headers.md lists each with its
+/// The 25 headers that a user of the kernel needs, in one include. docs/manual/headers.md lists each with its
 /// purpose. Code that is compiled often includes the single headers.
 #ifndef MAMORI_KERNEL_HPP
 #define MAMORI_KERNEL_HPP
@@ -14,7 +14,6 @@
 #include "mamori/kernel/component/fsm_check.hpp"
 #include "mamori/kernel/component/fsm_component.hpp"
 #include "mamori/kernel/component/multi_mode.hpp"
-#include "mamori/kernel/dataflow/connection.hpp"
 #include "mamori/kernel/dataflow/data_port.hpp"
 #include "mamori/kernel/dataflow/queue_in_port.hpp"
 #include "mamori/kernel/dataflow/queue_out_port.hpp"

@@ -38,7 +38,7 @@ struct ConnectionPart {
 template <typename Source, typename Sink, typename... Options>
 constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(Source& source, Sink& sink,
                                                                               Options... options) noexcept {
-    constexpr bool joins_ports =
+    constexpr bool kJoinsPorts =
         std::is_base_of_v<OutPortBase, Source> && std::is_base_of_v<InPortBase, Sink>;
     // Written out, so that the message names the wrong type.
     static_assert(std::is_base_of_v<OutPortBase, Source>, "connect() joins an output to an input");
@@ -47,7 +47,7 @@ constexpr ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> connect(So
     static_assert(detail::kTimesSaid<FreshWithin, Options...> + detail::kTimesSaid<AnyAge, Options...> <= 1U,
                   "a connection states fresh_within(...) or any_age(), not both");
     ConnectionPart<(detail::kModesNamedBy<Options> + ... + 0U)> part{};
-    if constexpr (joins_ports) {
+    if constexpr (kJoinsPorts) {
         using T = typename Source::Payload;
         static_assert(std::is_same_v<T, typename Sink::Payload>, "connect() joins ports of one payload type");
         part.row.source = &source;
