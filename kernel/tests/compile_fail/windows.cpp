@@ -324,7 +324,7 @@ constexpr auto kSystem = mamori::system(mamori::frame(1_ms), mamori::window("a",
                                                                             mamori::budget(50_us),
 #endif
                                                                             mamori::run(g_producer)));
-constexpr auto kOther = mamori::system(
+[[maybe_unused]] constexpr auto kOther = mamori::system(
     mamori::frame(1_ms), mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
     mamori::window("b", 200_us, 100_us, mamori::budget(50_us), mamori::run(g_second_producer)));
 #if defined(MAMORI_BREAK_CHECKED_TABLE) && MAMORI_BREAK_CHECKED_TABLE == 2
