@@ -19,7 +19,6 @@ TEST(CompileFailTest, AConnectionOfTwoPayloadTypesIsRefused) {
 }
 
 TEST(CompileFailTest, AQueuedOutputOfAnotherPayloadTypeIsRefused) {
-    verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
     verifies("SWR-KRN-053", Technique::kInterface, Polarity::kViolation);
     expect_refused("connections", "queue_payload_mismatch", "connect() joins ports of one payload type");
 }

@@ -142,7 +142,6 @@ std::tuple<std::vector<std::vector<std::int64_t>>, std::uint32_t> run_steps(cons
 }
 
 TEST(CoreScheduleTest, DataOfRandomSchedulesOnTwoCoresAreThoseOfVirtualTime) {
-    verifies("SWR-KRN-026", Technique::kBackToBack);
     verifies("SWR-KRN-051", Technique::kBackToBack);
     std::uint64_t reordered = 0U;
     for (int seed = 0; seed < kSchedules; ++seed) {

@@ -112,7 +112,6 @@ TEST_F(ExecutiveTest, TheHashTellsADifferentValueApart) {
 }
 
 TEST_F(ExecutiveTest, TheHashIsThatOfEachPublishedPortAndWhatItPublished) {
-    verifies("SWR-KRN-021", Technique::kBackToBack);
     verifies("SWR-KRN-050", Technique::kBackToBack);
     run_frame(sut_, host_, 0);
 

@@ -61,7 +61,6 @@ TEST(QueueOutPortTest, TheNextCycleBeginsWithAnEmptyQueue) {
 
 TEST(QueueOutPortTest, TheHashIsThatOfEachValueInOrder) {
     verifies("SWR-KRN-053", Technique::kBackToBack);
-    verifies("SWR-KRN-021");
     const auto calc_hash = [](const Values& values) {
         QueueOutPort<std::int32_t, 2U> out{kNoOwner, "out"};
         for (const std::int32_t value : values) {
