@@ -81,7 +81,7 @@ def measure(rows: Sequence[Limits], root: Path, folder: Path) -> dict[str, Size]
         return {row.name: size for row, size in zip(rows, sizes, strict=True)}
 
 
-def judge(limits: Limits, size: Size) -> list[str]:
+def list_findings(limits: Limits, size: Size) -> list[str]:
     """@return what is wrong with the size: nothing if it is within its limits and its aims are met or marked as missed."""
     findings = [f"{what} takes {value} bytes, {value - most} more than its limit of {most}"
                 for what, value, most in (("text", size.text, limits.text_max), ("RAM", size.ram, limits.ram_max)) if value > most]  # fmt: skip
@@ -112,7 +112,7 @@ def write_evidence(rows: Sequence[Limits], sizes: dict[str, Size], folder: Path)
     """Writes size.json and size.txt, each atomically."""
     folder.mkdir(parents=True, exist_ok=True)
     compiler = run_tool([CORTEX_M4.compiler, "--version"]).splitlines()[0]
-    images = [{**asdict(row), **asdict(sizes[row.name]), "findings": judge(row, sizes[row.name])} for row in rows]
+    images = [{**asdict(row), **asdict(sizes[row.name]), "findings": list_findings(row, sizes[row.name])} for row in rows]
     record = {"schema": SCHEMA, "compiler": f"{compiler} {' '.join(CORTEX_M4.flags)}", "base": BASE, "images": images}
     write_text(folder / "size.json", json.dumps(record, indent=1) + "\n")
     write_text(folder / "size.txt", make_table(rows, sizes))
@@ -185,7 +185,7 @@ def main(argv: list[str] | None = None) -> int:
         print(f"size: {error}", file=sys.stderr)
         return 1
     print(make_table(rows, sizes), end="")
-    findings = [f"{row.name}: {finding}" for row in rows for finding in judge(row, sizes[row.name])]
+    findings = [f"{row.name}: {finding}" for row in rows for finding in list_findings(row, sizes[row.name])]
     print("\n".join(findings), file=sys.stderr, end="\n" if findings else "")
     return 1 if findings else 0
 

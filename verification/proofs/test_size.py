@@ -12,7 +12,7 @@ import pytest
 
 from mamori_tools.host.project import ROOT, Project
 from verification.proofs.image import QEMU, RUN_TIMEOUT_S
-from verification.proofs.size import BASE, Limits, Size, judge, make_table, measure, read_limits, read_map, write_evidence
+from verification.proofs.size import BASE, Limits, Size, list_findings, make_table, measure, read_limits, read_map, write_evidence
 from verification.proofs.toolchain import CORTEX_M4, run_tool
 
 ROWS = read_limits()
@@ -48,7 +48,7 @@ def sizes(folder: Path) -> dict[str, Size]:
 @EVERY_IMAGE
 @pytest.mark.verifies("SWR-VER-031")
 def test_image_is_within_its_limits(sizes: dict[str, Size], row: Limits) -> None:
-    assert judge(row, sizes[row.name]) == []
+    assert list_findings(row, sizes[row.name]) == []
 
 
 @EVERY_IMAGE
@@ -86,13 +86,13 @@ def test_evidence_names_limits_sizes_and_what_a_feature_adds(sizes: dict[str, Si
 )  # fmt: skip
 @pytest.mark.verifies("SWR-VER-031", technique="boundary_values", polarity="violation")
 def test_size_beyond_a_limit_or_a_wrong_mark_is_a_finding(limits: Limits, finding: str) -> None:
-    assert judge(limits, SIZE) == [finding]
+    assert list_findings(limits, SIZE) == [finding]
 
 
 @pytest.mark.parametrize("limits", [LIMITS, replace(LIMITS, text_aim=100, ram_aim=50), replace(LIMITS, text_aim=99, missed=True)])
 @pytest.mark.verifies("SWR-VER-031", technique="boundary_values")
 def test_size_at_its_limits_and_a_known_miss_are_no_finding(limits: Limits) -> None:
-    assert judge(limits, SIZE) == []
+    assert list_findings(limits, SIZE) == []
 
 
 @pytest.mark.verifies("SWR-VER-031")

@@ -99,7 +99,7 @@ Status ExecutionContext::judge_machines(Span<Component* const> participants,
             continue;
         }
         const Status verdict =
-            kind == ExecutionKind::kEventDriven ? machine->judge(*this) : Status::kPreconditionNotMet;
+            kind == ExecutionKind::kEventDriven ? machine->check_for(*this) : Status::kPreconditionNotMet;
         if (verdict != Status::kOk) {
             return verdict;
         }

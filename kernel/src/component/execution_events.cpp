@@ -11,7 +11,7 @@ void FsmMachine::serve(ExecutionContext& context, Component& component, ContextH
 }
 
 /// A profile names components of the same context, and elements of the table.
-Status FsmMachine::judge(const ExecutionContext& context) const noexcept {
+Status FsmMachine::check_for(const ExecutionContext& context) const noexcept {
     if (check(table_).rule != FsmRule::kNone) {
         return Status::kBadParameter;
     }

@@ -18,9 +18,9 @@
 
 namespace mamori {
 
-/// Observer of one executive. Indices are positions in the system table (components, windows). `now` is the
-/// time of the platform host in on_budget_overrun and on_late_release. In the other calls it is the planned
-/// start of the current or last window instance (zero before the first one).
+/// Observer of one executive. Indices are positions in the system table (components, windows, ports). `now`
+/// is the time of the platform host in on_budget_overrun and on_late_release. In the other calls it is the
+/// planned start of the current or last window instance (zero before the first one).
 ///
 /// Calling context: the context that runs the windows, except on_budget_overrun, which the guard of a port
 ///                  may call from its own context. Implementations must not block and must be O(1).

@@ -31,7 +31,7 @@ class EventServer {
     /// Whether its table and profile suit the context, whose participants are known.
     /// @return kOk; kBadParameter (the table violates a rule, or the profile names a component outside the
     ///         context or an unknown element).
-    virtual Status judge(const ExecutionContext& context) const noexcept = 0;
+    virtual Status check_for(const ExecutionContext& context) const noexcept = 0;
     /// Resets to the initial state with an empty queue.
     virtual void restart() noexcept = 0;
     /// Processes waiting events, in a cycle of the context.

@@ -54,7 +54,7 @@ class FsmMachine final : public EventServer {
     /// @return as FsmEventQueue::post().
     Status post(const FsmEvent& event, std::uint32_t epoch) noexcept { return queue_.post(event, epoch); }
 
-    Status judge(const ExecutionContext& context) const noexcept override;
+    Status check_for(const ExecutionContext& context) const noexcept override;
     void restart() noexcept override;
     void serve(ExecutionContext& context, Component& component, ContextHandle handle) noexcept override;
 
