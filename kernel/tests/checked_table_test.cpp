@@ -71,6 +71,7 @@ class Adjustable final : public Component {
 MAMORI_CONSTINIT Source source{"source"};
 MAMORI_CONSTINIT Sink sink{"sink"};
 MAMORI_CONSTINIT Sink namesake{"source"};
+MAMORI_CONSTINIT Sink other_sink{"other_sink"};
 MAMORI_CONSTINIT Secretive secretive{Key{}, "secretive"};
 MAMORI_CONSTINIT Tuned tuned{Key{}, "tuned"};
 MAMORI_CONSTINIT Adjustable adjustable{"adjustable"};
@@ -86,6 +87,14 @@ constexpr Table change(Table table, const Change& change) noexcept {
     return table;
 }
 
+template <typename... Cs>
+constexpr auto make_fork(Cs&... others) noexcept {
+    return system(frame(1_ms),
+                  window("w", 0_us, 500_us, budget(400_us), run(source, sink, other_sink, others...)),
+                  connect(source.out, sink.in, any_age()), connect(source.out, other_sink.in, any_age()));
+}
+constexpr auto kFork = make_fork();
+constexpr auto kForkWithParameter = make_fork(adjustable);
 constexpr auto kForward = system(frame(1_ms), window("w", 0_us, 500_us, budget(400_us), run(source, sink)),
                                  connect(source.out, sink.in, any_age()));
 constexpr auto kPlain =
@@ -99,12 +108,18 @@ constexpr auto kNamesakes =
            connect(source.out, namesake.in, any_age()));
 constexpr auto kSecretive = make_table(secretive);
 constexpr auto kTuned = make_table(tuned);
+constexpr auto kSecretiveWithParameter = make_table(adjustable, secretive);
+constexpr auto kTunedWithParameter = make_table(adjustable, tuned);
 constexpr auto kTwins = make_table(adjustable, twin);
-constexpr auto kWithoutCount = change(kForward, [](auto& table) { table.ports[0].count = nullptr; });
+/// `kIndex`: of the row with the violation.
+template <const auto& kTable, std::size_t kIndex>
+constexpr auto kWithoutCount = change(kTable, [](auto& table) { table.ports[kIndex].count = nullptr; });
+template <const auto& kTable, std::size_t kIndex>
 constexpr auto kWithoutLatch =
-    change(kForward, [](auto& table) { table.connections[0].operations.latch = nullptr; });
+    change(kTable, [](auto& table) { table.connections[kIndex].operations.latch = nullptr; });
+template <const auto& kTable, std::size_t kIndex>
 constexpr auto kWithoutRestart =
-    change(kForward, [](auto& table) { table.connections[0].operations.restart = nullptr; });
+    change(kTable, [](auto& table) { table.connections[kIndex].operations.restart = nullptr; });
 constexpr auto kTooFewValues =
     change(kSets, [](auto& table) { table.configuration.assignments[0].value_count = 0U; });
 
@@ -133,19 +148,30 @@ TEST(CheckedTableTest, TwoComponentsWithOneNameAreRejected) {
 TEST(CheckedTableTest, PortThatIsNotListedIsRejected) {
     verifies("SWR-KRN-070", Technique::kFaultInjection, Polarity::kViolation);
     expect_refused<kSecretive>();
+    expect_refused<kSecretiveWithParameter>();
 }
 
 TEST(CheckedTableTest, ParameterThatIsNotListedIsRejected) {
     verifies("SWR-KRN-070", Technique::kFaultInjection, Polarity::kViolation);
     expect_refused<kTuned>();
     EXPECT_EQ(executive<kTuned>.get_failed_component(), 0U);
+    expect_refused<kTunedWithParameter>();
+    EXPECT_EQ(executive<kTunedWithParameter>.get_failed_component(), 1U);
+}
+
+template <const auto& kTable, std::size_t kIndex>
+void expect_functions_are_required() {
+    expect_refused<kWithoutCount<kTable, kIndex>>();
+    expect_refused<kWithoutLatch<kTable, kIndex>>();
+    expect_refused<kWithoutRestart<kTable, kIndex>>();
 }
 
 TEST(CheckedTableTest, MissingFunctionIsRejected) {
     verifies("SWR-KRN-070", Technique::kFaultInjection, Polarity::kViolation);
-    expect_refused<kWithoutCount>();
-    expect_refused<kWithoutLatch>();
-    expect_refused<kWithoutRestart>();
+    expect_functions_are_required<kFork, 0U>();
+    expect_functions_are_required<kFork, 1U>();
+    expect_functions_are_required<kForkWithParameter, 0U>();
+    expect_functions_are_required<kForkWithParameter, 1U>();
 }
 
 TEST(CheckedTableTest, SetWithTooFewValuesIsRejected) {

@@ -275,7 +275,8 @@ TEST_F(DataPortTest, NothingIsHandedOnWhenNothingWasWritten) {
 
 TEST_F(DataPortTest, AValueIsTooOldOnceItIsOlderThanTheLimit) {
     verifies("SWR-KRN-016", Technique::kBoundaryValues, Polarity::kViolation);
-    in_.set_age_limits(Duration{50}, {});
+    static constexpr AgeLimits kLimits{Duration{50}, {}};
+    in_.set_age_limits(kLimits);
     EXPECT_EQ(in_.calc_status(Instant{0}), PortStatus::kBufferEmpty);
     out_.write(5);
     ASSERT_TRUE(out_.publish(Instant{100}));
@@ -293,7 +294,8 @@ TEST_F(DataPortTest, AValueOfAnInstantToComeIsNotFresh) {
 
     EXPECT_EQ(in_.calc_status(Instant{100}), PortStatus::kOk);
     EXPECT_EQ(in_.calc_status(Instant{99}), PortStatus::kBufferTimeout) << "also without an age limit";
-    in_.set_age_limits(Duration{50}, Duration{7});
+    static constexpr AgeLimits kLimits{Duration{50}, Duration{7}};
+    in_.set_age_limits(kLimits);
     EXPECT_EQ(in_.calc_status(Instant{93}), PortStatus::kOk);
     EXPECT_EQ(in_.calc_status(Instant{92}), PortStatus::kBufferTimeout);
 }

@@ -31,7 +31,8 @@ constexpr bool is_empty(const WindowRow& row) noexcept {
            are_zero(row.offset.ns, row.length.ns, row.period.ns, row.budget.ns, row.alternative_count,
                     row.core, row.first_component, row.component_count, row.first_port, row.port_count,
                     row.first_latch, row.latch_count, row.first_parameter, row.parameter_count) &&
-           row.events_per_cycle == 1U && row.has_outputs && row.has_deliveries && !row.has_hand_on;
+           row.events_per_cycle == 1U && row.has_outputs && row.has_hash && row.has_deliveries &&
+           !row.has_hand_on;
 }
 constexpr bool is_empty(const ComponentRow& row) noexcept {
     return row.window == kNoIndex && row.modes == kEveryMode &&
@@ -42,7 +43,7 @@ constexpr bool is_empty(const ConnectionRow& row) noexcept {
     return row.source == nullptr && row.sink == nullptr && row.crossing == nullptr &&
            row.age_max == Duration{0} && !row.is_delayed_by_a_frame && row.source_window == kNoIndex &&
            row.sink_window == kNoIndex && row.source_component == kNoIndex &&
-           row.sink_component == kNoIndex && !row.is_forward_in_window && row.modes == kEveryMode;
+           row.sink_component == kNoIndex && !row.is_forward_in_window && row.get_modes() == kEveryMode;
 }
 constexpr bool is_empty(const ModeTransitionRow& row) noexcept {
     return row.source == kNoIndex && row.target == kNoIndex && row.event == 0U;

@@ -125,6 +125,21 @@ TEST_F(ExecutiveTest, TheHashIsThatOfEachPublishedPortAndWhatItPublished) {
     EXPECT_EQ(sut_.get_trace_hash(), expected.get_value());
 }
 
+TEST_F(ExecutiveTest, APortWithoutAFunctionForItIsNotHashed) {
+    verifies("SWR-KRN-050", Technique::kErrorGuessing);
+    Counter counter;
+    auto table = system(frame(kFrame), trace_hash(), window("w", 0_ns, 400_ns, budget(300_ns), run(counter)));
+    table.ports[0].hash_published = nullptr;
+    ExecutiveFor executive{table};
+    ASSERT_EQ(executive.initialize(), Status::kOk);
+    ASSERT_EQ(executive.start(), Status::kOk);
+
+    run_frame(executive, host_, 0);
+
+    EXPECT_NE(counter.out.get_sequence(), 0U);
+    EXPECT_EQ(executive.get_trace_hash(), TraceHash{}.get_value());
+}
+
 TEST_F(ExecutiveTest, WithoutARequestNoPublicationIsHashedAndNoHashIsGiven) {
     verifies("SWR-KRN-050", Technique::kErrorGuessing, Polarity::kViolation);
     Counter counter;
@@ -138,6 +153,7 @@ TEST_F(ExecutiveTest, WithoutARequestNoPublicationIsHashedAndNoHashIsGiven) {
     run_frame(executive, host_, 0);
 
     EXPECT_EQ(sink.get_values(), (Values{10}));
+    EXPECT_FALSE(table.windows[0].has_hash);
     for (const PortRow& port : table.ports) {
         EXPECT_EQ(port.hash_published, nullptr);
     }

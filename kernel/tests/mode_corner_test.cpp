@@ -220,9 +220,9 @@ TEST(ModeCornerTest, NamesThatDoNotExistAreFoundInATableMadeAtRunTime) {
 
     EXPECT_TRUE(has_finding(view, Rule::kModeRowInvalid, 0U));
     EXPECT_EQ(view.modes.connection_modes[0].mode, kNoIndex);
-    EXPECT_EQ(view.connections[0].modes, 0U) << "\"work\" does not run the reader";
-    EXPECT_EQ(view.connections[1].modes, kEveryMode) << "its source is in no mode that one could ask";
-    EXPECT_EQ(view.connections[2].modes, kEveryMode);
+    EXPECT_EQ(view.connections[0].get_modes(), 0U) << "\"work\" does not run the reader";
+    EXPECT_EQ(view.connections[1].get_modes(), kEveryMode) << "its source is in no mode that one could ask";
+    EXPECT_EQ(view.connections[2].get_modes(), kEveryMode);
     EXPECT_EQ(view.modes.transitions[0].source, kNoIndex);
     EXPECT_EQ(view.modes.transitions[0].target, 1U);
     EXPECT_EQ(view.modes.transitions[1].target, kNoIndex);
@@ -235,7 +235,7 @@ TEST(ModeCornerTest, TheThirtyThirdModeIsRefusedByItsNumber) {
         port.is_mandatory = port.input == &robot.drive.in;
     }
     for (ConnectionRow& connection : robot.table.connections) {
-        connection.modes = kEveryMode;
+        connection.idle_modes = 0U;
     }
     std::vector<SystemModeRow> rows(kSystemModeMax + 1U, SystemModeRow{"many"});
     SystemView view = make_view(robot.table);

@@ -30,9 +30,9 @@ TEST(ModeTableTest, ComponentsAndConnectionsKnowTheirModes) {
     for (std::size_t i = 0U; i < 6U; ++i) {
         EXPECT_EQ(table.component_rows[i].modes, of_components[i]) << i;
     }
-    EXPECT_EQ(table.connections[0].modes, work) << "the planner runs there only";
-    EXPECT_EQ(table.connections[1].modes, teach);
-    EXPECT_EQ(table.connections[2].modes, work) << "only_in";
+    EXPECT_EQ(table.connections[0].get_modes(), work) << "the planner runs there only";
+    EXPECT_EQ(table.connections[1].get_modes(), teach);
+    EXPECT_EQ(table.connections[2].get_modes(), work) << "only_in";
     EXPECT_EQ(table.modes.modes[kWork].set, 1U);
     EXPECT_EQ(table.modes.modes[kIdle].set, kNoIndex);
     EXPECT_EQ(find_safe_mode(make_view(table.modes)), kHalt);
@@ -73,13 +73,13 @@ TEST(ModeTableTest, EachBrokenRuleIsFoundAtRunTimeToo) {
                  row.target = row.target == kTeach ? kIdle : row.target;
              }
          }},
-        {Rule::kInputHasTwoWriters, [](auto& t) { t.connections[1].modes |= to_mask(kWork); }},
+        {Rule::kInputHasTwoWriters, [](auto& t) { t.connections[1].idle_modes &= ~to_mask(kWork); }},
         {Rule::kInputNotFedInMode,
          [](auto& t) {
              for (PortRow& port : t.ports) {
                  port.is_mandatory = port.input == t.connections[0].sink;
              }
-             t.connections[1].modes = 0U;
+             t.connections[1].idle_modes = kEveryMode;
          }},
     };
     for (const auto& [rule, break_it] : cases) {

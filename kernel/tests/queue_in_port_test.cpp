@@ -117,7 +117,8 @@ TEST(QueueInPortTest, AQueueIsNewWhileAValueWaitsThatIsDue) {
 TEST(QueueInPortTest, AValueThatWaitsHasItsStatusAndAgeBeforeItIsRead) {
     verifies("SWR-KRN-037", Technique::kBoundaryValues);
     Queue<FullPolicy::kDoNothing, EmptyPolicy::kReadback> sut;
-    sut.in.set_age_limits(15_ns, {});
+    static constexpr AgeLimits kLimits{15_ns, {}};
+    sut.in.set_age_limits(kLimits);
     EXPECT_EQ(sut.in.calc_status(Instant{0}), PortStatus::kBufferEmpty);
     sut.publish(1, Instant{10});
     EXPECT_EQ(sut.in.calc_status(Instant{10}), PortStatus::kBufferEmpty) << "before the opening";
@@ -135,7 +136,8 @@ TEST(QueueInPortTest, AValueThatWaitsHasItsStatusAndAgeBeforeItIsRead) {
 TEST(QueueInPortTest, StatusAndAgeAreThoseOfTheOldestThatWaitsThenOfWhatWasRead) {
     verifies("SWR-KRN-037", Technique::kStateTransition);
     Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;
-    sut.in.set_age_limits(20_ns, {});
+    static constexpr AgeLimits kLimits{20_ns, {}};
+    sut.in.set_age_limits(kLimits);
     sut.publish(1, Instant{10});
     sut.publish(2, Instant{30});
     std::int64_t value = 0;

@@ -102,9 +102,10 @@ def make_table(rows: Sequence[Limits], sizes: dict[str, Size]) -> str:
         parts = (size.parts.get(name, 0) for name in ("kernel", "safety", "application", "board", "library"))
         cells = (f"{row.name:17}", size.text, f"{size.text - base.text:+}", size.ram, f"{size.ram - base.ram:+}", *parts)
         lines.append("".join(f"{cell:>{width}}" for cell, width in zip(cells, WIDTHS, strict=True)))
-        aims = [f"{what} {aim}" for what, aim in (("text", row.text_aim), ("RAM", row.ram_aim)) if aim is not None]
+        aims = [f"{what} {aim} {'missed' if value > aim else 'met'}"
+                for what, value, aim in (("text", size.text, row.text_aim), ("RAM", size.ram, row.ram_aim)) if aim is not None]  # fmt: skip
         if aims:
-            lines.append(f"  aim: {', '.join(aims)}{': missed' if row.missed else ''}")
+            lines.append(f"  aim: {', '.join(aims)}")
     return "\n".join([*lines, ""])
 
 

@@ -99,7 +99,7 @@ def test_size_at_its_limits_and_a_known_miss_are_no_finding(limits: Limits) -> N
 def test_table_states_a_missed_aim() -> None:
     rows = [LIMITS, replace(LIMITS, name="more", text_aim=1, missed=True)]
 
-    assert "aim: text 1: missed" in make_table(rows, {BASE: SIZE, "more": SIZE})
+    assert "aim: text 1 missed" in make_table(rows, {BASE: SIZE, "more": SIZE})
 
 
 @pytest.mark.verifies("SWR-VER-031")

@@ -6,7 +6,7 @@ namespace mamori::detail {
 void DataFlow::attach_inputs() noexcept {
     for (const ConnectionRow& connection : core_.view.connections) {
         if (core_.is_own(connection.sink_window)) {
-            connection.sink->set_age_limits(connection.age_max, connection.lead_max);
+            connection.sink->set_age_limits(connection);
         }
     }
 }
@@ -20,8 +20,7 @@ void DataFlow::clear_ports() noexcept {
     }
     for (const ConnectionRow& connection : core_.view.connections) {
         if (core_.is_own(connection.sink_window)) {
-            connection.operations.restart(*connection.source, *connection.sink, connection.crossing,
-                                          kBeforeAll);
+            connection.operations.restart(connection, kBeforeAll);
         }
     }
 }
@@ -30,8 +29,7 @@ void DataFlow::latch_inputs(const WindowRow& row, ModeMask held) noexcept {
     for (const std::size_t i : core_.view.latch_order.subspan(row.first_latch, row.latch_count)) {
         const ConnectionRow& connection = core_.view.connections[i];
         if (is_held(connection, held)) {
-            connection.operations.latch(*connection.source, *connection.sink, connection.crossing,
-                                        core_.release);
+            connection.operations.latch(connection, core_.release);
         }
     }
 }
@@ -43,7 +41,7 @@ void DataFlow::forward_outputs(const SystemView& view, std::size_t component, In
         const ConnectionRow& connection = view.connections[i];
         if (connection.is_forward_in_window && connection.operations.hand_on != nullptr &&
             is_held(connection, held)) {
-            connection.operations.hand_on(*connection.source, *connection.sink, release);
+            connection.operations.hand_on(connection, release);
         }
     }
 }
@@ -52,26 +50,20 @@ void DataFlow::mark_inputs_read(const WindowRow& row, const ExecutionContext& co
                                 std::size_t finished_count) noexcept {
     for (std::size_t position = 0U; position < finished_count; ++position) {
         const LifecycleState state = context.get_state_at(position);
-        if (state != LifecycleState::kActive && state != LifecycleState::kError) {
-            continue;
-        }
-        const ComponentRow& owner = core_.view.component_rows[row.first_component + position];
-        for (const PortRow& port : core_.view.ports.subspan(owner.first_port, owner.port_count)) {
-            if (port.input != nullptr) {
-                port.input->mark_read();
-            }
+        if (state == LifecycleState::kActive || state == LifecycleState::kError) {
+            core_.view.components[row.first_component + position]->end_read_pass();
         }
     }
 }
 
 void DataFlow::publish_outputs(const WindowRow& row, ModeMask held, Instant end) noexcept {
-    std::size_t p = row.first_port;
-    for (const PortRow& port : core_.view.ports.subspan(p, row.port_count)) {
-        if (port.output != nullptr && port.output->publish(end) && port.hash_published != nullptr) {
-            trace_hash_(static_cast<std::uint64_t>(p));
-            port.hash_published(*port.output, trace_hash_);
+    for (const PortRow& port : core_.view.ports.subspan(row.first_port, row.port_count)) {
+        if (port.output != nullptr) {
+            static_cast<void>(port.output->publish(end));
         }
-        ++p;
+    }
+    if (row.has_hash) {
+        hash_outputs(row, end);
     }
     if (!row.has_deliveries) {
         return;
@@ -82,13 +74,24 @@ void DataFlow::publish_outputs(const WindowRow& row, ModeMask held, Instant end)
     }
 }
 
+void DataFlow::hash_outputs(const WindowRow& row, Instant end) noexcept {
+    std::size_t p = row.first_port;
+    for (const PortRow& port : core_.view.ports.subspan(p, row.port_count)) {
+        if (port.output != nullptr && port.output->was_published_at(end) && port.hash_published != nullptr) {
+            trace_hash_(static_cast<std::uint64_t>(p));
+            port.hash_published(*port.output, trace_hash_);
+        }
+        ++p;
+    }
+}
+
 void DataFlow::deliver_outputs(const ComponentRow& owner, ModeMask held, Instant end) noexcept {
     for (const std::size_t i :
          core_.view.outgoing_order.subspan(owner.first_outgoing, owner.outgoing_count)) {
         const ConnectionRow& connection = core_.view.connections[i];
         if (connection.operations.deliver != nullptr && connection.source->was_published_at(end) &&
             is_held(connection, held)) {
-            connection.operations.deliver(*connection.source, *connection.sink, connection.crossing);
+            connection.operations.deliver(connection);
         }
     }
     report_losses(owner.first_port, owner.port_count);
@@ -135,7 +138,7 @@ void DataFlow::note_discarded(const PortRow& port) noexcept {
         const ConnectionRow& connection = core_.view.connections[i];
         if (connection.source == port.output && connection.operations.note_discarded != nullptr &&
             is_held(connection, held)) {
-            connection.operations.note_discarded(*connection.source, *connection.sink);
+            connection.operations.note_discarded(connection);
         }
     }
 }
@@ -151,8 +154,7 @@ void DataFlow::restart_inputs(WindowState& state, ModeMask modes) noexcept {
             const ConnectionRow& connection = core_.view.connections[i];
             const bool was_held = is_held(connection, before);
             if (was_held != is_held(connection, modes) && was_held != begins) {
-                connection.operations.restart(*connection.source, *connection.sink, connection.crossing,
-                                              core_.frame_start);
+                connection.operations.restart(connection, core_.frame_start);
             }
         }
     }

@@ -51,7 +51,5 @@ def _make_images(record: dict[str, Any]) -> Table:
 
 
 def _describe_aim(image: dict[str, Any]) -> str:
-    aims = [f"{what} {image[key]}" for what, key in (("text", "text_aim"), ("RAM", "ram_aim")) if image[key] is not None]
-    if not aims:
-        return ""
-    return f"{', '.join(aims)}: {'missed' if image['missed'] else 'met'}"
+    aims = (("text", image["text"], image["text_aim"]), ("RAM", image["ram"], image["ram_aim"]))
+    return ", ".join(f"{what} {aim} {'missed' if value > aim else 'met'}" for what, value, aim in aims if aim is not None)

@@ -51,7 +51,7 @@ MAMORI_CONSTINIT mamori::FlightRecorder recorder;
 #endif
 
 #if defined(SIZE_E2E)
-using Profile = mamori::safety::E2eProfile04<1U>;  // one table of its checksum, not eight
+using Profile = mamori::safety::E2eProfile04<0U>;  // the smallest table of its checksum
 constexpr std::size_t kFrameLength = Profile::kHeaderSize + sizeof(std::int32_t);
 constexpr mamori::safety::SentIdChannel kChannel{0x0A0B0C0DU, kFrameLength, kFrameLength};
 constexpr mamori::safety::E2eInLimits<mamori::safety::HardenedSequence> kLimits{

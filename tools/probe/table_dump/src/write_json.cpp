@@ -104,8 +104,8 @@ std::string make_connection(const SystemView& view, std::size_t index) {
            make_end(view, row.sink_component, row.sink == nullptr ? nullptr : row.sink->get_name()) +
            ", \"way\": \"" + get_way(view, row) + "\", \"fresh_within_ns\": " +
            (row.age_max == kNoAgeLimit ? "null" : std::to_string(row.age_max.ns)) +
-           ", \"only_in\": " + make_only_in(view, index) + ", \"modes\": " + make_modes_of(view, row.modes) +
-           "}";
+           ", \"only_in\": " + make_only_in(view, index) +
+           ", \"modes\": " + make_modes_of(view, row.get_modes()) + "}";
 }
 
 std::string make_reaction(const SystemView& view, const Names& names, std::size_t index) {

@@ -66,12 +66,12 @@ class LifecycleRegion {
     /// Atomic, so that other threads may read it while actions run.
     std::atomic<LifecycleState> state_{LifecycleState::kCreated};
     std::uint32_t turn_{kNotActive};  ///< set of the above flags; 0: the next invocation is on_execute alone
-    bool is_changing_{false};         ///< on_initialize or on_finalize is running
     ExecutionContext* context_{nullptr};  ///< context that it participates in; nullptr: none
     EventServer* machine_{nullptr};       ///< nullptr: not a state machine
     ModeSwitch* mode_switch_{nullptr};    ///< nullptr: no modes
+    std::size_t position_{0U};            ///< position in the context
     ActionFailure last_failure_{};
-    std::size_t position_{0U};  ///< position in the context
+    bool is_changing_{false};  ///< on_initialize or on_finalize is running
 };
 
 /// Base of every component. Derive, add ports and override the required actions; each default returns kOk.
@@ -177,6 +177,13 @@ class Component : public LifecycleRegion, public MemberOwner {
     /// Name given at construction; static storage, never nullptr.
     const char* get_name() const noexcept { return name_; }
 
+    static constexpr std::uint64_t kFirstReadPass = 2U;
+    /// For inputs: kFirstReadPass plus the number of first passes that the component has completed in Active
+    /// or Error. The reference is valid as long as the component.
+    constexpr const std::uint64_t& get_read_pass() const noexcept { return read_pass_; }
+    /// For the executive, after such a pass: no input of the component is new now.
+    void end_read_pass() noexcept { ++read_pass_; }
+
   protected:
     /// @param[in] name instance name; static storage, not nullptr.
     constexpr explicit Component(const char* name) noexcept : name_(name) {}
@@ -186,6 +193,7 @@ class Component : public LifecycleRegion, public MemberOwner {
     Status end_life() noexcept;
 
     const char* name_;
+    std::uint64_t read_pass_{kFirstReadPass};
 };
 
 }  // namespace mamori

@@ -141,25 +141,31 @@ class Crossing final : public CrossingBase {
     static constexpr std::uint32_t kNoRun = 0xFFFFFFFFU;
 };
 
+/// What a connection joins. Ports and crossing have the types passed to connect(); nothing checks them again.
+struct ConnectionEnds {
+    OutPortBase* source{nullptr};
+    InPortBase* sink{nullptr};
+    CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
+};
+
 /// Functions that the executive calls for a connection; one constant per pair of port types. nullptr: nothing
-/// to do. The crossing is that of the row; nullptr, and not used, where the connection has none. Ports and
-/// crossing have the types passed to connect(); nothing checks them again.
+/// to do. The crossing is not used where the connection has none.
 ///
 /// Calling context: deliver, hand_on and note_discarded on the core of the source, latch on the core of the
 ///                  sink.
 struct ConnectionOperations {
     /// After a publication of the source.
-    void (*deliver)(OutPortBase&, InPortBase&, CrossingBase*) noexcept {nullptr};
+    void (*deliver)(const ConnectionEnds&) noexcept {nullptr};
     /// At window start of the sink.
-    void (*latch)(OutPortBase&, InPortBase&, CrossingBase*, Instant opening) noexcept {nullptr};
+    void (*latch)(const ConnectionEnds&, Instant opening) noexcept {nullptr};
     /// Forwards the value after the cycle of the source, when the sink follows in the same window.
-    void (*hand_on)(OutPortBase&, InPortBase&, Instant opening) noexcept {nullptr};
+    void (*hand_on)(const ConnectionEnds&, Instant opening) noexcept {nullptr};
     /// When the connection ends or starts with the major frame at `boundary`, before the first latch in that
     /// frame: values published until then belong to another mode. With kBeforeAll, before the core of the
     /// sink starts: values published until then belong to another run.
-    void (*restart)(OutPortBase&, InPortBase&, CrossingBase*, Instant boundary) noexcept {nullptr};
+    void (*restart)(const ConnectionEnds&, Instant boundary) noexcept {nullptr};
     /// Before the staged values of the source are discarded: the sink counts those that it has not received.
-    void (*note_discarded)(const OutPortBase&, InPortBase&) noexcept {nullptr};
+    void (*note_discarded)(const ConnectionEnds&) noexcept {nullptr};
     /// Source and sink may run on two cores or in two partitions. If so, `deliver` is set.
     bool may_leave_core{false};
     bool is_latest{false};  ///< only the newest value is kept, so the order of writer and reader matters
@@ -173,21 +179,25 @@ namespace detail {
 /// A sink that keeps the latest value, on the core of the source.
 template <typename T, typename Sink>
 struct LatestConnection {
-    static void latch(OutPortBase& source, InPortBase& sink, CrossingBase*, Instant) noexcept {
-        static_cast<Sink&>(sink).take(static_cast<TypedOutPort<T>&>(source).get_published_sample());
+    static void latch(const ConnectionEnds& ends, Instant) noexcept {
+        static_cast<Sink*>(ends.sink)->take(
+            static_cast<TypedOutPort<T>*>(ends.source)->get_published_sample());
     }
-    static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
-        static_cast<Sink&>(sink).take(static_cast<TypedOutPort<T>&>(source).get_staged_sample(opening));
+    static void hand_on(const ConnectionEnds& ends, Instant opening) noexcept {
+        const auto& source = *static_cast<TypedOutPort<T>*>(ends.source);
+        static_cast<Sink*>(ends.sink)->take(source.get_staged_sample(opening));
     }
     /// On one core, the revision decides, because a value may be forwarded exactly at the boundary. A value
     /// that an earlier window of the same major frame has published belongs to the new mode.
-    static void restart(OutPortBase& source, InPortBase& sink, CrossingBase*, Instant boundary) noexcept {
+    static void restart(const ConnectionEnds& ends, Instant boundary) noexcept {
+        const OutPortBase& source = *ends.source;
         const std::uint64_t published = source.get_published_revision();
         const bool is_of_new_mode = published != 0U && source.get_published_at() > boundary;
-        static_cast<Sink&>(sink).restart(boundary, is_of_new_mode ? published - 1U : source.get_revision());
+        static_cast<Sink*>(ends.sink)->restart(boundary,
+                                               is_of_new_mode ? published - 1U : source.get_revision());
     }
-    static void note_discarded(const OutPortBase& source, InPortBase& sink) noexcept {
-        sink.note_discarded(source.get_staged_count(), source.get_revision());
+    static void note_discarded(const ConnectionEnds& ends) noexcept {
+        ends.sink->note_discarded(ends.source->get_staged_count(), ends.source->get_revision());
     }
     static constexpr ConnectionOperations kOperations{nullptr,         &latch, &hand_on, &restart,
                                                       &note_discarded, false,  true,     true};
@@ -196,76 +206,84 @@ struct LatestConnection {
 /// As LatestConnection, through a buffer.
 template <typename T, typename Sink>
 struct CrossingConnection {
-    static void deliver(OutPortBase& source, InPortBase&, CrossingBase* crossing) noexcept {
-        static_cast<Crossing<T>*>(crossing)->deliver(static_cast<TypedOutPort<T>&>(source));
+    static void deliver(const ConnectionEnds& ends) noexcept {
+        get_crossing(ends).deliver(*static_cast<TypedOutPort<T>*>(ends.source));
     }
-    static void latch(OutPortBase&, InPortBase& sink, CrossingBase* crossing, Instant opening) noexcept {
-        static_cast<Crossing<T>*>(crossing)->latch(static_cast<Sink&>(sink), opening);
+    static void latch(const ConnectionEnds& ends, Instant opening) noexcept {
+        get_crossing(ends).latch(*static_cast<Sink*>(ends.sink), opening);
     }
     /// This core must not read what another core may be publishing: latch() compares instants instead.
-    static void restart(OutPortBase&, InPortBase& sink, CrossingBase* crossing, Instant boundary) noexcept {
+    static void restart(const ConnectionEnds& ends, Instant boundary) noexcept {
+        Sink& sink = *static_cast<Sink*>(ends.sink);
         if (boundary == kBeforeAll) {
-            static_cast<Crossing<T>*>(crossing)->clear(static_cast<Sink&>(sink));
+            get_crossing(ends).clear(sink);
         } else {
-            static_cast<Sink&>(sink).restart(boundary, 0U);
+            sink.restart(boundary, 0U);
         }
     }
     static constexpr ConnectionOperations kOperations{&deliver, &latch, nullptr, &restart,
                                                       nullptr,  true,   true,    true};
+
+  private:
+    static Crossing<T>& get_crossing(const ConnectionEnds& ends) noexcept {
+        return *static_cast<Crossing<T>*>(ends.crossing);
+    }
 };
 
 /// A sink that queues every value; the writer of the queue may be on another core.
 /// @tparam Source OutPort or QueueOutPort.
 template <typename Source, typename Sink>
 struct QueueConnection {
-    static void deliver(OutPortBase& source, InPortBase& sink, CrossingBase*) noexcept {
-        push_all(source, sink, static_cast<Source&>(source).get_published_sample());
+    static void deliver(const ConnectionEnds& ends) noexcept {
+        push_all(ends, get_source(ends).get_published_sample());
     }
-    static void latch(OutPortBase&, InPortBase& sink, CrossingBase*, Instant opening) noexcept {
-        static_cast<Sink&>(sink).open(opening);
+    static void latch(const ConnectionEnds& ends, Instant opening) noexcept { get_sink(ends).open(opening); }
+    static void hand_on(const ConnectionEnds& ends, Instant opening) noexcept {
+        push_all(ends, get_source(ends).get_staged_sample(opening));
+        get_sink(ends).show_oldest();
     }
-    static void hand_on(OutPortBase& source, InPortBase& sink, Instant opening) noexcept {
-        push_all(source, sink, static_cast<Source&>(source).get_staged_sample(opening));
-        static_cast<Sink&>(sink).show_oldest();
-    }
-    static void restart(OutPortBase&, InPortBase& sink, CrossingBase*, Instant boundary) noexcept {
+    static void restart(const ConnectionEnds& ends, Instant boundary) noexcept {
         if (boundary == kBeforeAll) {
-            static_cast<Sink&>(sink).clear();
+            get_sink(ends).clear();
         } else {
-            static_cast<Sink&>(sink).restart(boundary, 0U);
+            get_sink(ends).restart(boundary, 0U);
         }
     }
-    static void note_discarded(const OutPortBase& source, InPortBase& sink) noexcept {
-        static_cast<Sink&>(sink).note_discarded(source.get_staged_count(), source.get_revision());
+    static void note_discarded(const ConnectionEnds& ends) noexcept {
+        get_sink(ends).note_discarded(ends.source->get_staged_count(), ends.source->get_revision());
     }
     static constexpr ConnectionOperations kOperations{
         &deliver, &latch, &hand_on, &restart, &note_discarded, Sink::kMayLeaveCore, false, true};
 
   private:
     using Sample = typename Source::Sample;
+    static Source& get_source(const ConnectionEnds& ends) noexcept {
+        return *static_cast<Source*>(ends.source);
+    }
+    static Sink& get_sink(const ConnectionEnds& ends) noexcept { return *static_cast<Sink*>(ends.sink); }
     /// @param[in] newest of the values of one cycle.
-    static void push_all(OutPortBase& source, InPortBase& sink, const Sample& newest) noexcept {
+    static void push_all(const ConnectionEnds& ends, const Sample& newest) noexcept {
         if constexpr (Source::kIsQueue) {
             if (newest.revision == 0U) {
                 return;  // nothing is staged
             }
-            const auto values = static_cast<Source&>(source).get_values();
+            const auto values = get_source(ends).get_values();
             std::uint64_t revision = newest.revision - values.size();
             for (const typename Source::Payload& value : values) {
                 ++revision;
-                push(source, sink, {value, revision, newest.published_at});
+                push(ends, {value, revision, newest.published_at});
             }
         } else {
-            push(source, sink, newest);
+            push(ends, newest);
         }
     }
-    static void push(OutPortBase& source, InPortBase& sink, const Sample& sample) noexcept {
-        Sink& queue = static_cast<Sink&>(sink);
+    static void push(const ConnectionEnds& ends, const Sample& sample) noexcept {
+        Sink& queue = get_sink(ends);
         const std::uint32_t overwritten_count = queue.get_overwritten_count();
         if (queue.push(sample) != Status::kOk) {
-            source.note_refused(sample.revision);
+            ends.source->note_refused(sample.revision);
         } else if (queue.get_overwritten_count() != overwritten_count) {
-            source.note_overwritten();
+            ends.source->note_overwritten();
         }
     }
 };

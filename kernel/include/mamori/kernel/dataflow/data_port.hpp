@@ -35,6 +35,12 @@ enum class PortStatus : std::uint32_t {
 /// Age limit of an input whose connection states any_age().
 inline constexpr Duration kNoAgeLimit{std::numeric_limits<std::int64_t>::max()};
 
+/// Ages of a fresh value of an input.
+struct AgeLimits {
+    Duration age_max{};   ///< maximum age, > 0; 0: not stated
+    Duration lead_max{};  ///< maximum time of a value after now, >= 0
+};
+
 /// An instant before every other one.
 inline constexpr Instant kBeforeAll{std::numeric_limits<std::int64_t>::min()};
 
@@ -184,10 +190,10 @@ class OutPortBase : public Member {
 class InPortBase : public Member {
   public:
     /// False until the first value arrives, and from a restart() until the next value.
-    bool has_value() const noexcept { return has_value_; }
+    bool has_value() const noexcept { return arrived_in_ != kNever; }
     /// True when the value arrived after the last cycle in which the owner was Active or in Error and
     /// completed its first pass within the budget. A value that the owner could not use remains new.
-    bool is_new() const noexcept { return is_new_; }
+    bool is_new() const noexcept { return arrived_in_ == *read_pass_; }
     /// Instant at which the value was published, or forwarded within the window; meaningless while
     /// has_value() is false.
     Instant get_published_at() const noexcept { return published_at_; }
@@ -198,14 +204,15 @@ class InPortBase : public Member {
     /// @return kBufferEmpty (no value); kBufferTimeout (older than the age limit of the connection, or later
     ///         than `now` by more than the tolerance); otherwise kOk.
     PortStatus calc_status(Instant now) const noexcept {
-        if (!has_value_) {
+        if (!has_value()) {
             return PortStatus::kBufferEmpty;
         }
         const Duration age = calc_age(now);
-        return age > age_max_ || age.ns < -lead_max_.ns ? PortStatus::kBufferTimeout : PortStatus::kOk;
+        const bool is_fresh = age <= limits_->age_max && age.ns >= -limits_->lead_max.ns;
+        return is_fresh ? PortStatus::kOk : PortStatus::kBufferTimeout;
     }
-    /// For the executive, after the cycle of the owner: the value is no longer new.
-    void mark_read() noexcept { is_new_ = false; }
+    /// For code that drives a port without an executive: the value is no longer new.
+    void mark_read() noexcept { arrived_in_ = has_value() ? kRead : kNever; }
     /// Instant of the last restart(); kBeforeAll before the first restart() and after a restart() without an
     /// instant.
     Instant get_restarted_at() const noexcept { return restarted_at_; }
@@ -249,12 +256,9 @@ class InPortBase : public Member {
                             (lost_count_ - get_undecided_lost_count());
         return counts;
     }
-    /// For the executive. @param[in] age_max age limit of the connection that feeds this input, > 0.
-    /// @param[in] lead_max tolerance for instants in the future, >= 0.
-    void set_age_limits(Duration age_max, Duration lead_max) noexcept {
-        age_max_ = age_max;
-        lead_max_ = lead_max;
-    }
+    /// For the executive. @param[in] limits of the connection that feeds this input; must outlive the input.
+    void set_age_limits(const AgeLimits& limits) noexcept { limits_ = &limits; }
+    void set_age_limits(const AgeLimits&&) = delete;
 
   protected:
     /// @return how many of `count` values up to `revision` are newer than `held`.
@@ -264,10 +268,15 @@ class InPortBase : public Member {
         return newer_count < count ? static_cast<std::uint32_t>(newer_count) : count;
     }
 
-    template <typename Owner>
-    constexpr InPortBase(Owner& owner, const char* name) noexcept
-        : Member(owner, MemberKind::kPort, name), has_value_(false), is_new_(false) {}
+    constexpr InPortBase(Component& owner, const char* name) noexcept
+        : Member(owner, MemberKind::kPort, name), read_pass_(&owner.get_read_pass()) {}
+    constexpr InPortBase(NoOwner owner, const char* name) noexcept : Member(owner, MemberKind::kPort, name) {}
     ~InPortBase() = default;
+
+    /// A new value is here.
+    void note_arrival() noexcept { arrived_in_ = *read_pass_; }
+    /// A value is here; whether it is new does not change.
+    void note_value() noexcept { arrived_in_ = has_value() ? arrived_in_ : kRead; }
 
     /// For connections: another connection, or none, feeds this input from `boundary` on. The input has no
     /// value until a value published later arrives.
@@ -278,23 +287,22 @@ class InPortBase : public Member {
         restarted_at_ = boundary;
         revision_ = revision;
         ++restart_count_;
-        has_value_ = false;
-        is_new_ = false;
+        arrived_in_ = kNever;
     }
 
     Instant published_at_{};
-    Duration age_max_{kNoAgeLimit};
-    Duration lead_max_{};
     Instant restarted_at_{kBeforeAll};
     std::uint64_t revision_{0U};  ///< revision of the value held here
     std::uint32_t restart_count_{0U};
     std::uint32_t missed_count_{0U};
     std::uint32_t received_count_{0U};
-    // Bits, so that one instruction sets both.
-    bool has_value_ : 1;
-    bool is_new_ : 1;
 
   private:
+    static constexpr AgeLimits kNoLimits{kNoAgeLimit, {}};
+    static constexpr std::uint64_t kNever = 0U;  ///< no value
+    static constexpr std::uint64_t kRead = 1U;   ///< before every pass: a value that is not new
+    static constexpr std::uint64_t kNoOwnersPass = Component::kFirstReadPass;
+
     /// Lost values that are newer than the value held here.
     std::uint32_t get_undecided_lost_count() const noexcept {
         return undecided_since_ == static_cast<std::uint32_t>(revision_) ? undecided_lost_count_ : 0U;
@@ -304,6 +312,11 @@ class InPortBase : public Member {
     std::uint32_t undecided_lost_count_{0U};
     std::uint32_t undecided_since_{0U};  ///< revision held here when they were lost
     std::uint32_t base_{0U};             ///< revisions that no counter contains
+    /// Pass of the owner in which the value arrived, so that the end of a pass makes all inputs of the owner
+    /// read without a step per input.
+    std::uint64_t arrived_in_{kNever};
+    const std::uint64_t* read_pass_{&kNoOwnersPass};  ///< current pass of the owner
+    const AgeLimits* limits_{&kNoLimits};
 };
 
 namespace detail {
@@ -440,8 +453,7 @@ class InPort final : public InPortBase {
             revision_ = sample.revision;
             published_at_ = sample.published_at;
             ++received_count_;
-            has_value_ = true;
-            is_new_ = true;
+            note_arrival();
         }
     }
 

@@ -160,10 +160,11 @@ class QueueInPort final : public InPortBase {
     /// For connections, on the owner's core before its cycle: the functions of InPortBase now refer to the
     /// oldest waiting value, if any.
     void show_oldest() noexcept {
-        is_new_ = has_waiting();
-        if (is_new_) {
+        if (has_waiting()) {
             published_at_ = buffer_.get_front().published_at;
-            has_value_ = true;
+            note_arrival();
+        } else {
+            mark_read();
         }
     }
 
@@ -205,7 +206,7 @@ class QueueInPort final : public InPortBase {
         }
         value_ = buffer_.get_front().value;
         published_at_ = buffer_.get_front().published_at;
-        has_value_ = true;
+        note_value();
         was_read_ = true;
         ++received_count_;
         buffer_.drop();

@@ -34,13 +34,8 @@ struct PortRow {
 };
 
 /// One connection from an output to an input. What it refers to must outlive the table.
-struct ConnectionRow {
-    OutPortBase* source{nullptr};
-    InPortBase* sink{nullptr};
-    CrossingBase* crossing{nullptr};  ///< storage of a connection that leaves its core or partition
+struct ConnectionRow : ConnectionEnds, AgeLimits {
     ConnectionOperations operations{};
-    Duration age_max{};   ///< maximum age of a fresh value, > 0; 0: not stated
-    Duration lead_max{};  ///< maximum time of a fresh value after now, >= 0
     /// Indices of the ends in the table; kNoIndex: the port belongs to no component of the table.
     std::size_t source_window{kNoIndex};
     std::size_t sink_window{kNoIndex};
@@ -49,7 +44,12 @@ struct ConnectionRow {
     /// Source and sink run in one window, the source first: the value is forwarded within the window.
     bool is_forward_in_window{false};
     bool is_delayed_by_a_frame{false};  ///< as its options state
-    ModeMask modes{kEveryMode};         ///< in which it is active: as stated, and both components run
+    /// In which it is not active: they are not stated, or one of the components does not run. This is what
+    /// the executive compares for each value.
+    ModeMask idle_modes{0U};
+
+    /// In which it is active.
+    constexpr ModeMask get_modes() const noexcept { return ~idle_modes; }
 };
 
 }  // namespace mamori

@@ -54,16 +54,17 @@ constexpr void resolve_held_connections(Table& table) noexcept {
                 only_in |= to_mask(row.mode);
             }
         }
-        connection.modes = only_in == 0U ? kEveryMode : only_in;
+        ModeMask modes = only_in == 0U ? kEveryMode : only_in;
         if (connection.source_component != kNoIndex && connection.sink_component != kNoIndex) {
-            connection.modes &= table.component_rows[connection.source_component].modes &
-                                table.component_rows[connection.sink_component].modes;
+            modes &= table.component_rows[connection.source_component].modes &
+                     table.component_rows[connection.sink_component].modes;
         }
+        connection.idle_modes = ~modes;
     }
 }
 
-/// Precondition: the connections of the table are resolved. In a table without modes, all masks remain
-/// kEveryMode.
+/// Precondition: the connections of the table are resolved. In a table without modes, nothing is idle in
+/// a mode.
 template <typename Table>
 constexpr void resolve_modes(Table& table) noexcept {
     resolve_names(table);

@@ -47,6 +47,7 @@ struct WindowRow {
     std::size_t events_per_cycle{1U};   ///< maximum per state machine for kind kEventDriven, >= 1
     bool has_second_pass{true};         ///< one of its components overrides on_state_update
     bool has_outputs{true};             ///< one of its components has an output
+    bool has_hash{true};                ///< its outputs are in the trace hash
     bool has_deliveries{true};          ///< one of its outputs feeds a queue or a crossing
     bool has_hand_on{false};            ///< one of its connections is forward in the window
     bool has_rate{false};               ///< `rate_hz` is declared

@@ -40,14 +40,14 @@ constexpr Word reflect(Word value) noexcept {
     return static_cast<Word>(result);
 }
 
-/// Remainder of one byte value in an empty register.
+/// Remainder of a value of 8 bits, or of the number of bits given, in an empty register.
 template <typename Word>
-constexpr Word calc_crc_entry(const CrcParameters<Word>& crc, std::uint8_t value) noexcept {
+constexpr Word calc_crc_entry(const CrcParameters<Word>& crc, std::uint8_t value, int bits = 8) noexcept {
     constexpr int kTop = std::numeric_limits<Word>::digits - 1;
-    Word rest =
-        static_cast<Word>(crc.is_reflected ? Word{value} : static_cast<Word>(Word{value} << (kTop - 7)));
+    Word rest = static_cast<Word>(crc.is_reflected ? Word{value}
+                                                   : static_cast<Word>(Word{value} << (kTop + 1 - bits)));
     const Word turned = reflect(crc.polynomial);
-    for (int bit = 0; bit < 8; ++bit) {
+    for (int bit = 0; bit < bits; ++bit) {
         if (crc.is_reflected) {
             const Word feedback = (rest & 1U) != 0U ? turned : Word{0U};
             rest = static_cast<Word>((rest >> 1U) ^ feedback);
@@ -83,20 +83,41 @@ constexpr CrcTables<Word, kSlices> make_crc_tables(const CrcParameters<Word>& cr
     return tables;
 }
 
+/// The remainder of each value of four bits.
+template <typename Word>
+constexpr std::array<Word, 16U> make_half_byte_table(const CrcParameters<Word>& crc) noexcept {
+    std::array<Word, 16U> table{};
+    for (std::size_t value = 0U; value < 16U; ++value) {
+        table[value] = calc_crc_entry(crc, static_cast<std::uint8_t>(value), 4);
+    }
+    return table;
+}
+
+/// What kSlices tables, or the table of half bytes for kSlices = 0, are made of.
 template <const auto& kCrc, std::size_t kSlices>
-inline constexpr auto kCrcTables = make_crc_tables<decltype(kCrc.polynomial), kSlices>(kCrc);
+constexpr auto make_constants() noexcept {
+    using Word = std::remove_const_t<decltype(kCrc.polynomial)>;
+    if constexpr (kSlices == 0U) {
+        return make_half_byte_table<Word>(kCrc);
+    } else {
+        return make_crc_tables<Word, kSlices>(kCrc);
+    }
+}
+
+template <const auto& kCrc, std::size_t kSlices>
+inline constexpr auto kCrcTables = make_constants<kCrc, kSlices>();
 
 }  // namespace detail
 
 /// Checksum of the bytes that were added.
 /// @tparam kCrc    CrcParameters of static storage duration.
-/// @tparam kSlices bytes that one step takes, 1 .. 16. Each costs a table of 256 words; 1 is the smallest, 8
-/// the fastest.
+/// @tparam kSlices bytes that one step takes, 0 .. 16. Each costs a table of 256 words; 8 is the fastest.
+/// With 0, a step takes half a byte, and the table has 16 words.
 ///
 /// Thread safety: none. Time: O(1) per byte. Memory: one word, and the tables, which are constants.
 template <const auto& kCrc, std::size_t kSlices = 8U>
 class Crc final {
-    static_assert(kSlices >= 1U && kSlices <= 16U, "number of tables is out of range");
+    static_assert(kSlices <= 16U, "number of tables is out of range");
 
   public:
     using Word = std::remove_const_t<decltype(kCrc.polynomial)>;
@@ -107,17 +128,25 @@ class Crc final {
     explicit constexpr Crc(Word value) noexcept : register_(static_cast<Word>(value ^ kCrc.final_xor)) {}
 
     constexpr void add(std::byte byte) noexcept {
-        const auto lead = static_cast<Word>(register_ ^ load(&byte, std::make_index_sequence<1U>{}));
-        register_ = static_cast<Word>(shift<1U>(register_) ^ kTables[0][get_index<0U>(lead, &byte)]);
+        if constexpr (kSlices == 0U) {
+            add_half(std::to_integer<unsigned>(byte) >> (kCrc.is_reflected ? 0U : 4U));
+            add_half(std::to_integer<unsigned>(byte) >> (kCrc.is_reflected ? 4U : 0U));
+        } else {
+            add_whole(byte);
+        }
     }
     /// @param[in] bytes any number.
     constexpr void add(Span<const std::byte> bytes) noexcept {
         const std::byte* const data = bytes.data();
-        const std::size_t blocks = bytes.size() / kSlices;
-        for (std::size_t block = 0U; block < blocks; ++block) {
-            register_ = step(register_, data + block * kSlices, std::make_index_sequence<kSlices>{});
+        std::size_t done = 0U;
+        if constexpr (kSlices != 0U) {
+            const std::size_t blocks = bytes.size() / kSlices;
+            for (std::size_t block = 0U; block < blocks; ++block) {
+                register_ = step(register_, data + block * kSlices, std::make_index_sequence<kSlices>{});
+            }
+            done = blocks * kSlices;
         }
-        for (std::size_t i = blocks * kSlices; i < bytes.size(); ++i) {
+        for (std::size_t i = done; i < bytes.size(); ++i) {
             add(data[i]);
         }
     }
@@ -130,6 +159,21 @@ class Crc final {
     constexpr Word get_value() const noexcept { return static_cast<Word>(register_ ^ kCrc.final_xor); }
 
   private:
+    /// @param[in] bits four, and any bits above them.
+    constexpr void add_half(unsigned bits) noexcept {
+        constexpr unsigned kTop = std::numeric_limits<Word>::digits - 4U;
+        if constexpr (kCrc.is_reflected) {
+            register_ = static_cast<Word>((register_ >> 4U) ^ kTables[(register_ ^ bits) & 0xFU]);
+        } else {
+            const auto lead = static_cast<unsigned>(register_ >> kTop);
+            register_ = static_cast<Word>(static_cast<Word>(register_ << 4U) ^ kTables[(lead ^ bits) & 0xFU]);
+        }
+    }
+    constexpr void add_whole(std::byte byte) noexcept {
+        const auto lead = static_cast<Word>(register_ ^ load(&byte, std::make_index_sequence<1U>{}));
+        register_ = static_cast<Word>(shift<1U>(register_) ^ kTables[0][get_index<0U>(lead, &byte)]);
+    }
+
     static constexpr const auto& kTables = detail::kCrcTables<kCrc, kSlices>;
     static constexpr std::size_t kBytes = sizeof(Word);
     /// Where the byte `kPlace` of the register lies in it, the one that meets the next byte first.

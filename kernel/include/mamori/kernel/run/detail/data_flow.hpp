@@ -42,7 +42,7 @@ class DataFlow final {
     /// calls it, also one whose work was aborted.
     static void forward_outputs(const SystemView& view, std::size_t component, Instant release,
                                 ModeMask held) noexcept;
-    /// Marks the inputs of the first `finished_count` components as read, if these are Active or in Error.
+    /// The first `finished_count` components have read their inputs, if they are Active or in Error.
     void mark_inputs_read(const WindowRow& row, const ExecutionContext& context,
                           std::size_t finished_count) noexcept;
     /// Publishes the outputs of the window with its planned end, and adds them to the trace hash if the table
@@ -62,8 +62,10 @@ class DataFlow final {
 
   private:
     static bool is_held(const ConnectionRow& connection, ModeMask modes) noexcept {
-        return (connection.modes & modes) == modes;
+        return (connection.idle_modes & modes) == 0U;
     }
+    /// Adds what the window has published with `end` to the trace hash.
+    void hash_outputs(const WindowRow& row, Instant end) noexcept;
     /// Gives queues and crossings what the outputs of the component have published with `end`.
     void deliver_outputs(const ComponentRow& owner, ModeMask held, Instant end) noexcept;
     void discard_ports(std::size_t first, std::size_t count) noexcept;

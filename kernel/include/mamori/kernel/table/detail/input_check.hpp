@@ -30,7 +30,8 @@ constexpr bool has_two_writers(const SystemView& view, const PortRow& input) noe
         const ConnectionRow& later = view.connections[i];
         for (std::size_t j = 0U; j < i && later.sink == input.input; ++j) {
             const ConnectionRow& earlier = view.connections[j];
-            const bool may_alternate = (earlier.modes & later.modes) == 0U && later.operations.is_latest;
+            const bool may_alternate =
+                (earlier.get_modes() & later.get_modes()) == 0U && later.operations.is_latest;
             if (earlier.sink == input.input && !may_alternate) {
                 return true;
             }
@@ -44,7 +45,7 @@ constexpr void check_feeding(const SystemView& view, std::size_t port, FindingLi
     const PortRow& row = view.ports[port];
     ModeMask fed = 0U;
     for (const ConnectionRow& connection : view.connections) {
-        fed |= connection.sink == row.input ? connection.modes : 0U;
+        fed |= connection.sink == row.input ? connection.get_modes() : 0U;
     }
     for (std::size_t m = 0U; m < view.modes.modes.size(); ++m) {
         if ((view.component_rows[row.component].modes & ~fed & to_mask(m)) != 0U) {
