@@ -8,6 +8,7 @@
 
 #include "mamori/kernel/base/constant_init.hpp"
 #include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/fake_host.hpp"
@@ -148,6 +149,7 @@ TEST(CheckedTableTest, TwoComponentsWithOneNameAreRejected) {
 TEST(CheckedTableTest, PortThatIsNotListedIsRejected) {
     verifies("SWR-KRN-070", Technique::kFaultInjection, Polarity::kViolation);
     expect_refused<kSecretive>();
+    EXPECT_EQ(executive<kSecretive>.get_failed_component(), 0U);
     expect_refused<kSecretiveWithParameter>();
 }
 
@@ -199,6 +201,39 @@ TEST(CheckedTableTest, ForwardConnectionAndSecondPassAreServed) {
     EXPECT_EQ(sut.run_window(0U, host), WindowOutcome::kCompleted);
     EXPECT_EQ(sink.last, source.out.get_published());
     EXPECT_EQ(sink.updates, updates + 1);
+    EXPECT_EQ(sut.stop(), Status::kOk);
+    EXPECT_EQ(sut.finalize(), Status::kOk);
+}
+
+TEST(CheckedTableTest, ObserverOfATableWithoutForwardConnectionReceivesItsRecords) {
+    verifies("SWR-KRN-071", Technique::kRequirementsBased);
+    SpyObserver observer;
+    ExecutiveFor sut{kChecked<kPlain>};
+    FakeHost host;
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    sut.set_observer(&observer);
+    EXPECT_EQ(sut.run_window(0U, host), WindowOutcome::kCompleted);
+    EXPECT_EQ(observer.take_seen(2U), (std::vector<std::uint32_t>{ExecutionRecord::kWithin, 0U}));
+    EXPECT_EQ(sut.stop(), Status::kOk);
+    EXPECT_EQ(sut.finalize(), Status::kOk);
+}
+
+TEST(CheckedTableTest, IntrospectionOfATableWithoutForwardConnectionShowsTheTimes) {
+    verifies("SWR-KRN-071", Technique::kRequirementsBased);
+    SpyObserver observer;
+    IntrospectionFor introspection{kPlain};
+    ExecutiveFor sut{kChecked<kPlain>};
+    FakeHost host;
+    host.durations[{0U, FakeHost::Pass::kExecute}] = 30_us;
+    sut.set_observer(&observer);
+    sut.set_introspection(&introspection);
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    EXPECT_EQ(sut.run_window(0U, host), WindowOutcome::kCompleted);
+    ComponentSnapshot shown{};
+    ASSERT_EQ(introspection.read_component(0U, shown), Status::kOk);
+    EXPECT_EQ(shown.worst_used, 30_us);
     EXPECT_EQ(sut.stop(), Status::kOk);
     EXPECT_EQ(sut.finalize(), Status::kOk);
 }

@@ -145,6 +145,28 @@ TEST_F(IntrospectionTest, AWindowShowsItsOverruns) {
     EXPECT_EQ(read_component(1U).cycles, 0U) << "it did not come through";
 }
 
+TEST_F(IntrospectionTest, AWindowShowsTheComponentThatHangs) {
+    verifies("SWR-INS-001", Technique::kFaultInjection);
+    attach_and_start();
+    host_.hangs[{1U, FakeHost::Pass::kExecute}] = true;
+    host_.is_work_out = true;
+    EXPECT_EQ(run_first(0), WindowOutcome::kOverrun);
+
+    EXPECT_EQ(read_window(0U).hanging_component, 1U);
+    EXPECT_EQ(read_window(1U).hanging_component, kNoIndex);
+}
+
+TEST_F(IntrospectionTest, AnOutputShowsThatAFullQueueHasRejectedItsValue) {
+    verifies("SWR-INS-001", Technique::kBoundaryValues);
+    counter_.out.write(1);
+    ASSERT_TRUE(counter_.out.publish(Instant{}));
+    counter_.out.note_refused(counter_.out.get_revision());
+
+    executive_.set_introspection(&sut_);
+
+    EXPECT_EQ(read_port(0U).status, PortStatus::kBufferFull);
+}
+
 TEST_F(IntrospectionTest, AStoppedWindowShowsThatItIsStoppedAndCountsNoCycle) {
     verifies("SWR-INS-001", Technique::kStateTransition);
     attach_and_start();

@@ -95,6 +95,10 @@ void run_trouble(const Transition& transition, std::size_t part, bool is_enterin
     ASSERT_EQ(robot.observers[core].failures.size(), 1U);
     EXPECT_EQ(robot.observers[core].failures[0].component, part);
     EXPECT_TRUE(robot.observers[1U - core].failures.empty());
+    if (trouble != Trouble::kRefusal) {
+        ASSERT_FALSE(robot.observers[core].overruns.empty());
+        EXPECT_EQ(robot.observers[core].overruns.front(), part);
+    }
     const bool hangs = trouble == Trouble::kHang;
     EXPECT_EQ(robot.hosts[core].hanging.size(), hangs ? 1U : 0U);
     expect_safe_end(robot, expected, hangs ? get_parts(robot)[part] : nullptr);
