@@ -2,10 +2,14 @@
 /// @file
 /// Writes into a GoogleTest result which requirement the running test verifies, and how.
 /// Technique and polarity are enumerators, so a misspelt one does not compile. One requirement per test.
+///
+/// @satisfies SWR-VER-032      Design: docs/design/test_strength.md#requirement-of-a-test
 #ifndef MAMORI_VERIFICATION_VERIFIES_HPP
 #define MAMORI_VERIFICATION_VERIFIES_HPP
 
 #include <gtest/gtest.h>
+
+#include <cstring>
 
 namespace mamori::verification {
 
@@ -51,9 +55,26 @@ constexpr const char* get_name(Polarity polarity) noexcept {
     return polarity == Polarity::kNominal ? "nominal" : "violation";
 }
 
-/// Call first in a test. @param[in] requirement id of one requirement, for example "SWR-KRN-001".
+/// The requirement that the running test has named; nullptr: none yet.
+inline const char* find_requirement() {
+    const ::testing::TestResult& result = *::testing::UnitTest::GetInstance()->current_test_info()->result();
+    for (int i = 0; i < result.test_property_count(); ++i) {
+        if (std::strcmp(result.GetTestProperty(i).key(), "requirement") == 0) {
+            return result.GetTestProperty(i).value();
+        }
+    }
+    return nullptr;
+}
+
+/// Call first in a test, once: a second call fails the test and records nothing.
+/// @param[in] requirement id of one requirement, for example "SWR-KRN-001".
 inline void verifies(const char* requirement, Technique technique = Technique::kRequirementsBased,
                      Polarity polarity = Polarity::kNominal) {
+    if (const char* const first = find_requirement(); first != nullptr) {
+        ADD_FAILURE() << "the test names " << requirement << ", but it has named " << first
+                      << ": a result holds one requirement, so split the test";
+        return;
+    }
     ::testing::Test::RecordProperty("requirement", requirement);
     ::testing::Test::RecordProperty("technique", get_name(technique));
     ::testing::Test::RecordProperty("polarity", get_name(polarity));
