@@ -20,7 +20,7 @@ RUNNING = VALUES["self_test"].index("Running")
 
 @dataclass(frozen=True, order=True)
 class Past:
-    """What an onlooker remembers: both button levels of the last cycle, and whether a self test was seen running since the
+    """What an external observer remembers: both button levels of the last cycle, and whether a self test was seen running since the
     present state was entered. The buttons before power-up are unknown, so they are treated as held."""
 
     start: bool = True

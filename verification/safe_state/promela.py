@@ -39,7 +39,7 @@ byte to = {first};          /* situation after the step */
 hidden byte sees = 0;       /* inputs that the formulas speak about: 1 standstill, 2 reset, 4 demand of SS1 */
 byte age = 0;               /* cycles since the state was entered, while a bound counts */
 
-/* What an onlooker sees between two cycles. */
+/* What an external observer sees between two cycles. */
 byte situation = {first};
 byte state = {first_state};
 bool torque = {first_torque};

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The properties that the machine is proved to have: each with its requirement, a sentence, and its form for the provers.
 
-Words of the forms for z3 (smt.py): `s` is the situation before the step and `t` the one after it, `(state s)` and so on what an
-onlooker sees of them; the inputs have their own names, `last_start`, `last_reset` and `has_run` are the past of `s`.
-Words of the forms for spin (promela.py): what an onlooker sees between two cycles.
+Names in the properties for z3 (smt.py): `s` is the situation before the step and `t` the one after it, `(state s)` and so on what an external
+observer sees of them; the inputs have their own names, `last_start`, `last_reset` and `has_run` are the past of `s`.
+Names in the properties for spin (promela.py): the values that an external observer sees between two cycles.
 
 @satisfies SWR-FSM-023      Design: docs/design/safe_state.md#properties
 """

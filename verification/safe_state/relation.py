@@ -36,7 +36,7 @@ Array = npt.NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Label:
-    """What an onlooker sees of a situation. `limit` names the bound that its answer to time depends on."""
+    """What an external observer sees of a situation. `limit` names the bound that its answer to time depends on."""
 
     state: str
     is_consistent: bool

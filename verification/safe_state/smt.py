@@ -37,7 +37,7 @@ class Query:
 
 
 def write_model(machine: Machine) -> str:
-    """The definitions: the step, what an onlooker sees, and one step with its past."""
+    """The definitions: the step, what an external observer sees, and one step with its past."""
     lines = ["; Generated from the compiled safe-state machine; see docs/design/safe_state.md#models.", "(set-logic ALL)"]
     lines += [f"(define-fun {name} () Int {number})" for number, name in enumerate(machine.states, start=1)]
     for name, prefix in PREFIXES.items():
@@ -47,7 +47,7 @@ def write_model(machine: Machine) -> str:
 
 
 def _write_views(machine: Machine) -> list[str]:
-    """What an onlooker sees, as lists of situations: z3 takes minutes to unfold comparisons of nested choices."""
+    """What an external observer sees, as lists of situations: z3 takes minutes to unfold comparisons of nested choices."""
 
     def view(name: str, is_seen: Callable[[Label], bool]) -> str:
         return f"(define-fun {name} ((s Int)) Bool {_is_one_of(is_seen)})"

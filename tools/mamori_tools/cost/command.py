@@ -181,8 +181,9 @@ def run(arguments: argparse.Namespace) -> int:
 COMMAND = Command(
     add_arguments, run, "exact instruction counts of each step of each component, compared with its budgets",
     "Counts the instructions of each step of each component exactly (callgrind), for each class of inputs that SYSTEM declares. Shows minimum, "
-    "median and maximum, and the cycle of the maximum. Converts counts to times by a ratio that it measures on this host. Compares these "
-    "times and the declared margin with the window budgets and the worst cases of components. Writes cost.json and cost.txt.",
+    "median and maximum, and the cycle of the maximum. Converts counts to times by a ratio that it measures on this host. Adds the "
+    "declared margin to these times, and compares the sums with the window budgets and the declared worst cases of components. "
+    "Writes cost.json and cost.txt.",
     {0: "counted", 1: "a finding (limit below the maximum and its margin, --check, program failed)",
      130: "stopped by Ctrl-C; no result is written"},
     examples=("cost examples/safe_arm --json",))  # fmt: skip

@@ -213,7 +213,7 @@ def _list_sensitivity(table: Table, chain: Chain, releases: list[Array]) -> tupl
     for place, component in enumerate(chain.components):
         is_last = place == len(chain.components) - 1
         if not is_last and chain.links[place].is_direct:
-            continue  # the last component of a window represents it
+            continue  # one row per window: that of its last component in the chain
         index = _window_of(table, component)
         window = table.windows[index]
         reader = None if is_last else int((releases[place + 1] - releases[place] - window.length_ns).min())

@@ -269,7 +269,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder for the results; default: build/host-release/evidence/timing/NAME")
     parser.add_argument("--load", action="store_true", help="keep all processors busy with stress-ng during the run")
     parser.add_argument("--requests", action="store_true",
-                        help="measure how far requests of introspection from outside shift the start of each window, if the program offers it")  # fmt: skip
+                        help="measure how far introspection requests from outside shift the start of each window; the program must support them")  # fmt: skip
     parser.add_argument("--check", type=Path, metavar="BASELINE",
                         help="end with status 1 when the ratio of a component to the reference work exceeds the limit in this file")  # fmt: skip
     parser.add_argument("--accept", type=Path, metavar="BASELINE",

@@ -37,7 +37,7 @@ cycles = 4
 
 
 class Bench:
-    """A folder with a system, and the result of counting it, which tests change."""
+    """A folder with a system, and simulated counts for it; the tests change both."""
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         self.folder = folder / "arm"

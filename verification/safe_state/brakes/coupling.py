@@ -26,7 +26,7 @@ Letter = tuple[int, ...]
 
 @dataclass(frozen=True, order=True)
 class Node:
-    """Situations of machine and sequence between two cycles, with what an onlooker remembers of the brakes."""
+    """Situations of machine and sequence between two cycles, with what an external observer remembers of the brakes."""
 
     machine: int
     brakes: int

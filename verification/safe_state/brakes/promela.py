@@ -38,7 +38,7 @@ hidden byte sees = 0;       /* 1 start pushed or held, 2 an SS1 ended by its bra
 byte age = 0;               /* cycles since the state was entered, while a bound counts */
 byte closing = 0;           /* cycles since the command to close */
 
-/* What an onlooker sees between two cycles. */
+/* What an external observer sees between two cycles. */
 byte situation = 0;
 byte state = SelfTest;      /* that apply() was given */
 bool torque = 0;

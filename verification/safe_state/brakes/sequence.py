@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The brake sequence as one cycle: confirm(), the step of any machine, apply(). Situations are merged that no calls distinguish; each keeps
-what an onlooker knows of the past.
+what an external observer knows of the past.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#brakes-in-the-models
 """
@@ -25,7 +25,7 @@ LOCKED_OUT = "LockedOut"
 
 @dataclass(frozen=True, order=True)
 class Memory:
-    """What an onlooker remembers of the cycles before: the state that apply() was given last, torque and closed brakes as it
+    """What an external observer remembers of the cycles before: the state that apply() was given last, torque and closed brakes as it
     answered, and whether the machine was measured standing in this visit of an SS1. Before the first cycle nothing was told."""
 
     last: str = "SelfTest"

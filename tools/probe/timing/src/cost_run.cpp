@@ -96,7 +96,7 @@ class CostSession final {
         facts_.counted = options.counted;
         facts_.is_paced = options.is_paced;
         facts_.frame = get_view(cores).frame;
-        // Under the tool each call takes milliseconds, and one call is sufficient.
+        // Under callgrind, each calibration call takes milliseconds; one call is sufficient.
         facts_.calibration_count = options.is_paced ? kReferenceCount : 1U;
     }
 
