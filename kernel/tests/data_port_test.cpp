@@ -202,6 +202,40 @@ TEST_F(DataPortTest, ALatchedValueIsNewOnceAndGrowsOld) {
     EXPECT_EQ(in_.calc_age(Instant{350}), 250_ns);
 }
 
+/// Has two inputs and an output, which feeds them.
+class Reader final : public Component {
+  public:
+    Reader() noexcept : Component("reader") {}
+    OutPort<int> out{*this, "out"};
+    InPort<int> first{*this, "first"};
+    InPort<int> second{*this, "second"};
+    void publish(int value) noexcept {
+        out.write(value);
+        static_cast<void>(out.publish(Instant{}));
+    }
+};
+
+TEST(DataPortOwnerTest, TheEndOfAPassMakesTheInputsOfItsOwnerReadAndNoOthers) {
+    verifies("SWR-KRN-016", Technique::kStateTransition);
+    Reader owner;
+    Reader other;
+    owner.publish(1);
+    owner.first.take(owner.out.get_published_sample());
+    owner.second.take(owner.out.get_published_sample());
+    other.first.take(owner.out.get_published_sample());
+    EXPECT_TRUE(owner.first.is_new() && owner.second.is_new() && other.first.is_new());
+
+    owner.end_read_pass();
+    EXPECT_FALSE(owner.first.is_new() || owner.second.is_new());
+    EXPECT_TRUE(owner.first.has_value() && owner.second.has_value());
+    EXPECT_TRUE(other.first.is_new());
+
+    owner.publish(2);
+    owner.second.take(owner.out.get_published_sample());
+    EXPECT_FALSE(owner.first.is_new());
+    EXPECT_TRUE(owner.second.is_new());
+}
+
 TEST_F(DataPortTest, AnEqualValueThatIsPublishedAgainIsNew) {
     verifies("SWR-KRN-016", Technique::kEquivalenceClasses);
     out_.write(5);

@@ -31,8 +31,7 @@ constexpr bool is_empty(const WindowRow& row) noexcept {
            are_zero(row.offset.ns, row.length.ns, row.period.ns, row.budget.ns, row.alternative_count,
                     row.core, row.first_component, row.component_count, row.first_port, row.port_count,
                     row.first_latch, row.latch_count, row.first_parameter, row.parameter_count) &&
-           row.events_per_cycle == 1U && row.has_outputs && row.has_hash && row.has_deliveries &&
-           !row.has_hand_on;
+           row.events_per_cycle == 1U && row.has_outputs && row.has_deliveries && !row.has_hand_on;
 }
 constexpr bool is_empty(const ComponentRow& row) noexcept {
     return row.window == kNoIndex && row.modes == kEveryMode &&

@@ -125,6 +125,45 @@ TEST_F(ExecutiveTest, TheHashIsThatOfEachPublishedPortAndWhatItPublished) {
     EXPECT_EQ(sut_.get_trace_hash(), expected.get_value());
 }
 
+TEST_F(ExecutiveTest, APortThatPublishesNothingIsNotHashedAgain) {
+    verifies("SWR-KRN-050", Technique::kBoundaryValues);
+    Counter counter;
+    const auto table =
+        system(frame(kFrame), trace_hash(), window("w", 0_ns, 400_ns, budget(300_ns), run(counter)));
+    ExecutiveFor executive{table};
+    ASSERT_EQ(executive.initialize(), Status::kOk);
+    ASSERT_EQ(executive.start(), Status::kOk);
+    run_frame(executive, host_, 0);
+    const std::uint64_t after_one = executive.get_trace_hash();
+
+    counter.is_writing = false;
+    run_frame(executive, host_, 1);
+
+    EXPECT_NE(after_one, TraceHash{}.get_value());
+    EXPECT_EQ(executive.get_trace_hash(), after_one);
+}
+
+TEST_F(ExecutiveTest, AnInputDoesNotReferToATableAfterItsExecutiveIsFinalized) {
+    verifies("SWR-KRN-016", Technique::kErrorGuessing);
+    Counter counter;
+    Sink sink;
+    const auto run_once = [&](const auto& table) {
+        ExecutiveFor executive{table};
+        ASSERT_EQ(executive.initialize(), Status::kOk);
+        ASSERT_EQ(executive.start(), Status::kOk);
+        run_frame(executive, host_, 0);
+        EXPECT_EQ(sink.in.calc_status(Instant{} + kFrame * 9), PortStatus::kBufferTimeout);
+        ASSERT_EQ(executive.stop(), Status::kOk);
+        ASSERT_EQ(executive.finalize(), Status::kOk);
+    };
+
+    run_once(system(frame(kFrame), window("w", 0_ns, 400_ns, budget(300_ns), run(counter, sink)),
+                    connect(counter.out, sink.in, fresh_within(kFrame))));
+
+    ASSERT_TRUE(sink.in.has_value());
+    EXPECT_EQ(sink.in.calc_status(Instant{} + kFrame * 9), PortStatus::kOk) << "no age limit";
+}
+
 TEST_F(ExecutiveTest, APortWithoutAFunctionForItIsNotHashed) {
     verifies("SWR-KRN-050", Technique::kErrorGuessing);
     Counter counter;
@@ -153,7 +192,6 @@ TEST_F(ExecutiveTest, WithoutARequestNoPublicationIsHashedAndNoHashIsGiven) {
     run_frame(executive, host_, 0);
 
     EXPECT_EQ(sink.get_values(), (Values{10}));
-    EXPECT_FALSE(table.windows[0].has_hash);
     for (const PortRow& port : table.ports) {
         EXPECT_EQ(port.hash_published, nullptr);
     }

@@ -97,9 +97,9 @@ def test_size_at_its_limits_and_a_known_miss_are_no_finding(limits: Limits) -> N
 
 @pytest.mark.verifies("SWR-VER-031")
 def test_table_states_a_missed_aim() -> None:
-    rows = [LIMITS, replace(LIMITS, name="more", text_aim=1, missed=True)]
+    rows = [LIMITS, replace(LIMITS, name="more", text_aim=1, ram_aim=50, missed=True)]
 
-    assert "aim: text 1 missed" in make_table(rows, {BASE: SIZE, "more": SIZE})
+    assert "aim: text 1 missed, RAM 50 met" in make_table(rows, {BASE: SIZE, "more": SIZE})
 
 
 @pytest.mark.verifies("SWR-VER-031")

@@ -11,6 +11,14 @@ void DataFlow::attach_inputs() noexcept {
     }
 }
 
+void DataFlow::detach_inputs() noexcept {
+    for (const ConnectionRow& connection : core_.view.connections) {
+        if (core_.is_own(connection.sink_window)) {
+            connection.sink->reset_age_limits();
+        }
+    }
+}
+
 void DataFlow::clear_ports() noexcept {
     for (const PortRow& port : core_.view.ports) {
         if (port.output != nullptr && core_.is_own(port.window)) {
@@ -62,7 +70,7 @@ void DataFlow::publish_outputs(const WindowRow& row, ModeMask held, Instant end)
             static_cast<void>(port.output->publish(end));
         }
     }
-    if (row.has_hash) {
+    if (core_.view.has_trace_hash) {
         hash_outputs(row, end);
     }
     if (!row.has_deliveries) {

@@ -243,6 +243,7 @@ Status SystemLife::stop() noexcept {
 Status SystemLife::finalize() noexcept {
     CoreState& core = get_core();
     is_initialized_ = false;
+    runner_.get_data_flow().detach_inputs();
     for (WindowState& state : core.windows) {
         // Not rejected where it is attached: nothing runs and no component is Active.
         static_cast<void>(state.context.detach());

@@ -29,5 +29,6 @@ template class E2eChecker<E2eProfile44<>>;
 template class E2eChecker<E2eProfile01<>, HardenedSequence>;
 template class E2eChecker<E2eProfile04<>, HardenedSequence>;
 template class E2eChecker<E2eProfile04<1U>, HardenedSequence>;
+template class E2eChecker<E2eProfile04<0U>, HardenedSequence>;
 
 }  // namespace mamori::safety

@@ -44,6 +44,7 @@ TEST(E2eProfile04Test, BytesAreThoseOfOthers) {
 
     EXPECT_EQ(show<E2eProfile04<>>(kShort, 0U, 16U), fill("00 10 00 00 0a 0b 0c 0d 86 2b 05 56", 16U));
     EXPECT_EQ(show<E2eProfile04<>>(kShort, 1U, 16U), fill("00 10 00 01 0a 0b 0c 0d a5 8e 68 07", 16U));
+    EXPECT_EQ(show<E2eProfile04<0U>>(kShort, 1U, 16U), fill("00 10 00 01 0a 0b 0c 0d a5 8e 68 07", 16U));
     EXPECT_EQ(show<E2eProfile04<>>(kOffset, 0U, 24U),
               fill(fill("", 8U) + " 00 18 00 00 0a 0b 0c 0d 69 d7 50 2e", 24U));
     EXPECT_EQ(show<E2eProfile04<>>(kOffset, 1U, 24U),

@@ -106,7 +106,6 @@ class ConnectionRig {
             table.windows[w].first_port = table.component_rows[w].first_port = w * kCount;
             table.windows[w].port_count = table.component_rows[w].port_count = kCount;
             table.windows[w].has_outputs = w == 0U;
-            table.windows[w].has_hash = false;
         }
         for (std::size_t i = 0U; i < kCount; ++i) {
             table.ports[i] = detail::make_port_row(writer, writer.outputs[i]);

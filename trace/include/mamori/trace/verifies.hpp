@@ -55,23 +55,26 @@ constexpr const char* get_name(Polarity polarity) noexcept {
     return polarity == Polarity::kNominal ? "nominal" : "violation";
 }
 
-/// The requirement that the running test has named; nullptr: none yet.
+namespace detail {
+/// The requirement that the running test has named; nullptr: none yet, or no test is running.
 inline const char* find_requirement() {
-    const ::testing::TestResult& result = *::testing::UnitTest::GetInstance()->current_test_info()->result();
-    for (int i = 0; i < result.test_property_count(); ++i) {
-        if (std::strcmp(result.GetTestProperty(i).key(), "requirement") == 0) {
-            return result.GetTestProperty(i).value();
+    const ::testing::TestInfo* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+    const int count = test == nullptr ? 0 : test->result()->test_property_count();
+    for (int i = 0; i < count; ++i) {
+        if (std::strcmp(test->result()->GetTestProperty(i).key(), "requirement") == 0) {
+            return test->result()->GetTestProperty(i).value();
         }
     }
     return nullptr;
 }
+}  // namespace detail
 
 /// Call first in a test, once: a second call fails the test and records nothing.
 /// @param[in] requirement id of one requirement, for example "SWR-KRN-001".
 inline void verifies(const char* requirement, Technique technique = Technique::kRequirementsBased,
                      Polarity polarity = Polarity::kNominal) {
-    if (const char* const first = find_requirement(); first != nullptr) {
-        ADD_FAILURE() << "the test names " << requirement << ", but it has named " << first
+    if (const char* const first = detail::find_requirement(); first != nullptr) {
+        ADD_FAILURE() << "verifies() is called twice, with " << first << " and " << requirement
                       << ": a result holds one requirement, so split the test";
         return;
     }

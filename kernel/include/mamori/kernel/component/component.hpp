@@ -177,9 +177,10 @@ class Component : public LifecycleRegion, public MemberOwner {
     /// Name given at construction; static storage, never nullptr.
     const char* get_name() const noexcept { return name_; }
 
+    /// Number of the first pass. Inputs use the numbers below it for no value and for a value that was read.
     static constexpr std::uint64_t kFirstReadPass = 2U;
-    /// For inputs: kFirstReadPass plus the number of first passes that the component has completed in Active
-    /// or Error. The reference is valid as long as the component.
+    /// For inputs: number of the current pass. A pass ends when the component, Active or in Error, has
+    /// completed a first pass in a window with connections. The reference is valid as long as the component.
     constexpr const std::uint64_t& get_read_pass() const noexcept { return read_pass_; }
     /// For the executive, after such a pass: no input of the component is new now.
     void end_read_pass() noexcept { ++read_pass_; }

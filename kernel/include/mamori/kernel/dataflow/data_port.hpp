@@ -256,9 +256,12 @@ class InPortBase : public Member {
                             (lost_count_ - get_undecided_lost_count());
         return counts;
     }
-    /// For the executive. @param[in] limits of the connection that feeds this input; must outlive the input.
+    /// For the executive. @param[in] limits of the connection that feeds this input; referred to until
+    /// reset_age_limits().
     void set_age_limits(const AgeLimits& limits) noexcept { limits_ = &limits; }
     void set_age_limits(const AgeLimits&&) = delete;
+    /// For the executive: no limits, as before the first set_age_limits().
+    void reset_age_limits() noexcept { limits_ = &kNoLimits; }
 
   protected:
     /// @return how many of `count` values up to `revision` are newer than `held`.
@@ -273,10 +276,10 @@ class InPortBase : public Member {
     constexpr InPortBase(NoOwner owner, const char* name) noexcept : Member(owner, MemberKind::kPort, name) {}
     ~InPortBase() = default;
 
-    /// A new value is here.
-    void note_arrival() noexcept { arrived_in_ = *read_pass_; }
-    /// A value is here; whether it is new does not change.
-    void note_value() noexcept { arrived_in_ = has_value() ? arrived_in_ : kRead; }
+    /// Records that a new value has arrived.
+    void record_arrival() noexcept { arrived_in_ = *read_pass_; }
+    /// Records that the port has a value; does not change is_new().
+    void record_value() noexcept { arrived_in_ = has_value() ? arrived_in_ : kRead; }
 
     /// For connections: another connection, or none, feeds this input from `boundary` on. The input has no
     /// value until a value published later arrives.
@@ -453,7 +456,7 @@ class InPort final : public InPortBase {
             revision_ = sample.revision;
             published_at_ = sample.published_at;
             ++received_count_;
-            note_arrival();
+            record_arrival();
         }
     }
 

@@ -162,7 +162,7 @@ class QueueInPort final : public InPortBase {
     void show_oldest() noexcept {
         if (has_waiting()) {
             published_at_ = buffer_.get_front().published_at;
-            note_arrival();
+            record_arrival();
         } else {
             mark_read();
         }
@@ -206,7 +206,7 @@ class QueueInPort final : public InPortBase {
         }
         value_ = buffer_.get_front().value;
         published_at_ = buffer_.get_front().published_at;
-        note_value();
+        record_value();
         was_read_ = true;
         ++received_count_;
         buffer_.drop();

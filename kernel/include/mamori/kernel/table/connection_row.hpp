@@ -44,8 +44,7 @@ struct ConnectionRow : ConnectionEnds, AgeLimits {
     /// Source and sink run in one window, the source first: the value is forwarded within the window.
     bool is_forward_in_window{false};
     bool is_delayed_by_a_frame{false};  ///< as its options state
-    /// In which it is not active: they are not stated, or one of the components does not run. This is what
-    /// the executive compares for each value.
+    /// Modes in which it is inactive: only_in() excludes them, or one of its components does not run.
     ModeMask idle_modes{0U};
 
     /// In which it is active.

@@ -63,8 +63,8 @@ constexpr void resolve_held_connections(Table& table) noexcept {
     }
 }
 
-/// Precondition: the connections of the table are resolved. In a table without modes, nothing is idle in
-/// a mode.
+/// Precondition: the connections of the table are resolved. In a table without modes, all connections
+/// are active in every mode.
 template <typename Table>
 constexpr void resolve_modes(Table& table) noexcept {
     resolve_names(table);

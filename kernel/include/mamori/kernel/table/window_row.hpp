@@ -26,7 +26,7 @@ struct WindowRow {
     Duration offset{};          ///< first window start, from the start of the major frame, >= 0
     Duration length{};          ///< from window start to window end, > 0; offset + length <= period
     Duration period{};          ///< between two window starts, > 0; divides the major frame
-    Duration budget{};          ///< from the window start, > 0; ends at the latest at the window end
+    Duration budget{};          ///< from the actual start, > 0; ends at the latest at the planned end
     double rate_hz{0.0};        ///< declared cycles per second [Hz]; valid only if `has_rate`
     /// Periods of slower rates, each an integer multiple of `period`; the first `alternative_count` are
     /// valid.
@@ -47,7 +47,6 @@ struct WindowRow {
     std::size_t events_per_cycle{1U};   ///< maximum per state machine for kind kEventDriven, >= 1
     bool has_second_pass{true};         ///< one of its components overrides on_state_update
     bool has_outputs{true};             ///< one of its components has an output
-    bool has_hash{true};                ///< its outputs are in the trace hash
     bool has_deliveries{true};          ///< one of its outputs feeds a queue or a crossing
     bool has_hand_on{false};            ///< one of its connections is forward in the window
     bool has_rate{false};               ///< `rate_hz` is declared

@@ -40,7 +40,7 @@ constexpr Word reflect(Word value) noexcept {
     return static_cast<Word>(result);
 }
 
-/// Remainder of a value of 8 bits, or of the number of bits given, in an empty register.
+/// Remainder of the lowest `bits` bits of `value` in an empty register.
 template <typename Word>
 constexpr Word calc_crc_entry(const CrcParameters<Word>& crc, std::uint8_t value, int bits = 8) noexcept {
     constexpr int kTop = std::numeric_limits<Word>::digits - 1;
@@ -117,7 +117,7 @@ inline constexpr auto kCrcTables = make_constants<kCrc, kSlices>();
 /// Thread safety: none. Time: O(1) per byte. Memory: one word, and the tables, which are constants.
 template <const auto& kCrc, std::size_t kSlices = 8U>
 class Crc final {
-    static_assert(kSlices <= 16U, "number of tables is out of range");
+    static_assert(kSlices <= 16U, "kSlices is 0 .. 16");
 
   public:
     using Word = std::remove_const_t<decltype(kCrc.polynomial)>;
@@ -129,10 +129,10 @@ class Crc final {
 
     constexpr void add(std::byte byte) noexcept {
         if constexpr (kSlices == 0U) {
-            add_half(std::to_integer<unsigned>(byte) >> (kCrc.is_reflected ? 0U : 4U));
-            add_half(std::to_integer<unsigned>(byte) >> (kCrc.is_reflected ? 4U : 0U));
+            add_half_byte(std::to_integer<unsigned>(byte) >> (kCrc.is_reflected ? 0U : 4U));
+            add_half_byte(std::to_integer<unsigned>(byte) >> (kCrc.is_reflected ? 4U : 0U));
         } else {
-            add_whole(byte);
+            add_byte(byte);
         }
     }
     /// @param[in] bytes any number.
@@ -160,7 +160,7 @@ class Crc final {
 
   private:
     /// @param[in] bits four, and any bits above them.
-    constexpr void add_half(unsigned bits) noexcept {
+    constexpr void add_half_byte(unsigned bits) noexcept {
         constexpr unsigned kTop = std::numeric_limits<Word>::digits - 4U;
         if constexpr (kCrc.is_reflected) {
             register_ = static_cast<Word>((register_ >> 4U) ^ kTables[(register_ ^ bits) & 0xFU]);
@@ -169,7 +169,7 @@ class Crc final {
             register_ = static_cast<Word>(static_cast<Word>(register_ << 4U) ^ kTables[(lead ^ bits) & 0xFU]);
         }
     }
-    constexpr void add_whole(std::byte byte) noexcept {
+    constexpr void add_byte(std::byte byte) noexcept {
         const auto lead = static_cast<Word>(register_ ^ load(&byte, std::make_index_sequence<1U>{}));
         register_ = static_cast<Word>(shift<1U>(register_) ^ kTables[0][get_index<0U>(lead, &byte)]);
     }

@@ -33,6 +33,8 @@ class DataFlow final {
 
     /// Gives the inputs of the core the age limits of their connections.
     void attach_inputs() noexcept;
+    /// The inputs of the core no longer refer to the table.
+    void detach_inputs() noexcept;
     /// Removes each value of an earlier run that a port of the core stores or that is pending for an input.
     void clear_ports() noexcept;
 
@@ -42,7 +44,8 @@ class DataFlow final {
     /// calls it, also one whose work was aborted.
     static void forward_outputs(const SystemView& view, std::size_t component, Instant release,
                                 ModeMask held) noexcept;
-    /// The first `finished_count` components have read their inputs, if they are Active or in Error.
+    /// Ends the read pass of the first `finished_count` components that are Active or in Error: their inputs
+    /// are no longer new.
     void mark_inputs_read(const WindowRow& row, const ExecutionContext& context,
                           std::size_t finished_count) noexcept;
     /// Publishes the outputs of the window with its planned end, and adds them to the trace hash if the table

@@ -52,7 +52,6 @@ struct TableBuilder {
         parameter_count += row.parameter_count;
         configuration.add(part.list.parameters);
         row.has_outputs = false;
-        row.has_hash = Types::kHasTraceHash;
         std::size_t next_port = 0U;
         for (std::size_t i = 0U; i < row.component_count; ++i) {
             ComponentRow& component = table.component_rows[component_count];
