@@ -55,7 +55,6 @@ constexpr const char* get_name(Polarity polarity) noexcept {
     return polarity == Polarity::kNominal ? "nominal" : "violation";
 }
 
-namespace detail {
 /// The requirement that the running test has named; nullptr: none yet, or no test is running.
 inline const char* find_requirement() {
     const ::testing::TestInfo* const test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -67,13 +66,12 @@ inline const char* find_requirement() {
     }
     return nullptr;
 }
-}  // namespace detail
 
 /// Call first in a test, once: a second call fails the test and records nothing.
 /// @param[in] requirement id of one requirement, for example "SWR-KRN-001".
 inline void verifies(const char* requirement, Technique technique = Technique::kRequirementsBased,
                      Polarity polarity = Polarity::kNominal) {
-    if (const char* const first = detail::find_requirement(); first != nullptr) {
+    if (const char* const first = find_requirement(); first != nullptr) {
         ADD_FAILURE() << "verifies() is called twice, with " << first << " and " << requirement
                       << ": a result holds one requirement, so split the test";
         return;
