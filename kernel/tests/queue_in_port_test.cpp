@@ -133,6 +133,20 @@ TEST(QueueInPortTest, AValueThatWaitsHasItsStatusAndAgeBeforeItIsRead) {
     EXPECT_EQ(sut.in.calc_status(Instant{26}), PortStatus::kBufferTimeout);
 }
 
+TEST(QueueInPortTest, AValueThatArrivesAfterTheStartOfTheWindowIsReadableAndNotNew) {
+    verifies("SWR-KRN-037", Technique::kBoundaryValues);
+    Queue<FullPolicy::kDoNothing, EmptyPolicy::kReadback> sut;
+    sut.in.open(Instant{10});
+    ASSERT_FALSE(sut.in.has_value());
+    sut.publish(1, Instant{10});  // as a writer on another core that is late
+
+    std::int64_t value = 0;
+    ASSERT_EQ(sut.in.read(value), Status::kOk);
+    EXPECT_EQ(value, 1);
+    EXPECT_TRUE(sut.in.has_value());
+    EXPECT_FALSE(sut.in.is_new());
+}
+
 TEST(QueueInPortTest, StatusAndAgeAreThoseOfTheOldestThatWaitsThenOfWhatWasRead) {
     verifies("SWR-KRN-037", Technique::kStateTransition);
     Queue<FullPolicy::kDoNothing, EmptyPolicy::kDoNothing> sut;

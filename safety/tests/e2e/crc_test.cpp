@@ -171,10 +171,13 @@ TEST(CrcTest, PiecesDoNotMatter) {
 template <const auto& kCrc>
 void expect_tables_of_the_compiler() {
     constexpr std::size_t kSlices = 8U;
-    using Word = decltype(kCrc.polynomial);
+    using Word = std::remove_const_t<decltype(kCrc.polynomial)>;
     detail::CrcTables<Word, kSlices> tables{};  // not const, which the compiler would evaluate again
     tables = detail::make_crc_tables<Word, kSlices>(kCrc);
     EXPECT_EQ(tables, (detail::kCrcTables<kCrc, kSlices>));
+    std::array<Word, 16U> half_bytes{};
+    half_bytes = detail::make_constants<kCrc, 0U>();
+    EXPECT_EQ(half_bytes, (detail::kCrcTables<kCrc, 0U>));
 }
 
 TEST(CrcTest, TablesOfTheCompilerAreThoseOfTheProgram) {
