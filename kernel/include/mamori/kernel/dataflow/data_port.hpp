@@ -211,7 +211,7 @@ class InPortBase : public Member {
         const bool is_fresh = age <= limits_->age_max && age.ns >= -limits_->lead_max.ns;
         return is_fresh ? PortStatus::kOk : PortStatus::kBufferTimeout;
     }
-    /// For code that drives a port without an executive: the value is no longer new.
+    /// For code that drives a port without an executive: is_new() becomes false.
     void mark_read() noexcept { arrived_in_ = has_value() ? kRead : kNever; }
     /// Instant of the last restart(); kBeforeAll before the first restart() and after a restart() without an
     /// instant.

@@ -44,8 +44,8 @@ class DataFlow final {
     /// calls it, also one whose work was aborted.
     static void forward_outputs(const SystemView& view, std::size_t component, Instant release,
                                 ModeMask held) noexcept;
-    /// Ends the read pass of the first `finished_count` components that are Active or in Error: their inputs
-    /// are no longer new.
+    /// Ends the read pass of the first `finished_count` components that are Active or in Error: is_new() of
+    /// their inputs becomes false.
     void mark_inputs_read(const WindowRow& row, const ExecutionContext& context,
                           std::size_t finished_count) noexcept;
     /// Publishes the outputs of the window with its planned end, and adds them to the trace hash if the table
