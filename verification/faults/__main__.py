@@ -17,14 +17,13 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_MISSING, EXIT_OK, EXIT_USAGE
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_MISSING, EXIT_OK, EXIT_UNFINISHED, EXIT_USAGE
 from mamori_tools.host.project import RELEASE, ROOT, Project
 from mamori_trace.base.errors import InputError, MissingError, WorkError
 from verification.faults.evaluation.evaluator import Result
 from verification.faults.run import CAMPAIGNS, DEFECTS, evaluate_file, run_campaign
 
-EXIT_INCONCLUSIVE = 4
-STATUS = {"passed": EXIT_OK, "failed": EXIT_FAILED, "inconclusive": EXIT_INCONCLUSIVE}
+STATUS = {"passed": EXIT_OK, "failed": EXIT_FAILED, "inconclusive": EXIT_UNFINISHED}
 
 
 def main(arguments: Sequence[str]) -> int:

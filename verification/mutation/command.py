@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import datetime
+import math
 import subprocess
 import sys
 import tempfile
@@ -18,7 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mamori_tools.host.arguments import Command, add_jobs, at_least_one
-from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK, EXIT_UNFINISHED
 from mamori_tools.host.project import ROOT, Project
 from mamori_trace.base.errors import InputError, WorkError
 from mamori_trace.base.nearest_names import nearest_names
@@ -33,6 +34,10 @@ from verification.mutation.trial import SURVIVED, Result
 PROGRESS_S = 10.0
 
 
+class OutOfTimeError(Exception):
+    """The time of the request is over."""
+
+
 @dataclass(frozen=True)
 class Request:
     """The request of the user."""
@@ -44,6 +49,7 @@ class Request:
     only_list: bool = False
     store: bool = False
     missing: bool = False  # only files without a valid row
+    minutes: int | None = None  # stop after this time; None: no limit
 
 
 def mutate(request: Request) -> int:
@@ -61,12 +67,16 @@ def mutate(request: Request) -> int:
         plan = make_plan(project.root, selection, read_list())
         if request.only_list:
             return show_plan(plan)
-        tell = Progress(plan)
+        tell = Progress(plan, request.minutes)
         report = run_layers(project.root, plan, request.jobs, Keeper(project.root, plan, tell) if request.store else tell)
         standing = read_standing(project.root)
     except WorkError as error:
         print(error, file=sys.stderr)
         return EXIT_FAILED
+    except OutOfTimeError:
+        print(f"stopped after {request.minutes} min; files without a valid stored result: {len(read_standing(project.root).open_mutants)}. "
+              "To continue, call ./mamori mutate --missing --store")  # fmt: skip
+        return EXIT_UNFINISHED
     write_json(project.evidence / "mutation" / "mutation.json", report, selection, standing)
     for line in (make_table(report.files), *standing.describe(), *describe(report)):
         print(line)
@@ -105,11 +115,12 @@ def _normalise(name: str) -> str:
 
 
 class Progress:
-    """Reports every survivor at once, and the other results occasionally."""
+    """Reports every survivor at once, and the other results occasionally. @raise OutOfTimeError after `minutes`."""
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: Plan, minutes: int | None) -> None:
         self._plan = plan
         self._told = time.monotonic()
+        self._end = math.inf if minutes is None else self._told + 60.0 * minutes
         self._survived = 0
 
     def __call__(self, result: Result, done: int, total: int) -> None:
@@ -119,6 +130,8 @@ class Progress:
         if done == total or time.monotonic() - self._told >= PROGRESS_S:
             self._told = time.monotonic()
             print(f"[{done}/{total}] mutants tried, {self._survived} survived", flush=True)
+        if done < total and time.monotonic() >= self._end:
+            raise OutOfTimeError
 
 
 class Keeper:
@@ -132,12 +145,12 @@ class Keeper:
         self._results: list[Result] = []
 
     def __call__(self, result: Result, done: int, total: int) -> None:
-        self._tell(result, done, total)
         file = result.mutant.file
         self._results.append(result)
         self._left[file] -= 1
         if self._left[file] == 0:
             store(self._root, file, self._plan.sources[file], count(self._results)[file])
+        self._tell(result, done, total)
 
 
 def show_plan(plan: Plan) -> int:
@@ -201,17 +214,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--store", action="store_true",
                         help="store the result of each file, as it is finished, in verification/mutation/baseline.toml, to be committed")  # fmt: skip
     parser.add_argument("--missing", action="store_true", help="only files without a stored result that is valid for their current content")
+    parser.add_argument("--minutes", type=at_least_one, metavar="M",
+                        help="stop after M minutes (at least 1), with status 4; with --store, the results of finished files are kept")  # fmt: skip
     add_jobs(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """@return exit status."""
-    return mutate(Request(tuple(arguments.files), arguments.sample, arguments.seed, arguments.jobs, arguments.list, arguments.store, arguments.missing))
+    return mutate(Request(tuple(arguments.files), arguments.sample, arguments.seed, arguments.jobs, arguments.list, arguments.store, arguments.missing,
+                          arguments.minutes))
 
 
 COMMAND = Command(
     add_arguments, run, "the share of small faults in kernel and safety that the tests find",
     "Changes one thing at a time in a copy of kernel or safety and runs the tests of the layer. A change that no test finds is shown as a diff. "
     "Ends with the share of changes that were found, for each layer. The acceptance limits are 90 % for kernel and 95 % for safety.",
-    {1: "a share is below its limit, or something failed"},
+    {1: "a share is below its limit, or something failed", 4: "stopped by --minutes before all changes were tried"},
     examples=("mutate --sample 20 --seed 7",))  # fmt: skip

@@ -13,7 +13,7 @@ import pytest
 from mamori_tools.host.project import ROOT, Project
 from mamori_trace.base.errors import InputError, WorkError
 from verification.mutation import baseline
-from verification.mutation.command import Keeper, choose_files, describe, read_standing, run_layers
+from verification.mutation.command import Keeper, OutOfTimeError, Progress, choose_files, describe, read_standing, run_layers
 from verification.mutation.equivalent import Row, read_list
 from verification.mutation.renamed import read_renamed
 from verification.mutation.run import Plan, Report, Selection, make_plan, make_table, write_json
@@ -60,6 +60,16 @@ def test_file_that_is_like_none_of_the_kernels_is_refused_in_one_short_line() ->
         choose_files(("nothing.cpp",), tuple(f"kernel/include/mamori/kernel/unit_{i}.hpp" for i in range(200)))
     assert str(refusal.value) == ("mutate: 'nothing.cpp' is no source or header of kernel or safety; "
                                   "./mamori mutate --list shows them with their mutants")  # fmt: skip
+
+
+@pytest.mark.verifies("SWR-VER-004", technique="boundary_values")
+def test_run_stops_at_its_time_limit_unless_it_is_complete(weak: Report) -> None:
+    result = weak.results[0]
+    Progress(weak.plan, 1)(result, 1, 2)
+    late = Progress(weak.plan, 0)
+    late(result, 2, 2)
+    with pytest.raises(OutOfTimeError):
+        late(result, 1, 2)
 
 
 # ---- Score -------------------------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 
 from mamori_tools.campaign.campaign_step import CampaignRequest
-from mamori_tools.host.arguments import Command, add_jobs
+from mamori_tools.host.arguments import Command, add_jobs, at_least_one
 from mamori_tools.host.full_run import FILE, record_full_run
 from mamori_tools.host.project import RELEASE, ROOT, SANITIZED, Project
 from mamori_tools.host.session import begin, finish, show_steps
@@ -21,13 +21,13 @@ ALL_HELP = ("for a release: also what takes hours, such as long campaigns, all m
             "verification/full_run.json and shown in each report")  # fmt: skip
 
 
-def test(jobs: int, tier: Tier) -> int:
+def test(jobs: int, tier: Tier, mutation_minutes: int | None) -> int:
     """The steps of `tier`. @return exit status."""
     project = Project(ROOT)
     request = CampaignRequest(project.motion)
     request.check(project)
     context = begin(project, jobs, (RELEASE, SANITIZED))
-    outcomes = run_steps(list_test_steps(project, request.run, tier), context)
+    outcomes = run_steps(list_test_steps(project, request.run, tier, mutation_minutes), context)
     show_steps(outcomes, context)
     if tier == Tier.ALL:
         record_full_run(project, outcomes)
@@ -39,12 +39,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     tier = parser.add_mutually_exclusive_group()
     for option, steps, text in (("--quick", Tier.QUICK, QUICK_HELP), ("--all", Tier.ALL, ALL_HELP)):
         tier.add_argument(option, action="store_const", dest="tier", const=steps, default=Tier.GATE, help=text)
+    parser.add_argument("--mutation-minutes", type=at_least_one, metavar="M",
+                        help="with --all: stop trying mutants after M minutes (at least 1); the step is then inconclusive. Default: no limit")  # fmt: skip
     add_jobs(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """@return exit status."""
-    return test(arguments.jobs, arguments.tier)
+    return test(arguments.jobs, arguments.tier, arguments.mutation_minutes)
 
 
 COMMAND = Command(

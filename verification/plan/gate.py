@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 from mamori_tools.host.environment import renew_environment
+from mamori_tools.host.exit_status import EXIT_UNFINISHED
 from mamori_tools.host.plans import BUILD, COMMAND, PYTHON, build_step, campaign_step, timing_step, trace_steps
 from mamori_tools.host.project import CHECKED_LAYERS, RELEASE, ROOT, SANITIZED, Project
 from mamori_tools.host.steps import Action, Step, Tier
@@ -178,7 +179,7 @@ def long_steps() -> tuple[Step, ...]:
             name=f"long run of {kind}_faults",
             commands=((*PYTHON, "verification.faults", kind, *arguments),),
             needs=(BUILD,),
-            inconclusive=(4,),
+            inconclusive=(EXIT_UNFINISHED,),
             tier=Tier.ALL,
         )
 
@@ -216,13 +217,15 @@ def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
     )
 
 
-def list_test_steps(project: Project, campaign: Action, tier: Tier) -> tuple[Step, ...]:
+def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_minutes: int | None = None) -> tuple[Step, ...]:
+    """@param mutation_minutes limit of the step that tries all mutants without a stored result; None: no limit."""
     # The compile-must-fail tests take a third of the time of all C++ tests, and depend on headers only.
     fewer = ("--exclude-regex", "compile_fail") if tier == Tier.QUICK else ()
+    limit = () if mutation_minutes is None else ("--minutes", str(mutation_minutes))
     steps = (
         # First, because it writes the stored rows: the inputs of all other results are recorded after it.
-        Step(name="mutation rows", commands=((*COMMAND, "mutate", "--missing", "--store", "--jobs", "{jobs}"),), function=renew_environment,
-             tier=Tier.ALL),
+        Step(name="mutation rows", commands=((*COMMAND, "mutate", "--missing", "--store", *limit, "--jobs", "{jobs}"),),
+             inconclusive=(EXIT_UNFINISHED,), function=renew_environment, tier=Tier.ALL),
         build_step(RELEASE),
         ctest_step(RELEASE, Tier.QUICK, *fewer),
         faults_step(RELEASE),

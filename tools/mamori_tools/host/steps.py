@@ -171,7 +171,7 @@ def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:
         reason = _run_commands(step, values, part, context, log, tick)
     finally:
         part.unlink(missing_ok=True)
-    if reason:
+    if reason and not reason.startswith(INCONCLUSIVE):
         return reason
     if step.function is not None:
         with log.open("a", encoding="utf-8") as out:
@@ -180,7 +180,7 @@ def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:
             except (WorkError, InputError, OSError) as error:
                 print(error, file=out)
                 return str(error)
-    return ""
+    return reason
 
 
 def _run_commands(step: Step, values: dict[str, str], part: Path, context: Context, log: Path, tick: Tick) -> str:
