@@ -35,7 +35,7 @@ PROGRESS_S = 10.0
 
 
 class OutOfTimeError(Exception):
-    """The time of the request is over."""
+    """The time limit of the request has elapsed."""
 
 
 @dataclass(frozen=True)
