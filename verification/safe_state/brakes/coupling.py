@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Machine and brake sequence in one cycle, as the contract of the sequence says: confirm() gets the state before the step and gives
-the standstill that the step sees, apply() gets the state after it. Both halves are the compiled ones.
+"""Machine and brake sequence in one cycle, in the order of the contract of the sequence. confirm() gets the state before the step and
+returns the standstill that the step uses. apply() gets the state after the step. Both parts are compiled code.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#brakes-in-the-models
 """
