@@ -27,7 +27,7 @@ FOLDER = Path(__file__).parent / "spectra"
 # distance 8. 8191: the longest with distance 4; in longer messages, two flipped bits may pass.
 P4_LENGTHS = (12, 16, 20, 24, 28, 32, 38, 48, 56, 64, 96, 128, 256, 512, 1024, 2048, 4096, 8191)
 STORED = ((CRC32, 64), *((CRC32_P4, length) for length in P4_LENGTHS))
-PATTERNS_CHECKED = 130  # first weights; each checks all counts together
+PATTERNS_CHECKED = 130  # weights from 0 on; each checks all counts together
 
 
 def locate(checksum: Checksum, length: int) -> Path:
