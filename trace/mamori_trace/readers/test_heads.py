@@ -113,7 +113,7 @@ def find_head(line: int, lines: list[str], heads: list[Head]) -> tuple[str, str]
 
 
 def _is_outside(line: int, lines: list[str], start: int) -> bool:
-    """Whether the tag at `line` is indented no more than the head of the test above: it is then outside that test."""
+    """Whether the tag at `line` is indented at most as far as the head of the test above: it is then outside that test."""
     return _indent(lines[line - 1]) <= _indent(lines[start - 1])
 
 

@@ -18,12 +18,12 @@ from verification.faults.evaluation.host_causes import Spans
 from verification.faults.evaluation.run_verdict import Evidence, assess_run
 
 LOSS_MIN_NS = 115_000
-"""Half of the budget: the host must take this time from a window to be the cause of its shift. If it takes the time at once, the window is
-set aside; in pieces, the run is inconclusive."""
+"""Half of the budget. If the host takes this time from a window, it counts as the cause of the shift. If it takes the time at once,
+the window is set aside; in pieces, the run is inconclusive."""
 
 SLOW_LOSS_MIN_NS = 230_000
-"""A complete budget: the same limit, measured from the previous frame on. A window has only two to four polls, too few to show how slow the
-host is, and time between polls is also lost. Measured: less than a tenth of the windows follow such a frame, but 98 of 100 shifted
+"""A complete budget: the same limit for the time since the previous frame. A window has only two to four polls, too few to show how slow
+the host is, and time between polls is also lost. Measured: less than a tenth of the windows follow such a frame, but 98 of 100 shifted
 windows."""
 
 FOREIGN_MIN_NS = 25_000
@@ -33,7 +33,7 @@ REACTION_FRAMES = 2
 """From the reception to the reaction of the drive: within a frame, and at most one frame late."""
 
 CAN_BE = {"kill": ("silent",), "stop": ("silent",), "flood": ("flooding", "silent"), "corrupt": ("silent", "flooding", "corrupt")}
-"""The faults that a kind can cause. A dead or stopped process writes nothing; flooding and corruption have two writers in one memory."""
+"""The faults that a kind can cause. A dead or stopped process writes nothing; flooding has two writers in one memory."""
 
 
 class Reception(NamedTuple):

@@ -54,7 +54,7 @@ class Delay(NamedTuple):
 
 @dataclass(frozen=True)
 class System:
-    """Data of the system table [ns]. `loss_min_ns`: half of the budget; the host must take this time from a window to be a cause."""
+    """Data of the system table [ns]. `loss_min_ns`: time that the host must take from a window to count as a cause, half of the budget."""
 
     frame_ns: int
     budget_ns: int

@@ -106,7 +106,7 @@ def make_cycles(relation: BrakeRelation) -> Brakes:
     """Joins the calls of a cycle, and merges the situations between cycles that give equal results in all cycles."""
     confirm, apply = relation.confirm, relation.apply
     middle, told_first = confirm[..., 2], confirm[..., 1]
-    # At the moment of a command, the time since that command is zero, whatever happened before.
+    # At the moment of a command, the time since that command is zero, regardless of earlier calls.
     time = np.where(told_first == 1, WITHIN, np.arange(4))
     states = np.arange(len(relation.states))
     answers = np.moveaxis(apply[middle[..., None], states, time[..., None]], -2, -3)  # time is the last axis again

@@ -20,7 +20,7 @@ using verification::Stall;
 /// Major frame of the system.
 inline constexpr Duration kTick{1'000'000};
 
-/// The host must take this time from a window to be the cause of a report about it: half of the budget.
+/// Time that the host must take from a window to count as the cause of a report: half of the budget.
 inline constexpr Duration kLossMin{100'000};
 
 /// A report of the executive.
