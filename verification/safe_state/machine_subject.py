@@ -21,7 +21,7 @@ from verification.safe_state.relation import INPUTS
 
 @dataclass(frozen=True)
 class MachineSubject(Subject):
-    """The properties of the machine alone."""
+    """The properties of the machine without brakes."""
 
     machine: Machine
     name = "machine"

@@ -178,7 +178,7 @@ def write_induction(induction: Induction, head: Sequence[str], step: Sequence[st
 
 
 def write_match(time: str, prefix: str, elapsed: str, bound: str) -> str:
-    """The class of the machine's time agrees with the comparison of `elapsed` and the bound."""
+    """The time class of the machine equals the class of `elapsed` relative to the bound."""
     return f"(= {time} (ite (< {elapsed} {bound}) {prefix}Within (ite (= {elapsed} {bound}) {prefix}AtBound {prefix}Beyond)))"
 
 

@@ -290,7 +290,7 @@ def test_a_hang_and_a_wrong_clock_have_their_outcomes_on_both_sides_of_each_limi
     ("finding", "stalls", "reason"),
     [
         (overdue(9000, 9450, 30_000), (), Unexpected.FALSE),
-        (overdue(9000, 9450, 30_000), [(8000, 8999)], Unexpected.FALSE),  # the hold ended before anything was due
+        (overdue(9000, 9450, 30_000), [(8000, 8999)], Unexpected.FALSE),  # the stall ended before anything was due
         (overdue(9000, 9450, 30_000), [(8000, 9000)], Unexpected.BY_HOST),
         (wrong_clock("slow_clock", 9450), [(9000, 9450)], Unexpected.FALSE),  # a stall never makes a clock wrong
     ],

@@ -57,7 +57,7 @@ class Subject(Protocol):
         """Default of `--program`: the program under test in the build folder of the checkout."""
 
     def get_files(self, project: Project) -> Mapping[str, Path]:
-        """Defaults of the options `--model` and `--motion`; contains only those of the keys `model` and `motion` that the subject uses."""
+        """Defaults of the options `--model` and `--motion`; its only keys are `model` and `motion`, if the subject uses them."""
 
     def read_plan(self, root: Node, path: Path) -> Plan:
         """Reads all keys of a plan, including the common keys `schema` and `subject`. Raises InputError with file and line."""
