@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Programs that create evidence across layers: the campaign, static checks, proofs."""
+"""Programs that create evidence about several layers: the campaign, static checks, proofs."""

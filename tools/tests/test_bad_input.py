@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: bad input of every kind, to every command, ends with the right status and one line, without a traceback, and changes no file.
-# Method: a folder of files that are wrong in one way each, a table of calls, and a comparison of the folder before and after.
+# Goal: bad input of every kind, to every command, ends with the right status and one line, without a traceback or a file change.
+# Method: a folder of files with one error each, a table of calls, and a comparison of the folder before and after.
 from __future__ import annotations
 
 import os
@@ -176,7 +176,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(autouse=True)
 def no_work(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each call ends before the work begins, and none waits for the lock of the checkout."""
+    """Checks that each call ends before the work begins; no call waits for the lock of the checkout."""
     real = subprocess.Popen.__init__
 
     def start(self: object, words: Any, *more: Any, **options: Any) -> None:
@@ -196,7 +196,7 @@ def no_work(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def names_culprit(words: list[str], said: str) -> bool:
-    """Whether the line names a given word, in a form that fits on a line, or the missing part."""
+    """Whether the line contains a given word (shortened to fit a line) or the missing part."""
     given = words[2 if words[:1] == ["trace"] else 1 :] or words
     parts = {part[:8] for word in given for part in re.split(r"[=/\s]+", word.encode("utf-8", "backslashreplace").decode()) if part}
     return not parts or "required" in said or ("" in given and "''" in said) or any(part in said for part in parts)

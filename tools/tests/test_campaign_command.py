@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`mamori campaign`. Method: the command with a small program in the place of the arm; see campaign_bench."""
+"""`mamori campaign`. Method: the command with a small program that replaces the arm; see campaign_bench."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def test_a_subject_bounds_the_cases_that_run_at_the_same_time(bench: Bench, monk
 def test_a_replay_runs_one_case_and_compares_it_with_the_stored_result(bench: Bench, capsys: pytest.CaptureFixture[str]) -> None:
     assert call(bench, "--replay", "message_late-2") == 0
     assert capsys.readouterr().out.splitlines()[-1] == "passed; no stored result of the same campaign to compare with"
-    assert call(bench, "--scenario", "message_late") == 0  # a replay needs no equal selection
+    assert call(bench, "--scenario", "message_late") == 0  # a replay does not need an equal selection
     capsys.readouterr()
     before = bench.list_stored()
 
@@ -174,7 +174,7 @@ def test_a_replay_runs_one_case_and_compares_it_with_the_stored_result(bench: Be
 
 @pytest.mark.verifies("SWR-CMP-013", technique="fault_injection", polarity="violation")
 def test_a_replay_that_differs_from_the_stored_result_says_so(bench: Bench, capsys: pytest.CaptureFixture[str]) -> None:
-    bench.write_plan(10)  # each run writes another margin
+    bench.write_plan(10)  # each run writes a different margin
     assert call(bench) == 0
     capsys.readouterr()
 

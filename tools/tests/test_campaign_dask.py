@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Campaigns on a Dask cluster. Method: a small program as program under test; scheduler and workers are ended by `kill -9`."""
+"""Campaigns on a Dask cluster. Method: a small program under test; scheduler and workers are ended by `kill -9`."""
 
 from __future__ import annotations
 
@@ -59,14 +59,14 @@ def test_ctrl_c_ends_a_local_cluster_with_one_line(bench: Bench) -> None:
     process = subprocess.Popen(bench.make_command("--dask", "local", "--jobs", "2"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                start_new_session=True)  # fmt: skip
     wait_for_stored(bench, 2, process)
-    os.killpg(process.pid, signal.SIGINT)  # as a terminal does it
+    os.killpg(process.pid, signal.SIGINT)  # like a terminal
     output, errors = process.communicate(timeout=60.0)
 
     assert (process.returncode, output) == (130, "")
     assert [line for line in errors.splitlines() if line and not line.startswith("[")] == ["mamori: stopped; no report was written"]
 
 
-# No `verifies`: a result that the gate lacks would be a missing one.
+# No `verifies`: the CI gate does not run this test, so its result would be missing.
 @pytest.mark.long
 @pytest.mark.skipif(not Project(ROOT).safe_arm.exists(), reason="the example arm is not built")
 def test_the_example_arm_has_one_result_hash_on_one_process_two_processes_and_dask(tmp_path: Path) -> None:
@@ -107,7 +107,7 @@ def test_the_case_of_a_killed_worker_is_run_by_another_worker(bench: Bench) -> N
     check_killed_workers(bench, 1, seed=3)
 
 
-# No `verifies`: a result that the gate lacks would be a missing one.
+# No `verifies`: the CI gate does not run this test, so its result would be missing.
 @pytest.mark.long
 def test_20_killed_workers_lose_and_repeat_nothing(bench: Bench) -> None:
     check_killed_workers(bench, 20, seed=4)
@@ -145,7 +145,7 @@ def test_a_killed_scheduler_ends_the_campaign_with_one_line_and_the_next_call_co
     check_killed_schedulers(bench, 1, seed=5)
 
 
-# No `verifies`: a result that the gate lacks would be a missing one.
+# No `verifies`: the CI gate does not run this test, so its result would be missing.
 @pytest.mark.long
 def test_20_killed_schedulers_lose_and_repeat_nothing(bench: Bench) -> None:
     check_killed_schedulers(bench, 20, seed=6)

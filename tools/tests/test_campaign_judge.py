@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The verdict. Method: one good run of each kind, then each bound from both sides and each field broken."""
+"""The verdict. Method: one valid run of each kind, then both sides of each bound and an error in each field."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def test_a_stop_just_inside_a_bound_passes(path: str, value: object) -> None:
     assert failed(judge(STOP, change(STOPPED, path, value))) == []
 
 
-OUTSIDE = [  # just outside a bound, and the check that must see it
+OUTSIDE = [  # just outside a bound, and the check that must detect this
     ("reacted_at_s", 2.101, "reaction time"), ("reacted_at_s", 1.999, "no false trip"), ("reacted_at_s", None, "reaction time"),
     ("detected_at_s", 1.999, "no false trip"), ("detected_at_s", None, "no false trip"),
     ("reaction", "Ss2", "reaction"), ("reaction", None, "reaction"), ("final_state", "Operational", "final state"),

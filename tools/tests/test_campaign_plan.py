@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plans and what they become for a motion. Method: a small plan with one fault each; the shipped plan as a whole."""
+"""Plans, and their cases for a motion. Method: a small plan with one error each; the complete shipped plan."""
 
 from __future__ import annotations
 
@@ -184,8 +184,8 @@ def test_less_than_one_instant_is_refused(plan: ArmPlan) -> None:
 def test_an_injection_is_placed_where_a_joint_moves(plan: ArmPlan, motion: Motion) -> None:
     faults = [case.fault for case in resolve_one(plan, motion, "encoder_freeze")]
 
-    # 1.0 s: nothing moves until 2.5 s; the window of 0.1 s reaches 0.1 rad/s when a third of it lies behind that.
-    # 2.0 s: as before, but no instant comes twice. 3.0 s: joint 2 moves.
+    # 1.0 s: nothing moves until 2.5 s; the mean over 0.1 s reaches 0.1 rad/s when a third of the window is after 2.5 s.
+    # 2.0 s: as before, but each instant occurs only once. 3.0 s: joint 2 moves.
     assert [(fault.joint, fault.at_s) for fault in faults if fault] == [(2, 2.44), (2, 2.45), (2, 3.0)]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Running a campaign. Method: a small program in the place of the simulated arm; see campaign_bench."""
+"""Running a campaign. Method: a small program that replaces the simulated arm; see campaign_bench."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ def test_evidence_of_an_earlier_campaign_cannot_be_taken_for_this_one(bench: Ben
     keep = bench.evidence / "campaign" / "notes.txt"
     keep.write_text("of the user")
     (bench.evidence / "campaign/old_scenario-3").mkdir()
-    bench.write_plan(7)  # writes no run.json; one of the campaign before lies there
+    bench.write_plan(7)  # writes no run.json; the folder contains one of the previous campaign
 
     assert len(bench.run().failed_cases) == 2
     assert not (bench.evidence / "campaign/old_scenario-3").exists()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stored results. Method: a campaign with a small program is ended by `kill -9` and started again; stored files are changed and damaged."""
+"""Stored results. Method: a campaign with a small program is killed by `kill -9` and restarted; stored files are changed and damaged."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def bench(tmp_path: Path) -> Bench:
 
 
 def kill_while_running(bench: Bench, pause_s: float, *options: str) -> None:
-    """Starts a campaign and ends it by kill -9, `pause_s` after its first case was started."""
+    """Starts a campaign and kills it by kill -9, `pause_s` after the start of its first case."""
     count = len(bench.read_starts())
     process = subprocess.Popen(bench.make_command(*options), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     deadline = time.monotonic() + 60.0
@@ -38,7 +38,8 @@ def kill_while_running(bench: Bench, pause_s: float, *options: str) -> None:
 
 
 def check_kills(bench: Bench, kills: int, seed: int) -> None:
-    """A campaign that is killed `kills` times keeps each finished case, runs none of them again and gives the result of a whole one."""
+    """A campaign that is killed `kills` times keeps each finished case, repeats none of them, and gives the result of an uninterrupted
+    one."""
     randomness = random.Random(seed)
     bench.write_long_plan(kills + 4)
     whole = bench.run(environment={})
@@ -66,7 +67,7 @@ def test_a_killed_campaign_continues_without_a_lost_or_repeated_case(bench: Benc
     check_kills(bench, 3, seed=1)
 
 
-# No `verifies`: a result that the gate lacks would be a missing one.
+# No `verifies`: the CI gate does not run this test, so its result would be missing.
 @pytest.mark.long
 def test_a_campaign_that_is_killed_at_20_random_instants_loses_and_repeats_nothing(bench: Bench) -> None:
     check_kills(bench, 20, seed=2)
@@ -191,7 +192,7 @@ def test_two_campaigns_in_one_folder_are_refused(bench: Bench) -> None:
 def test_a_folder_that_cannot_be_written_is_named(bench: Bench) -> None:
     file = bench.folder / "file"
     file.write_text("")
-    bench.evidence = file / "evidence"  # Permissions would not stop root.
+    bench.evidence = file / "evidence"  # Permissions do not restrict root.
 
     with pytest.raises(InputError, match="evidence cannot be written: Not a directory"):
         bench.run()

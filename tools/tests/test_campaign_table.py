@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the campaign's table shows the worst figure of each scenario and no false pass.
+# Goal: the table of a campaign shows the worst figure of each scenario and no false pass.
 from __future__ import annotations
 
 from typing import Any

@@ -15,7 +15,7 @@ for part in ("mamori_tools.motion", "mamori_tools.campaign"):
 
 @pytest.fixture(autouse=True)
 def begun(monkeypatch: pytest.MonkeyPatch) -> list[object]:
-    """The first actions of the demo; it stops here."""
+    """Runs only the first actions of the demo."""
     calls: list[object] = []
 
     def begin(*arguments: object) -> None:

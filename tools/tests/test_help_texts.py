@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each command has one help text, for every way of calling it. Method: the stored files are compared with the parsers, and
-# parsers with one layout rule each are formatted.
+# Goal: each command has one help text, for every form of the call. Method: the stored files are compared with the parsers, and parsers with
+# one layout rule each are formatted.
 from __future__ import annotations
 
 import argparse

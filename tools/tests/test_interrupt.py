@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Goal: Ctrl-C at any step gives status 130 and one line, ends the children, leaves no half-written file, and the next run works.
-# Method: a plan of real steps that is stopped in each of them, and each light command that is stopped at a counted operation on files; the
-# signal goes to the whole process group, as a terminal sends it, or to the command alone.
+# Method: a plan of real steps is stopped in each of them, and each light command at a counted file operation. The signal goes to the
+# complete process group, as from a terminal, or only to the command.
 from __future__ import annotations
 
 import contextlib
@@ -75,8 +75,8 @@ LIGHT = [
     "mutate --list",
     "new {folder}/robot",
 ]
-# Runs a command, tells how many operations on files it did, and is stopped before the one of a given number: the work is not done then,
-# whatever the load of the host.
+# Runs a command, prints its number of file operations, and is stopped before the operation with a given number. The work is then not
+# finished, for any load of the host.
 COUNTED = """
 import os, signal, sys
 
@@ -100,7 +100,7 @@ PARTS = (0.1, 0.6, 0.9, 0.99)
 
 
 def list_session(leader: int) -> list[psutil.Process]:
-    """Living processes of a session."""
+    """Running processes of a session."""
     found = []
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.NoSuchProcess, ProcessLookupError):
@@ -110,16 +110,16 @@ def list_session(leader: int) -> list[psutil.Process]:
 
 
 def start(*words: str) -> subprocess.Popen[str]:
-    """As the launcher starts Python: a signal stays pending until the command listens."""
+    """Starts Python like the launcher: a signal stays pending until the command accepts it."""
     return subprocess.Popen(["env", "--block-signal=INT,TERM", sys.executable, "-P", *words], stdout=subprocess.DEVNULL,
                             stderr=subprocess.PIPE, text=True, start_new_session=True, cwd=ROOT)  # fmt: skip
 
 
 def stop(process: subprocess.Popen[str], is_group: bool) -> tuple[int, str]:
-    """@return exit status and what was said on standard error; nothing that it started is alive."""
+    """@return exit status and standard error; checks that none of its processes is running."""
     (os.killpg if is_group else os.kill)(process.pid, signal.SIGINT)
     _, said = process.communicate(timeout=TIMEOUT_S)
-    deadline = time.monotonic() + TIMEOUT_S  # a part of the launcher that has no more to do ends by itself
+    deadline = time.monotonic() + TIMEOUT_S  # a part of the launcher without remaining work ends by itself
     while list_session(process.pid) and time.monotonic() < deadline:
         time.sleep(0.02)
     assert list_session(process.pid) == []
@@ -197,8 +197,8 @@ def test_a_light_command_that_is_stopped_at_any_operation_leaves_nothing_half_wr
 @pytest.mark.parametrize("first_s", [0.01, 0.03, 0.05])
 @pytest.mark.verifies("SWR-CLI-045", technique="fault_injection")
 def test_a_signal_to_the_launcher_or_to_python_as_it_starts_gives_no_traceback(first_s: float, is_group: bool) -> None:
-    """Status 1 is that of the command, when the signal came after its work. Bash 5.2 takes one of some hundred signals for a syntax error
-    of the trap (status 2); one in this row is its own, more come from the script."""
+    """Status 1 is that of the command if the signal came after its work. Bash 5.2 treats one of some hundred signals as a syntax error of
+    the trap (status 2). One such status in this row is an error of bash; more are errors of the script."""
     ends = []
     for number in range(8):
         process = subprocess.Popen([str(ROOT / "mamori"), *"e2e --profile 4 --length 4096 --rate 100 --pe 0.01".split()],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the launcher script installs packages with permission only. Method: a copy of the script on a simulated host
+# Goal: the launcher script installs packages only with permission. Method: a copy of the script on a simulated host
 # (support/launcher_box.py), with and without a terminal.
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def test_permission_among_the_words_for_another_program_is_none(box: Box) -> Non
 
 
 def run_on_terminal(box: Box, answer: bytes, *words: str) -> tuple[int, str]:
-    """The launcher on a terminal, where the user types `answer` at the question. @return exit status and screen."""
+    """The launcher on a terminal, where the user answers the question with `answer`. @return exit status and screen."""
     child, terminal = pty.fork()
     if child == 0:
         listen_to_ctrl_c()

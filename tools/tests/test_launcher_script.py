@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the launcher script installs missing packages only with permission, otherwise states the reason in one line, and rejects wrong
-# arguments without installing. Method: a copy of the script on a simulated host (support/launcher_box.py).
+# Goal: the launcher script installs missing packages only with permission, otherwise states the reason in one line; it rejects wrong
+# arguments before installing. Method: a copy of the script on a simulated host (support/launcher_box.py).
 from __future__ import annotations
 
 import argparse
@@ -423,7 +423,7 @@ def test_ctrl_c_during_the_installation_ends_the_package_manager(box: Box) -> No
         time.sleep(0.05)
     child = int(pid_file.read_text())
 
-    while launcher.poll() is None and time.monotonic() < deadline + 20.0:  # bash 5.2 can lose one
+    while launcher.poll() is None and time.monotonic() < deadline + 20.0:  # bash 5.2 can lose one signal
         launcher.send_signal(signal.SIGINT)
         time.sleep(0.5)
     _, said = launcher.communicate(timeout=20)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: of two commands that write to one project the second ends immediately; files that the first leaves, for any kind of end,
-# block no command; and a checkout that is read-only, moved or reached by a link is handled in one line.
+# Goal: if two commands write to one project, the second ends immediately. Files that the first one leaves, for any kind of end, block no
+# command. A checkout that is read-only, moved or reached by a link is reported in one line.
 # Method: a real process that holds the lock; mount namespaces if the host permits them.
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ TRACE_WRITERS = [
 
 
 class Holder:
-    """A process that holds the lock of a folder and runs a child meanwhile."""
+    """A process that holds the lock of a folder and runs a child."""
 
     def __init__(self, folder: Path, *child: str) -> None:
         environment = {name: value for name, value in os.environ.items() if name != KEYS}
@@ -71,7 +71,7 @@ def holder(tmp_path: Path) -> Iterator[Holder]:
 
 @pytest.fixture(autouse=True)
 def no_caller(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The gate that runs these tests holds its own lock."""
+    """The command that runs these tests holds its own lock."""
     monkeypatch.delenv(KEYS, raising=False)
 
 

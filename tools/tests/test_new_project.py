@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: `new` creates a complete project from the example or nothing. verification/proofs/test_plain_cmake.py proves that it builds
-# and that its tests pass.
+# Goal: `new` creates a complete project from the example, or nothing. verification/proofs/test_plain_cmake.py proves that it builds and
+# that its tests pass.
 from __future__ import annotations
 
 import errno

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each test of `ctest -N` has a result of this run, for every kind of test, name and end; a missing result fails the step.
-# Method: one small project with every kind of test, built once and run by the step that `mamori verify PROJECT` runs.
+# Goal: each test of `ctest -N` has a result of this run, for every kind of test, name and end; missing results fail the step.
+# Method: one small project with every kind of test, built once and run by the step of `mamori verify PROJECT`.
 from __future__ import annotations
 
 import hashlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the marker `verifies` writes requirement, technique and polarity into the result; a misspelt one stops the run.
+# Goal: the marker `verifies` writes requirement, technique and polarity to the result; a misspelt marker stops the run.
 from __future__ import annotations
 
 import shutil

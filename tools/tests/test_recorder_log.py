@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: `mamori log` shows and exports the content of a recorder file, and rejects an invalid one with one line. Method: the
-# command in this process, on handwritten files; exported files are read back with the library that viewers use.
+# Goal: `mamori log` shows and exports the content of a recorder file, and rejects an invalid file in one line. Method: the command in this
+# process, on handwritten files; the library that viewers use reads the exported files.
 from __future__ import annotations
 
 import csv

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each written record is read, and nothing else. Method: handwritten files; the bytes that the C++ test requires of
-# its writer; each damage at each position; a seeded generator that flips bits, whose seed is in the test's name.
+# Goal: exactly the written records are read. Method: handwritten files; the bytes that the C++ test expects from its writer; each kind of
+# damage at each position; a generator that flips bits, whose seed is in the test name.
 from __future__ import annotations
 
 import random
@@ -61,7 +61,7 @@ def test_recorder_without_a_record_is_in_order(tmp_path: Path) -> None:
 def test_torn_and_corrupt_slots_are_named_with_their_offset_and_number(tmp_path: Path, slot: int) -> None:
     whole = make_file(4, [make_record(number) for number in (5, 6, 3, 4)])
     offset = HEADER_BYTES + slot * RECORD_BYTES
-    # Slot 2 was next for 7; without 6, slot 1 is next for it.
+    # Slot 2 was the next slot for 7; without 6, slot 1 is the next slot for 6.
     number = ("5", "6 or 2", "7 or 3", "4")[slot]
     for kind, at, value in (("torn", 35, 0), ("corrupt", 35, 1), ("corrupt", 0, 77), ("corrupt", 39, 77)):
         data = bytearray(whole)

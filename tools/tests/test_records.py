@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the records of a run contain the hash of each evidence file and of its inputs, and the trace tool agrees.
+# Goal: the records of a run contain the hash of each evidence file and of its inputs, and the trace tool accepts them.
 from __future__ import annotations
 
 import hashlib

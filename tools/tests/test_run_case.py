@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`mamori run`. Method: the shipped fault plan and motion for the choice of the case; a small program in the place of the arm, which
-ends in the state that the test wants, for the exit status."""
+"""`mamori run`. Method: the shipped fault plan and motion for the selection of the case; for the exit status, a small program that replaces
+the arm and ends in the state that the test selects."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def test_values_at_their_limits_are_taken(plan: Plan, motion: Motion, fault: str
 
 @pytest.fixture
 def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
-    """Runs the command in a copy of the data of the project, with a program that ends in `state`."""
+    """Runs the command in a copy of the project data, with a program that ends in `state`."""
     program = tmp_path / "program"
 
     class Sandbox(Project):
@@ -176,7 +176,7 @@ def test_what_the_motion_has_that_is_not_used_is_one_note(command: Callable[...,
 
 
 def follow(motion_file: Path, folder: Path) -> tuple[Motion, list[float]]:
-    """Lets the built arm follow a motion. @return the motion, and where the joints end [rad]."""
+    """Runs the built arm on a motion. @return the motion, and the final joint positions [rad]."""
     project = Project(ROOT)
     if not project.safe_arm.exists():
         pytest.skip(f"{project.safe_arm} is not built")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a table of steps runs to its end despite failures, skips only steps that require a failed one, and counts every result once.
+# Goal: a table of steps runs to its end despite failures, skips only steps that require a failed one, and counts each result once.
 from __future__ import annotations
 
 import os

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: `mamori table` shows the content of a table's JSON, as text and as pictures, and rejects an invalid file with one line.
-# Method: the command in this process, on handwritten tables; pictures are read back as XML and their boxes compared.
+# Goal: `mamori table` shows the JSON of a table as text and pictures, and rejects an invalid file in one line.
+# Method: the command in this process, on handwritten tables; pictures are parsed as XML and their boxes compared.
 from __future__ import annotations
 
 import copy
@@ -141,7 +141,7 @@ def test_time_line_has_a_box_for_each_opening_at_its_place(tmp_path: Path) -> No
     root = ElementTree.parse(tmp_path / "t.svg").getroot()
     boxes = [box for box in root.iter(f"{SVG}rect") if (box.findtext(f"{SVG}title") or "").startswith("sense:")]
     widths = sorted({float(box.get("width", "0")) for box in boxes})
-    assert len(boxes) == 10 * 2 * 2  # window instances, times window and budget, times lane and row
+    assert len(boxes) == 10 * 2 * 2  # window instances x (window, budget) x (lane, row)
     assert widths == [15.0, 20.0]  # 1000 px are 10 ms
     lefts = sorted({float(box.get("x", "0")) for box in boxes})
     assert [round(left - lefts[0]) for left in lefts] == [100 * place for place in range(10)]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: `mamori table` shows modes, parameters and sets as text and as a picture, and rejects invalid ones with one line.
-# Method: the table that the library's test writes (robot_with_modes.json), changed by hand; pictures are read back as XML, and
-# their boxes and labels compared with each other. The page of the manual is compared with that table and its source.
+# Goal: `mamori table` shows modes, parameters and sets as text and as a picture, and rejects invalid ones in one line.
+# Method: the table that the test of the library writes (robot_with_modes.json), with changes. Pictures are parsed as XML, and their boxes
+# and labels compared. The page of the manual is compared with that table and its source.
 from __future__ import annotations
 
 import copy
@@ -155,7 +155,7 @@ def test_picture_of_many_modes_has_no_two_things_in_one_place(tmp_path: Path) ->
 
 
 def box_of(text: ElementTree.Element) -> tuple[float, float, float, float]:
-    """Left, right, top, bottom of a centred text, for narrow characters, so that touching texts do not count."""
+    """Left, right, top, bottom of a centred text with narrow characters, so that touching texts do not count as overlap."""
     size = float(text.get("font-size", "0"))
     x, y, half = float(text.get("x", "0")), float(text.get("y", "0")), 0.25 * size * len(text.text or "")
     return x - half, x + half, y - 0.7 * size, y
@@ -190,7 +190,7 @@ def test_graph_marks_connections_that_hold_in_some_modes(tmp_path: Path) -> None
 
     backwards = changed(connections__0__modes=[0, 1])
     edge = next(line for line in make_dot(read_table(write(tmp_path, backwards))).splitlines() if "[dir=" in line)
-    assert "arrowhead=odot" in edge  # within a window dot gets the edge in reverse direction
+    assert "arrowhead=odot" in edge  # within a window, dot gets the edge in reverse direction
 
     many = make_system(9, [])
     many["connections"][3]["modes"] = [0, 2, 4, 6]

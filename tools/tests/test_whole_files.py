@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: tools write files atomically, for any end of the writing: an error, Ctrl-C, a full disk; and an error of
-# the system ends a command in one line. Method: each writer with each failure; a tiny disk in a mount namespace; a reader that ends early.
+# Goal: tools write files atomically, for any end of the writing: an error, Ctrl-C, a full disk. An error of the system ends a command in
+# one line. Method: each writer with each failure; a tiny disk in a mount namespace; a reader that ends early.
 from __future__ import annotations
 
 import os
@@ -88,7 +88,7 @@ def test_what_is_no_file_is_refused(write: Callable[[Path, str], None], name: st
 
 @pytest.mark.verifies("SWR-CLI-043", technique="error_guessing", polarity="violation")
 def test_no_tool_writes_with_a_temporary_name_of_its_own() -> None:
-    """Except the writer itself, the result that a child of a step writes, and the report within a temporary folder."""
+    """Exempt: the writer itself, the result of a child of a step, and the report within a temporary folder."""
     known = {"trace/mamori_trace/base/whole_file.py", "tools/mamori_tools/host/steps.py", "trace/mamori_trace/actions/bundle.py"}
     own = re.compile(r"os\.replace\(|\.part\b[\"'}]")
     files = [path for folder in ("trace", "tools", "verification") for path in (ROOT / folder).rglob("*.py")]
@@ -106,7 +106,7 @@ def has_namespaces() -> bool:
 @pytest.mark.skipif(not has_namespaces(), reason="verdict=no-privilege: this host grants no mount namespace")
 @pytest.mark.verifies("SWR-CLI-043", technique="fault_injection", polarity="violation")
 def test_a_full_disk_keeps_the_previous_report(tmp_path: Path) -> None:
-    """The disk has space for one report, not for a second one."""
+    """The disk has space for only one report."""
     project, disk = tmp_path / "project", tmp_path / "project" / "report"
     project.mkdir()
     subprocess.run([*PROGRAM, "trace", "init", "--root", str(project)], check=True, capture_output=True)

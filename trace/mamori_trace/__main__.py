@@ -7,7 +7,7 @@ from mamori_trace.cache.outcome import run_kept
 
 
 def _run() -> int:
-    from mamori_trace.command import main  # loads all readers and rules, which an unchanged project does not need
+    from mamori_trace.command import main  # loads all readers and rules; an unchanged project does not need them
 
     return main()
 

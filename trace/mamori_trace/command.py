@@ -44,11 +44,11 @@ _ACTIONS = {
 }
 """Module of each action, below `actions`."""
 _WRITERS = ("report", "review", "init", "new", "record", "import", "bundle")
-"""Actions that change the project, or need its evidence unchanged while they work."""
+"""Actions that change the project, or need unchanged evidence while they run."""
 _EXIT_INPUT = 2
 _EXIT_LOCKED = 3
 _EXIT_PIPE = 141
-"""As a shell counts a program that wrote to a reader who is gone."""
+"""Exit status of a program that wrote to a closed pipe, in the convention of the shell."""
 _SHOWN_MAX = 400
 
 
@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         with _without_collector(), _hold_lock(arguments):
             status = int(_load(arguments.trace_action).run(arguments))
-        sys.stdout.flush()  # reports an output error here, and not when Python ends
+        sys.stdout.flush()  # output errors occur here, and not when Python ends
         return status
     except BrokenPipeError:  # the reader, such as `head`, has read enough
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (Python closes it at its end)
@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
         return _refuse(str(error))
     except OSError as error:
         return _refuse(describe(error))
-    except UnicodeEncodeError as error:  # half of a character, from an argument, a file name or a JSON escape; no file can hold it
+    except UnicodeEncodeError as error:  # half of a surrogate pair, from an argument, a file name or a JSON escape; no file can store it
         near = error.object[max(0, error.start - 20) : error.end]
         return _refuse(f"nothing was written: {near!a} ends with what is no letter, so UTF-8 cannot hold it")
 
@@ -90,15 +90,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     """@return the exit status; argparse ends the process with 2 on wrong usage."""
     words = sys.argv[1:] if argv is None else argv
     parser = argparse.ArgumentParser(prog="mamori trace", description=_ABOUT, epilog=_EPILOG)
-    # The first argument names the action; the other action modules need not be loaded to parse the rest of the line.
+    # The first argument names the action; the remaining arguments do not need the other action modules.
     _add_actions(parser, [words[0]] if words and words[0] in _ACTIONS else list(_ACTIONS))
     return run(parser.parse_args(argv))
 
 
 @contextmanager
 def _without_collector() -> Iterator[None]:
-    """Pauses Python's search for cyclic garbage: a run keeps its inputs until its end, so repeated searches while the data
-    grows find nothing and take a twentieth of the time."""
+    """Pauses Python's search for cyclic garbage. A run keeps its inputs until its end, so searches find nothing, but take a twentieth of
+    the time."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each finding of static analysis is reported once at its location; suppressed findings are not; invalid results are rejected.
+# Goal: each static-analysis finding is reported once at its location, except suppressed findings; invalid results are rejected.
 from __future__ import annotations
 
 import json

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a bundle has the same bytes for the same inputs; each later change is named; a hostile bundle causes no damage.
-# Method: the sample project is bundled, then one thing is changed at a time.
+# Goal: equal inputs give equal bundle bytes; each later change is named; a malicious bundle causes no damage.
+# Method: the sample project is bundled, then each change is made alone.
 from __future__ import annotations
 
 import io
@@ -23,7 +23,7 @@ needs_ssh = pytest.mark.skipif(shutil.which("ssh-keygen") is None, reason="the p
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """One bundle, created once, because its report takes most of the time."""
+    """One bundle, created once, because its report dominates the run time."""
     folder = tmp_path_factory.mktemp("made")
     make_sample(folder / "project")
     assert main(["bundle", "--root", str(folder / "project"), "--out", str(folder / "bundle")]) == 0

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: an unchanged project is not read again, every change of any input is detected, and an outcome with unknown inputs is not stored.
-# Method: the small clean project; each kind of input is changed alone, and the outcome is compared with that of a run without the cache.
+# Goal: an unchanged project is not read again, every change of any input is detected, and outcomes with unknown inputs are not stored.
+# Method: the small clean project; each kind of input is changed alone, and the outcome is compared with a run without the cache.
 from __future__ import annotations
 
 import hashlib

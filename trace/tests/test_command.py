@@ -131,7 +131,7 @@ JSON_ACTIONS = (("check",), ("check", "--allow-missing"), ("report",), ("show", 
 
 @pytest.mark.verifies("SWR-TRC-108", technique="interface", polarity="nominal")
 def test_json_stands_alone_on_standard_output(sample: Sample) -> None:
-    """In a new process each time, and twice, because the first run may print additional messages."""
+    """Each run is a new process, and there are two runs, because the first may print additional messages."""
     start_history(sample.root)
     for words in JSON_ACTIONS:
         for _ in range(2):

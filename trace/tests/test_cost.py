@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the page shows the counts with every mark and finding, and an invalid record does not affect the rest.
+# Goal: the page shows the counts with all marks and findings; an invalid record does not affect the other records.
 from __future__ import annotations
 
 import copy

@@ -106,7 +106,7 @@ WITH_MCDC = ("a.json", "a.info", "coverage.json")
 
 @pytest.fixture
 def covered(sample: Sample) -> Sample:
-    """The clean sample with a source file whose functions SWR-SUP-001 (SIL 3) owns; SWR-SUP-002 owns one of them."""
+    """The clean sample with a source file: SWR-SUP-001 (SIL 3) owns its functions, SWR-SUP-002 owns one of them."""
     (sample.root / "safety/src").mkdir()
     (sample.root / "safety/src/alive.cpp").write_text(SOURCE, encoding="utf-8")
     (sample.root / "requirements/schema/code.toml").write_text('schema = "mamori.code/1"\ntraced = ["safety/src"]\n')

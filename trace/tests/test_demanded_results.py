@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: an approved item is green only with a bound and passed result of each required kind; results that a host cannot produce count separately.
+# Goal: an approved item is green only with a bound, passed result of each required kind; results that a host cannot produce count
+# separately.
 from __future__ import annotations
 
 import re
@@ -40,7 +41,7 @@ def test_a_project_whose_items_are_shown_has_no_finding(sample: Sample, trace: C
 
 @pytest.mark.verifies("SWR-TRC-100", technique="error_guessing", polarity="violation")
 def test_a_result_of_the_other_polarity_does_not_show_an_item(sample: Sample, trace: Callable) -> None:
-    """The source states `violation`, so no test is missing; the result states `nominal`."""
+    """The source has polarity `violation`, so no test is missing; the result has `nominal`."""
     text = (sample.root / GTEST).read_text()
     (sample.root / GTEST).write_text(text.replace('value="violation"', 'value="nominal"'))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the rules of a SIL apply at that SIL only; weak words match as complete words; a retired id stays retired.
+# Goal: rules for a SIL apply only at that SIL; weak words match only as complete words; a retired id stays retired.
 from __future__ import annotations
 
 import subprocess
@@ -162,7 +162,7 @@ def test_a_cut_line_of_the_ledger_is_told(sample: Sample, trace: Callable) -> No
 
 
 def run_check(sample: Sample, trace: Callable) -> list[dict]:
-    """Findings without those about the commit of the evidence."""
+    """Findings except those about the commit of the evidence."""
     findings = trace("check", "--root", sample.root, "--output", "json").content["findings"]
     return [finding for finding in findings if finding["rule"] != "evidence-stale"]
 

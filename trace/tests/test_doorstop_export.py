@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Goal: a Doorstop export is one tree of documents without loss, or nothing is written.
-# Method: items are exported and read by the Doorstop reader, including ids, texts and locations that do not fit.
+# Method: items, including unsuitable ids, texts and locations, are exported and read by the Doorstop reader.
 from __future__ import annotations
 
 import errno

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: evidence from other sources and altered evidence are reported; committing the tested files leaves the evidence valid.
+# Goal: evidence of other sources and altered evidence are reported; a commit of the tested files leaves the evidence valid.
 from __future__ import annotations
 
 import json

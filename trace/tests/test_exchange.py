@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: export and import lose nothing; parts that cannot be imported are reported with location; no file is half-written.
+# Goal: export and import lose nothing; parts that cannot be imported are reported with location; files are complete or absent.
 # Method: the sample project and generated ones are exported, imported into a new folder, and exported again; the files are compared.
 from __future__ import annotations
 

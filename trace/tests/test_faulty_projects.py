@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each fault class is found, in each format, with every seeded id, file and line, and nothing else is reported.
+# Goal: each fault class is found in each format, with every seeded id, file and line; nothing else is reported.
 # Method: one fault at a time is seeded into a clean project of 100 requirements on 3 levels, which the real command then checks.
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: an input that is not readable as ReqIF or as a result is one finding with a remedy, and never an endless wait.
+# Goal: an input that is not readable as ReqIF or as a result is one finding with a remedy; the command never waits forever.
 # Method: packed archives, pipes, unknown encodings and broken links are given to the command.
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: results of other tools get their own outcome and find their requirement; hostile files need little memory and affect no other file.
+# Goal: results of other tools get the correct outcome and requirement; malicious files need little memory and do not affect other files.
 from __future__ import annotations
 
 import os

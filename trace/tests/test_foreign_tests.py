@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: tags at tests of other languages find the results of these tests; a tag without a result is reported, never ignored.
+# Goal: tags at tests in other languages find the results of these tests; tags without a result are reported, never ignored.
 # Method: a small OpenFastTrace project with one test file and one result is given to the command.
 from __future__ import annotations
 

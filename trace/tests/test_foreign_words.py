@@ -40,7 +40,7 @@ def test_an_openfasttrace_item_begins_where_a_line_begins_with_its_id(head: str,
 
 @pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="violation")
 def test_link_types_of_sphinx_needs_are_those_that_its_schema_names(trace: Callable, tmp_path: Path) -> None:
-    """Without default values a need has no empty list of back links, which would show the type."""
+    """Without default values, a need has no empty list of back links that would show the type."""
     fields = {"shows": {"field_type": "links"}, "shows_back": {"field_type": "backlinks"}, "tags": {"field_type": "core"}}
     needs = {"R_1": {"id": "R_1", "type": "req", "content": "It shall stop.", "tags": ["a"], "shows": ["R_9"]}}
     version = {"needs_defaults_removed": True, "needs_schema": {"properties": fields}, "needs": needs}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: external files are read with the location of every part; an unreadable part is reported once with its location, and never skipped.
+# Goal: external files are read with the location of every part; an unreadable part is reported once with its location, never skipped.
 # Method: small handwritten projects, valid and invalid, are given to the command.
 from __future__ import annotations
 
@@ -180,7 +180,7 @@ def test_two_files_that_claim_one_id_are_both_named(name: str, trace: Callable, 
 @pytest.mark.parametrize("folder", ["docs", "."])
 @pytest.mark.verifies("SWR-TRC-045", technique="equivalence_classes", polarity="nominal")
 def test_needs_on_one_line_are_placed_in_their_source(folder: str, trace: Callable, tmp_path: Path) -> None:
-    """As sphinx-needs 9 writes them; a link type of the project itself is known by its back links."""
+    """In the form of sphinx-needs 9; back links identify a link type of the project itself."""
     row = {"content": "It shall stop.", "docname": "arm/stop", "doctype": ".rst", "links": [], "links_back": [], "type": "req"}
     rows = {"R_1": {**row, "id": "R_1", "lineno": 3, "shows": [], "shows_back": []},
             "R_2": {**row, "id": "R_2", "lineno": 9, "shows": ["R_9"], "shows_back": []}}

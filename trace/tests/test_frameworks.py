@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: for each framework, a tag is bound to the test below it, under the name in its results; never to the test above.
-# Method: each framework is run if it is installed; in addition, its stored results are always read.
+# Goal: for each framework, a tag is bound to the test below it under its name in the results, never to the test above.
+# Method: installed frameworks are run; in addition, stored results of every framework are read.
 from __future__ import annotations
 
 import shutil
@@ -36,7 +36,7 @@ def make_project(root: Path, framework: Framework) -> Sample:
 
 
 def demand_bound(sample: Sample, trace: Callable) -> None:
-    """The first tag has passed results only, the second a failed one, the third is in dead code."""
+    """The first tag has only passed results, the second a failed one; the third is in dead code."""
     content = trace("check", "--root", sample.root, "--output", "json").content
     statuses = {row["id"]: {one["status"] for one in row["results"]} for row in content["items"]}
     assert statuses["SWR-FW-001"] == {"passed"}, content["findings"]
@@ -73,7 +73,7 @@ def test_the_real_framework_writes_such_results(name: str, trace: Callable, tmp_
 @pytest.mark.parametrize("name", [name for name, each in FRAMEWORKS.items() if each.file.endswith((".cpp", ".c"))])
 @pytest.mark.verifies("SWR-TRC-104", technique="fault_injection", polarity="violation")
 def test_a_tagged_test_that_did_not_run_is_missing(name: str, trace: Callable, tmp_path: Path) -> None:
-    """The tests above and below it ran."""
+    """The adjacent tests above and below ran."""
     framework = FRAMEWORKS[name]
     sample = make_project(tmp_path, framework)
     kept = [part for part in framework.result.split("<testcase ") if not any(word in part.lower() for word in ("stops", "hold"))]
@@ -137,7 +137,7 @@ def test_the_failure_of_a_whole_suite_is_that_of_each_of_its_tests(sample: Sampl
 
 @pytest.mark.verifies("SWR-TRC-104", technique="fault_injection", polarity="violation")
 def test_a_failed_test_that_names_two_items_fails_both(trace: Callable, tmp_path: Path) -> None:
-    """GoogleTest keeps only the last property of a name."""
+    """GoogleTest stores only the last property of a name."""
     source = 'TEST(Arm, Both) {\n  verifies("SWR-FW-001");\n  verifies("SWR-FW-002");\n}\nTEST(Arm, Good) { verifies("SWR-FW-001"); }\n'
     sample = make_project(tmp_path, Framework("arm_test.cpp", source, ""))
     prop = '<properties><property name="requirement" value="{}"/></properties>'

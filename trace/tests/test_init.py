@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a new project begins with one command, its files are valid, and existing files stay unchanged.
-# Method: begin in an empty folder, then check, review, name and test the requirement as a new user would.
+# Goal: one command starts a new project; its files are valid, and existing files stay unchanged.
+# Method: start in an empty folder, then check, review, name and test the requirement like a new user.
 from __future__ import annotations
 
 from collections.abc import Callable

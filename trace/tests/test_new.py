@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: an id is allocated once in the life of a project, and a draft is well-formed or not written.
+# Goal: an id is allocated only once in the life of a project; a draft is well-formed or not written.
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a query selects the specified items; an error names its column; no query can exhaust the host.
+# Goal: a query selects the specified items; an error names its column; no query can exhaust the memory or the stack.
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -42,7 +42,7 @@ def bare(tmp_path: Path) -> Path:
 
 @pytest.mark.verifies("SWR-TRC-103", technique="requirements_based", polarity="nominal")
 def test_results_of_a_command_are_bound_and_judged(sample: Sample, trace: Callable) -> None:
-    """A complete run of a project in git: copied results replace those of the command."""
+    """A complete run of a project in git; the command only copies stored results."""
     junit = sample.evidence / "junit"
     for name in ("records.json", "environment.json"):
         (sample.evidence / name).unlink()
@@ -230,7 +230,7 @@ def test_git_still_answers(sample: Sample, trace: Callable) -> None:
 
 @pytest.mark.verifies("SWR-TRC-106", technique="error_guessing", polarity="violation")
 def test_the_marker_would_be_left(sample: Sample, tmp_path: Path) -> None:
-    """Plain git starts the program, so the test above can fail."""
+    """Shows that plain git starts the program, so the test above can fail."""
     start_history(sample.root)
     marker, program = tmp_path / "marker", tmp_path / "program"
     program.write_text(f"#!/bin/sh\ntouch {marker}\n")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: an error of the operating system is reported in one line with its remedy, never counts as an absence, and leaves every file unchanged.
-# Method: unusable links, names and paths; folders that cannot be listed, simulated because the superuser can list every folder.
+# Goal: each error of the operating system is reported in one line with its remedy, is never treated as absence, and leaves all files
+# unchanged.
+# Method: unusable links, names and paths. Unlistable folders are simulated, because the superuser can list every folder.
 from __future__ import annotations
 
 import errno
@@ -28,7 +29,7 @@ def _move_behind_link(path: Path, target: Path) -> None:
 
 
 def _refuse_listing(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
-    """Acts as a user without permission for `folder`."""
+    """Behaves like a user without permission for `folder`."""
     for name in ("scandir", "listdir"):
         real = getattr(os, name)
 

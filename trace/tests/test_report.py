@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: one offline file leads from hazard to result and back, draws each case, and is equal for equal inputs.
+# Goal: one offline file leads from hazard to result and back, and draws each case; equal inputs give equal bytes.
 from __future__ import annotations
 
 import json
@@ -128,7 +128,7 @@ def test_a_fault_inside_the_run_is_drawn_again_with_the_100_ms_around_it(fault_s
     drawings = draw_case(series, Marks(fault_s, None, None, [1.0] * 7, 2), "p", "a case")
 
     assert [drawing.caption for drawing in drawings] == captions
-    # One time base: the axes of both drawings have the same label, and the ticks of the near one are inside its 100 ms.
+    # Same time base: the axes of both drawings have the same label, and the ticks of the near drawing are inside its 100 ms.
     assert all("time since the start of the run [s]" in drawing.svg for drawing in drawings)
     for drawing in drawings[1:]:
         assert fault_s is not None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the data of the page is complete, safe and small; without a script all rows are plain HTML; git supplies the history.
+# Goal: the page data are complete, safe and small; without a script, all rows are plain HTML; git supplies the history.
 from __future__ import annotations
 
 import base64
@@ -126,7 +126,7 @@ def test_the_first_screen_tells_failures_and_what_was_not_run(sample: Sample, tr
 
 @pytest.mark.verifies("SWR-TRC-069", technique="fault_injection", polarity="violation")
 def test_a_failed_campaign_case_is_not_safe_and_only_its_scenario_has_a_bar(sample: Sample, page: Callable[[], str]) -> None:
-    assert '<span class="note"><b>1</b> of 1 cases</span>' not in page()  # nothing failed, no bar
+    assert '<span class="note"><b>1</b> of 1 cases</span>' not in page()  # no failures, so no bar
     path = sample.evidence / "campaign" / "campaign.json"
     content = json.loads(path.read_text())
     content["cases"][1]["verdict"] = "fail"

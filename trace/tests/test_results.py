@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: results of GoogleTest and pytest and campaign cases get their own outcome; hostile and invalid files are rejected.
+# Goal: results of GoogleTest and pytest and campaign cases get the correct outcome; malicious and invalid files are rejected.
 from __future__ import annotations
 
 import json

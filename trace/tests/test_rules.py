@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each fault, seeded alone into a clean project, is reported with its id, file and line, and no other rule reports anything.
+# Goal: each fault, seeded alone into a clean project, is reported with id, file and line; no other rule reports anything.
 # Method: the faults are in seeds/, sorted by the affected part.
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from trace_sample import COMMIT, Sample
 from mamori_trace.checks import list_rules
 
 SEEDS = (*links.SEEDS, *texts.SEEDS, *records.SEEDS, *results.SEEDS)
-HINTS = {"test-unlinked", "weak-word", "independence-missing"}  # warnings, at the SIL at which they are seeded
+HINTS = {"test-unlinked", "weak-word", "independence-missing"}  # warnings at the SIL of the seeded fault
 
 
 @pytest.mark.verifies("SWR-TRC-010", technique="requirements_based", polarity="nominal")

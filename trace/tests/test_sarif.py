@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the SARIF output has every part that the format requires and that forges use, and nothing about the host that created it.
+# Goal: the SARIF output has every part that the format requires and forges use, and no information about the host.
 # Method: a handwritten structural check of the rules of SARIF 2.1.0 for these objects (sections 3.13 to 3.58).
 from __future__ import annotations
 

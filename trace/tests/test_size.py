@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the page shows the bytes of each system with its limit, its aim and every finding; an invalid record is a finding.
+# Goal: the page shows the bytes of each system with its limit, aim and findings; an invalid record is a finding.
 from __future__ import annotations
 
 import copy

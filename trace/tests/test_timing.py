@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the page shows real-time measurements with every mark, and an invalid record or picture does not affect the rest.
+# Goal: the page shows real-time measurements with every mark; an invalid record or picture does not affect the others.
 from __future__ import annotations
 
 import base64

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: each invalid TOML file gives a message and is never ignored. Method: corrupt each file that a project may have."""
+"""Goal: each invalid TOML file gives a message. Method: corrupt each file that a project may have."""
 
 from __future__ import annotations
 

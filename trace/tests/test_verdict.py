@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: executed results determine the verdict, the worst first; a test that did not run never leaves an item green.
+# Goal: executed results determine the verdict, worst first; a test that did not run never leaves an item green.
 from __future__ import annotations
 
 import json

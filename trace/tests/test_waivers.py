@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a waiver removes one stated finding from the count, is listed, and ends on its day; an invalid one waives nothing.
+# Goal: a waiver removes one specified finding from the count, is listed, and ends on its date; an invalid waiver has no effect.
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -20,7 +20,7 @@ KINDS = ("gate", "advisory")
 
 @dataclass(frozen=True)
 class RatioBar:
-    """In the same case, `ours` may take at most `limits[size]` times as long as `against`."""
+    """In the same case, the time of `ours` may be at most `limits[size]` times the time of `against`."""
 
     id: str
     title: str
@@ -33,7 +33,7 @@ class RatioBar:
 
 @dataclass(frozen=True)
 class GrowthBar:
-    """At `to`, `ours` may take at most `limit` times as long per component as at `from`. `floor` is shown for comparison."""
+    """At `to`, the time of `ours` per component may be at most `limit` times its time at `from`. `floor` is shown for comparison."""
 
     id: str
     title: str
@@ -48,7 +48,7 @@ class GrowthBar:
 
 @dataclass(frozen=True)
 class CountBar:
-    """An exact count [instructions]: of the first operation, minus that of the second one if there are two."""
+    """An exact count [instructions]: of the first operation, minus the second operation if there is one."""
 
     id: str
     name: str
@@ -73,7 +73,7 @@ class Bars:
 
 
 def load_bars(path: Path = FILE) -> Bars:
-    """@raise InputError with the file and the fault."""
+    """@raise InputError with the file and the error."""
     try:
         data = tomllib.loads(read_text(path, "file of bars").text)
         return Bars(

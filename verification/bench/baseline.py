@@ -35,7 +35,7 @@ class Baseline:
 
 @dataclass(frozen=True)
 class CountResult:
-    """One exact count and its verdict; `note` states what to do."""
+    """One exact count and its verdict; `note` states the next action."""
 
     id: str
     name: str
@@ -45,11 +45,11 @@ class CountResult:
     baseline: int | None
     verdict: str
     note: str = ""
-    is_known_miss: bool = False  # failed only because of a limit that is marked as missed
+    is_known_miss: bool = False  # failed only for a limit that is marked as missed
 
 
 def load_baseline(path: Path = FILE) -> Baseline:
-    """@raise InputError with the fault."""
+    """@raise InputError with the error."""
     try:
         data = tomllib.loads(read_text(path, "baseline").text)
         counts = {name: int(count) for name, count in data["instructions"].items()}
@@ -70,13 +70,13 @@ def write_baseline(baseline: Baseline, path: Path = FILE) -> None:
 
 
 def calc_count(bar: CountBar, profiles: Mapping[str, Profile]) -> int:
-    """@raise WorkError if the repetitions of an operation differ, so that it has no exact count."""
+    """@raise WorkError if the repetitions of an operation differ: the operation then has no exact count."""
     counts = [profiles[name].calc_count(REPETITIONS) for name in bar.operations]
     return counts[0] - sum(counts[1:])
 
 
 def judge_count(bar: CountBar, count: int, baseline: Baseline, compiler: str, c_library: str) -> CountResult:
-    """Worst first: a limit applies to every compiler, the baseline to its own."""
+    """Worst count first. A limit applies to every compiler; the baseline applies only to its own compiler."""
     before = baseline.counts.get(bar.name)
 
     def result(verdict: str, note: str = "", is_known_miss: bool = False) -> CountResult:

@@ -47,7 +47,7 @@ BENCHES = {
     EXACT: "exact instruction counts (callgrind), and no heap or system call after start",
 }
 SEALED = ("port_8", "port_64", "e2e_port_32", "cycle_20", "supervised_cycle_20")
-"""Operations that may neither use the heap nor make a system call; their clocks cost nothing, since clocks belong to ports."""
+"""Operations that may neither use the heap nor make a system call. Their clock costs nothing, because clocks belong to ports."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Request:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Benchmarks to run, in their own order."""
+        """Benchmarks to run, in their fixed order."""
         if self.accepts:
             return (EXACT,)
         return tuple(name for name in BENCHES if not self.only or name in self.only)
@@ -145,7 +145,7 @@ def _read(path: Path) -> Samples:
 
 
 def name_reason(samples: Samples, reason: str) -> Samples:
-    """CMake only reports that iceoryx2's library is missing; the build of the library states why."""
+    """CMake reports only that the library of iceoryx2 is missing; the build of the library states why."""
     if not reason or tools.ICEORYX2 not in samples.absent:
         return samples
     return replace(samples, absent={**samples.absent, tools.ICEORYX2: reason})
@@ -153,9 +153,9 @@ def name_reason(samples: Samples, reason: str) -> Samples:
 
 def count_all(program: Path, bars: Bars, baseline: Baseline | None, tell: Tick
               ) -> tuple[list[CountResult], dict[str, str], Baseline]:  # fmt: skip
-    """Counts the operations of every limit. @return evaluated counts, heap and system calls by operation, the counts as a baseline.
+    """Counts the operations of every limit. @return evaluated counts, heap and system calls by operation, and the counts as a baseline.
 
-    Without a baseline only the limits apply, which is necessary to accept new counts.
+    Without a baseline only the limits apply; new counts are accepted this way.
     """
     about = ask_about(program)
     compiler, c_library = str(about["compiler"]), str(about["c_library"])
@@ -169,7 +169,7 @@ def count_all(program: Path, bars: Bars, baseline: Baseline | None, tell: Tick
 
 
 def describe_calls(heap: Sequence[str], makes_calls: bool) -> str:
-    """@return the forbidden actions of an operation after start, or nothing."""
+    """@return the forbidden actions of an operation after start; empty if there are none."""
     words = [f"uses the heap ({', '.join(heap)})"] if heap else []
     return " and ".join([*words, *(["makes system calls"] if makes_calls else [])])
 
@@ -194,7 +194,7 @@ def list_benches() -> int:
 
 
 def bench(request: Request, jobs: int) -> int:
-    """@return exit status: 1 if a step failed, or with --gate a gate."""
+    """@return exit status: 1 if a step failed, or, with --gate, if a gate failed."""
     request.check()
     project = Project(ROOT)
     bars = load_bars()

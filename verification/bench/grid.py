@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wake-ups on a schedule of 1 kHz: the runner of the real-time port and cyclictest alternate, each in its own process with the same
-priority on the same processor. Percentiles of the lateness are compared round by round.
+"""Wake-ups on a schedule of 1 kHz. The runner of the real-time port and cyclictest alternate, each in its own process with the same
+priority on the same processor. The percentiles of their lateness are compared round by round.
 
 @satisfies SWR-BEN-009      Design: docs/design/bench.md#grid
 """
@@ -27,11 +27,11 @@ PERCENTS = (50, 99)
 UNIT = "ns from the planned instant to the first reading of the clock"
 PRIORITY = 80
 LONGEST_NS = 1_000_000
-"""Longer ones count as this long: a whole period."""
+"""Longer latenesses count as this value: a complete period."""
 
 
 class Refused(WorkError):
-    """A program could not measure, which ends only its own rounds; the text states why."""
+    """A program could not measure. Only its own rounds end; the text states why."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Turn:
     cycles: int
 
     def calc_percentile(self, percent: int) -> float:
-        """@return the lateness that `percent` of the wake-ups do not exceed, at least 1 ns."""
+        """@return the lateness that `percent` of the wake-ups do not exceed [ns], at least 1."""
         wanted = (self.cycles - 1) * percent // 100
         seen = 0
         for lateness, count in sorted(self.histogram.items()):
@@ -90,8 +90,8 @@ def add_grid(samples: Samples, turns: Mapping[str, Sequence[Turn]], absent: Mapp
 
 def measure_grid(programs: Programs, effort: Effort, folder: Path, tick: Tick, log: TextIO
                  ) -> tuple[dict[str, list[Turn]], dict[str, str]]:  # fmt: skip
-    """Runs both programs alternately; each round begins with the other one. @return the runs of each program that was measured in
-    every round, and why the others were not. @raise WorkError if a program wrote something other than figures."""
+    """Runs both programs alternately; the first program changes from round to round. @return the runs of each program that measured in
+    every round, and for each other program why it did not. @raise WorkError if a program wrote output without figures."""
     processor = max(os.sched_getaffinity(0))
     out = folder / "grid.json"
     cycles = str(effort.grid_cycles)

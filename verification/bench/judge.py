@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Evaluates samples by the acceptance limits: each by the median of its per-round ratios, never by a time.
+"""Compares samples with the acceptance limits: each limit with the median of its per-round ratios, never with a time.
 
 @satisfies SWR-BEN-001, SWR-BEN-002, SWR-BEN-003      Design: docs/design/bench.md#bars
 """
@@ -14,14 +14,14 @@ from verification.bench.bars import Bars, GrowthBar
 from verification.bench.samples import Samples, Series
 
 ROUNDS_MIN = 5
-"""Fewer rounds give no median worth a verdict."""
+"""With fewer rounds, the median is too uncertain for a verdict."""
 
 PASSED, FAILED, ABSENT = "passed", "failed", "not available"
 
 
 @dataclass(frozen=True)
 class RatioResult:
-    """One limit at one size. Without figures (`ratio` is None), `note` states why."""
+    """One limit at one size. If `ratio` is None, `note` states why."""
 
     id: str
     title: str
@@ -33,7 +33,7 @@ class RatioResult:
     kind: str
     verdict: str
     ratio: float | None = None
-    lowest: float | None = None  # over the rounds
+    lowest: float | None = None  # of all rounds
     highest: float | None = None
     ours_ns: float | None = None
     against_ns: float | None = None
@@ -44,7 +44,7 @@ FLOORS = ("seqlock", "CRC-32 frame", "virtual call", "virtual call + clock", "pa
 
 
 def judge(samples: Samples, bars: Bars, floors: Sequence[str] = FLOORS) -> list[RatioResult]:
-    """@param floors subjects that are part of the program, so that a missing one is a failure.
+    """@param floors subjects that are part of the program: a missing one is a failure.
     @return one result for each limit and size whose metric was measured.
     """
     measured = {metric for metric, _ in samples.cases}
@@ -73,7 +73,7 @@ def list_failed_gates(results: Sequence[RatioResult]) -> list[RatioResult]:
 
 
 def _describe_floor(samples: Samples, growth: GrowthBar) -> str:
-    """Growth of the lower bound in the same run: no program with the same calls can be below it on this host."""
+    """Growth of the lower bound in the same run. No program with the same calls can grow less on this host."""
     floor = _find(samples, growth.metric, growth.to_size, growth.floor)
     before = _find(samples, growth.metric, growth.from_size, growth.floor)
     if floor is None or before is None:

@@ -22,7 +22,7 @@ from verification.bench.record import Run
 from verification.bench.samples import Samples
 from verification.bench.table import SIZE_UNITS, format_ratio, format_time
 
-# Distinguishable for all readers, also in grey: verdicts differ in shape as well as in colour.
+# All readers can distinguish these, also in grey: verdicts differ in shape and colour.
 GOOD, BAD, INK, FAINT = "#0072b2", "#d55e00", "#222222", "#bbbbbb"
 OURS = ("#0072b2", "#56b4e9")
 OTHERS = ("#222222", "#777777", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#8c564b")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the benchmark programs and runs them. A reference implementation that cannot be built is left out, with the reason.
+"""Builds the benchmark programs and runs them. Omits a reference implementation that cannot be built, and reports why.
 
 @satisfies SWR-BEN-002      Design: docs/design/bench.md#peers
 """
@@ -20,7 +20,7 @@ from mamori_trace.base.errors import WorkError
 
 ICEORYX2 = "iceoryx2 local"
 CARGO_MIN = (1, 89)
-"""Oldest cargo that builds the iceoryx2 of iceoryx2/Cargo.toml."""
+"""Oldest cargo version that builds the iceoryx2 version in iceoryx2/Cargo.toml."""
 
 
 @dataclass(frozen=True)
@@ -30,10 +30,10 @@ class Effort:
     rounds: int
     batches: int
     batch_ns: int
-    grid_cycles: int  # wake-ups of each program in a round, a millisecond each
+    grid_cycles: int  # wake-ups of each program in a round; each takes a millisecond
 
 
-# A batch is far below the time slice of a scheduler, so that most batches are not interrupted.
+# A batch is much shorter than the time slice of a scheduler, so that most batches are not interrupted.
 NORMAL = Effort(rounds=15, batches=21, batch_ns=400_000, grid_cycles=1000)
 QUICK = Effort(rounds=5, batches=11, batch_ns=100_000, grid_cycles=250)
 
@@ -66,7 +66,7 @@ class Programs:
 
 
 def build_iceoryx2(programs: Programs, tick: Tick, log: TextIO) -> str:
-    """Builds the reference implementation with cargo. @return why it is missing, or nothing."""
+    """Builds the reference implementation with cargo. @return why it is missing, or an empty string."""
     reason = _check_cargo()
     if not reason:
         log.flush()
@@ -81,7 +81,7 @@ def build_iceoryx2(programs: Programs, tick: Tick, log: TextIO) -> str:
 
 
 def _check_cargo() -> str:
-    """@return what is wrong with cargo on this host, or nothing."""
+    """@return why cargo on this host is unsuitable, or an empty string."""
     needed = ".".join(map(str, CARGO_MIN))
     if shutil.which("cargo") is None:
         return f"cargo is not installed; iceoryx2 needs cargo {needed} or newer, which Debian 12 does not package (rustup does)"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bench.json: every figure of a run with its origin.
+"""bench.json: all figures of a run with their origin.
 
 @satisfies SWR-BEN-004      Design: docs/design/bench.md#record
 """
@@ -25,7 +25,7 @@ SCHEMA = "mamori.bench/1"
 
 @dataclass(frozen=True)
 class Run:
-    """Results of one call of `./mamori bench`. `proofs`: operation -> its forbidden actions, empty if there are none."""
+    """Results of one call of `./mamori bench`. `proofs`: operation -> its forbidden actions; empty if there are none."""
 
     samples: Samples | None = None
     ratios: Sequence[RatioResult] = ()
@@ -48,7 +48,7 @@ class Run:
 
 
 def collect_host() -> dict[str, object]:
-    """Settings and load of the host, as far as available."""
+    """Settings and load of the host, as far as the host provides them."""
     return {
         "kernel": f"{platform.release()} {platform.version()}",
         "governor": _read("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor") or "unknown",
@@ -67,7 +67,7 @@ def _read(path: str) -> str:
 
 
 def _get_steal() -> int:
-    """Ticks since boot in which another virtual machine had the processor."""
+    """Ticks since boot in which another virtual machine used the processor."""
     words = _read("/proc/stat").partition("\n")[0].split()
     return int(words[8]) if len(words) > 8 else 0
 
@@ -98,7 +98,7 @@ def make_record(run: Run, environment: dict[str, object], before: dict[str, obje
 
 
 def write_record(record: dict[str, Any], folder: Path) -> Path:
-    """Atomic. @return its path."""
+    """Writes the record atomically. @return its path."""
     path = folder / "bench.json"
     write_text(path, json.dumps(record, indent=1) + "\n")
     return path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The samples of the program `mamori_bench`: for each case and subject one time per round.
+"""The samples of the program `mamori_bench`: for each case and subject, one time per round.
 
 @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
 """

@@ -19,7 +19,7 @@ SIZE_UNITS = {"port": "B", "e2e": "B", "scheduler": "components", "wake-up": "B"
 
 
 def show_run(run: Run, screen: Screen) -> None:
-    """Prints the tables of `run`; parts without measurements have none."""
+    """Prints the tables of `run`, except tables without measurements."""
     if run.samples:
         for metric in dict.fromkeys(metric for metric, _ in run.samples.cases):
             screen.say()
@@ -39,7 +39,7 @@ def show_run(run: Run, screen: Screen) -> None:
 
 
 def tabulate_times(samples: Samples, metric: str) -> tuple[Row, list[Row]]:
-    """Medians of one metric: a row per subject, a column per size; a missing reference implementation has a row."""
+    """Medians of one metric: a row per subject (also for a missing reference implementation), a column per size."""
     cases = [case for (name, _), case in samples.cases.items() if name == metric]
     names = list(dict.fromkeys(name for case in cases for name in case.series))
     heads = (f"{metric}: {cases[0].unit}", *(f"{case.size} {SIZE_UNITS.get(metric, '')}".strip() for case in cases))

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Proves the layer table of CONTRIBUTING.md: permitted includes, links and imports, the order of the component folders of a layer,
-the permitted content of target code, and that death tests state their cause.
+"""Checks the layer table of CONTRIBUTING.md: permitted includes, links and imports, order of the component folders of a layer, permitted
+content of target code. Also checks that death tests state the cause of the death.
 
     python -m verification.checks.check_layers [--root FOLDER]
 
-One line per finding, `file:line: rule: message`; exit status 0 without findings, 1 with, 2 for wrong arguments.
+Prints one line per finding, `file:line: rule: message`. Exit status 0 without findings, 1 with findings, 2 for wrong arguments.
 
 @satisfies SWR-PRF-006, SWR-PRF-007, SWR-PRF-008, SWR-PRF-042      Design: docs/design/launcher.md#layer-check
 """
@@ -66,7 +66,7 @@ def check_tree(root: Path) -> list[Finding]:
 
 
 def check_texts(root: Path) -> list[Finding]:
-    """Findings in the wording of all texts below `root`, by the list of that tree, and in the samples of its manual."""
+    """Findings about the wording of all texts below `root`, according to the list of that tree, and about the samples of its manual."""
     file = root / WORDING
     wording = [Finding(name, line, "wording", message) for name, line, message in check_wording(root, file)] if file.exists() else []
     return wording + [Finding(name, line, "sample", message) for name, line, message in check_samples(root)]
@@ -127,7 +127,8 @@ def _check_includes(root: Path, path: Path, layer: Layer, text: str, is_test: bo
 
 
 def _find_beside(root: Path, path: Path, include: str) -> tuple[str, ...]:
-    """Path parts of the file that a quoted include without layer names: beside `path`, or in a folder above it. Otherwise nothing."""
+    """Path parts of the file that a quoted include without a layer names: in the folder of `path` or a folder above. Empty if there is
+    none."""
     for folder in path.parents:
         if (folder / include).is_file():
             return (folder / include).resolve().relative_to(root.resolve()).parts
@@ -150,7 +151,7 @@ def _is_host_header(root: Path, path: Path, include: str) -> bool:
 
 
 def _check_links(layer: Layer, layers: set[str], text: str) -> Iterator[tuple[int, str]]:
-    """Checks libraries only: tests may link what they test with."""
+    """Checks libraries only, because tests may link test libraries."""
     if layer.name in ("examples", "verification", "trace"):
         return
     forbidden = layers - {*layer.links, layer.name.rpartition("/")[2]}

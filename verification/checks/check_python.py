@@ -3,7 +3,7 @@
 
     python -m verification.checks.check_python [--root FOLDER]
 
-Exit status 0 without findings, 1 with, 2 for wrong arguments, 3 if a tool is missing. Caches are below build/.
+Exit status 0 without findings, 1 with findings, 2 for wrong arguments, 3 if a tool is missing. Caches are below build/.
 
 Design: docs/design/launcher.md#python-checks
 """

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Counts the lines of code and tests, the words of documents and the files of the project, and limits the share of `verification`.
+"""Counts lines of code and tests, words of documents, and files of the project. Limits the share of `verification` in the code.
 
     python -m verification.checks.code_size
 
-All lines of a file count, including comments and empty lines. Data (requirements, TOML, JSON) count as files only.
+All lines of a file count, including comments and empty lines. Data (requirements, TOML, JSON) count only as files.
 
 Design: docs/design/launcher.md#layer-check
 """
@@ -42,7 +42,7 @@ class Size:
 
 
 def list_tracked(root: Path) -> list[str]:
-    """Files that git tracks; outside a checkout, all files that are not generated."""
+    """Files that git tracks; without a git checkout, all files that are not generated."""
     done = subprocess.run(("git", "-C", str(root), "ls-files", "-z"), capture_output=True, text=True, check=False)
     if done.returncode == 0 and done.stdout:
         return [name for name in done.stdout.split("\0") if name]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Order of the component folders of kernel and safety as data, and its check.
+"""Order of the component folders of kernel and safety as data, and the check of that order.
 
 @satisfies SWR-PRF-042      Design: docs/design/launcher.md#layer-check
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-# Folder -> level. A file includes its own folder and folders of lower levels.
+# Folder -> level. A file may include its own folder and folders of lower levels.
 FOLDER_LEVELS: Mapping[str, Mapping[str, int]] = {
     "kernel": {"base": 0, "component": 1, "payload": 1, "record": 1, "dataflow": 2, "parameter": 2, "table": 3, "run": 4, "system": 4},
     "safety": {"base": 0, "arm": 1, "redundancy": 1, "supervision": 1, "e2e": 1, "reaction": 2, "self_test": 2, "assumptions": 3},
@@ -17,7 +17,8 @@ UMBRELLA_HEADERS = ("kernel/include/mamori/kernel.hpp",)
 
 
 def find_folder(path: tuple[str, ...]) -> str | None:
-    """@return the component folder of a header or source of kernel or safety; "" if it is in none; None for other files."""
+    """@return the component folder of a header or source of kernel or safety; "" if it is outside component folders; None for other
+    files."""
     match path:
         case (layer, "include", "mamori", _, *inner) | (layer, "src", *inner) if layer in FOLDER_LEVELS:
             if "/".join(path) in UMBRELLA_HEADERS:
@@ -34,7 +35,8 @@ def check_place(path: tuple[str, ...]) -> Iterator[str]:
 
 
 def check_order(path: tuple[str, ...], include: str) -> Iterator[str]:
-    """@param include path of a header of the project, as in the include line. @return a message if the order of the folders forbids it."""
+    """@param include path of a project header, as in the include line. @return a message if the order of the folders forbids the
+    include."""
     match include.split("/"):
         case ["mamori", layer, folder, *inner] if inner and layer in FOLDER_LEVELS:
             pass

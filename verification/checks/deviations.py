@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compares docs/deviations.yaml with the code of the layers that run on a controller: each assembler statement names its row, and
-each row is complete and named by a line of its file.
+"""Compares docs/deviations.yaml with the code of the layers that run on a controller. Each assembler statement must name its row. Each row
+must be complete and named by a line of its file.
 
 @satisfies SWR-SLF-020      Design: docs/design/launcher.md#layer-check
 """
@@ -26,7 +26,7 @@ Place = tuple[str, int, str, str]  # file, line, rule, message
 
 
 def check_deviations(root: Path, code: Mapping[str, str]) -> Iterator[Place]:
-    """@param code text of each source of the target layers, by its path below `root`. @return faults of rows and code."""
+    """@param code text of each source of the target layers, by its path below `root`. @return errors in rows and code."""
     text = (root / FILE).read_text(encoding="utf-8") if (root / FILE).is_file() else "deviations: []"
     try:
         table = yaml.safe_load(text)

@@ -10,24 +10,24 @@ from dataclasses import dataclass
 
 # A new name needs an ADR.
 LISTED_STD = frozenset("array atomic cstddef cstdint limits new type_traits utility".split())
-# Sources of the kernel that use POSIX headers on a host, inside of "#if defined(__unix__)": ADR 0034.
+# Kernel sources that use POSIX headers on a host, inside "#if defined(__unix__)": ADR 0034.
 HOST_SOURCES = frozenset({"kernel/src/base/assert.cpp"})
 TEST_INCLUDES = ("mamori/trace/verifies.hpp", "mamori/verification/failed_check.hpp", "gtest/", "gmock/", "relacy/")
-PORT_TEST_INCLUDES = ("mamori/ports/conformance/",)  # the rules of each port: ADR 0012
+PORT_TEST_INCLUDES = ("mamori/ports/conformance/",)  # the rules for each port: ADR 0012
 SIMULATION_INCLUDES = ("Simbody.h", "SimTK", "simbody/", "simmath/", "kdl/", "Eigen/", "yaml-cpp/")
 
 
 @dataclass(frozen=True)
 class Layer:
-    """Permitted includes and links of one layer. Prefixes: `mamori/` ones name headers of the project."""
+    """Permitted includes and links of one layer. Prefixes that begin with `mamori/` name project headers."""
 
     name: str
     headers: tuple[str, ...]  # prefixes of include paths
     links: tuple[str, ...]  # layers
     any_std: bool = True
-    any_library: bool = False  # an OS or a separate library, named in the CMakeLists.txt of the folder
-    test_headers: tuple[str, ...] = ()  # prefixes of include paths, in its tests
-    target: bool = False  # runs on a controller: limits of size and words apply
+    any_library: bool = False  # an operating system or a separate library, named in the CMakeLists.txt of the folder
+    test_headers: tuple[str, ...] = ()  # prefixes of include paths that only its tests may use
+    target: bool = False  # runs on a controller: limits for sizes and words apply
 
 
 def get_layer(path: tuple[str, ...]) -> Layer | None:
@@ -57,8 +57,8 @@ def get_layer(path: tuple[str, ...]) -> Layer | None:
             return None
 
 
-# Python package -> level. A file imports its own package and packages of lower levels; the import path is the folder path.
-# Packages of `mamori_trace` are a separate product: they are below all others and import none of them.
+# Python package -> level. A file may import its own package and packages of lower levels; the import path is the folder path. The packages
+# of `mamori_trace` are a separate product: they are below all other packages and import none of them.
 PACKAGE_LEVELS = {
     "mamori_trace.base": 0, "mamori_trace.cache": 1, "mamori_trace.model": 1, "mamori_trace.readers": 2, "mamori_trace.checks": 3,
     "mamori_trace.formats": 3, "mamori_trace.reports": 4, "mamori_trace.actions": 5, "mamori_trace": 6,
@@ -69,12 +69,12 @@ PACKAGE_LEVELS = {
 PACKAGE_FOLDERS = {"trace/mamori_trace": "mamori_trace", "tools/mamori_tools": "mamori_tools", "verification": "verification"}
 
 
-TOP_LEVEL = 13  # of the packages of `verification` that have no row
+TOP_LEVEL = 13  # of the packages of `verification` without a row
 
 
 def find_package(module: str) -> tuple[str, int] | None:
-    """@return package and level of a module or of an import from one; None for external code.
-    @raise KeyError for a package of the tools that has no row."""
+    """@return package and level of a module or of an import from a module; None for external code. @raise KeyError for a package of the
+    tools without a row."""
     parts = [part for part in module.split(".") if part != "__init__"]
     name = ".".join(parts[:2])
     if name in PACKAGE_LEVELS:
@@ -93,7 +93,7 @@ def find_package(module: str) -> tuple[str, int] | None:
 
 
 def get_module(path: tuple[str, ...]) -> str | None:
-    """@return the dotted name of a Python file of the packages; None for others, tests included."""
+    """@return the dotted name of a Python file of the packages; None for other files, including tests."""
     name = "/".join(path)
     if "tests" in path or path[-1].startswith(("test_", "conftest")):
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Each C++ sample of the manual is part of a source that the build compiles, or a program that the consumer proof builds.
+"""Checks that each C++ sample of the manual is part of a source that the build compiles, or of a program that the consumer proof builds.
 
 @satisfies SWR-PRF-050      Design: docs/design/launcher.md#layer-check
 """
@@ -32,7 +32,7 @@ COMPILED = (
 """Sources with samples. The build compiles each of them."""
 
 BUILT = {"last_resort.md": "int main(", "partitions.md": "", "real_time.md": "int main(", "timing.md": "int main("}
-"""Pages whose samples verification/proofs/test_consumer.py builds and runs: those that contain the text."""
+"""Pages whose samples verification/proofs/test_consumer.py builds and runs: pages that contain this text."""
 
 LANGUAGES = ("cpp", "cmake", "text")
 _CPP_LINE = re.compile(r" {4}\s*(#include |(static|constexpr|using|namespace|class|struct) .*[;{]$|.*(\)|\}| = [^;]*);( *//.*)?$)")
@@ -40,7 +40,7 @@ _CPP_LINE = re.compile(r" {4}\s*(#include |(static|constexpr|using|namespace|cla
 
 @dataclass(frozen=True)
 class Sample:
-    """One fenced block of a page; `line` is that of its fence, from 1."""
+    """One fenced block of a page; `line` is the line of its fence, from 1."""
 
     line: int
     language: str
@@ -48,7 +48,7 @@ class Sample:
 
 
 def find_samples(page: str) -> Iterator[Sample]:
-    """Fenced blocks in their order. A block of C++ without a fence has the language "" and one line."""
+    """Fenced blocks in order. A C++ block without a fence has the language "" and one line."""
     lines = page.splitlines(keepends=True)
     begin: int | None = None
     for number, line in enumerate(lines, start=1):
@@ -65,7 +65,7 @@ def find_samples(page: str) -> Iterator[Sample]:
 
 
 def check_samples(root: Path) -> Iterator[tuple[str, int, str]]:
-    """File, line and message of each sample that nothing compiles."""
+    """File, line and message of each sample that no build compiles."""
     sources = {name: (root / name).read_text(encoding="utf-8") for name in COMPILED if (root / name).is_file()}
     for path in sorted((root / "docs" / "manual").rglob("*.md")):
         name = path.relative_to(root / "docs" / "manual").as_posix()

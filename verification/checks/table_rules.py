@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""docs/manual/table_rules.md: every compiler message of kernel and safety, as their headers state it.
+"""docs/manual/table_rules.md: all compiler messages of kernel and safety, extracted from their headers.
 
-The rules of a system table are in table_rules.hpp, the rules of state machines and configurations in enumerations, and the others in assertions.
+Sources: rules of a system table from table_rules.hpp, rules of state machines and configurations from enumerations, others from assertions.
 
 `python -P -m verification.checks.table_rules` writes the page.
 
@@ -25,7 +25,7 @@ PAGE = Path("docs/manual/table_rules.md")
 RULE = re.compile(r'\bX\((\w+), (\w+), (\w+), ((?:\s*"[^"\n]*")+)\)')
 FAULTY = re.compile(r"^///\s{13}(\w+)\s+(\S.*)$", re.MULTILINE)
 ENUMERATOR = re.compile(r"^    (k\w+),\s+///< (.*)$", re.MULTILINE)
-# Indented: an assertion at the left margin is about the library itself and fails in no program of a user.
+# Indented assertions only: an assertion at the left margin is about the library itself and cannot fail in user programs.
 ASSERTION = re.compile(r'^ +static_assert\([^;"]*,[\s\\]*((?:"[^"\n]*"[\s\\]*)+)\)', re.MULTILINE)
 QUOTE = '"'
 HEAD = """\

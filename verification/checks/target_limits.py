@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limits for code that runs on a controller: banned words, length of functions, files and headers.
+"""Limits for code that runs on a controller: banned words, and the length of functions, files and headers.
 
 @satisfies SWR-PRF-007, SWR-PRF-008      Design: docs/design/launcher.md#layer-check
 """
@@ -19,7 +19,7 @@ MEASURED_HEADERS = "kernel/include"  # folder of the headers whose median length
 HEADER_LINES_MEDIAN_MAX = 90
 
 BANNED_ANYWHERE = re.compile(r"\bFIXME\b|\bTODO\b(?!\(#\d+\))")
-# Calls that block, surprise or format; matrices whose size is known at run time only (they allocate).
+# Calls that block, format, or have unexpected effects; matrices whose size is known only at run time (they allocate).
 BANNED_IN_CODE = re.compile(
     r"\b(?:(?:u|nano)?sleep(?:_for|_until)?|s?rand(?:om)?|v?(?:f|sn?)?printf"
     r"|(?:Matrix|Vector|RowVector|Array)X\w*|Eigen::Dynamic)\b"
@@ -30,7 +30,7 @@ LANGUAGE = Language(tree_sitter_cpp.language())
 
 
 def check_words(text: str) -> Iterator[tuple[int, str, str]]:
-    """@return (line, rule, message) for each banned word. Calls are searched outside comments and strings only."""
+    """@return (line, rule, message) for each banned word. Comments and strings are not searched for calls."""
     for match in BANNED_ANYWHERE.finditer(text):
         yield _line_of(text, match), "word", f"'{match[0]}' must be finished, or written TODO(#n) with its issue"
     code = COMMENT_OR_TEXT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keeps expressions that readers misunderstand from spreading: the list wording.toml has a maximum for each, which only falls.
+"""Limits the use of expressions that readers misunderstand: the list wording.toml has a maximum for each, which may only decrease.
 
     python -m verification.checks.wording
 
-lowers each maximum to the number of occurrences. The layer check reports an expression that became more frequent.
+lowers each maximum to the current number of occurrences. The layer check reports an expression that became more frequent.
 
 @satisfies SWR-PRF-043      Design: docs/design/launcher.md#layer-check
 """
@@ -23,7 +23,7 @@ FILE = Path(__file__).with_name("wording.toml")
 PLACES = ("CONTRIBUTING.md", "README.md", "docs", "examples", "kernel", "mamori", "ports", "requirements", "safety", "simbody_sim", "tools", "trace",
           "verification")  # fmt: skip
 SUFFIXES = (".cpp", ".hpp", ".md", ".py", "")
-# Decision records stay unchanged, and the glossary explains old words; the list and its tests contain them all.
+# Decision records stay unchanged, the glossary explains old words, and the list and its tests contain all expressions.
 LEFT_OUT = ("docs/adr/", "docs/glossary.md", "verification/checks/wording", "verification/tests/test_wording")
 SHOWN = 3  # locations of an expression that became more frequent
 
@@ -53,7 +53,7 @@ def list_texts(root: Path) -> Iterator[Path]:
 
 
 def find_expressions(root: Path, expressions: list[Expression]) -> dict[str, list[tuple[str, int]]]:
-    """@return file and line of each occurrence, by expression. Case, and the kind of space or line end between words, do not matter."""
+    """@return file and line of each occurrence, by expression. Ignores case and the kind of white space between words."""
     places: dict[str, list[tuple[str, int]]] = {each.text: [] for each in expressions}
     patterns = [(each.text, each.text.split()[0], _make_pattern(each.text)) for each in expressions]
     for path in list_texts(root):
@@ -66,12 +66,12 @@ def find_expressions(root: Path, expressions: list[Expression]) -> dict[str, lis
 
 
 def _make_pattern(text: str) -> re.Pattern[str]:
-    """Between two words, a line end and a comment sign are permitted."""
+    """A line end and a comment sign are permitted between two words."""
     return re.compile(r"\b" + r"\s+(?:(?://[/!<]*|[#*])\s*)?".join(re.escape(word) for word in text.split()) + r"\b")
 
 
 def check_wording(root: Path, file: Path = FILE) -> Iterator[tuple[str, int, str]]:
-    """@return file, line and message for each expression that is more frequent than its maximum, or whose maximum must be lowered."""
+    """@return file, line and message for each expression that exceeds its maximum, or whose maximum must be lowered."""
     expressions = read_expressions(file)
     for each, places in zip(expressions, find_expressions(root, expressions).values(), strict=True):
         if len(places) > each.maximum:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows that headers, libraries and CMake targets of the installed package fit together. Exit status 0: they
-// do.
+// Shows that headers, libraries and CMake targets of the installed package fit together. Exit status 0 if
+// they do.
 #include <cstdio>
 
 #include "mamori/kernel/base/assert.hpp"
@@ -14,11 +14,11 @@ static_assert(MAMORI_VERSION ==
 
 namespace {
 
-/// Largest torque that the consumer asks of a joint [N m].
+/// Maximum torque that the consumer requests from a joint [N m].
 constexpr double kTorqueMaxNm = 10.0;
 
-/// Takes a torque for `joint` into the outputs.
-/// @return kOk; kBadParameter (no such joint, or more than kTorqueMaxNm).
+/// Copies a torque for `joint` to the outputs.
+/// @return kOk; kBadParameter if there is no such joint or the torque exceeds kTorqueMaxNm.
 mamori::Status set_torque(mamori::safety::ArmOutputs& outputs, std::size_t joint, double torque_nm) {
     if (joint >= outputs.torque_nm.size() || !(torque_nm >= -kTorqueMaxNm && torque_nm <= kTorqueMaxNm)) {
         return mamori::Status::kBadParameter;
@@ -32,7 +32,7 @@ mamori::Status set_torque(mamori::safety::ArmOutputs& outputs, std::size_t joint
 int main() {
     using namespace mamori::literals;
     mamori::safety::ArmOutputs outputs;
-    // Code of the kernel's library, not of its headers only: the link must have found it.
+    // Calls code of the kernel library, not only of its headers: the linker must have found the library.
     mamori::set_assertion_handler(nullptr);
 
     const bool is_safe_by_default = !outputs.torque_enable && !outputs.brake_release;

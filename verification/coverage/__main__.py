@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measures line, branch and MC/DC coverage of kernel and safety by their own tests, and compares the gaps with the list of
-known ones.
+"""Measures line, branch and MC/DC coverage of kernel and safety by their own tests, and compares the gaps with the list of accepted gaps.
 
     python -P -m verification.coverage [--jobs N]
 
-Prints a table, then each gap that gaps.toml does not list and each row without a gap; writes
-build/host-release/evidence/coverage/coverage.json and .txt. Exit status 0 if there are neither, 1 otherwise, 2 for wrong arguments.
+Prints a table, then each gap that gaps.toml does not list and each row without a gap. Writes
+build/host-release/evidence/coverage/coverage.json and .txt. Exit status 0 without such gaps and rows, 1 otherwise, 2 for wrong arguments.
 
 @satisfies SWR-VER-001, SWR-VER-002      Design: docs/design/test_strength.md#coverage
 """

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Linked into the test programs of the coverage build: writes the counters also when a program dies on
-/// purpose.
+/// Linked into the test programs of the coverage build: writes the counters also when a test ends its
+/// program.
 ///
-/// A death test ends its child process in a trap or in _Exit, where clang's run time writes nothing, so the
-/// failing side of every check of the kernel would count as untested. Profiles are merged in the file
-/// (LLVM_PROFILE_FILE with %m), so what a child adds is kept beside what its parent writes.
+/// A death test ends its child process in a trap or in _Exit. There, the run time of clang writes nothing, so
+/// the failing side of every kernel check would count as untested. The file merges profiles
+/// (LLVM_PROFILE_FILE with %m) and thus adds the counters of the child to those of its parent.
 ///
 /// @satisfies SWR-VER-001      Design: docs/design/test_strength.md#coverage
 #include <array>
@@ -33,8 +33,8 @@ namespace {
 constexpr std::array<int, 6U> kSignals{SIGILL, SIGTRAP, SIGABRT, SIGSEGV, SIGBUS, SIGFPE};
 std::array<struct sigaction, kSignals.size()> g_earlier{};
 
-/// Writes and dies of the same signal by what was installed before, so that a sanitizer reports and the death
-/// test sees what it waits for.
+/// Writes the counters, then raises the same signal with the handler that was installed before. A sanitizer
+/// can report, and the death test sees the expected signal.
 void write_and_die(int signal) {
     static_cast<void>(__llvm_profile_write_file());
     for (std::size_t i = 0U; i < kSignals.size(); ++i) {

@@ -35,13 +35,13 @@ class Gap:
 
 @dataclass(frozen=True)
 class Row:
-    """An accepted gap. It names no line, so that a row stays valid after changes elsewhere in its file."""
+    """An accepted gap. It contains no line number, so that it stays valid after changes elsewhere in its file."""
 
     file: str
     function: str
     condition: str
     reason: str
-    by_chance: bool = False  # the order of threads decides whether a run covers it, so the gap may be absent
+    by_chance: bool = False  # the order of threads decides whether a run covers the condition, so the gap may be absent
 
     def __str__(self) -> str:
         return f"{self.file}: {self.function}: {self.condition or NEVER_CALLED}"
@@ -64,7 +64,7 @@ class Verdict:
 
 
 def find_gaps(functions: Iterable[Function]) -> list[Gap]:
-    """Functions that were never called, and uncovered conditions of the others."""
+    """Functions that were never called, and uncovered conditions of the other functions."""
     gaps = []
     for function in functions:
         if function.count == 0:

@@ -23,8 +23,7 @@ BUILD_TIMEOUT_S = 3600
 
 
 def measure(root: Path, jobs: int) -> list[dict[str, Any]]:
-    """Builds all test programs of LAYERS, and runs those without counters. @return the export of llvm-cov, one for each
-    layer. @raise WorkError."""
+    """Builds all test programs of LAYERS, and runs those without counters. @return the llvm-cov export of each layer. @raise WorkError."""
     build = Project(root, SANITIZED).build
     run(("cmake", "-S", str(root), "--preset", SANITIZED))
     run(("cmake", "--build", str(build), "--target", *(f"{layer}/all" for layer in LAYERS), "--parallel", str(jobs)), BUILD_TIMEOUT_S)
@@ -32,8 +31,8 @@ def measure(root: Path, jobs: int) -> list[dict[str, Any]]:
 
 
 def measure_layer(folder: Path, build: Path, jobs: int) -> dict[str, Any]:
-    """Runs the test programs of the layer in `folder`, except those whose counters are newer than the program: `./mamori test` has
-    run them already. @return the coverage of its sources. @raise WorkError."""
+    """Runs the test programs of the layer in `folder`. Skips programs that `./mamori test` has run since the build: their counters are
+    newer. @return the coverage of its sources. @raise WorkError."""
     tests = build / folder.name
     listing = json.loads(run(("ctest", "--test-dir", str(tests), "--show-only=json-v1")))
     programs = {test["name"]: Path(test["command"][0]) for test in listing["tests"]}
@@ -54,7 +53,7 @@ def has_counters(profiles: Path, test: str, program: Path) -> bool:
 
 
 def discard_counters(profiles: Path, kept: Container[str]) -> None:
-    """Removes the counters of all tests except those in `kept`: of an earlier build, or of a removed test."""
+    """Removes the counters of all tests except those in `kept`: counters of earlier builds and of removed tests."""
     for path in profiles.glob("*.profraw"):
         if path.name.rpartition("-")[0] not in kept:
             path.unlink()
@@ -65,7 +64,8 @@ def export(programs: Sequence[Path], profiles: Path, sources: Sequence[Path]) ->
     merged = profiles / "merged.profdata"
     run(("llvm-profdata-19", "merge", "-sparse", "-o", str(merged), *map(str, sorted(profiles.glob("*.profraw")))))
     whole = export_objects(programs, merged, sources)
-    # If one program includes a function that it never calls, llvm-cov may apply that to all. Each program is therefore queried alone, too.
+    # If one program includes a function without calling it, llvm-cov may report that for all programs. Each program is therefore also
+    # queried alone.
     alone = [export_objects((program,), merged, sources) for program in programs if len(programs) > 1]
     functions = [data["functions"] for each in alone for data in each["data"]]
     return {**whole, "data": [*whole["data"], *({"files": [], "functions": each} for each in functions)]}

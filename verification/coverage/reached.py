@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Evaluates an export of llvm-cov for each function: its decisions, and their coverage by the tests.
 
-A decision of one condition is covered if it was true and false. In a decision of several, each condition must have changed
-the outcome independently (MC/DC). Instantiations of one template are merged: a condition counts if any of them covers it.
+A decision with one condition is covered if it was true and false. In a decision with several conditions, each condition must have changed
+the outcome independently (MC/DC). Instantiations of a template are merged: a condition is covered if any of them covers it.
 
 @satisfies SWR-VER-001      Design: docs/design/test_strength.md#coverage
 """
@@ -32,11 +32,11 @@ class Condition:
     is_true_seen: bool = False
     is_false_seen: bool = False
     is_alone: bool = True  # the only condition of its decision
-    is_effect_shown: bool = False  # it changed the outcome of a decision of several conditions independently
+    is_effect_shown: bool = False  # it changed the outcome of its decision independently
 
     @property
     def missing(self) -> str:
-        """The missing values; nothing if the condition is covered."""
+        """The values that were not observed; empty if the condition is covered."""
         if not self.is_alone:
             return "" if self.is_effect_shown else "own effect on the decision"
         unseen = [word for word, seen in (("true", self.is_true_seen), ("false", self.is_false_seen)) if not seen]
@@ -50,7 +50,7 @@ class Condition:
 
 @dataclass
 class Function:
-    """One function of the source; all instantiations of a template are one."""
+    """One function of the source; all instantiations of a template count as one function."""
 
     file: str
     line: int
@@ -61,7 +61,7 @@ class Function:
 
 
 def read_functions(exported: dict[str, Any], root: Path) -> list[Function]:
-    """Functions of the exported files below `root`, by file and line."""
+    """Functions of the exported files below `root`, ordered by file and line."""
     wanted = {file["filename"] for data in exported["data"] for file in data["files"]}
     source = _Source()
     functions: dict[tuple[str, int, int], Function] = {}
@@ -85,7 +85,7 @@ def read_functions(exported: dict[str, Any], root: Path) -> list[Function]:
 
 
 def _read_conditions(entry: dict[str, Any], source: _Source) -> Iterator[tuple[tuple[object, ...], Condition]]:
-    """Key (stable over instantiations) and condition, of one instantiation."""
+    """Key (equal in all instantiations) and condition, of one instantiation."""
     branches: dict[int, list[list[int]]] = {}
     alone: dict[tuple[int, Span], int] = {}
     for branch in entry["branches"]:
@@ -111,8 +111,8 @@ def _read_conditions(entry: dict[str, Any], source: _Source) -> Iterator[tuple[t
 
 
 def _take_within(left: list[list[int]], span: Span, most: int) -> list[list[int]]:
-    """Removes the conditions of the decision at `span` from the front of `left`. A condition that is a constant in this
-    template instantiation has no entry."""
+    """Removes the conditions of the decision at `span` from the front of `left`. A condition that is constant in this template
+    instantiation has no entry."""
     count = 0
     while count < min(most, len(left)) and span[:2] <= _span(left[count])[:2] and _span(left[count])[2:] <= span[2:]:
         count += 1
@@ -122,16 +122,16 @@ def _take_within(left: list[list[int]], span: Span, most: int) -> list[list[int]
 
 
 def _fit(shown: list[bool], taken: list[list[int]]) -> list[bool]:
-    """The conditions in `taken` whose independent effect was shown. llvm-cov evaluates no decision with a constant in it: a single
-    remaining condition decides alone; of several nothing is known."""
+    """Whether the independent effect of each condition in `taken` was shown. llvm-cov does not evaluate decisions with a constant
+    condition: a single remaining condition decides alone; of several, none counts as shown."""
     if len(taken) == len(shown):
         return shown
     return [len(taken) == 1 and branch[4] > 0 and branch[5] > 0 for branch in taken]
 
 
 def _find_file(branches: dict[int, list[list[int]]], span: Span) -> int | None:
-    """The file whose next decision is in `span`: the export names the file of a branch, but not that of a decision.
-    None: no condition is left in it."""
+    """The file whose next decision is in `span`: the export contains the file of a branch, but not of a decision. None: no condition is
+    left in `span`."""
     for file_id, left in sorted(branches.items()):
         if left and span[:2] <= _span(left[0])[:2] and _span(left[0])[2:] <= span[2:]:
             return file_id
@@ -139,7 +139,7 @@ def _find_file(branches: dict[int, list[list[int]]], span: Span) -> int | None:
 
 
 def _describe(entry: dict[str, Any], source: _Source, span: Span, file_id: int) -> tuple[Span, str]:
-    """Location in the function's own file, and the text there; for a macro expansion, the call of the macro."""
+    """Location in the file of the function, and the text there; for a macro expansion, the macro call."""
     if file_id == MAIN_FILE:
         return span, source.get_text(entry["filenames"][MAIN_FILE], span)
     while file_id != MAIN_FILE:

@@ -15,8 +15,8 @@ from verification.coverage.reached import Function
 
 
 def make_rows(exported: dict[str, Any], functions: Sequence[Function], root: Path) -> list[dict[str, Any]]:
-    """One row for each function, by file and line. Lines are omitted if only a single program shows that they were
-    reached, because the export counts lines for all programs together."""
+    """One row for each function, ordered by file and line. The export counts lines for all programs together. Lines are therefore omitted
+    if only the export of a single program shows that the function was called."""
     counts: dict[str, dict[int, int]] = {}
     for data in exported["data"]:
         for entry in data["files"]:

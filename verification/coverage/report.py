@@ -21,7 +21,7 @@ SCHEMA = "mamori.coverage/1"
 
 @dataclass
 class Figures:
-    """Reached and total numbers of one file."""
+    """Covered and total numbers of one file."""
 
     file: str
     lines: int = 0
@@ -35,7 +35,7 @@ class Figures:
 
 
 def count(exported: dict[str, Any], functions: Sequence[Function], root: Path) -> list[Figures]:
-    """Figures of each file, by name. Branch outcomes and conditions count once per location, not per instantiation."""
+    """Figures of each file, by name. Branch outcomes and conditions count once per source location, not per instantiation."""
     files: dict[str, Figures] = {}
     for data in exported["data"]:
         for entry in data["files"]:

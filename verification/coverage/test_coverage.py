@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the tests of kernel and safety cover every condition, or the list states why not; an unlisted gap is found.
+# Goal: the tests of kernel and safety cover every condition, or the list states why not; unlisted gaps are found.
 # Method: one measurement of the shipped layers; small programs with a seeded gap, compiled and run like their tests.
 from __future__ import annotations
 

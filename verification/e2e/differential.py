@@ -3,9 +3,8 @@
 
     python -P -m verification.e2e.differential PROGRAM [--frames N] [--seed N]
 
-PROGRAM is the built `mamori_e2e_pipe`. Both implementations protect each message and then read it, half of the messages damaged in
-between. Prints the number of messages per profile and the first differences; exit status 1 with differences, 2 for wrong
-arguments.
+PROGRAM is the built `mamori_e2e_pipe`. Both implementations protect each message and then read it. Half of the messages are damaged in
+between. Prints the number of messages per profile and the first differences. Exit status 1 with differences, 2 for wrong arguments.
 
 @satisfies SWR-E2E-003      Design: docs/design/e2e.md#comparison
 """
@@ -25,7 +24,7 @@ from pathlib import Path
 
 from e2e import p01, p02, p04, p05, p06, p07, p11
 
-BATCH = 2000  # messages per run of the program: its replies wait in a pipe of limited size
+BATCH = 2000  # messages per run of the program, because its replies wait in a pipe of limited size
 GOOD = 0  # FrameCause::kGood
 DIFFERENCES_SHOWN = 10
 HEADER_SIZES = {1: 2, 2: 2, 4: 12, 5: 3, 6: 5, 7: 20, 11: 2}
@@ -38,7 +37,7 @@ P11_MODES = {BOTH: p11.E2E_P11_DATAID_BOTH, NIBBLE: p11.E2E_P11_DATAID_NIBBLE}
 
 @dataclass(frozen=True)
 class Case:
-    """A channel, a counter, and the content of the message before its protection."""
+    """A channel, a counter, and the content of the message before protection."""
 
     profile: int
     mode: int
@@ -49,13 +48,13 @@ class Case:
     payload: bytes
 
     def make_request(self, operation: int, frame: bytes) -> bytes:
-        """Bytes for the program; see pipe.cpp."""
+        """Request for the program; see pipe.cpp."""
         return struct.pack("<BBBBHHII16s", self.profile, self.mode, operation, 0, self.offset, len(frame), self.data_id,
                            self.counter, self.data_ids) + frame  # fmt: skip
 
 
 def make_case(chance: random.Random) -> Case:
-    """Any channel that a profile permits, with any counter and payload."""
+    """Any channel that the profile permits, with any counter and payload."""
     profile = chance.choice(sorted(HEADER_SIZES))
     mode, data_id = BOTH, chance.getrandbits(32 if profile in (4, 7) else 16)
     if profile in (1, 11):
@@ -69,7 +68,7 @@ def make_case(chance: random.Random) -> Case:
 
 
 def protect(case: Case) -> bytes:
-    """The message protected by the package. Its counter is written first, because the package reads it from the message."""
+    """The message, protected by the package. Its counter is written first, because the package reads it from the message."""
     frame = bytearray(case.payload)
     at = case.offset
     match case.profile:
@@ -144,7 +143,7 @@ def compare(program: Path, cases: Sequence[Case], chance: random.Random) -> Iter
     for number, (case, frame) in enumerate(zip(cases, frames, strict=True)):
         cause, ours = answers[at], answers[at + 5 : at + 5 + len(frame)]
         at += 5 + len(frame)
-        if cause == 255:  # a stuck line would match this identifier: it is rejected on purpose, so there is nothing to compare
+        if cause == 255:  # a stuck line would match this identifier, which is therefore rejected: no comparison is possible
             continue
         if ours != frame:
             yield f"protect {case}: {ours.hex()}, the package says {frame.hex()}"

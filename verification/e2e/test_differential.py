@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: messages and verdicts equal those of an independent implementation; a difference is reported, and wrong arguments are rejected.
+# Goal: messages and verdicts equal those of an independent implementation; differences are reported, wrong arguments rejected.
 # Method: the built program and the package on random messages of random channels; a program with wrong replies.
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the finding of a run the result of a pytest test: an inconclusive run is skipped with the properties `verdict` and `figure`.
+"""Reports the finding of a run as the result of a pytest test. An inconclusive run is skipped with the properties `verdict` and `figure`.
 
 @satisfies SWR-VER-023      Design: docs/design/test_strength.md#real-time-verdicts
 """
@@ -15,7 +15,8 @@ from verification.faults.evaluation.evaluator import Result
 
 def record_finding(properties: list[tuple[str, object]], result: Result, part: str, is_timed: bool = True) -> None:
     """@param[out] properties of the test in its JUnit file.
-    @param is_timed False for a build with sanitizers: its first window instances exceed their budgets, so a failed verdict shows nothing."""
+    @param is_timed False for a build with sanitizers, whose first window instances exceed their budgets: a failed verdict then proves
+    nothing."""
     finding = result.parts[part]
     if not result.has_priority:
         pytest.skip("verdict=no-privilege: without a fixed priority any thread of the host delays the windows")

@@ -25,7 +25,7 @@ TAIL_CHARACTERS = 300
 
 @dataclass(frozen=True)
 class Campaign:
-    """A program that injects faults and records, and the evaluation of its course. `short`: the sizes of a run of some seconds."""
+    """A program that injects faults and records them, and the evaluation of its course. `short`: arguments of a run of some seconds."""
 
     name: str
     program: str
@@ -33,7 +33,7 @@ class Campaign:
     short: tuple[int, ...]
     evaluate: Callable[[Course], Result]
     defects: tuple[str, ...] = DEFECTS
-    has_storm: bool = False  # another process may fault pages
+    has_storm: bool = False  # another process may cause page faults
 
     def get_program(self, build: Path) -> Path:
         return build / "verification" / "faults" / self.name / self.program
@@ -57,7 +57,7 @@ CAMPAIGNS: Mapping[str, Campaign] = {
 
 
 def evaluate_file(path: Path) -> Result:
-    """@raise WorkError: the file is not a complete course, or of an unknown campaign."""
+    """@raise WorkError if the file is not a complete course, or belongs to an unknown campaign."""
     course = read_course(path)
     subject = course.get_text("subject")
     if subject not in CAMPAIGNS:
@@ -68,7 +68,7 @@ def evaluate_file(path: Path) -> Result:
 def run_campaign(
     campaign: Campaign, build: Path, arguments: Sequence[str], *, defect: str = "", course: Path | None = None, timeout_s: float | None = None
 ) -> Result:
-    """@param course file that keeps the course; None: it is removed after the evaluation. @raise MissingError, WorkError"""
+    """@param course file that stores the course; None: a temporary file. @raise MissingError, WorkError"""
     program = campaign.get_program(build)
     with tempfile.TemporaryDirectory(prefix="mamori-course-") as folder:
         out = course or Path(folder) / "course.json"
@@ -85,7 +85,7 @@ def run_campaign(
 
 
 def run_short(campaign: Campaign, build: Path, seed: int, defect: str = "") -> tuple[Result, int]:
-    """Repeats an inconclusive run at most twice, each time with another seed; a failed one never.
+    """Repeats an inconclusive run at most twice, each time with another seed. Never repeats a failed run.
     @return the last result and the number of repetitions."""
     for repeats in range(REPEATS_MAX + 1):
         arguments = campaign.make_arguments(campaign.short, seed + 1000 * repeats, campaign.has_storm)

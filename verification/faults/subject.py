@@ -54,7 +54,7 @@ class RealTimeSubject:
     """See mamori_tools.campaign.subject.Subject."""
 
     campaign: Campaign
-    kinds: Collection[str] = ()  # the seed chooses the kinds of faults, not the plan
+    kinds: Collection[str] = ()  # the seed, not the plan, selects the kinds of faults
     jobs_max: int | None = 1
 
     @property
@@ -124,7 +124,7 @@ class RealTimeSubject:
 
 
 def make_evaluation(result: Result) -> Evaluation:
-    """A check for the run and for each part of it on which a requirement depends."""
+    """A check for the run, and one for each part that a requirement depends on."""
     if not result.has_priority:
         check = Check("privileges", "fixed priorities", "any thread of the host delays the windows", False)
         return Evaluation(result.to_json(), (check,), "inconclusive")

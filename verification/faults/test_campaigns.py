@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: each injected fault has its declared report or reaction in time, and nothing else has. Method: one short real-time run of each campaign; the
-evaluator decides from its course. An inconclusive run is repeated. Longer runs: `python -P -m verification.faults`."""
+"""Goal: each injected fault has its declared report or reaction in time, and no other report or reaction occurs. Method: one short
+real-time run of each campaign, whose course the evaluator assesses. Inconclusive runs are repeated. Longer runs: `python -P -m
+verification.faults`."""
 
 from __future__ import annotations
 
@@ -22,13 +23,13 @@ Report = Callable[[str, str], Result]
 
 @cache
 def get_result(campaign: str, build: Path) -> tuple[Result, int]:
-    """All tests of a campaign use one run."""
+    """All tests of a campaign share one run."""
     return run_short(CAMPAIGNS[campaign], build, SEED)
 
 
 @pytest.fixture
 def report(project: Project, request: pytest.FixtureRequest) -> Report:
-    """Makes the finding of one part of a campaign the result of the test."""
+    """Reports the finding of one part of a campaign as the result of the test."""
 
     def report_part(campaign: str, part: str) -> Result:
         result, repeats = get_result(campaign, project.build)

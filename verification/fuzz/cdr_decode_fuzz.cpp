@@ -17,7 +17,7 @@ namespace mamori::fuzz {
 enum class Mode : std::uint8_t { kIdle, kRun, kStop };
 enum class Wide : std::uint32_t { kNone, kOne };
 
-/// Every width and every kind of nesting.
+/// Contains every width and every kind of nesting.
 struct Deep {
     bool flag{false};
     std::array<BoundedSequence<std::int16_t, 3>, 2> rows{};
@@ -49,7 +49,7 @@ void require(bool condition) {
     }
 }
 
-/// Encodes into a buffer of exactly the promised size, so that the sanitizer detects each excess byte.
+/// Encodes into a buffer of exactly the declared size, so that the sanitizer detects each excess byte.
 template <typename T>
 std::vector<std::byte> encode_exactly(const T& value, ByteOrder order) {
     const Result<std::size_t> size = mamori::calc_encoded_size(value);
@@ -73,7 +73,7 @@ void check(const std::vector<std::byte>& input, ByteOrder order) {
     const std::vector<std::byte> first = encode_exactly(value, order);
     require(first.size() == input.size());
     for (std::size_t i = 0U; i < first.size(); ++i) {
-        // Padding is the only part that an encoding may change, and it becomes zero.
+        // A second encoding may change only the padding, to zero.
         require(first[i] == input[i] || first[i] == std::byte{0});
     }
     T again{};

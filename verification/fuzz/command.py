@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori fuzz`: runs harnesses for a time and reports their results.
+"""`./mamori fuzz`: runs harnesses for a limited time and reports their results.
 
 @satisfies SWR-VER-010, SWR-VER-011      Design: docs/design/test_strength.md#fuzzing
 """
@@ -41,8 +41,8 @@ class Request:
 
 
 def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
-    """Runs the harnesses of `folder` against kernel and safety layer below `root`. @return exit status; 1 if one has a finding
-    or did nothing, or if there is none. @raise InputError for a harness that does not exist."""
+    """Runs the harnesses of `folder` against the kernel and safety layers below `root`. @return exit status; 1 if a harness has a finding
+    or did nothing, or if there is none. @raise InputError for an unknown harness."""
     project = Project(root)
     try:
         harnesses = choose(find_harnesses(folder, root / "build" / "fuzz"), request.names, folder)
@@ -62,7 +62,7 @@ def fuzz(request: Request, folder: Path = FOLDER, root: Path = ROOT) -> int:
 
 
 def choose(harnesses: Sequence[Harness], names: Sequence[str], folder: Path) -> list[Harness]:
-    """@raise WorkError if there is nothing to run. @raise InputError for an unknown name."""
+    """@raise WorkError if there are no harnesses. @raise InputError for an unknown name."""
     if not harnesses:
         raise WorkError(f"{folder} holds no <name>_fuzz.cpp; nothing was fuzzed")
     known = {harness.name: harness for harness in harnesses}
@@ -78,7 +78,7 @@ def list_includes(root: Path) -> list[Path]:
 
 
 def describe(runs: Sequence[Run], kept: dict[str, int]) -> list[str]:
-    """A line per harness, and for each failed one the input, its log, and the command that repeats it."""
+    """One line per harness; for each failed harness also the input, its log, and the command that repeats it."""
     lines = []
     for run in runs:
         rate = run.executions / run.seconds if run.seconds > 0.0 else 0.0
@@ -98,7 +98,7 @@ def describe(runs: Sequence[Run], kept: dict[str, int]) -> list[str]:
 
 
 def read_fault(log: Path) -> list[str]:
-    """The first message of the sanitizer, or else the last lines."""
+    """The first message of the sanitizer, or, without one, the last lines."""
     lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
     first = next((number for number, line in enumerate(lines) if FAULT.search(line)), max(0, len(lines) - SHOWN_LINES))
     return lines[first : first + SHOWN_LINES]

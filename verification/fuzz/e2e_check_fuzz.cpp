@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Fuzz target for the receiving ends of end-to-end protection: a checker and a port of every profile, in
+/// Fuzz target for the receiving ends of end-to-end protection. A checker and a port of every profile, in
 /// both orders and on both kinds of input, receive the bytes of the fuzzer. They may accept only messages
-/// that an independent recomputation accepts. A value may only be that of its message, the previous one, or
-/// the fail-safe value. Every check has one cause and every reading one outcome. First byte: selects the
-/// ends. Then steps, see Step. Seeds: corpus/e2e_check.txt.
+/// that an independent recomputation accepts. A value may only be the value of its message, the previous
+/// value, or the fail-safe value. Every check has one cause and every reading one outcome. The first byte
+/// selects the ends; steps follow, see Step. Seeds: corpus/e2e_check.txt.
 /// Design: docs/design/test_strength.md#fuzzing
 #include <cstdint>
 #include <cstring>
@@ -18,7 +18,7 @@ namespace mamori::fuzz {
 
 enum class Gear : std::uint8_t { kPark, kDrive };
 
-/// 16 bytes, always.
+/// Always 16 bytes.
 struct Fixed {
     double rad_s{0.0};
     Gear gear{Gear::kPark};
@@ -55,7 +55,7 @@ void demand(bool condition) {
 
 // ---- Recomputation ----
 
-/// Register of `width` bits, bit by bit, most significant first; reflected registers are reversed.
+/// Register of `width` bits, processed bit by bit, most significant first; reflected registers are reversed.
 std::uint64_t divide(const Bytes& bytes, unsigned width, std::uint64_t polynomial, std::uint64_t start,
                      bool turns) {
     const std::uint64_t mask = ~std::uint64_t{0U} >> (64U - width);
@@ -94,7 +94,7 @@ constexpr std::uint32_t kLongId = 0x0A0B0C0DU;
 constexpr std::uint64_t kOnes = ~std::uint64_t{0U};
 constexpr std::uint64_t kOnes32 = 0xFFFFFFFFU;
 
-/// True for a message that a sender of the channel below writes with some counter.
+/// True for a message that a sender of the channel below writes with any counter.
 bool is_good(unsigned profile, const Bytes& frame, std::size_t shortest, std::size_t longest) {
     if (frame.size() < shortest || frame.size() > longest) {
         return false;
@@ -155,7 +155,7 @@ using M11 = E2eMessage<Fixed, E2eProfile11<>, kNibbles>;
 using M22 = E2eMessage<Fixed, E2eProfile22<>, kListed>;
 using M44 = E2eMessage<Varying, E2eProfile44<>, kSent12, mamori::ByteOrder::kBig>;
 
-/// Longer than every message, so that too long messages are possible.
+/// Longer than every valid message, so that too long messages are possible.
 using Frame = E2eFrame<64U>;
 using Latest = mamori::InPort<Frame>;
 using Queue = mamori::QueueInPort<Frame, 3U>;
@@ -171,8 +171,8 @@ enum class Step : std::uint8_t {
     kDamaged,    ///< the same, with one byte changed: length, bytes, index, change
     kRepeated,   ///< the last message again
     kSilent,     ///< no message
-    kSkip,       ///< the sender's counter increases by the next byte
-    kWait,       ///< that many milliseconds pass
+    kSkip,       ///< the counter of the sender increases by the next byte
+    kWait,       ///< time advances by that number of milliseconds
     kQueueUp,    ///< the last message again, without a cycle
     kRestart,    ///< a deliberate reset
     kNewMode,    ///< the connection is restarted
@@ -183,7 +183,7 @@ class Input final {
   public:
     Input(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
     bool is_at_end() const { return next_ == size_; }
-    /// 0 after the end.
+    /// Next byte; 0 after the end.
     std::uint8_t take() { return is_at_end() ? std::uint8_t{0U} : data_[next_++]; }
 
   private:
@@ -305,7 +305,7 @@ class Run final {
             in_.take({frame, revision_, now_});
         }
     }
-    /// A cycle of the port; queued messages are read in further cycles. @param[in] has_frame one was
+    /// A cycle of the port; queued messages are read in further cycles. @param[in] has_frame a message was
     /// delivered.
     void read(bool has_frame) {
         demand(!has_frame || port_.has_frame());
@@ -322,7 +322,7 @@ class Run final {
         const bool is_accepted = port_.get_outcome() == E2eOutcome::kAccepted;
         demand((worth == E2eWorth::kNew) == is_accepted);
         if (worth == E2eWorth::kNew) {
-            // A queue contains this message, or others that were the last one when they were queued.
+            // A queue contains this message, or messages that were the last one when they were queued.
             demand(Port::kIsQueue || is_known_good());
             demand(port_.get_state() == ChannelState::kValid);
             held_ = value;

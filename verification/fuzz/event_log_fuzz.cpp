@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Drives an event log with any capacity from 0 to 8 through any sequence of writes, and compares it after
-/// each write with its requirement: the newest records in order, every other one counted as lost.
+/// Drives an event log with any capacity from 0 to 8 through any sequence of writes. After each write,
+/// compares the log with its requirement: the newest records in order, all other records counted as lost.
 ///
 /// Input: byte 0 chooses the capacity, each further byte is one write. Requirement: SWR-KRN-019.
 #include <array>

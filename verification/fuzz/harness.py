@@ -22,11 +22,11 @@ from mamori_trace.base.text_file import write_text
 
 COMPILER = "clang++-19"
 SUFFIX = "_fuzz.cpp"
-# vptr needs type information, which the kernel lacks.
+# The option vptr needs type information, which the kernel lacks.
 SANITIZERS = "address,undefined"
 FLAGS = ("-std=c++17", "-O1", "-g", "-fno-omit-frame-pointer", "-fno-exceptions", "-fno-rtti", "-fno-sanitize=vptr",
          "-fno-sanitize-recover=all", "-ffp-contract=off", "-UNDEBUG")  # fmt: skip
-INPUT_TIMEOUT_S = 10  # one input that takes longer is a finding
+INPUT_TIMEOUT_S = 10  # an input that takes longer is a finding
 MEMORY_MIB = 2048
 GRACE_S = 60.0
 POLL_S = 0.2
@@ -39,7 +39,7 @@ FINAL = re.compile(r"^stat::number_of_executed_units:\s*(?P<executions>\d+)", re
 class Harness:
     """One file with LLVMFuzzerTestOneInput, its stored corpus, and the folder of its run.
 
-    A corpus is one text file: a line for each input, with its name and its bytes in base64."""
+    A corpus is one text file with a line for each input: its name and its bytes in base64."""
 
     source: Path
     build: Path
@@ -54,7 +54,7 @@ class Harness:
 
     @property
     def inputs(self) -> Path:
-        """The files of the corpus, for the program."""
+        """Folder of the corpus files for the program."""
         return self.build / self.name / "corpus"
 
     @property
@@ -80,11 +80,11 @@ class Run:
 
     harness: Harness
     executions: int
-    coverage: int  # reached edges of the program
+    coverage: int  # number of reached edges of the program
     seconds: float
     new_inputs: int
     findings: tuple[Path, ...]
-    problem: str = ""  # why it failed; empty if it did not
+    problem: str = ""  # why it failed; empty if it passed
 
     @property
     def passed(self) -> bool:
@@ -92,12 +92,12 @@ class Run:
 
 
 def find_harnesses(folder: Path, build: Path) -> list[Harness]:
-    """Harnesses in `folder`, by name."""
+    """Harnesses in `folder`, sorted by name."""
     return [Harness(path, build) for path in sorted(folder.glob(f"*{SUFFIX}"))]
 
 
 def build_harnesses(harnesses: Sequence[Harness], sources: Sequence[Path], includes: Sequence[Path], jobs: int) -> None:
-    """Compiles `sources` once, and each harness with them. @raise WorkError with the message of the compiler."""
+    """Compiles `sources` once, and links each harness with them. @raise WorkError with the message of the compiler."""
     objects = harnesses[0].build / "objects"
     shutil.rmtree(objects, ignore_errors=True)
     objects.mkdir(parents=True)
@@ -150,7 +150,7 @@ def run_harness(harness: Harness, seconds: int, say: Callable[[str], None]) -> R
 
 
 def _watch(harness: Harness, argv: Sequence[str], seconds: int, say: Callable[[str], None]) -> int:
-    """@return exit status of the program, whose output goes to its log."""
+    """@return exit status of the program; its output goes to its log."""
     told = start = time.monotonic()
     with harness.log.open("wb") as log:
         child = subprocess.Popen(argv, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
@@ -174,7 +174,7 @@ def _watch(harness: Harness, argv: Sequence[str], seconds: int, say: Callable[[s
 
 
 def read_corpus(file: Path) -> dict[str, bytes]:
-    """Inputs by name; none without the file. @raise InputError with file and line of an invalid row."""
+    """Inputs by name; empty without the file. @raise InputError with file and line of an invalid row."""
     rows = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
     inputs: dict[str, bytes] = {}
     for number, row in enumerate(rows, 1):
@@ -203,7 +203,7 @@ def unpack_corpus(harness: Harness) -> None:
 
 
 def keep_inputs(harness: Harness) -> int:
-    """Adds those new inputs to the stored corpus that reach additional code. @return how many. @raise WorkError."""
+    """Adds to the stored corpus those new inputs that reach additional code. @return their number. @raise WorkError."""
     before = len(list(harness.inputs.iterdir()))
     _compile((str(harness.program), "-merge=1", str(harness.inputs), str(harness.new_inputs)))
     files = sorted(harness.inputs.iterdir())

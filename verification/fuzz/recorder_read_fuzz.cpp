@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as the region of a flight recorder: the reader stays within them, a rejected region keeps each
-// byte, and an accepted one takes new records without changing the others. The first byte of the input
-// selects the parts that are corrected first, because no fuzzer guesses checksums: bit 0 the header, bit 1
-// the records.
+// Any bytes as the region of a flight recorder. The reader stays within the region. A rejected region stays
+// unchanged, and an accepted one takes new records without changing the others. The first input byte selects
+// the parts that are corrected first, because a fuzzer cannot guess checksums: bit 0 the header, bit 1 the
+// records.
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -39,7 +39,7 @@ void mend_header(Bytes& region) {
     }
 }
 
-/// Gives each used slot the commit byte and the checksum that match its bytes.
+/// Sets the commit byte and the checksum of each used slot to match its bytes.
 void mend_records(Bytes& region) {
     for (std::size_t slot = 0U; slot < flight::calc_capacity(region.size()); ++slot) {
         std::byte* const record = region.data() + flight::calc_region_size(slot);

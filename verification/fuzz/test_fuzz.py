@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a harness that reads beyond its input is found; the input is kept, and the report shows a command that repeats it.
+# Goal: a harness that reads beyond its input is found; the input is stored, and the report shows a command that repeats the finding.
 # Method: the runner on a small separate project, with harnesses that are correct, overflow, or do not compile.
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
-    """A project whose kernel is one function, and one harness for it, `sum`."""
+    """A project whose kernel is one function, and one harness for this function, `sum`."""
     (tmp_path / "kernel" / "src").mkdir(parents=True)
     (tmp_path / "kernel" / "src" / "sum.cpp").write_text(KERNEL.format(error=""), encoding="utf-8")
     (tmp_path / "fuzz").mkdir()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The stored result of the whole run, per file: what the claim of the mutation score rests on between two whole runs.
+"""The stored result of complete runs, per file: evidence for the mutation score between two complete runs.
 
 @satisfies SWR-VER-006, SWR-VER-009      Design: docs/design/test_strength.md#stored-result
 """
@@ -41,7 +41,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Mutated:
-    """What a file is now."""
+    """The current state of a file."""
 
     fingerprint: str
     mutants: int
@@ -49,8 +49,8 @@ class Mutated:
 
 @dataclass(frozen=True)
 class Standing:
-    """What the stored result says of the layers as they are now: `measured` files, and those that no whole run has tried as they
-    are, because they are new or have changed since."""
+    """The stored result compared with the current layers: `measured` files, and files that are new or changed since their last complete run
+    (`open_mutants`)."""
 
     measured: Mapping[str, Counts]
     open_mutants: Mapping[str, int]
@@ -62,7 +62,7 @@ class Standing:
 
     @property
     def findings(self) -> list[str]:
-        """What is wrong; nothing when the measured files of each layer together meet its bar."""
+        """Findings; empty if the measured files of each layer together reach its limit."""
         found = [f"{file} is stored but gives no mutants any more; remove its row" for file in self.gone]
         return found + [
             f"the stored mutation score of {layer.name} is {counts.score:.1%} ({counts.killed} of {counts.valid}); {layer.bar:.0%} is the bar"
@@ -71,7 +71,7 @@ class Standing:
         ]
 
     def describe(self) -> list[str]:
-        """Lines for the reader: the sum of each layer, then each file that was not measured."""
+        """Readable lines: the sum of each layer, then each file that was not measured."""
         lines: list[str] = []
         for layer in LAYERS:
             counts = self.layers.get(layer, Counts())
@@ -84,7 +84,7 @@ class Standing:
         return lines + [f"not measured: {file} ({count} mutants)" for file, count in self.open_mutants.items()]
 
     def to_json(self) -> dict[str, object]:
-        """The same for programs."""
+        """The same data for programs."""
         return {
             "measured": {file: asdict(counts) for file, counts in self.measured.items()},
             "layers": {layer.name: {**asdict(counts), "score": counts.score} for layer, counts in self.layers.items()},
@@ -93,15 +93,15 @@ class Standing:
 
 
 def fingerprint(source: bytes, former: Mapping[bytes, bytes] | None = None) -> str:
-    """Of the words of the code in their order, without comments, spaces and includes.
+    """Hash of the tokens of the code in order, without comments, spaces and includes.
 
-    @param former names of renamed identifiers; None: those of renamed.toml."""
+    @param former names of renamed identifiers; None: the names in renamed.toml."""
     words = restore_names(iterate_words(source), read_renamed() if former is None else former)
     return hashlib.sha256(b"\0".join(words)).hexdigest()[:16]
 
 
 def read_store(path: Path = STORE) -> dict[str, Entry]:
-    """@raise WorkError when the file is no such store."""
+    """@raise WorkError if the file is not a valid store."""
     try:
         rows = tomllib.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
         return {
@@ -113,7 +113,7 @@ def read_store(path: Path = STORE) -> dict[str, Entry]:
 
 
 def write_store(entries: Mapping[str, Entry], path: Path = STORE) -> None:
-    """Writes the whole file or nothing."""
+    """Writes the file atomically."""
     rows = [HEAD]
     for file, entry in sorted(entries.items()):
         counts = ", ".join(f"{name} = {value}" for name, value in asdict(entry.counts).items())
@@ -122,7 +122,7 @@ def write_store(entries: Mapping[str, Entry], path: Path = STORE) -> None:
 
 
 def judge_store(entries: Mapping[str, Entry], mutated: Mapping[str, Mutated]) -> Standing:
-    """A row counts when it is of the file as it is, and of as many mutants as the file gives now.
+    """A row counts if its fingerprint and its number of mutants agree with the current file.
 
     @param mutated files that have mutants."""
     measured = {

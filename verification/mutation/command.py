@@ -82,7 +82,7 @@ def mutate(request: Request) -> int:
         print(line)
     if request.store:
         print(f"stored: {baseline.STORE.relative_to(project.root)}")
-    # The tried files are a part of a layer; their rows are now stored with those of the others.
+    # The tried files are a part of a layer; its other files have stored rows. The stored result covers both.
     is_strong = not standing.findings if request.missing and request.store else report.passed
     return EXIT_OK if is_strong and report.is_consistent else EXIT_FAILED
 
@@ -115,7 +115,7 @@ def _normalise(name: str) -> str:
 
 
 class Progress:
-    """Reports every survivor at once, and the other results occasionally. @raise OutOfTimeError after `minutes`."""
+    """Reports every survivor immediately, and the other results periodically. @raise OutOfTimeError after `minutes`."""
 
     def __init__(self, plan: Plan, minutes: int | None) -> None:
         self._plan = plan
@@ -135,7 +135,7 @@ class Progress:
 
 
 class Keeper:
-    """Stores the row of each file as soon as its last mutant was tried, so that a stopped run keeps its results."""
+    """Stores the row of each file as soon as its last mutant was tried, so that an aborted run keeps its results."""
 
     def __init__(self, root: Path, plan: Plan, tell: Callable[[Result, int, int], None]) -> None:
         self._root = root
@@ -154,7 +154,7 @@ class Keeper:
 
 
 def show_plan(plan: Plan) -> int:
-    """One line per mutant, without running anything."""
+    """Prints one line per mutant, without trying mutants."""
     for mutant in plan.mutants:
         source = plan.sources[mutant.file]
         before, after = mutant.get_change(source)
@@ -164,7 +164,7 @@ def show_plan(plan: Plan) -> int:
 
 
 def describe(report: Report) -> list[str]:
-    """The faults to correct, and the closing line."""
+    """The findings, and the closing lines."""
     lines = [f"equivalent.toml: row names no mutant any more, remove it: {row}" for row in report.plan.unused]
     lines += [f"equivalent.toml: {result.killer} kills this mutant, so it is not equivalent: {row}"
               for row, result in report.wrong_rows]  # fmt: skip
@@ -196,7 +196,7 @@ def store(root: Path, file: str, source: bytes, counts: Counts) -> None:
 
 
 def read_standing(root: Path) -> baseline.Standing:
-    """Compares the stored result with the current layers. @raise WorkError if there is no such file of results."""
+    """Compares the stored result with the current layers. @raise WorkError if the file of results is invalid."""
     sources = {file: (root / file).read_bytes() for file in list_files(root)}
     mutated = {
         file: baseline.Mutated(baseline.fingerprint(source), len(mutants))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The unchanged weak layer, and its complete run."""
+"""The weak layer without changes, and its complete run."""
 
 from __future__ import annotations
 

@@ -21,8 +21,8 @@ KEYS = {"file", "before", "after", "reason"}
 
 @dataclass(frozen=True)
 class Row:
-    """A mutant identified by the code of its changed line, so that a row stays valid after changes elsewhere in its file. Neither the
-    comment at the end of the line nor the spaces between its words matter."""
+    """A mutant, identified by the code of its changed line, so that the row stays valid after changes elsewhere in its file. The comment at
+    the end of the line and the spaces between its tokens are ignored."""
 
     file: str
     before: str
@@ -53,7 +53,7 @@ def read_list(path: Path = LIST) -> list[Row]:
 
 
 def match(rows: Sequence[Row], mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> tuple[dict[Mutant, Row], list[Row]]:
-    """@return the row of each mutant that has one, and the rows of `sources` without a mutant."""
+    """@return the row of each mutant that has one, and the rows for `sources` that match no mutant."""
     by_change = {(row.file, _keep_code(row.before), _keep_code(row.after)): row for row in rows}
     found: dict[Mutant, Row] = {}
     for mutant in mutants:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Creates mutants of a C++ source: one small change each, found in the syntax tree, so that most of them compile.
+"""Creates mutants of a C++ source: one small change each. Changes are made in the syntax tree, so that most mutants compile.
 
 The same text gives the same mutants in the same order. A change never adds or removes a line.
 
@@ -18,7 +18,7 @@ from tree_sitter import Language, Node, Parser
 
 LANGUAGE = Language(tree_sitter_cpp.language())
 
-# The replacements of each operator. Of a comparison: the limit moved by one, and the opposite.
+# The replacements of each operator. For a comparison: a limit moved by one, and the opposite comparison.
 REPLACEMENTS = {
     "<": ("<=", ">="), "<=": ("<", ">"), ">": (">=", "<="), ">=": (">", "<"), "==": ("!=",), "!=": ("==",),
     "&&": ("||",), "||": ("&&",),
@@ -30,13 +30,13 @@ REPLACEMENTS = {
 COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
 CONNECTIVES = ("&&", "||")
 
-# Nothing below these nodes is changed: text that is not run-time code, or that determines types.
+# Nothing below these nodes is changed: they are not run-time code, or they determine types.
 SKIPPED = frozenset(
     ("comment", "preproc_include", "preproc_def", "preproc_function_def", "preproc_call", "static_assert_declaration",
      "template_parameter_list", "template_argument_list", "operator_name", "attribute_declaration", "noexcept",
      "alignas_qualifier", "decltype", "fold_expression", "linkage_specification_string")
 )  # fmt: skip
-# Tokens whose spaces count.
+# Tokens in which spaces are significant.
 LITERALS = frozenset(("string_literal", "raw_string_literal", "char_literal"))
 INTEGER = re.compile(r"(0[xX][0-9A-Fa-f']+|[0-9']+)([uUlLzZ]*)")
 INTEGER_TYPE = re.compile(r"(?:std::)?(?:u?int(?:8|16|32|64)_t|size_t|ptrdiff_t|int|unsigned)|double|float")
@@ -60,14 +60,14 @@ class Mutant:
         return source.count(b"\n", 0, self.start) + 1
 
     def make_diff(self, source: bytes) -> str:
-        """The changed lines, as `diff -u` shows them without context."""
+        """The changed lines, in the format of `diff -u` without context."""
         before = source.decode("utf-8").splitlines(keepends=True)
         after = self.apply(source).decode("utf-8").splitlines(keepends=True)
         lines = difflib.unified_diff(before, after, f"a/{self.file}", f"b/{self.file}", n=0)
         return "".join(lines)
 
     def get_change(self, source: bytes) -> tuple[str, str]:
-        """The first changed line before and after, without indentation: identifies the mutant when lines move."""
+        """The first changed line before and after, without indentation. It identifies the mutant after other lines move."""
         before = source.decode("utf-8").splitlines()
         after = self.apply(source).decode("utf-8").splitlines()
         number = next(index for index, pair in enumerate(zip(before, after, strict=True)) if pair[0] != pair[1])
@@ -181,7 +181,7 @@ def _change_return(node: Node) -> Iterator[tuple[Node, str, str]]:
 
 
 def _get_return_type(node: Node) -> str:
-    """Return type of the function that encloses `node`; nothing in a lambda, whose type is not written."""
+    """Return type of the function that encloses `node`; empty in a lambda, whose type is not written."""
     above = node.parent
     while above is not None and above.type not in ("function_definition", "lambda_expression"):
         above = above.parent
@@ -190,7 +190,7 @@ def _get_return_type(node: Node) -> str:
 
 
 def _negate(condition: Node | None) -> Iterator[tuple[Node, str, str]]:
-    """The condition of a statement, or an operand of `&&` or `||`, except those that another operator negates."""
+    """The condition of a statement, or an operand of `&&` or `||`, except conditions that another operator negates."""
     while condition is not None and condition.type in ("condition_clause", "parenthesized_expression"):
         condition = condition.named_children[0] if condition.named_child_count == 1 else None
     if condition is not None and condition.type != "declaration" and not _is_covered(condition):
@@ -198,14 +198,14 @@ def _negate(condition: Node | None) -> Iterator[tuple[Node, str, str]]:
 
 
 def _is_covered(node: Node) -> bool:
-    """Comparisons, connectives, `!x` and literals have their own mutants that negate them."""
+    """Comparisons, connectives, `!x` and literals, for which other mutants already negate the condition."""
     if node.type == "binary_expression":
         return _operator(node) in (*COMPARISONS, *CONNECTIVES)
     return node.type in ("true", "false") or (node.type == "unary_expression" and _operator(node) == "!")
 
 
 def _is_number_of_check(node: Node) -> bool:
-    """The first argument of a check is its number and has no effect on the condition."""
+    """The first argument of a check is its number, which has no effect on the condition."""
     arguments = node.parent
     if arguments is None or arguments.type != "argument_list" or arguments.parent is None:
         return False

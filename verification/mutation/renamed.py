@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Identifiers that were renamed: a file in which nothing else has changed keeps its stored result.
+"""Renamed identifiers: a file that has no other changes keeps its stored result.
 
 @satisfies SWR-VER-030      Design: docs/design/test_strength.md#stored-result
 """
@@ -20,7 +20,7 @@ _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 @cache
 def read_renamed(path: Path = LIST) -> Mapping[bytes, bytes]:
-    """The former name of each renamed identifier. Raises WorkError for a row that is no pair of identifiers or is ambiguous."""
+    """The former name of each renamed identifier. @raise WorkError for a row that is ambiguous or not a pair of identifiers."""
     try:
         rows = tomllib.loads(path.read_text(encoding="utf-8"))
     except tomllib.TOMLDecodeError as error:
@@ -36,7 +36,7 @@ def read_renamed(path: Path = LIST) -> Mapping[bytes, bytes]:
 
 
 def restore_names(words: Iterable[bytes], former: Mapping[bytes, bytes]) -> list[bytes]:
-    """The words with former names. A name stays where the file also contains its former name: the two are different there."""
+    """The tokens with former names. If the file also contains the former name, both names stay, because they differ there."""
     found = list(words)
     present = set(found)
     return [former[word] if word in former and former[word] not in present else word for word in found]

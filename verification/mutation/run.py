@@ -25,7 +25,7 @@ from verification.mutation.trial import KILLED, SURVIVED, Result, Suspect, judge
 from verification.mutation.workbench import TEST_TIMEOUT_S, Baseline, Bench
 
 SCHEMA = "mamori.mutation/3"
-SWEEP = 400  # mutants between two evaluations of the remaining ones
+SWEEP = 400  # mutants before the remaining ones are evaluated together
 Progress = Callable[[Result, int, int], None]
 
 
@@ -55,7 +55,7 @@ class Report:
 
     plan: Plan
     results: tuple[Result, ...]
-    wrong_rows: tuple[tuple[Row, Result], ...]  # listed as equivalent, but killed
+    wrong_rows: tuple[tuple[Row, Result], ...]  # listed as equivalent, but a test kills the mutant
 
     @property
     def files(self) -> dict[str, Counts]:
@@ -79,7 +79,7 @@ class Report:
 
     @property
     def is_consistent(self) -> bool:
-        """True if each row of the list of equivalent mutants names one that no test finds."""
+        """True if each row of the list of equivalent mutants names a mutant that no test finds."""
         return not self.plan.unused and not self.wrong_rows
 
 
@@ -99,8 +99,8 @@ def try_mutants(
     sources: Sources, mutants: Sequence[Mutant], texts: Mapping[str, bytes], folder: Path, jobs: int,
     note: Callable[[Result], None], test_timeout_s: float = TEST_TIMEOUT_S,
 ) -> None:  # fmt: skip
-    """Tries `mutants` of one layer and reports each to `note`. @param texts of the current files. @raise WorkError if
-    the tests do not pass on the unchanged layer."""
+    """Tries `mutants` of one layer and reports each result to `note`. @param texts of the current files. @raise WorkError if the tests fail
+    on the unchanged layer."""
     baseline = Baseline(sources, folder, jobs, test_timeout_s)
     benches: queue.SimpleQueue[Bench] = queue.SimpleQueue()
     for number in range(jobs):
@@ -150,7 +150,7 @@ class Tally:
         self._progress(result, len(self._results), len(self._plan.mutants))
 
     def make_report(self) -> Report:
-        """Sorted by location, in any order of arrival."""
+        """Sorted by location, independent of the order of arrival."""
         return Report(self._plan, tuple(sorted(self._results, key=lambda result: result.mutant)),
                       tuple(sorted(self._wrong, key=lambda wrong: wrong[1].mutant)))  # fmt: skip
 
@@ -176,7 +176,7 @@ def make_table(files: dict[str, Counts]) -> str:
 
 
 def write_json(path: Path, report: Report, selection: Selection, stored: Standing) -> None:
-    """Writes the file atomically. @param stored result of complete runs, which is shown with this run."""
+    """Writes the file atomically. @param stored result of complete runs, shown together with this run."""
     content = {
         "schema": SCHEMA,
         "passed": report.passed,

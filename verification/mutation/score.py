@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from verification.mutation.sources import LAYERS, Layer, get_layer
 from verification.mutation.trial import EQUIVALENT, INVALID, KILLED, SURVIVED, Result
 
-DOUBT = 0.05  # a sample contradicts the limit if a layer at the limit would give such a sample with a probability below this
+DOUBT = 0.05  # a sample contradicts the limit if a layer exactly at the limit yields such a sample with a probability below this
 NORMAL_975 = 1.959964  # two-sided 95 % of the normal distribution
 LISTED = "listed as equivalent"
 
@@ -70,8 +70,8 @@ def add_up_layers(files: dict[str, Counts]) -> dict[Layer, Counts]:
 
 
 def is_met(counts: Counts, bar: float, is_sample: bool) -> bool:
-    """A complete run is compared with the limit itself. A sample may miss the limit by chance: it fails if a layer at the limit
-    would leave so many survivors in it with a probability below DOUBT."""
+    """A complete run must reach the limit. A sample may miss the limit by chance: it fails if a layer exactly at the limit yields at least
+    as many survivors with a probability below DOUBT."""
     if not is_sample:
         return counts.score >= bar
     return calc_chance(counts.survived, counts.valid, bar) >= DOUBT
@@ -83,8 +83,8 @@ def calc_chance(survived: int, valid: int, bar: float) -> float:
 
 
 def calc_interval(killed: int, valid: int) -> tuple[float, float]:
-    """Wilson's 95 % interval of the share of mutants that the tests kill, from a sample. Source: E. B. Wilson, Probable
-    inference, the law of succession, and statistical inference, J. Am. Stat. Assoc. 22 (1927). All of [0, 1] without a mutant."""
+    """Wilson's 95 % interval of the share of mutants that the tests kill, calculated from a sample. Source: E. B. Wilson, Probable
+    inference, the law of succession, and statistical inference, J. Am. Stat. Assoc. 22 (1927). The interval is [0, 1] without mutants."""
     if valid == 0:
         return 0.0, 1.0
     share, spread = killed / valid, NORMAL_975**2 / valid

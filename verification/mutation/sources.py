@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of the layers and their tests, and the compiler options of each file, which CMake reports.
+"""Files of the layers and their tests, and the compiler options that CMake reports for each file.
 
 @satisfies SWR-VER-005      Design: docs/design/test_strength.md#counted-mutants
 """
@@ -20,7 +20,7 @@ COMPILER = "clang++-19"
 
 @dataclass(frozen=True)
 class Layer:
-    """A layer whose own tests must find its faults: the required share of them, and the layers that it uses."""
+    """A layer whose own tests must find its faults: the required share of faults, and the layers that it uses."""
 
     name: str
     bar: float
@@ -36,7 +36,7 @@ def get_layer(file: str) -> Layer:
 
 
 def list_files(root: Path, layers: Sequence[Layer] = LAYERS) -> list[str]:
-    """Files that are mutated, relative to the root: headers and sources of `layers`, without tests."""
+    """Files to mutate, relative to the root: headers and sources of `layers`, without tests."""
     folders = [root / layer.name for layer in layers]
     patterns = ("include/**/*.hpp", "src/**/*.hpp", "src/**/*.cpp")
     return sorted(path.relative_to(root).as_posix() for folder in folders for pattern in patterns for path in folder.glob(pattern))
@@ -60,7 +60,7 @@ class Unit:
 
 @dataclass(frozen=True)
 class Sources:
-    """A layer below `root`, its units, the sources (relative to `root`) that it uses, and the header that all its tests
+    """A layer below `root`, its units, the sources (relative to `root`) of the layers that it uses, and the header that all its tests
     include first."""
 
     root: Path
@@ -91,7 +91,7 @@ def read_sources(root: Path, build: Path, layer: Layer) -> Sources:
 
 
 def _select_units(entries: Sequence[dict[str, str]], folder: Path, base: Path) -> list[Unit]:
-    """Units below `folder`, each once although several programs may compile it, with paths relative to `base`."""
+    """Units below `folder`, with paths relative to `base`. Each unit occurs once, even if several programs compile it."""
     units = {
         path: Unit(path.relative_to(base).as_posix(), keep_flags(shlex.split(entry["command"])))
         for entry in entries
@@ -101,8 +101,8 @@ def _select_units(entries: Sequence[dict[str, str]], folder: Path, base: Path) -
 
 
 def keep_flags(command: list[str]) -> tuple[str, ...]:
-    """Language, folders and definitions. The workbench sets warnings, optimisation and file names itself: a mutant
-    that only a warning would reject must be found by a test."""
+    """Language, folders and definitions. The workbench itself sets warnings, optimisation and file names: a test must find a mutant that
+    only a compiler warning would reject."""
     flags: list[str] = []
     words = iter(command)
     for word in words:

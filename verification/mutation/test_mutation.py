@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the tests of kernel and safety find most small faults, and the score that says so can be trusted.
+# Goal: the tests of kernel and safety find most small faults, and the calculated score is correct.
 # Method: the stored result and a sample of each shipped layer; the weak layer.
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SEED = 1
 
 
 def strengthen(sources: Sources) -> None:
-    """Gives the test the limit that it leaves out."""
+    """Adds the missing check of the limit to the test."""
     test = sources.folder / "tests" / "limit_test.cpp"
     test.write_text(test.read_text(encoding="utf-8").replace("is_allowed(100)", "is_allowed(10)"), encoding="utf-8")
 
@@ -112,7 +112,7 @@ def test_stored_result_meets_the_bar_of_each_layer() -> None:
     assert read_standing(ROOT).findings == []
 
 
-# No `verifies`: a result that the gate lacks would be a missing one. SWR-VER-006 has its results from the stored rows.
+# No `verifies`: the test is `long`, so the CI gate would lack its result. The stored rows are the results for SWR-VER-006.
 @pytest.mark.long
 @pytest.mark.parametrize("layer", LAYERS, ids=lambda layer: layer.name)
 def test_sample_does_not_contradict_the_bar(layer: Layer) -> None:
@@ -130,7 +130,8 @@ def test_sample_does_not_contradict_the_bar(layer: Layer) -> None:
 
 
 def judge(now: dict[str, tuple[bytes, int]], *, killed: int = 89) -> baseline.Standing:
-    """A store with one row, of 100 mutants of kernel/a.cpp when it was b"a", beside the sources and numbers of mutants of `now`."""
+    """Compares a store of one row (100 mutants of kernel/a.cpp, whose content was b"a") with the sources and numbers of mutants in
+    `now`."""
     entry = baseline.Entry(baseline.fingerprint(b"a"), "0123", "2026-11-22", Counts(killed, 100 - killed))
     mutated = {file: baseline.Mutated(baseline.fingerprint(source), mutants) for file, (source, mutants) in now.items()}
     return baseline.judge_store({"kernel/a.cpp": entry}, mutated)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each operator makes the changes that the design document names, and no others.
-# Method: short texts, each with all its mutants.
+# Goal: each operator makes exactly the changes that the design document lists.
+# Method: short texts, each with the list of all its mutants.
 from __future__ import annotations
 
 import pytest

@@ -55,7 +55,7 @@ def test_mutant_of_a_header_is_compiled_into_its_tests(sources: Sources) -> None
 
 @pytest.mark.verifies("SWR-VER-005", technique="interface")
 def test_layer_is_tried_on_what_it_stands_on(sources: Sources) -> None:
-    """Moves the limit to a lower layer, which is linked and not mutated."""
+    """Moves the limit to a lower layer, which is linked but not mutated."""
     base = sources.root / "base" / "src" / "base.cpp"
     base.parent.mkdir(parents=True)
     base.write_text("int calc_base() { return 1; }\n", encoding="utf-8")
@@ -89,7 +89,7 @@ def test_tests_that_fail_by_themselves_kill_nothing(sources: Sources) -> None:
 
 @pytest.mark.verifies("SWR-VER-005", technique="interface")
 def test_test_whose_program_is_the_same_is_not_run(sources: Sources, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The second test uses nothing of limit.cpp, so only the first may kill its mutants; those of the header reach both."""
+    """The second test does not use limit.cpp, so only the first may kill its mutants. Both may kill mutants of the header."""
     other = "tests/other_test.cpp"
     (sources.folder / other).write_text("TEST(Other, Holds) { EXPECT_TRUE(true); }\n", encoding="utf-8")
     units = (*sources.units, Unit(other, sources.units[0].flags))
@@ -128,7 +128,7 @@ def test_likely_killers_come_first(sources: Sources) -> None:
 
 @pytest.mark.verifies("SWR-VER-005", technique="interface")
 def test_mutants_judged_together_meet_the_fate_that_each_meets_alone(sources: Sources) -> None:
-    """All mutants at different locations, none of them tried before: found ones, survivors, rejected ones and equivalent ones."""
+    """Mutants at different locations, none tried before: killed, surviving, rejected and equivalent mutants."""
     text = (sources.root / SOURCE).read_bytes()
     suspects = [Suspect(mutant, frozenset(), ()) for mutant in make_mutants(SOURCE, text)]
     original = Baseline(sources, sources.root / "work", 2, TIMEOUT_S)
@@ -143,7 +143,8 @@ def test_mutants_judged_together_meet_the_fate_that_each_meets_alone(sources: So
 
 @pytest.mark.verifies("SWR-VER-005", technique="error_guessing", polarity="violation")
 def test_mutants_that_make_up_for_each_other_are_no_kills(sources: Sources) -> None:
-    """Both limits moved in opposite directions: the test that checks one number passes each alone, and fails for both together."""
+    """Both limits moved in opposite directions. The test that checks one number passes for each mutant alone, and fails for both
+    together."""
     text = b"#include \"limit.hpp\"\nbool is_allowed(int v) { return v < 5; }\nint keep(int v) { return v; }\n"
     text += b"unsigned count_to(unsigned e) { return e; }\nint add() { return 1 + 1; }\n"
     (sources.root / SOURCE).write_bytes(text)
@@ -213,7 +214,7 @@ def test_mutant_that_never_ends_is_killed_in_time(sources: Sources) -> None:
 
 @pytest.mark.verifies("SWR-VER-008", technique="fault_injection", polarity="violation")
 def test_stopped_run_begins_no_other_test(sources: Sources, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Stopped by the first result, as by Ctrl-C, while both benches work."""
+    """The first result stops the run, like Ctrl-C, while both benches work."""
     calls: list[float] = []
     run = workbench._run
 

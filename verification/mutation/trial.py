@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tries mutants: each alone by the tests that most likely find it, and the remaining ones together by all other tests.
+"""Tries mutants: each alone by its most likely tests, and the surviving mutants together by all other tests.
 
-One of a few tests finds most mutants. The remaining ones would have to be compiled into every test that includes their
-file, mostly without effect. They are therefore put into one copy, which is tried once for all of them. The cases of
-a test that fail for all are run for each mutant alone, and only that counts as found. A surviving mutant has therefore passed
-every case of every test, alone or together with others.
+A few tests find most mutants. The remaining mutants would have to be compiled into every test that includes their file, mostly without
+effect. They are therefore combined in one copy, which all tests check once. Test cases that fail on the copy are repeated for each mutant
+alone, and only that result kills a mutant. A surviving mutant has therefore passed every case of every test, alone or together with others.
 
 @satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#counted-mutants
 """
@@ -25,10 +24,10 @@ SURVIVED = "survived"
 INVALID = "does not compile"
 EQUIVALENT = "same object code"
 
-LIKELY = 4  # tests that try a mutant alone
+LIKELY = 4  # number of tests that try a mutant alone
 COMPANY = 20  # mutants that are tried together
 
-# The compiler evaluates tables and their checks: a mutant that it rejects for that reason counts as found by a check.
+# The compiler evaluates tables and their checks. A mutant that such a check rejects is killed by the check.
 COMPILE_TIME_CHECK = re.compile(
     r"static assertion failed|static assertion expression is not an integral constant"
     r"|must be initialized by a constant expression|is not a constant expression"
@@ -82,12 +81,12 @@ class Trial:
         self.differing: list[Unit] = []
 
     def concerns(self, test: Unit) -> bool:
-        """Whether the program of `test` may differ."""
+        """Whether the program of `test` may differ from the original."""
         parts = {test.path, *self._bench.baseline.links[test.path]}
         return test.path in self._bound or not parts.isdisjoint(self._left) or not parts.isdisjoint(self._changed)
 
     def run(self, test: Unit, options: Sequence[str]) -> Fate | None:
-        """Compiles the units of the program of `test`, and runs it if a byte of it changed. @return None if it passes."""
+        """Compiles the units of the program of `test`, and runs the program if its bytes have changed. @return None if it passes."""
         parts = {test.path, *self._bench.baseline.links[test.path]}
         for unit in [self._left[path] for path in sorted(parts & self._left.keys())]:
             if fate := self.compile(unit):
@@ -102,7 +101,7 @@ class Trial:
         return Fate(KILLED, f"{test.path} {words}" if words == TIMED_OUT else test.path, cases)
 
     def compile(self, unit: Unit) -> Fate | None:
-        """Compiles `unit` unless that was already done. @return the compiler's reason for rejecting it, or None."""
+        """Compiles `unit` unless it was already compiled. @return why the compiler rejects it, or None."""
         if unit.path not in self._left:
             return None
         self._bench.put(self._texts)
@@ -126,7 +125,7 @@ class Trial:
 
 
 def apply(mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> dict[str, bytes]:
-    """The files that `mutants` change, with all changes."""
+    """The files that `mutants` change, with all changes applied."""
     texts: dict[str, bytes] = {}
     for mutant in sorted(mutants, reverse=True):  # the last location first, so that earlier locations stay valid
         texts[mutant.file] = mutant.apply(texts.get(mutant.file, sources[mutant.file]))
@@ -134,7 +133,7 @@ def apply(mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> dict[str, 
 
 
 def screen(bench: Bench, mutant: Mutant, sources: Mapping[str, bytes]) -> Result | Suspect:
-    """Tries `mutant` alone by the likely tests."""
+    """Tries `mutant` alone by its most likely tests."""
     trial = Trial(bench, (mutant,), sources)
     passed: set[str] = set()
     for test in bench.baseline.order_tests((mutant.file,)):
@@ -149,7 +148,7 @@ def screen(bench: Bench, mutant: Mutant, sources: Mapping[str, bytes]) -> Result
 
 
 def judge_together(bench: Bench, suspects: Sequence[Suspect], sources: Mapping[str, bytes]) -> list[Result]:
-    """Tries `suspects` together by all tests that they have not passed yet; the results have their order."""
+    """Tries `suspects` together by all tests that they have not passed yet. @return results in the order of `suspects`."""
     court = Court(bench, suspects, sources)
     files = {suspect.mutant.file for suspect in suspects}
     for test in bench.baseline.order_tests(files):
@@ -161,7 +160,7 @@ def judge_together(bench: Bench, suspects: Sequence[Suspect], sources: Mapping[s
 
 
 class Court:
-    """Suspects that are tried together; found ones are removed."""
+    """Suspects that are tried together; killed ones are removed."""
 
     def __init__(self, bench: Bench, suspects: Sequence[Suspect], sources: Mapping[str, bytes]) -> None:
         self._bench = bench
@@ -173,7 +172,7 @@ class Court:
         self._together = self._gather()
 
     def try_all(self, test: Unit) -> None:
-        """Runs `test` for all, and its failing cases for each alone."""
+        """Runs `test` for all suspects together, and its failing cases for each suspect alone."""
         due = [suspect for suspect in self._alive if test.path not in suspect.passed]
         if due and self._together.concerns(test):
             fate = self._together.run(test, AT_ONCE if len(self._alive) == 1 else ())
@@ -181,7 +180,7 @@ class Court:
             self._decide(due, test, fate, lambda trial: trial.run(test, options))
 
     def compile_all(self, unit: Unit) -> None:
-        """The same for a unit that only has to compile."""
+        """The same for a unit that must only compile."""
         if self._alive:
             self._decide(self._alive, unit, self._together.compile(unit), lambda trial: trial.compile(unit))
 
@@ -198,15 +197,15 @@ class Court:
         return [self._results[suspect.mutant] for suspect in self._suspects]
 
     def _sort_by_code(self) -> dict[Unit, bool]:
-        """The units that may differ, and whether their optimised code is the same with all remaining mutants in it: if it is
-        not, trying one alone shows the difference soonest."""
+        """The units that may differ, and whether their optimised code is unchanged with all remaining mutants applied. Changed units show
+        the difference of a single mutant soonest."""
         units = list(self._differing.values())
         if len(self._alive) < 2:
             return dict.fromkeys(units, False)
         return {unit: self._together.has_same_code((unit,)) for unit in units}
 
     def _decide(self, due: Sequence[Suspect], unit: Unit, fate: Fate | None, attempt: Callable[[Trial], Fate | None]) -> None:
-        """@param fate result of all together. @param attempt returns that of one alone."""
+        """@param fate result of all suspects together. @param attempt returns the result of a single suspect."""
         if fate is None:
             return
         fates = {due[0]: fate} if len(self._alive) == 1 else {suspect: attempt(self._alone(suspect)) for suspect in due}
@@ -229,8 +228,8 @@ class Court:
 
 
 def make_companies(suspects: Sequence[Suspect], count: int) -> list[list[Suspect]]:
-    """Distributes `suspects` to at least `count` groups of at most COMPANY, so that adjacent ones are separated and all mutants of a
-    group are at different locations."""
+    """Distributes `suspects` to at least `count` groups of at most COMPANY. Adjacent suspects are separated, and all mutants of a group
+    have different locations."""
     companies: list[list[Suspect]] = [[] for _ in range(max(count, -(-len(suspects) // COMPANY)))]
     for suspect in suspects:
         company = next((each for each in sorted(companies, key=len) if len(each) < COMPANY and _fits(suspect, each)), None)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compiles mutants of a private copy of a layer and runs its tests on them, in bounded time and memory.
+"""Compiles mutants in a private copy of a layer and runs its tests on them, in bounded time and memory.
 
-Each test file is a separate program, so that the test that most likely finds the fault is compiled and run first and the
-others need not be built after it has.
+Each test file is a separate program. The test that most likely finds the fault is compiled and run first; if it fails, the other tests are
+not built.
 
 @satisfies SWR-VER-005, SWR-VER-008      Design: docs/design/test_strength.md#counted-mutants
 """
@@ -26,11 +26,11 @@ from mamori_trace.base.errors import WorkError
 from verification.mutation.sources import COMPILER, Sources, Unit
 
 COMPILE_TIMEOUT_S = 120.0
-TEST_TIMEOUT_S = 10.0  # added to the maximum time of a test
-TEST_PATIENCE = 5.0  # times the duration of the test on the unchanged layer
-SLOWEST_TEST_S = 240.0  # of the unchanged layer, on a busy host
+TEST_TIMEOUT_S = 10.0  # added to the time limit of a test
+TEST_PATIENCE = 5.0  # multiplies the duration of the test on the unchanged layer
+SLOWEST_TEST_S = 240.0  # time limit on the unchanged layer, on a busy host
 MEMORY_KIB = 4 * 1024 * 1024
-FILE_BLOCKS = 64 * 1024  # of 512 bytes, that a test may write
+FILE_BLOCKS = 64 * 1024  # number of blocks of 512 bytes that a test may write
 LIBRARIES = ("-lgtest_main", "-lgtest", "-lpthread")
 TEST_FLAGS = ("-O0", "-w", "-UNDEBUG", "-ffp-contract=off")
 COMPARED_FLAGS = ("-O2", "-g0", "-w", "-fno-ident", "-UNDEBUG", "-ffp-contract=off")
@@ -41,8 +41,7 @@ class Baseline:
     of the tests. Shared by all benches."""
 
     def __init__(self, sources: Sources, folder: Path, jobs: int, test_timeout_s: float = TEST_TIMEOUT_S) -> None:
-        """Compiles every unit and runs every test. @param folder empty or new. @raise WorkError if a test does not
-        pass on the unchanged layer."""
+        """Compiles every unit and runs every test. @param folder empty or new. @raise WorkError if a test fails on the unchanged layer."""
         self.sources = sources
         self.folder = folder
         self.test_timeout_s = test_timeout_s
@@ -77,8 +76,8 @@ class Baseline:
         return self.folder / "objects" / (unit.path.replace("/", "_") + ".o")
 
     def order_tests(self, files: Collection[str]) -> list[Unit]:
-        """Tests sorted by their likelihood to find a fault in one of `files`: most faults found so far; then name equal to that of the file,
-        name beginning with it, direct include, same first word, indirect include. Of equals the fastest comes first."""
+        """Tests sorted by their likelihood to find a fault in one of `files`: most faults found so far; then name equal to the file name,
+        name beginning with it, direct include, same first word, indirect include. Among equal tests, the fastest comes first."""
 
         def rank(test: Unit) -> tuple[int, int, int, str]:
             kills = sum(self._kills[file, test.path] for file in files)
@@ -99,7 +98,7 @@ class Baseline:
         return next((place for place, mark in enumerate(marks) if mark), len(marks))
 
     def note_kill(self, file: str, test: Unit) -> None:
-        """Only the order of the verdicts depends on it; the verdicts do not."""
+        """Records that `test` killed a mutant. This affects only the order of the tests, not the verdicts."""
         self._kills[file, test.path] += 1
 
     def find_units(self, files: Collection[str]) -> list[Unit]:
@@ -108,16 +107,16 @@ class Baseline:
         return [unit for unit in self.sources.units if unit.path in names or not names.isdisjoint(self.includes[unit.path])]
 
     def calc_timeout(self, test: Unit) -> float:
-        """Seconds after which a test of a mutant counts as endless."""
+        """Time limit of a test of a mutant [s]."""
         return self.test_timeout_s + TEST_PATIENCE * self._took_s[test.path]
 
     def find_bound(self) -> list[Unit]:
-        """Units with a definition of the folder of the layer: tests that call the compiler themselves."""
+        """Units whose definitions contain the folder of the layer: tests that call the compiler themselves."""
         place = str(self.sources.folder)
         return [unit for unit in self.sources.units if any(flag.startswith("-D") and place in flag for flag in unit.flags)]
 
     def get_assembler(self, unit: Unit) -> str:
-        """Fingerprint of the optimised code of the original. Two benches may both compute it; the result is the same."""
+        """Fingerprint of the optimised code of the original. Two benches may compute it at the same time, with the same result."""
         if unit.path not in self._assembler:
             self._assembler[unit.path] = self._bench.hash_assembler(unit)
         return self._assembler[unit.path]
@@ -142,7 +141,7 @@ class Baseline:
         return ""
 
     def _compile_below(self, unit: Unit) -> str:
-        """The lower layers never change, so they are compiled in their original folder."""
+        """Compiles lower layers in their original folder, because they never change."""
         status, words = _run((COMPILER, *unit.flags, *TEST_FLAGS, "-c", str(self.sources.root / unit.path),
                               "-o", str(self._get_object_below(unit))), COMPILE_TIMEOUT_S)  # fmt: skip
         return "" if status == 0 else f"{unit.path}: {words}"
@@ -163,7 +162,7 @@ class Baseline:
             raise WorkError(f"the objects of {self.sources.layer} do not go into {archive.name}:\n{words}")
 
     def _measure(self, test: Unit, bench: Bench) -> str:
-        """Records the objects and the duration of a test. @return what is wrong with it, or nothing."""
+        """Records the objects and the duration of a test. @return the failure, or an empty string."""
         taken = bench.trace_link(test)
         self.links[test.path] = frozenset(unit.path for unit in self.sources.units if self.get_object(unit).name in taken)
         began = time.monotonic()
@@ -200,7 +199,7 @@ class Bench:
                      "-o", str(output)), COMPILE_TIMEOUT_S)  # fmt: skip
 
     def check_original(self, test: Unit) -> str:
-        """@return what is wrong with the test of the unchanged layer, or nothing."""
+        """@return the failure of the test on the unchanged layer, or an empty string."""
         status, words = self.run_test(test, {}, SLOWEST_TEST_S)
         return "" if status == 0 else f"{test.path}: {words.strip()[-500:] or f'status {status}'}"
 
@@ -233,8 +232,8 @@ class Bench:
         return set(re.findall(rf"^\({re.escape(str(self.baseline.archive))}\)(\S+)$", words, re.MULTILINE))
 
     def run_test(self, test: Unit, changed: Mapping[str, Path], timeout_s: float, *options: str) -> tuple[int, str]:
-        """Links and runs one test. @param changed objects that replace the original ones. @param options for the test.
-        @return status, and the reason if it is not 0."""
+        """Links and runs one test. @param changed objects that replace the original objects. @param options for the test. @return status,
+        and the reason if the status is not 0."""
         status, words = self._link(test, changed)
         if status != 0:
             return status, words
@@ -247,7 +246,7 @@ class Bench:
                      "-o", str(self._program(test))), COMPILE_TIMEOUT_S)  # fmt: skip
 
     def _program(self, test: Unit) -> Path:
-        """One for each test, because tests of the unchanged layer run in parallel."""
+        """One program file per test, because tests of the unchanged layer run in parallel."""
         return self.folder / (test.path.replace("/", "_") + ".program")
 
     def _run(self, argv: Iterable[str], timeout_s: float, cwd: Path | None = None) -> tuple[int, str]:
@@ -264,9 +263,9 @@ TIMED_OUT = "timed out"
 
 
 def _run(argv: Iterable[str], timeout_s: float, cwd: Path | None = None) -> tuple[int, str]:
-    """Runs a program with bounded memory and files in a separate session, which ends with it.
+    """Runs a program with bounded memory and file size in a separate session, which ends with the program.
 
-    @return status and output; status 124 and TIMED_OUT if it did not end."""
+    @return status and output; status 124 and TIMED_OUT if the program exceeded its time limit."""
     limited = ("/bin/sh", "-c", f'ulimit -v {MEMORY_KIB} -c 0 -f {FILE_BLOCKS}; exec "$@"', "sh", *argv)
     environment = {name: value for name, value in os.environ.items() if not name.startswith("GTEST_")}
     with subprocess.Popen(limited, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=cwd,

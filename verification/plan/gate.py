@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The steps that verify Mamori itself. A new check is a new row.
+"""The verification steps of Mamori itself. A new check is a new row.
 
 @satisfies SWR-CLI-006, SWR-CLI-012      Design: docs/design/launcher.md#steps
 """
@@ -29,7 +29,7 @@ def ctest_step(preset: str, tier: Tier = Tier.QUICK, *options: str) -> Step:
 
 
 def faults_step(preset: str, tier: Tier = Tier.QUICK) -> Step:
-    """A short run of each fault campaign in real time; one that the host disturbed is repeated."""
+    """A short run of each fault campaign in real time; repeated if the host disturbed it."""
     junit = f"build/{preset}/evidence/junit"
     return Step(
         name=f"faults in real time {preset}",
@@ -41,7 +41,7 @@ def faults_step(preset: str, tier: Tier = Tier.QUICK) -> Step:
 
 
 def race_steps() -> tuple[Step, ...]:
-    """Data shared by two cores, under the thread sanitizer: only these programs, because no other program has threads."""
+    """Data shared by two cores, under the thread sanitizer. Only these programs have threads."""
     preset = "host-tsan"
     targets = ("kernel_abandon_stress_test", "kernel_crossing_test", "kernel_introspection_stress_test", "kernel_mode_stress_test",
                "kernel_stimulus_stress_test", "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test", "supervision_log_test",
@@ -74,7 +74,7 @@ def proof_step(name: str, file: str, needs: tuple[str, ...] = (BUILD,), tier: Ti
 
 
 def benchmark_step() -> Step:
-    """Exact counts compared with their baseline, and a short run of the benchmarks. No test depends on times."""
+    """Exact counts compared with their baseline, and a short benchmark run. No test depends on times."""
     return Step(
         name="exact instruction counts",
         commands=(
@@ -97,7 +97,7 @@ def comparison_step() -> Step:
 
 
 def safe_state_step() -> Step:
-    """Properties of the compiled safe-state machine, proved by z3 and spin, and a seeded defect for each."""
+    """Properties of the compiled safe-state machine, proved by z3 and spin; one seeded defect for each."""
     return Step(
         name="proofs of the safe-state machine",
         commands=((*PYTEST, "verification/safe_state"),),
@@ -135,7 +135,7 @@ def tidy_step() -> Step:
     )  # fmt: skip
 
 
-# A part of a table states the constants that it changes; NoTypes contains those of a part that changes nothing.
+# Each part of a table defines the constants that it changes. NoTypes defines the constants for parts that change nothing.
 PARTS_HIDE_CONSTANTS = "--suppress=duplInheritedMember:kernel/include/mamori/kernel/*part*.hpp"
 
 
@@ -157,7 +157,7 @@ def cppcheck_step(project: Project) -> Step:
 
 
 def strength_steps() -> tuple[Step, ...]:
-    """Test adequacy: coverage, detected mutants, and findings of random bytes (test_strength.md)."""
+    """Test adequacy: coverage, detected mutants, and fuzzing findings (test_strength.md)."""
     folder = "verification"
     return (
         Step(name="MC/DC of kernel and safety", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
@@ -172,7 +172,7 @@ def make_fuzz_command(seconds: int) -> tuple[str, ...]:
 
 
 def long_steps() -> tuple[Step, ...]:
-    """Steps that take hours, or need an idle host for a while: run before a release, and recorded with date and commit."""
+    """Steps that take hours or need an idle host. They run before a release, and their results are recorded with date and commit."""
 
     def campaign(kind: str, *arguments: str) -> Step:
         return Step(
@@ -194,7 +194,7 @@ def long_steps() -> tuple[Step, ...]:
 
 
 def cost_step() -> Step:
-    """Instruction counts of the components of the safe arm, compared with its budgets and its baseline. Exact, so a finding fails."""
+    """Instruction counts of the components of the safe arm, compared with budgets and baseline. Counts are exact, so each finding fails."""
     return Step(
         name="cost of components",
         commands=((*COMMAND, "cost", "examples/safe_arm", "--check", "examples/safe_arm/cost_baseline.toml", "--jobs", "{jobs}"),),
@@ -210,7 +210,7 @@ def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
         ctest_step(RELEASE),
         faults_step(RELEASE),
         HOST_TOOLS,
-        # Results that only `./mamori test` produces may be missing here; existing results must not be failed.
+        # Results that only `./mamori test` produces may be missing here; existing results must not be failures.
         campaign_step(campaign),
         timing_step(),
         *trace_steps("--allow-missing"),
@@ -219,11 +219,11 @@ def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
 
 def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_minutes: int | None = None) -> tuple[Step, ...]:
     """@param mutation_minutes limit of the step that tries all mutants without a stored result; None: no limit."""
-    # The compile-must-fail tests take a third of the time of all C++ tests, and depend on headers only.
+    # The compile-must-fail tests take a third of the time of all C++ tests, and depend only on headers.
     fewer = ("--exclude-regex", "compile_fail") if tier == Tier.QUICK else ()
     limit = () if mutation_minutes is None else ("--minutes", str(mutation_minutes))
     steps = (
-        # First, because it writes the stored rows: the inputs of all other results are recorded after it.
+        # First step, because it writes the stored rows: the inputs of all other results are recorded afterwards.
         Step(name="mutation rows", commands=((*COMMAND, "mutate", "--missing", "--store", *limit, "--jobs", "{jobs}"),),
              inconclusive=(EXIT_UNFINISHED,), function=renew_environment, tier=Tier.ALL),
         build_step(RELEASE),

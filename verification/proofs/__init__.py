@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Proofs over the built project. Each is a pytest file that `./mamori test` runs as a separate step."""
+"""Proofs about the built project. Each is a pytest file that `./mamori test` runs as a separate step."""

@@ -16,7 +16,7 @@ FLAGS = ("-std=c++17", "-mcpu=cortex-m4", "-mthumb", "-O2", "-fno-exceptions", "
 
 
 def compile_for_controller(source: Path, includes: list[Path], result: Path) -> str:
-    """Compiles `source` to `result`. @return the compiler messages, empty if there are none."""
+    """Compiles `source` to `result`. @return the compiler messages; empty if there are none."""
     argv = [f"{TOOL_PREFIX}g++", *FLAGS, *(f"-I{path}" for path in includes), "-isystem", str(EIGEN),
             "-c", str(source), "-o", str(result)]  # fmt: skip
     done = subprocess.run(argv, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)

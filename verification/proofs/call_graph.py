@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Joins units into one call graph whose indirect calls are resolved: virtual calls from the classes and tables of the object
-files, calls through pointers from the declared rows of `stack.toml`, which are checked against the code.
+"""Joins units into one call graph with resolved indirect calls. The classes and tables of the object files resolve virtual calls. The rows
+of `stack.toml`, which are checked against the code, resolve calls through pointers.
 
 @satisfies SWR-PRF-021      Design: docs/design/proofs.md#indirect-calls
 """
@@ -18,7 +18,7 @@ from verification.proofs.object_code import UnitFacts, VirtualCall
 from verification.proofs.toolchain import Toolchain, run_tool
 
 RULES = Path(__file__).with_name("stack.toml")
-PURE = "__cxa_pure_virtual"  # never called: the call of a pure function is a contract violation, and the image traps
+PURE = "__cxa_pure_virtual"  # never called: a call of a pure function is a contract violation and traps
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class PointerRow:
 
 @dataclass(frozen=True)
 class OutsideRow:
-    """A function without a frame size from the compiler: assembler, or of a library."""
+    """A function whose frame size the compiler does not report: assembler or library code."""
 
     toolchain: str
     function: str
@@ -51,7 +51,7 @@ class Rules:
 
 @dataclass
 class Function:
-    """A node. Copies of an inline function in several units are one, with the largest frame."""
+    """A node. Copies of an inline function in several units are one node, with the largest frame."""
 
     name: str  # as written in C++
     place: str
@@ -63,8 +63,8 @@ class Finding:
     """A reason why the stack is unbounded."""
 
     rule: str
-    place: str  # file:line:column, or the checked list
-    message: str  # names the function, and the correction
+    place: str  # file:line:column, or a row of the checked list
+    message: str  # names the function and the correction
 
     def __str__(self) -> str:
         return f"{self.place}: {self.rule}: {self.message}"
@@ -102,7 +102,7 @@ def read_rules(path: Path = RULES) -> Rules:
 
 
 def make_call_graph(toolchain: Toolchain, root: Path, units: Sequence[UnitFacts], rules: Rules) -> CallGraph:
-    """The graph of all `units`; each uncertainty is a finding in it."""
+    """The graph of all `units`, including a finding for each uncertainty."""
     return _Joiner(toolchain, root, units, rules).join()
 
 
@@ -149,7 +149,7 @@ class _Joiner:
         return self._graph
 
     def _get_key(self, unit: UnitFacts, symbol: str) -> str:
-        """An alias or a cold part is mapped to the function for which the compiler reports a frame."""
+        """Maps an alias or a cold part to the function for which the compiler reports a frame."""
         where = unit.defined.get(symbol)
         if where is None:
             return symbol
@@ -224,7 +224,7 @@ class _Joiner:
         lines = path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
         code = lines[int(line) - 1].strip() if 0 < int(line) <= len(lines) else ""
         rows = [row for row in self._rules.pointers if row.file == file and row.call in code]
-        # Several calls at one location are copies of one call that the compiler made, for instance of a loop.
+        # Several calls at one location are compiler-made copies of one call, for example in an unrolled loop.
         if len(rows) != 1 or (count > 1 and code.count(rows[0].call) != 1):
             why = "no row tells" if not rows else "no one row for one call tells"
             self._fail("indirect call", place, f"{self._get_name(caller)}: '{code}' calls through a pointer, and {why} what it "
@@ -251,9 +251,9 @@ class _Joiner:
                 self._fail("unused row", RULES.name, f"{row.file}: no indirect call is in a line with '{row.call}'; remove it")
 
     def _check_taken(self) -> None:
-        """Every function whose address is taken has a caller: the tables, a row, or for a C function the processor."""
+        """Every function whose address is taken needs a caller: the tables, a row, or, for a C function, the processor."""
         called = {target for resolved in self._graph.resolved for target in resolved.targets}
-        # The address of a virtual function is in tables, and in speculative code of the compiler for its target.
+        # The address of a virtual function occurs in tables, and in code that the compiler generates to guess the call target.
         called.update(self._get_key(unit, frame.symbol)
                       for unit in self._units for frame in unit.frames.values() if frame.is_virtual)  # fmt: skip
         called.update(entry for entries in self._graph.tables.values() for entry in entries.values())

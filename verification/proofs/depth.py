@@ -12,20 +12,20 @@ import networkx as nx
 
 
 def find_groups(calls: Mapping[str, Collection[str]]) -> list[list[str]]:
-    """Strongly connected components, callees before callers. A group of one function is no recursion unless the function calls itself."""
+    """Strongly connected components, callees before callers. A group of one function is recursive only if the function calls itself."""
     graph = nx.condensation(nx.DiGraph({name: sorted(calls[name]) for name in sorted(calls)}))
     return [sorted(graph.nodes[number]["members"]) for number in reversed(list(nx.topological_sort(graph)))]
 
 
 def is_recursive(group: Collection[str], calls: Mapping[str, Collection[str]]) -> bool:
-    """True when a function of the group may be called before it has returned."""
+    """True if a function of the group may be called before its previous call has returned."""
     return len(group) > 1 or any(name in calls.get(name, ()) for name in group)
 
 
 def calc_deepest_paths(frames: Mapping[str, int], calls: Mapping[str, Collection[str]]) -> dict[str, tuple[str, ...]]:
-    """For each function the path with the largest sum of frames, itself first.
+    """For each function the path with the largest sum of frames, beginning with the function.
 
-    A function that may reach a recursion, or one without a frame, is left out: it has no bound.
+    Functions that may reach a recursion or a function without a known frame are omitted: they have no bound.
     """
     paths: dict[str, tuple[str, ...]] = {}
     sums: dict[str, int] = {}

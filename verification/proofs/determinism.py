@@ -28,7 +28,7 @@ class Variant:
     flags: str
 
 
-# In addition to g++ -O2 (host-release) and clang++ -O0 (host-asan), which the proof runs unchanged.
+# In addition to g++ -O2 (host-release) and clang++ -O0 (host-asan), which the proof runs as built.
 VARIANTS = (
     Variant("gcc-O0", "g++", "-O0"),
     Variant("clang-O2", "clang++-19", "-O2"),
@@ -53,7 +53,7 @@ class Inputs:
 def build_variant(
     root: Path, build: Path, variant: Variant, target: str, jobs: int, options: Sequence[str] = ("-DMAMORI_BUILD_TESTS=OFF",)
 ) -> None:
-    """Configures and builds only `target`, without tests unless `options` specify them."""
+    """Configures and builds only `target`; tests are disabled unless `options` enable them."""
     configure = ["cmake", "-S", str(root), "-B", str(build), "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={variant.compiler}",
                  f"-DCMAKE_CXX_FLAGS={variant.flags}", *options]  # fmt: skip
     for argv in (configure, ["cmake", "--build", str(build), "--parallel", str(jobs), "--target", target]):
@@ -63,7 +63,7 @@ def build_variant(
 
 
 def get_trace_hash(binary: Path, inputs: Inputs, out: Path) -> str:
-    """One run. @return the hash of its run.json, which must be new, complete, and of the requested number of frames."""
+    """One run. @return the hash in its run.json, which must be new, complete, and of the requested number of frames."""
     if not binary.is_file():
         raise WorkError(f"{binary} is missing; run ./mamori build")
     argv = [str(binary), "run", *inputs.arguments(), "--out", str(out)]

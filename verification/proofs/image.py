@@ -30,7 +30,7 @@ QEMU = ("qemu-system-arm", "-machine", "mps2-an386", "-display", "none", "-monit
 
 @dataclass(frozen=True)
 class Run:
-    """Output of the image at its end."""
+    """Complete output of the image."""
 
     frames: int
     overruns: int
@@ -41,7 +41,7 @@ class Run:
 
 
 def find_sources(root: Path, toolchain: Toolchain) -> list[str]:
-    """Sources of the image for one processor: target layers, port, its own, and those of the example that they include."""
+    """Sources of the image for one processor: target layers, port, its own sources, and the included sources of the example."""
     board = BOARD.get(toolchain.name, {"board_host"})
     boards = {"board_host"}.union(*BOARD.values())
     own = [path for path in sorted((root / TARGET).glob("*.cpp")) if path.stem in board or path.stem not in boards]
@@ -75,7 +75,7 @@ def get_stack_size(image: Path) -> int:
 
 
 def check_watermark(bound: int | None, used: int) -> str:
-    """@return the contradiction between a proven bound and the stack that a run used [bytes]; nothing if they agree."""
+    """@return the contradiction between a proven bound and the stack that a run used [bytes]; empty if they agree."""
     if bound is None:
         return "the program has no bound; see the findings of the stack proof"
     if used <= 0:
@@ -86,12 +86,12 @@ def check_watermark(bound: int | None, used: int) -> str:
 
 
 def run_in_qemu(image: Path) -> Run:
-    """@raise WorkError if it did not end by itself with a complete record."""
+    """@raise WorkError if the run did not end by itself with a complete record."""
     return _run([*QEMU, str(image)])
 
 
 def run_on_host(image: Path) -> Run:
-    """@raise WorkError if it did not end by itself with a complete record."""
+    """@raise WorkError if the run did not end by itself with a complete record."""
     return _run([str(image)])
 
 
@@ -103,7 +103,7 @@ def _run(argv: Sequence[str]) -> Run:
         raise WorkError(f"{argv[0]} is missing; ./mamori test installs it") from error
     except subprocess.TimeoutExpired as error:
         raise WorkError(f"{argv[-1]} did not end within {RUN_TIMEOUT_S} s") from error
-    # The exit status alone shows nothing: a processor that resets or is powered off ends with 0 as well.
+    # The exit status alone is not sufficient: a processor that resets or is powered off also ends with 0.
     if done.returncode != 0:
         raise WorkError(f"{argv[-1]} ended with status {done.returncode}: {done.stderr.strip()}")
     try:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stack of linked functions that the compiler of this project did not compile (libgcc, C library), from their disassembly.
+"""Stack of linked functions that the project compiler did not compile (libgcc, C library), from their disassembly.
 
-The sum of all stack-pointer decrements of a function, plus the deepest function that it branches to, is an upper bound.
+Upper bound: the sum of all stack-pointer decrements of a function, plus that of the deepest function to which it branches.
 
 @satisfies SWR-PRF-023      Design: docs/design/proofs.md#outside-functions
 """
@@ -24,7 +24,7 @@ STORE = re.compile(r"\[sp, #-(?P<bytes>\d+)\]!")
 BRANCH = re.compile(r"(?:[0-9a-f]+) <(?P<name>[^>+]+)(?:\+0x[0-9a-f]+)?>")
 ENDS = ("b", "bx", "udf")
 FILL = ("nop", "movs r0, r0")
-"""What fills the gap behind a function, the second as two bytes of zeros; it has no part in the stack anywhere."""
+"""Instructions that fill the gap after a function (the second: two zero bytes); they never use stack."""
 
 
 @dataclass
@@ -37,7 +37,7 @@ class Region:
 
 
 def calc_library_bounds(image: Path, functions: list[str]) -> dict[str, int]:
-    """Upper bound of each function [bytes]. @raise WorkError if one is not in the image or takes an unknown amount."""
+    """Upper bound of each function [bytes]. @raise WorkError if a function is not in the image or uses an unknown amount of stack."""
     prefix = CORTEX_M4.prefix
     addresses: dict[str, int] = {}
     for line in run_tool([f"{prefix}nm", "--format=posix", str(image)]).splitlines():
@@ -94,7 +94,7 @@ def _count_bytes(operands: str) -> int:
 
 
 def _calc_bounds(regions: dict[str, Region]) -> dict[str, int]:
-    """Regions that branch into each other take at most the sum of all of them."""
+    """Regions that branch into each other use at most the sum of their stacks."""
     bounds: dict[str, int] = {}
     calls = {name: {target for target in region.targets if target in regions} for name, region in regions.items()}
     for group in find_groups(calls):

@@ -44,7 +44,7 @@ class Loop:
 
     @property
     def is_bounded(self) -> bool:
-        """The form shows that it terminates."""
+        """The form of the loop shows that it terminates."""
         return self.kind in ("range", "counted")
 
 
@@ -61,7 +61,7 @@ class LoopRow:
 
 @dataclass(frozen=True, order=True)
 class LoopFinding:
-    """A loop that may not terminate, or a row without a loop."""
+    """A loop that may not terminate, or a row that matches no loop."""
 
     file: str
     line: int
@@ -106,7 +106,7 @@ def find_loops(root: Path, files: Sequence[Path]) -> tuple[list[Loop], list[Loop
 
 
 def check_loops(loops: Sequence[Loop], rows: Sequence[LoopRow]) -> list[LoopFinding]:
-    """Loops that neither their form nor exactly one row bounds, and rows that do not match exactly one loop."""
+    """Loops without a bound from their form or from exactly one row, and rows that do not match exactly one loop."""
     findings = []
     for loop in loops:
         if not loop.is_bounded and not any(_does_match(row, loop) for row in rows):
@@ -142,7 +142,7 @@ def _walk(root: Node) -> Iterator[Node]:
 
 
 def _find_keywords(text: str) -> Iterator[tuple[int, int, str]]:
-    """Every keyword that begins a loop, as (line, column in bytes, word), independent of the grammar."""
+    """Every keyword that begins a loop, as (line, column in bytes, word), found without the grammar."""
     code = COMMENT_OR_TEXT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
     for number, (line, original) in enumerate(zip(code.split("\n"), text.split("\n"), strict=True), start=1):
         for match in KEYWORD.finditer(line):
@@ -163,7 +163,7 @@ def _make_loop(file: str, node: Node) -> Loop:
 
 
 def _is_counted(node: Node) -> bool:
-    """One counter with constant steps towards a bound; the body changes neither of them."""
+    """One counter with constant steps towards a bound; the body changes neither counter nor bound."""
     counter = _get_counter(node.child_by_field_name("initializer"))
     condition, update, body = (node.child_by_field_name(name) for name in ("condition", "update", "body"))
     if not counter or condition is None or body is None:
@@ -183,7 +183,7 @@ def _is_counted(node: Node) -> bool:
 
 
 def _get_counter(initializer: Node | None) -> str:
-    """Name of the only variable that the loop declares with a value; its type is wide enough for any count."""
+    """Name of the only variable that the loop declares with an initial value. Its type is wide enough for any count."""
     if initializer is None or initializer.type != "declaration":
         return ""
     if NARROW.search(_get_text(initializer.child_by_field_name("type"))):
@@ -236,7 +236,7 @@ def _find_changed(body: Node) -> set[str]:
 
 
 def _get_function(node: Node) -> str:
-    """Name of the function around a node, with its classes."""
+    """Name of the function that contains a node, with its classes."""
     names: list[str] = []
     place: Node | None = node
     while place is not None:

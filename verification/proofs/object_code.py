@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what a compiler tells about one unit: frames and calls, virtual calls, classes; and its object file.
+"""Reads the compiler output for one unit (frames and calls, virtual calls, classes) and its object file.
 
-Formats: VCG call graph of -fcallgraph-info, GIMPLE of -fdump-tree-optimized-lineno, class layouts of -fdump-lang-class, and
-ELF. What is not understood here is missed later: each indirect call of the call graph must find its explanation.
+Formats: VCG call graph of -fcallgraph-info, GIMPLE of -fdump-tree-optimized-lineno, class layouts of -fdump-lang-class, and ELF. Content
+that this module does not understand is detected later, because each indirect call of the call graph must be resolved.
 
 @satisfies SWR-PRF-020, SWR-PRF-021      Design: docs/design/proofs.md#indirect-calls
 """
@@ -26,7 +26,7 @@ NODE = re.compile(r'node: \{ title: "(?P<title>[^"]+)" label: "(?P<label>[^"]*)"
 EDGE = re.compile(r'edge: \{ sourcename: "(?P<source>[^"]+)" targetname: "(?P<target>[^"]+)"(?: label: "(?P<place>[^"]*)")?')
 FRAME = re.compile(r"(?P<bytes>\d+) bytes \((?P<kind>[a-z,]+)\)")
 GIMPLE_FUNCTION = re.compile(r"^;; Function .*?\((?P<symbol>[^\s,()]+), funcdef_no=")
-GIMPLE_VIRTUAL = re.compile(  # the place of a statement is the first on its line
+GIMPLE_VIRTUAL = re.compile(  # the first location on the line belongs to the statement
     r"^\s*\[(?P<place>[^\]]+:\d+:\d+)\] .*"
     r"OBJ_TYPE_REF\([^;]*;\((?:const )?(?:volatile )?(?:struct|class) (?P<type>[^)]+)\)[^>]*->(?P<slot>\d+)B\)"
 )
@@ -39,7 +39,7 @@ THUNK = re.compile(r"_ZTh[n]?\d+_(?P<rest>\w+)|_ZTv[n]?\d+_[n]?\d+_(?P<virtual>\
 
 @dataclass(frozen=True)
 class Frame:
-    """One function as the compiler laid it out."""
+    """One function with the frame that the compiler reports."""
 
     symbol: str
     place: str  # file:line:column
@@ -85,7 +85,7 @@ def read_unit(toolchain: Toolchain, unit: Unit) -> UnitFacts:
     """All facts of one unit."""
     facts = UnitFacts(unit.source)
     _read_object(toolchain, unit.object, facts)
-    # A unit without functions or classes has no such file; a call that stays unexplained for want of one is a finding.
+    # A unit without functions or classes has no such file. A call that is unresolved because the file is missing becomes a finding.
     for path, read in ((unit.call_graph, _read_call_graph), (unit.virtual_calls, _read_virtual_calls),
                        (unit.classes, _read_classes)):  # fmt: skip
         if path.exists():
@@ -94,7 +94,7 @@ def read_unit(toolchain: Toolchain, unit: Unit) -> UnitFacts:
 
 
 def get_type_name(qualified: str) -> str:
-    """The name of a type without namespaces and template arguments: what the dumps of the compiler have in common."""
+    """The name of a type without namespaces and template arguments: the common part of all compiler dumps."""
     previous, name = "", qualified
     while name != previous:
         previous, name = name, re.sub(r"<[^<>]*>", "", name)
@@ -102,7 +102,7 @@ def get_type_name(qualified: str) -> str:
 
 
 def _get_symbol(title: str) -> str:
-    """A title is a symbol, of a local function behind the name of its file."""
+    """The title is the symbol; for a local function, the file name precedes it."""
     return title.rpartition(":")[2]
 
 
@@ -124,7 +124,7 @@ def _read_call_graph(text: str, facts: UnitFacts) -> None:
 
 
 def _add_thunks(facts: UnitFacts) -> None:
-    """A thunk corrects the object's address and jumps: no frame, and a jump that needs no relocation."""
+    """A thunk corrects the address of the object and jumps: it has no frame, and its jump needs no relocation."""
     for symbol in {*facts.frames, *facts.defined}:
         if thunk := THUNK.fullmatch(symbol):
             target = f"_Z{thunk['rest'] or thunk['virtual']}"
@@ -145,8 +145,8 @@ def _read_virtual_calls(text: str, facts: UnitFacts) -> None:
 
 
 def _read_classes(text: str, facts: UnitFacts) -> None:
-    """For each table: which base class finds its functions from which offset on."""
-    offsets: dict[str, tuple[str, int]] = {}  # address of a class in the dump -> its place in the table
+    """For each table: the base classes, and the offset at which the functions of each begin."""
+    offsets: dict[str, tuple[str, int]] = {}  # address of a class in the dump -> its position in the table
     name = address = ""
     for line in text.splitlines():
         head = CLASS_LINE.match(line)
@@ -184,7 +184,7 @@ def _read_object(toolchain: Toolchain, path: Path, facts: UnitFacts) -> None:
         for rows in elf.iter_sections():
             for row in rows.iter_relocations() if isinstance(rows, RelocationSection) else ():
                 aim = symbols[row["r_info_sym"]]
-                name = aim.name or sections[aim["st_shndx"]]  # the symbol of a section has no name of its own
+                name = aim.name or sections[aim["st_shndx"]]  # a section symbol has no name of its own
                 addend = row["r_addend"] if row.is_RELA() else 0
                 relocations.append((sections[rows["sh_info"]], row["r_offset"], describe_reloc_type(row["r_info_type"], elf), name, addend))
     by_section: dict[str, list[tuple[int, int, str]]] = defaultdict(list)
@@ -194,7 +194,7 @@ def _read_object(toolchain: Toolchain, path: Path, facts: UnitFacts) -> None:
         if section.startswith(NOT_LOADED):
             continue
         is_branch = kind in toolchain.branch_relocations
-        if target in by_section:  # a local function, named by its section
+        if target in by_section:  # a local function, identified by its section
             start = addend - (toolchain.branch_addend if is_branch else 0)
             target = next((name for begin, _, name in by_section[target] if begin == start), "")
         callers = [name for begin, size, name in by_section.get(section, ()) if begin <= offset < begin + max(size, 1)]

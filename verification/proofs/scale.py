@@ -24,7 +24,7 @@ TARGET = PROGRAM.name
 OPTIONS = ("-DMAMORI_BUILD_TESTS=ON", "-DMAMORI_BUILD_EXAMPLES=OFF", "-DMAMORI_WITH_SIMBODY_SIM=OFF")
 RUN_TIMEOUT_S = 300
 
-# In addition to the release build, g++ -O2: each compiler at each level.
+# In addition to the release build (g++ -O2): each compiler at each level.
 VARIANTS = (
     Variant("gcc-O0", "g++", "-O0"),
     Variant("gcc-Os", "g++", "-Os"),
@@ -33,7 +33,7 @@ VARIANTS = (
     Variant("clang-Os", "clang++-19", "-Os"),
 )
 
-# Ends by itself, so that no process remains if the proof is killed.
+# The load ends by itself, so that no process remains if the proof is killed.
 BUSY = "import time\nend = time.monotonic() + 60\nwhile time.monotonic() < end:\n    pass"
 
 
@@ -53,12 +53,12 @@ class Run:
 
     @property
     def speed(self) -> float:
-        """Seconds of virtual time per second of real time; 0 if the clock was too coarse."""
+        """Seconds of virtual time per second of real time; 0 if the clock resolution was too coarse."""
         return self.virtual_s / self.wall_s if self.wall_s > 0.0 else 0.0
 
 
 def run_scale(program: Path, cycles: int, *options: str) -> Run:
-    """One run, which must have the requested number of cycles, without an overrun."""
+    """One run, which must have the requested number of cycles and no overrun."""
     if not program.is_file():
         raise WorkError(f"{program} is missing; run ./mamori build")
     argv = [str(program), "--cycles", str(cycles), *options]
@@ -90,7 +90,7 @@ def busy_machine() -> Iterator[None]:
 
 
 def write_record(path: Path, runs: Sequence[tuple[str, Run]]) -> None:
-    """Writes the named runs with their speed atomically."""
+    """Writes the named runs and their speed atomically."""
     record = {"runs": [{"name": name, **asdict(run), "times_real_time": round(run.speed, 1)} for name, run in runs]}
     path.parent.mkdir(parents=True, exist_ok=True)
     write_text(path, json.dumps(record, indent=2) + "\n")

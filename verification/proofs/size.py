@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The memory of small systems on a Cortex-M4: links the images of size/image.cpp and compares them with size.toml.
+"""Memory of small systems on a Cortex-M4: links the images of size/image.cpp and compares their sizes with size.toml.
 
     python -P -m verification.proofs.size [--out FOLDER]
 
@@ -44,7 +44,7 @@ ROW = re.compile(r" (?:\.\S+|\*fill\*)\s+0x([0-9a-f]+)\s+0x([0-9a-f]+)(?: (\S+))
 
 @dataclass(frozen=True)
 class Limits:
-    """What one image may take [bytes], and what it is meant to take."""
+    """The maximum size of one image [bytes], and its aims."""
 
     name: str
     title: str
@@ -58,7 +58,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Size:
-    """What one image takes [bytes]. RAM without stacks; its first values, which also lie in the flash memory, are `data`."""
+    """The size of one image [bytes]. RAM excludes stacks; `data` are initial values, which also occupy flash memory."""
 
     text: int
     ram: int
@@ -82,7 +82,7 @@ def measure(rows: Sequence[Limits], root: Path, folder: Path) -> dict[str, Size]
 
 
 def list_findings(limits: Limits, size: Size) -> list[str]:
-    """@return what is wrong with the size: nothing if it is within its limits and its aims are met or marked as missed."""
+    """@return findings: empty if the size is within its limits and each aim is met or marked as missed."""
     findings = [f"{what} takes {value} bytes, {value - most} more than its limit of {most}"
                 for what, value, most in (("text", size.text, limits.text_max), ("RAM", size.ram, limits.ram_max)) if value > most]  # fmt: skip
     missed = [f"{what} takes {value} bytes, more than the aim of {aim}"
@@ -94,7 +94,7 @@ def list_findings(limits: Limits, size: Size) -> list[str]:
 
 
 def make_table(rows: Sequence[Limits], sizes: dict[str, Size]) -> str:
-    """The table of all images: each with what it adds to the base."""
+    """The table of all images, each with its difference from the base."""
     base = sizes[BASE]
     lines = ["image                text    more     RAM    more  kernel  safety  application  board  library"]
     for row in rows:
@@ -120,9 +120,9 @@ def write_evidence(rows: Sequence[Limits], sizes: dict[str, Size], folder: Path)
 
 
 def read_map(text: str) -> Iterator[tuple[str, str, int]]:
-    """Output section, object file and size of each linked input section of a linker map. An empty object: filling.
+    """Output section, object file and size of each linked input section of a linker map. An empty object file means padding.
 
-    The linker merges equal texts and lists each at the address of the one that it keeps, so only addresses tell the sizes.
+    The linker merges equal texts and lists them at the address of the text that it keeps. Only the addresses therefore show the sizes.
     """
     text = re.sub(r"\n( \.\S+)\n +0x", r"\n\1 0x", text[text.index("Linker script and memory map") :])
     section = ""

@@ -60,7 +60,7 @@ class Analysis:
 
 
 def analyse(toolchain: Toolchain, root: Path, units: Sequence[Unit], rules: Rules) -> Analysis:
-    """The complete analysis of the stack of `units`. A function that leads to a recursion has no bound."""
+    """The complete stack analysis of `units`. A function that may reach a recursion has no bound."""
     graph = make_call_graph(toolchain, root, [read_unit(toolchain, unit) for unit in units], rules)
     calls = {key: graph.calls.get(key, set()) for key in graph.functions}
     cycles = [group for group in find_groups(calls) if is_recursive(group, calls)]
@@ -81,7 +81,7 @@ def make_record(analyses: Sequence[Analysis]) -> dict[str, object]:
 
 
 def make_table(analyses: Sequence[Analysis]) -> str:
-    """The same for a reader: one line per entry point, the deepest first, then the findings."""
+    """The same data for readers: one line per entry point, the deepest first, then the findings."""
     lines = []
     for analysis in analyses:
         graph = analysis.graph
@@ -106,8 +106,8 @@ def write_evidence(analyses: Sequence[Analysis], folder: Path, **more: object) -
 def _find_entries(graph: CallGraph) -> list[Entry]:
     executive = {key for key, function in graph.functions.items() if function.name.startswith(EXECUTIVE)}
     inner = {target for key in executive for target in graph.calls[key]}
-    inner.update(target for call in graph.resolved for target in call.targets)  # work that it passes to its host
-    # ComponentRun and other classes inside the executive are called through it, never from outside.
+    inner.update(target for call in graph.resolved for target in call.targets)  # work that the executive passes to its platform host
+    # Only the executive calls ComponentRun and its other inner classes.
     entries = [Entry("executive", key) for key in sorted(executive - inner)
                if "::" not in split_signature(graph.functions[key].name)[0].removeprefix(EXECUTIVE)]  # fmt: skip
     actions = {key for table, bases in graph.bases.items() if any(name == COMPONENT for name, _ in bases)

@@ -11,7 +11,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-# Mangled names (Itanium C++ ABI). A pure virtual call traps in __cxa_pure_virtual of the image, which is not a violation.
+# Mangled names (Itanium C++ ABI). Pure virtual calls trap in __cxa_pure_virtual of the image; this symbol is permitted.
 FORBIDDEN_SYMBOLS = {
     "heap": r"_{0,2}(?:malloc|calloc|realloc|free|reallocarray|aligned_alloc|memalign|posix_memalign|strn?dup|sbrk)(?:_r)?"
     r"|brk|_Zn[wa].*|_Zd[la].*",
@@ -62,7 +62,7 @@ def scan_sections(path: Path, prefix: str = "") -> list[Finding]:
 
 
 def count_symbols(path: Path, prefix: str = "") -> int:
-    """Number of symbols: a search without symbols would show nothing."""
+    """Number of symbols, because a search in a file without symbols would prove nothing."""
     return len(_run(f"{prefix}nm", "--format=posix", str(path)))
 
 

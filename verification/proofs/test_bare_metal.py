@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: every source and every header of kernel and safety compiles for a bare Cortex-M4 without a warning, and the objects
-# also comply with the rules of the target subset. Each header is compiled alone, so each must include its dependencies.
+# Goal: every source and header of kernel and safety compiles for a bare Cortex-M4 without a warning, and the objects comply with the rules
+# of the target subset. Each header is compiled alone, so each must include its dependencies.
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the benchmarks run, and their output can be evaluated. Method: one run of the smallest effort; no time is checked.
+# Goal: the benchmarks run, and their output can be evaluated. Method: one run of minimum effort; no time is checked.
 from __future__ import annotations
 
 import subprocess

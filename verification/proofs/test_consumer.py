@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a project in another folder builds against the installed package only, and runs. The installed tree is moved before
-# it is used, so that a path to the build or source tree in the package would be detected.
+# Goal: a project in another folder builds only against the installed package, and runs. The installed tree is moved before use, to detect
+# paths to the build or source tree in the package.
 from __future__ import annotations
 
 import json
@@ -109,7 +109,7 @@ def test_tour_builds_against_the_package_and_log_prints_its_recorder_file_as_the
 
 
 def build_page(project: Project, prefix: Path, folder: Path, name: str, library: str) -> Path:
-    """The first system with the end that a page of the manual shows, linked to the library that the page names. @return `folder`."""
+    """The first system with the ending from a page of the manual, linked to the library that the page names. @return `folder`."""
     configure(project, prefix, folder, "examples/minimal")
     source, lists = folder / "main.cpp", folder / "CMakeLists.txt"
     page = (project.root / "docs" / "manual" / name).read_text(encoding="utf-8")
@@ -128,7 +128,7 @@ def test_first_system_runs_in_real_time_as_the_manual_says(project: Project, pre
     folder = build_page(project, prefix, tmp_path / "minimal", "real_time.md", "mamori::posix_rt")
     ran = run(folder / "build" / "minimal")
     form = r"40 openings, (\d+) overran, (\d+) missed, latest by \d+\.\d{3} ms; priority (fixed|not granted), memory (locked|not locked)\n"
-    # A host that runs other work may be late and reports that; then the last window may still be running at the stop.
+    # On a busy host, a run may report lateness; its last window may then still be running at the stop.
     counts = re.fullmatch(form, ran.stdout)
     assert counts is not None, (ran.stdout, ran.stderr)
     assert ran.returncode == 0 or int(counts[1]) > 0
@@ -139,7 +139,7 @@ def test_first_system_hangs_and_is_told_as_the_manual_says(project: Project, pre
     folder = build_page(project, prefix, tmp_path / "minimal", "last_resort.md", "mamori::posix_rt")
     program = folder / "build" / "minimal"
     orderly = run("env", "-C", tmp_path, program)
-    # If the host stalls for a tenth of a second, the watchdog acts in this run too.
+    # If the host stalls for a tenth of a second, the watchdog also expires in this run.
     by_machine = orderly.returncode == -signal.SIGABRT and orderly.stderr == "outputs closed\n"
     served = re.fullmatch(r"watchdog served (\d+) times\n", orderly.stdout)
     assert by_machine or (orderly.returncode == 0 and served is not None and int(served[1]) > 0), (orderly.stdout, orderly.stderr)

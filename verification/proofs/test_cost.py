@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: counts of single steps are exact, and times belong to them. Method: callgrind over a program with known instruction
-# counts (tools/probe/timing/tests/cost_subject.cpp); a program that executes other steps in real time must be found.
+# Goal: step counts are exact, and each measured time belongs to its count. Method: callgrind over a program with known instruction counts
+# (tools/probe/timing/tests/cost_subject.cpp). A program whose real-time run takes other steps must be detected.
 from __future__ import annotations
 
 from pathlib import Path
@@ -20,7 +20,7 @@ LINEAR, CONSTANT, HEAVY = range(3)
 HEAVY_ROUNDS = 20_000 - 1
 EXECUTE = 0
 LEAST_ROUND_NS = 0.1
-"""A taken branch each 0.1 ns would be one per clock at 10 GHz."""
+"""One taken branch each 0.1 ns would be one per cycle at 10 GHz."""
 
 
 @pytest.fixture(scope="module")
@@ -89,7 +89,7 @@ def test_counting_fewer_frames_changes_no_count(system: System, whole: ClassRun,
 def test_each_time_belongs_to_its_count(whole: ClassRun) -> None:
     chosen = (whole.steps["component"] == HEAVY) & (whole.steps["pass"] == EXECUTE)
 
-    # The loop has a minimum time per cycle on any processor, and no maximum: disturbances of the host make steps longer.
+    # The loop has a minimum time per cycle on any processor, but no maximum, because host disturbances lengthen steps.
     assert whole.times_ns[chosen][7] >= HEAVY_ROUNDS * LEAST_ROUND_NS
     assert [ratio.component for ratio in list_ratios([whole])] == ["linear", "constant", "heavy"]
 

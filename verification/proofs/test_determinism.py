@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: equal inputs give equal port-trace hashes: run after run, -O0 and -O2, g++ and clang++; different inputs give a different one.
-# Method: a short part of the shipped motion with a fault in it, so that the hash includes the reaction.
+# Goal: equal inputs give equal port-trace hashes: in repeated runs, with -O0 and -O2, g++ and clang++. Different inputs give a different
+# hash. Method: a short part of the shipped motion with a fault, so that the hash includes the reaction.
 from __future__ import annotations
 
 import dataclasses

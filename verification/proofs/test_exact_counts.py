@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: no operation exceeds its baseline or its limit of instructions, and none uses the heap or a system call after start.
-# Method: callgrind over the release build; a process in which a system call is fatal. Seeded uses must be found.
+# Goal: no operation exceeds its baseline or its instruction limit, and none uses the heap or a system call after start. Method: callgrind
+# over the release build; a process in which a system call is fatal. Seeded violations must be found.
 from __future__ import annotations
 
 import warnings

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: no loop of the target layers is without a bound, and no goto exists; a seeded one is found with function, file and line.
+# Goal: each loop of the target layers has a bound, and no goto exists; seeded violations are found with function, file and line.
 from __future__ import annotations
 
 import dataclasses

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the methods of README.md work for a project with its own build: package components, add_subdirectory, FetchContent,
-# tests with sanitizers. Method: small projects from the blocks of that page and the sources of verification/consumer. One
-# package is installed; one project compiles the layers from source, without package manager and dpkg in PATH.
+# Goal: the methods of README.md work for a project with its own build: package components, add_subdirectory, FetchContent, tests with
+# sanitizers. Method: small projects from the code blocks of README.md and the sources of verification/consumer. One project uses an
+# installed package. Another compiles the layers from source, without package manager and dpkg in PATH.
 from __future__ import annotations
 
 import json
@@ -58,7 +58,7 @@ def prefix(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def bare_path(tmp_path: Path) -> dict[str, str]:
-    """An environment whose PATH contains a compiler cache, and all programs except those of the package system."""
+    """An environment whose PATH contains a compiler cache and all programs except package tools."""
     folder = tmp_path / "bin"
     folder.mkdir()
     for where in reversed(os.environ["PATH"].split(":")):

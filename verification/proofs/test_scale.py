@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: 100 components at four rates on two cores give one hash: after a million cycles, run after run, on a busy host, observed
-# by a tool or not, from g++ and clang++ at -O0, -O2 and -Os. Method: pinned hashes; speed is recorded and never checked.
+# Goal: 100 components at four rates on two cores give one hash: after a million cycles, in repeated runs, on a busy host, with and without
+# an observing tool, from g++ and clang++ at -O0, -O2 and -Os. Method: pinned hashes; speed is recorded, not checked.
 from __future__ import annotations
 
 import dataclasses

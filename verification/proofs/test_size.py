@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each small system is within its limits of text and RAM, and an aim that is met is not marked as missed. Method:
-# images for the controller are linked and run in QEMU; limits that a size exceeds, and a mark that is wrong, must be findings.
+# Goal: each small system is within its limits of text and RAM, and no met aim is marked as missed. Method: images for the controller are
+# linked and run in QEMU; exceeded limits and wrong marks must be findings.
 from __future__ import annotations
 
 import json
@@ -19,7 +19,7 @@ ROWS = read_limits()
 SIZE = Size(text=100, ram=50, data=40, parts={"kernel": 60, "application": 40})
 LIMITS = Limits(BASE, "a title", text_max=100, ram_max=50)
 EVERY_IMAGE = pytest.mark.parametrize("row", ROWS, ids=lambda row: row.name.replace(" ", "_"))
-# Function of a part that only some systems use -> images that use it.
+# Function of an optional part -> images that use the part.
 PARTS = {
     "mamori::detail::check_everything(": (),
     "mamori::SystemModes::": ("parameters", "modes"),

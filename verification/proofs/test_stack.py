@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the stack of every entry point has a proven bound, and a run on the controller stays below it; code that hides stack
-# from the proof is found. Method: the image of verification/proofs/target, for the controller and for the host, and seeded
-# sources that must be rejected with function, file and line.
+# Goal: the stack of every entry point has a proven bound, and a run on the controller stays below it; code that hides stack from the proof
+# is found. Method: the image of verification/proofs/target, for controller and host, and seeded sources that must be rejected with
+# function, file and line.
 from __future__ import annotations
 
 import json
@@ -21,14 +21,14 @@ from verification.proofs.stack import Analysis, analyse, analyse_image, main, ma
 from verification.proofs.symbols import count_symbols, scan_sections, scan_symbols
 from verification.proofs.toolchain import CORTEX_M4, HOST, HOST_AS_WRITTEN, Toolchain, Unit, compile_units
 
-EXCEPTION_FRAME_BYTES = 8 * 4 + 4  # eight registers and the alignment, without floating-point unit
+EXCEPTION_FRAME_BYTES = 8 * 4 + 4  # eight registers plus alignment, without floating-point unit
 EVERY_TOOLCHAIN = pytest.mark.parametrize("toolchain", [CORTEX_M4, HOST], ids=lambda toolchain: toolchain.name)
 Judge = Callable[..., Analysis]
 
 
 @dataclass(frozen=True)
 class Built:
-    """The image for the controller, and the analysis of both its controller and host versions."""
+    """The image for the controller, and the analyses of its controller and host versions."""
 
     analyses: dict[str, Analysis]
     units: dict[str, list[Unit]]
@@ -182,7 +182,7 @@ def test_virtual_call_reaches_every_override_and_nothing_else(judge: Judge, tool
 
     assert [str(finding) for finding in analysis.findings] == []
     assert names["virtual 0 of A"] == {"C::f(int)"}
-    # Through the second base: thunks, which jump to the functions themselves.
+    # Call through the second base: thunks, which jump to the functions themselves.
     assert names["virtual 0 of B"] == {"non-virtual thunk to C::h(int)",
                                        "non-virtual thunk to (anonymous namespace)::D<short>::h(int)"}  # fmt: skip
     assert 300 <= (analysis.get_bound("_Z4callR1B") or 0) < 400
@@ -251,7 +251,7 @@ def test_nothing_recurs_as_compiled(built: Built) -> None:
 
 @pytest.mark.verifies("SWR-PRF-022")
 def test_nothing_recurs_as_written(tmp_path: Path) -> None:
-    # Without optimisation, because a recursive tail call compiled to a loop, or an inlined step of a recursion, would otherwise be hidden.
+    # Without optimisation: otherwise the compiler may turn a recursive tail call into a loop, or inline a step of a recursion.
     analysis, _ = analyse_image(HOST_AS_WRITTEN, ROOT, tmp_path)
 
     assert len(analysis.graph.functions) > 200
@@ -362,7 +362,7 @@ extern "C" [[gnu::naked]] void* memset(void*, int, unsigned) {
 
 
 def link_hungry(built: Built, folder: Path, more: str = "") -> Path:
-    """The image with a memset that takes 2 kB of stack and is not listed."""
+    """The image with an unlisted memset that uses 2 kB of stack."""
     (folder / "hungry.cpp").write_text(HUNGRY.replace("MORE", more), encoding="utf-8")
     (unit,) = compile_units(CORTEX_M4, folder, ["hungry.cpp"], [], folder)
     return link_image(ROOT, [*built.units[CORTEX_M4.name], unit], folder / "hungry.elf")
@@ -375,7 +375,7 @@ def test_run_on_the_controller_stays_below_the_bound(built: Built, run: Run) -> 
 
 @pytest.mark.verifies("SWR-PRF-024")
 def test_run_on_the_controller_saw_operation_faults_and_overruns(run: Run) -> None:
-    # Otherwise its stack would be that of an idle system.
+    # Otherwise the measured stack would be that of an idle system.
     assert run.frames == 2000
     assert run.operational_frames > 100
     assert run.overruns > 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The compilers whose code is proven, and the parts of their output that the proofs read.
+"""The compilers whose code is proven, and the compiler output that the proofs read.
 
 @satisfies SWR-PRF-020      Design: docs/design/proofs.md#stack
 """
@@ -15,7 +15,7 @@ from pathlib import Path
 
 from mamori_trace.base.errors import WorkError
 
-# The language subset of the target layers. One section per function, so that every call to another function is a relocation.
+# The language subset of the target layers. One section per function, so that every call to another function needs a relocation.
 SUBSET = ("-std=c++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-ffp-contract=off", "-UNDEBUG",
           "-ffunction-sections", "-fdata-sections")  # fmt: skip
 
@@ -30,7 +30,7 @@ class Toolchain:
     word_bytes: int
     branch_relocations: frozenset[str]
     branch_addend: int = 0  # addend in the relocation of a branch to the begin of a function
-    red_zone_bytes: int = 0  # below the stack pointer, which a leaf function may use without a frame
+    red_zone_bytes: int = 0  # below the stack pointer; a leaf function may use it without a frame
 
     @property
     def compiler(self) -> str:
@@ -54,7 +54,7 @@ HOST = Toolchain(
     branch_addend=-4,
     red_zone_bytes=128,
 )
-# Nothing is inlined and no tail call becomes a jump: a recursion in the source is a recursion here.
+# Without inlining and tail-call jumps, a recursion in the source is also a recursion in the code.
 HOST_AS_WRITTEN = replace(HOST, name="x86-64 as written", flags=("-O0", "-fno-pie"))
 
 

@@ -2,8 +2,8 @@
 """Measures the frequencies of passed, failed and inconclusive runs of the real-time part on this host:
 `python -P -m verification.real_time [--runs N] [--load] [--defect NAME ...] [--build DIR]`.
 
-One run executes every campaign program once; an inconclusive program is repeated at most twice. The worst verdict of its programs is
-determines the verdict of the run. It terminates: each program has a time limit, and so has the load.
+One run executes every campaign program once, and repeats an inconclusive program at most twice. The worst verdict of the programs is the
+verdict of the run. Each program and the load have a time limit, so the measurement terminates.
 
 Design: docs/design/test_strength.md#real-time-verdicts
 """
@@ -41,7 +41,7 @@ class Ended:
 
 
 def run_program(campaign: Campaign, build: Path, seed: int, defect: str) -> Ended:
-    """At most three times, each with its own seed."""
+    """At most three attempts, each with its own seed."""
     try:
         result, repeats = run_short(campaign, build, seed, defect)
     except WorkError as error:
@@ -51,7 +51,7 @@ def run_program(campaign: Campaign, build: Path, seed: int, defect: str) -> Ende
 
 @contextmanager
 def load(is_wanted: bool) -> Iterator[None]:
-    """Two computing processes that run as long as one run, within a time limit."""
+    """Two computing processes that run as long as one run, but not longer than a time limit."""
     if not is_wanted:
         yield
         return
@@ -66,7 +66,7 @@ def load(is_wanted: bool) -> Iterator[None]:
 
 
 def measure(build: Path, runs: int, is_loaded: bool, defect: str, first_seed: int) -> list[list[Ended]]:
-    """`runs` runs; prints what is not passed at once."""
+    """Executes `runs` runs and immediately prints each run that did not pass."""
     campaigns = [campaign for campaign in CAMPAIGNS.values() if not defect or defect in campaign.defects]
     results = []
     for number in range(runs):
@@ -85,7 +85,7 @@ def get_worst(ended: Sequence[Ended]) -> str:
 
 
 def make_rows(label: str, results: Sequence[Sequence[Ended]]) -> list[str]:
-    """A row for the runs and one for each program."""
+    """One row for the runs and one for each program."""
     rows = [("all programs", Counter(get_worst(ended) for ended in results), sum(item.repeats for ended in results for item in ended))]
     for name in [item.name for item in results[0]]:
         own = [item for ended in results for item in ended if item.name == name]
@@ -97,8 +97,8 @@ def make_rows(label: str, results: Sequence[Sequence[Ended]]) -> list[str]:
 
 
 def is_accepted(results: Sequence[Sequence[Ended]], is_loaded: bool, defect: str) -> bool:
-    """Limits for 20 runs, scaled: without a defect 0 failed, and 5 inconclusive under load or 1 without; with a defect 0 passed
-    and 18 failed."""
+    """Limits for 20 runs, scaled. Without a defect: 0 failed runs, at most 5 inconclusive ones under load or 1 without. With a defect: 0
+    passed runs, at least 18 failed ones."""
     counts = Counter(get_worst(ended) for ended in results)
     if defect:
         return counts["passed"] == 0 and 20 * counts["failed"] >= 18 * len(results)

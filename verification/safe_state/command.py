@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./mamori prove safe-state`: builds the programs that print the relations, proves, shows, keeps models and result.
+"""`./mamori prove safe-state`: builds the programs that print the relations, runs the provers, prints and stores models and results.
 
 @satisfies SWR-FSM-025      Design: docs/design/safe_state.md#command-prove
 """
@@ -39,13 +39,13 @@ from verification.safe_state.relation import read_relation, run_program
 TARGET = "mamori_safe_state_relation"
 BRAKE_TARGET = "mamori_brake_sequence_relation"
 TOOLS = {"z3": "z3", "spin": "spin", "gcc": "gcc"}
-"""Programs, and the Debian packages that bring them."""
+"""Programs, and the Debian packages that contain them."""
 AnyDefect = Defect[Machine] | Defect[Brakes]
 
 
 @dataclass(frozen=True)
 class Request:
-    """What the user asked for. `defect`: the property whose seeded defect is tried."""
+    """The request of the user. `defect`: the property whose seeded defect is tried."""
 
     json: bool = False
     out: Path | None = None
@@ -55,7 +55,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Proof:
-    """What was proved of one part, what its record tells beside that, and the files to keep."""
+    """What was proved of one part, additional facts for its record, and the files to store."""
 
     results: Sequence[Result]
     facts: Mapping[str, Any]
@@ -63,8 +63,8 @@ class Proof:
 
 
 def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
-    """@return exit status; 1 when a property is not proved, or when nothing could be proved, which is said on standard error.
-    @raise InputError for an unknown defect, or a folder that cannot be written to."""
+    """@return exit status; 1 if a property is not proved, or if no proof was possible (message on standard error). @raise InputError for an
+    unknown defect, or a folder that is not writable."""
     defect = choose_defect(request.defect)
     try:
         check_tools()
@@ -74,7 +74,7 @@ def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
         programs = project.build / "verification" / "safe_state"
         try:
             proofs = _prove(run_program(programs / TARGET), run_program(programs / BRAKE_TARGET), defect)
-        except InputError as error:  # the programs are ours: no input of the user is wrong
+        except InputError as error:  # the project provides the programs: the error is not a wrong input of the user
             raise WorkError(str(error)) from error
         record = _keep(proofs, defect, request.out or _get_folder(project, defect))
     except WorkError as error:
@@ -89,7 +89,7 @@ def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
 
 
 def choose_defect(name: str | None) -> AnyDefect | None:
-    """@raise InputError when there is no property of that name."""
+    """@raise InputError if there is no property of that name."""
     if name is None:
         return None
     defects: tuple[AnyDefect, ...] = (*DEFECTS, *BRAKE_DEFECTS)
@@ -100,7 +100,7 @@ def choose_defect(name: str | None) -> AnyDefect | None:
 
 
 def check_tools() -> None:
-    """@raise WorkError naming what is missing, before anything is built."""
+    """@raise WorkError with the missing programs, before the build."""
     missing = [name for name in TOOLS if shutil.which(name) is None]
     if missing:
         packages = " ".join(TOOLS[name] for name in missing)
@@ -108,7 +108,7 @@ def check_tools() -> None:
 
 
 def _build(project: Project, jobs: int) -> None:
-    """@raise WorkError when a program cannot be built."""
+    """@raise WorkError if a program cannot be built."""
     log = project.logs / "build-prove.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     log.write_text("", encoding="utf-8")
@@ -120,13 +120,13 @@ def _build(project: Project, jobs: int) -> None:
 
 
 def _get_folder(project: Project, defect: AnyDefect | None) -> Path:
-    """Where the files go. What a defect does is no evidence of the machine."""
+    """The folder of the files. The behaviour of a defect is not evidence for the machine."""
     folder = project.evidence / "safe_state"
     return folder / "defects" / defect.breaks if defect else folder
 
 
 def _prove(text: str, brake_text: str, defect: AnyDefect | None) -> list[Proof]:
-    """A defect is checked by the properties of the part that it is in."""
+    """A defect is checked with the properties of the part that contains it."""
     relation, brake_relation = read_relation(text, Path(TARGET)), read_brakes(brake_text, Path(BRAKE_TARGET))
     machine, brakes = merge(relation), make_cycles(brake_relation)
     facts = {"situations": len(relation.labels), "merged_situations": len(machine.labels), "steps": relation.steps,
@@ -153,7 +153,7 @@ def _prove_part(subject: Subject, facts: Mapping[str, Any], files: Mapping[str, 
 
 
 def _keep(proofs: Sequence[Proof], defect: AnyDefect | None, folder: Path) -> str:
-    """Writes all files to `folder`, now that everything is known. @return the record as JSON."""
+    """Writes all files to `folder` once all results are known. @return the record as JSON."""
     facts = {name: value for proof in proofs for name, value in proof.facts.items()}
     results = [result for proof in proofs for result in proof.results]
     record = json.dumps(make_record(results, {**facts, "defect": defect.breaks if defect else None}), indent=1)
@@ -169,7 +169,7 @@ def _keep(proofs: Sequence[Proof], defect: AnyDefect | None, folder: Path) -> st
 
 
 def show(results: Sequence[Result], defect: AnyDefect | None, screen: Screen) -> None:
-    """A line per property, the steps of those that do not hold, and a closing line."""
+    """A line per property, the steps of violated ones, and a closing line."""
     if defect is not None:
         screen.say(f"seeded defect: {defect.sentence}")
     rows: list[tuple[str, ...]] = [(result.property.name, result.property.requirement, result.verdicts.get("z3", "-"), result.verdicts.get("spin", "-"))

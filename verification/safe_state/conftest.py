@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of the provers share: the built programs, what they print, and the machine and the brakes in it."""
+"""Shared fixtures of the prover tests: the built programs, their output, and the machine and brakes read from it."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One seeded defect for each property: a machine that has all properties but that one. They show that the provers would see it.
+"""One seeded defect for each property: a machine that violates only that property. It shows that the provers detect the violation.
 
 @satisfies SWR-FSM-024      Design: docs/design/safe_state.md#seeded-defects
 """
@@ -22,7 +22,7 @@ Part = TypeVar("Part")
 
 @dataclass(frozen=True)
 class Defect(Generic[Part]):
-    """`breaks`: name of the property. `sentence`: what the part does wrong. `seed`: makes the faulty part from the correct one."""
+    """`breaks`: name of the violated property. `sentence`: the wrong behaviour. `seed`: makes the faulty part from the correct one."""
 
     breaks: str
     sentence: str
@@ -38,8 +38,8 @@ START: dict[str, Sequence[str]] = {"start_button": ("yes",), "start_permitted": 
 
 def bend(source: str, target: str, *given: dict[str, Sequence[str]], past: Past | None = None, cell: Cell | None = None,
          is_consistent: bool = True) -> Callable[[Machine], Machine]:  # fmt: skip
-    """A machine that steps from `source` to `target` for all inputs that have the `given` values, later ones before earlier ones;
-    trusted ones where nothing is said. `past`: only after such button levels. `cell`: of the table, bent likewise."""
+    """A machine that steps from `source` to `target` for all inputs with the `given` values. Later values take precedence. Inputs without a
+    given value have their TRUSTED ones. `past`: only after these button levels. `cell`: the cell of the table that changes too."""
     allowed: dict[str, Sequence[str]] = dict(TRUSTED)
     for part in given:
         allowed.update(part)
@@ -65,12 +65,12 @@ def bend(source: str, target: str, *given: dict[str, Sequence[str]], past: Past 
 
 
 def _agree(one: Past, wanted: Past, allowed: dict[str, Sequence[str]]) -> bool:
-    """True where the two differ in a button only that the defect does not look at."""
+    """True if both pasts agree in the buttons that the defect uses."""
     return ("start_button" not in allowed or one.start == wanted.start) and ("reset_button" not in allowed or one.reset == wanted.reset)
 
 
 def close_brakes(state: str) -> Callable[[Machine], Machine]:
-    """A machine that closes its brakes in `state`, whatever its torque."""
+    """A machine that closes its brakes in `state`, with or without torque."""
 
     def seed(machine: Machine) -> Machine:
         place = OUTPUTS.index("brake_release")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Graphs of situations: shortest paths from power-up, and situations merged that no sequence of inputs distinguishes.
+"""Graphs of situations: shortest paths from power-up, and merged situations that no sequence of inputs distinguishes.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#models
 """
@@ -19,7 +19,7 @@ Link = TypeVar("Link")
 
 
 def walk(begins: Iterable[Place], list_moves: Callable[[Place], Iterable[tuple[Link, Place]]]) -> dict[Place, tuple[Place, Link] | None]:
-    """@return for each place that the moves lead to, the place before it on a shortest path and the link between them; None for `begins`."""
+    """@return for each reachable place, the previous place on a shortest path and the link between them; None for `begins`."""
     roads: dict[Place, tuple[Place, Link] | None] = dict.fromkeys(begins)
     pending = deque(roads)
     while pending:
@@ -41,8 +41,8 @@ def list_road(roads: Mapping[Place, tuple[Place, Link] | None], place: Place) ->
 
 
 def merge_alike(seen: Sequence[Array], following: Array) -> tuple[Array, list[int]]:
-    """Groups situations that answer every sequence of inputs equally. `seen`: rows of answers. `following`: the situation after each input.
-    @return the group of each situation, numbered in the order of the relation, and one member of each group."""
+    """Groups situations that give equal results for every sequence of inputs. `seen`: rows of results. `following`: the situation after
+    each input. @return the group of each situation, numbered in the order of the relation, and one member of each group."""
     count = len(following)
     group = np.zeros(count, dtype=np.int64)
     while True:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The step relation with situations merged that no inputs distinguish, and what is known of the past in each of them.
+"""The step relation after merging the situations that no inputs distinguish, and the known past of each situation.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#models
 """
@@ -20,8 +20,8 @@ RUNNING = VALUES["self_test"].index("Running")
 
 @dataclass(frozen=True, order=True)
 class Past:
-    """What an external observer remembers: both button levels of the last cycle, and whether a self test was seen running since the
-    present state was entered. The buttons before power-up are unknown, so they are treated as held."""
+    """What an external observer remembers: both button levels of the last cycle, and whether a self test was running at any time since the
+    entry into the current state. The buttons before power-up are unknown and therefore treated as held."""
 
     start: bool = True
     reset: bool = True
@@ -30,7 +30,7 @@ class Past:
 
 @dataclass(frozen=True)
 class Machine:
-    """Like Relation, with the fewest situations. `first` is that after power-up, `corrupted` that after a flipped bit."""
+    """Like Relation, with the fewest situations. `first`: the situation after power-up. `corrupted`: the situation after a bit flip."""
 
     states: tuple[str, ...]
     table: Mapping[tuple[str, str], str]
@@ -41,12 +41,12 @@ class Machine:
 
     @cached_property
     def pasts(self) -> tuple[frozenset[Past], ...]:
-        """Each past that leads to each situation. A flipped bit may come at any time."""
+        """All pasts that lead to each situation. A bit may flip at any time."""
         return tuple(frozenset(past for number, past in self.roads if number == place) for place in range(len(self.labels)))
 
     @cached_property
     def roads(self) -> Mapping[tuple[int, Past], tuple[tuple[int, Past], tuple[int, ...]] | None]:
-        """For each situation with a past, the one before it on a shortest path from power-up, and the letter between them."""
+        """For each situation with a past, the previous one on a shortest path from power-up, and the letter between them."""
         return walk([(self.first, Past())], lambda here: self._list_moves(*here))
 
     def _list_moves(self, number: int, past: Past) -> Iterator[tuple[tuple[int, ...], tuple[int, Past]]]:
@@ -65,12 +65,12 @@ class Machine:
             yield (), (self.corrupted, past)
 
     def advance(self, past: Past, number: int, target: int, letter: tuple[int, ...]) -> Past:
-        """@return what is remembered after the step."""
+        """@return what an external observer remembers after the step."""
         is_same = self.labels[number].state == self.labels[target].state
         return Past(bool(letter[6]), bool(letter[7]), is_same and (past.has_run or letter[1] == RUNNING))
 
     def find(self, state: str, past: Past) -> int:
-        """The situation of `state` that has this past. @raise KeyError when there is none."""
+        """The situation of `state` with this past. @raise KeyError if there is none."""
         for number, label in enumerate(self.labels):
             if label.state == state and label.is_consistent and past in self.pasts[number]:
                 return number
@@ -81,8 +81,8 @@ class Machine:
 
 
 def merge(relation: Relation) -> Machine:
-    """Merges situations with equal labels whose answers to each letter are merged as well, and checks the result against the
-    relation, letter by letter."""
+    """Merges situations with equal labels if each letter leads to merged situations. Checks the result against the relation, letter by
+    letter."""
     kinds = list(dict.fromkeys(relation.labels))
     group, members = merge_alike([np.array([kinds.index(label) for label in relation.labels])], relation.next)
     labels = tuple(relation.labels[member] for member in members)
@@ -97,8 +97,7 @@ def merge(relation: Relation) -> Machine:
 
 
 def describe_letter(letter: tuple[int, ...], past: Past, limit: str) -> str:
-    """The inputs of a step in words: what is demanded, what is on, and the pushes among the levels. `limit`: the bound that
-    counts, or "none"."""
+    """The inputs of a step in words: demands, active levels and button pushes. `limit`: the bound that applies, or "none"."""
     if not letter:
         return "a bit of the stored state flips"
     values = {name: VALUES[name][digit] for name, digit in zip(INPUTS, letter, strict=True)}

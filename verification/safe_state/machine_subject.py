@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The safe-state machine as a part to prove, and its counterexamples as steps that a person can follow.
+"""The safe-state machine as a subject of proofs, and its counterexamples as readable steps.
 
 @satisfies SWR-FSM-023      Design: docs/design/safe_state.md#proofs
 """
@@ -21,7 +21,7 @@ from verification.safe_state.relation import INPUTS
 
 @dataclass(frozen=True)
 class MachineSubject(Subject):
-    """The properties of the machine alone."""
+    """The properties of the machine without brakes."""
 
     machine: Machine
     name = "machine"

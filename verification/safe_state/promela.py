@@ -20,13 +20,13 @@ from verification.safe_state.properties import Property
 from verification.safe_state.relation import VALUES
 
 BOUNDS = {"ss2_within": 2, "ss1_within": 3}
-"""In cycles. Short ones, since nothing but the bound itself counts; z3 proves the same for all."""
+"""In cycles. Short bounds suffice, because only the comparison with the bound matters; z3 proves the same for all bounds."""
 SS1 = VALUES["demand"].index("Ss1")
 BEFORE_ENTRY, WITHIN, AT_BOUND, BEYOND = range(4)
 COMPILE = ("gcc", "-O0", "-w", "-DNOREDUCE", "-DREACH", "-o", "pan", "pan.c")
 DEPTH_MAX = 100_000
 SHORT_DEPTHS = (8, 16, 24, 32, 40, 48, 64, 96, 128, 192)
-"""A depth-first search finds long ways; with -DREACH it finds a way within a depth when there is one."""
+"""A depth-first search finds long paths; with -DREACH it finds a path within a depth if one exists."""
 TIMEOUT_S = 120.0
 
 HEAD = """\
@@ -105,7 +105,7 @@ active proctype machine() {{
 
 @dataclass(frozen=True)
 class Move:
-    """A branch of the model: one of the letters that lead from `source` to `target` and look the same. Empty: a bit flips."""
+    """A branch of the model: represents all letters from `source` to `target` that look the same. Empty letter: a bit flip."""
 
     source: int
     target: int
@@ -116,8 +116,8 @@ class Move:
 
 @dataclass(frozen=True)
 class Run:
-    """What spin found for one formula: nothing, or the moves of a run that breaks it. `loop`: the move that the run's endless
-    part begins with, for a run that breaks it by never ending."""
+    """spin's result for one formula: None, or the moves of a run that violates it. `loop`: the first move of the endless part of the run,
+    if the run is infinite."""
 
     name: str
     moves: tuple[int, ...] | None
@@ -149,8 +149,8 @@ def _list_moves_of(machine: Machine, source: int) -> Iterator[Move]:
 
 
 def list_guards(limit: str, times: set[int], counter: str = "age") -> Iterator[tuple[str, set[int]]]:
-    """When a step at one of `times` can happen. The clock may jump before the entry and beyond the bound in any cycle. `counter`: of
-    the cycles that the bound is compared with."""
+    """When a step at one of `times` is possible. The clock may jump before the entry and beyond the bound in any cycle. `counter`: the
+    number of cycles that is compared with the bound."""
     if limit == "none":
         yield "", times
         return
@@ -184,14 +184,14 @@ def write_model(machine: Machine, properties: Sequence[Property]) -> str:
 
 
 def fill(head: str, machine: Machine, properties: Sequence[Property], **parts: object) -> str:
-    """@return the text of a model: its head with the states, the bounds, the formulas and its own parts."""
+    """@return the text of a model: `head` with states, bounds, formulas and `parts`."""
     states = "\n".join(f"#define {name} {number}" for number, name in enumerate(machine.states, start=1))
     formulas = "\n".join(f"ltl {name} {{ {formula} }}" for name, formula in list_formulas(properties))
     return head.format(states=states, formulas=formulas, **BOUNDS, **parts)
 
 
 def list_formulas(properties: Sequence[Property]) -> list[tuple[str, str]]:
-    """A name and a formula for each claim. One of something possible is claimed to be impossible, and must be refuted."""
+    """A name and a formula for each claim. For a possible condition, the formula claims that it is impossible; spin must refute it."""
     formulas = []
     for one in properties:
         word = one.name.replace("-", "_")
@@ -202,7 +202,7 @@ def list_formulas(properties: Sequence[Property]) -> list[tuple[str, str]]:
 
 
 def check_all(text: str, properties: Sequence[Property], folder: Path, name: str) -> dict[str, Run]:
-    """Writes the model to the file `name` and has spin check each formula of it. @return by name what it found. @raise WorkError when spin or gcc
+    """Writes the model to the file `name` and checks each formula with spin. @return the results by name. @raise WorkError if spin or gcc
     is missing or fails."""
     (folder / name).write_text(text, encoding="utf-8")
     _call(("spin", "-a", name), folder)
@@ -213,7 +213,7 @@ def check_all(text: str, properties: Sequence[Property], folder: Path, name: str
 def _check_one(name: str, folder: Path) -> Run:
     if not _is_broken(name, DEPTH_MAX, folder):
         return Run(name, None)
-    # The trail is that of the last call: the shortest depth that shows the fault, or all.
+    # The trail is that of the last call: at the smallest depth that shows the violation, otherwise at the full depth.
     if not any(_is_broken(name, depth, folder) for depth in SHORT_DEPTHS):
         _is_broken(name, DEPTH_MAX, folder)
     trail = _call(("./pan", "-S", "-N", name), folder)

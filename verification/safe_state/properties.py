@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The properties that the machine is proved to have: each with its requirement, a sentence, and its form for the provers.
+"""The proved properties of the machine: each with its requirement, a sentence, and its form for the provers.
 
-Names in the properties for z3 (smt.py): `s` is the situation before the step and `t` the one after it, `(state s)` and so on what an external
-observer sees of them; the inputs have their own names, `last_start`, `last_reset` and `has_run` are the past of `s`.
+Names in the properties for z3 (smt.py): `s` is the situation before the step and `t` the situation after it. `(state s)` and similar terms
+are what an external observer sees of a situation. Inputs have their own names. `last_start`, `last_reset` and `has_run` are the past of
+`s`.
 Names in the properties for spin (promela.py): the values that an external observer sees between two cycles.
 
 @satisfies SWR-FSM-023      Design: docs/design/safe_state.md#properties
@@ -17,13 +18,13 @@ RANKS: Mapping[str, int] = {
     "Operational": 0, "Degraded": 1, "Standby": 2, "SelfTest": 3, "ProtectiveStopSs2": 4, "StandstillHold": 4, "ProtectiveStopSs1": 5,
     "Safe": 6, "LockedOut": 7,
 }  # fmt: skip
-"""How much it takes until the machine moves freely. Less safe is a lower rank."""
+"""Distance from free motion of the machine. A less safe state has a lower rank."""
 
 
 @dataclass(frozen=True)
 class Induction:
-    """A claim about many steps: `invariant` holds at power-up and is kept by each step, and implies `claim`. The counters are
-    those of smt.py."""
+    """A claim about many steps: `invariant` is true at power-up, each step preserves it, and it implies `claim`. The counters are defined
+    in smt.py."""
 
     invariant: str
     claim: str
@@ -31,8 +32,8 @@ class Induction:
 
 @dataclass(frozen=True)
 class Property:
-    """`step`: holds of each single step (z3). `induction`: for z3. `always`: a formula of linear temporal logic that each run
-    fulfils (spin). `possible`: conditions of which each is true in some run (spin). `is_coupled`: of the brakes under the machine."""
+    """`step`: true for each single step (z3). `induction`: for z3. `always`: a formula of linear temporal logic that is true for each run
+    (spin). `possible`: conditions, each of which is true in some run (spin). `is_coupled`: about the brakes under the machine."""
 
     name: str
     requirement: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Proves the properties of a part with z3 and spin. Both parts, machine and brakes, take this route.
+"""Proves the properties of a part with z3 and spin: of the machine, or of the brakes.
 
 @satisfies SWR-FSM-023      Design: docs/design/safe_state.md#proofs
 """
@@ -23,7 +23,7 @@ PROVED, REFUTED = "proved", "refuted"
 
 
 class Subject(ABC):
-    """A part to prove. `name`: of its model files. `constants`: of its SMT model, which describe a counterexample."""
+    """A part to prove. `name`: of its model files. `constants`: names in its SMT model that describe a counterexample."""
 
     name: str
     properties: Sequence[Property]
@@ -35,11 +35,11 @@ class Subject(ABC):
 
     @abstractmethod
     def list_history_queries(self) -> list[str]:
-        """What must be impossible for the pasts of the model to be closed under its steps."""
+        """Queries that must be unsatisfiable if the pasts of the model are closed under its steps."""
 
     @abstractmethod
     def list_queries(self, wanted: Property) -> list[str]:
-        """What must be impossible for the property to hold."""
+        """Queries that must be unsatisfiable if the property holds."""
 
     @abstractmethod
     def describe_values(self, query: Query, values: Mapping[str, int]) -> list[str]:
@@ -51,12 +51,12 @@ class Subject(ABC):
 
     @abstractmethod
     def describe_run(self, run: promela.Run) -> list[str]:
-        """The run of spin in words. @raise WorkError when the part does not step as the run says."""
+        """The run of spin in words. @raise WorkError if the part does not step like the run."""
 
 
 @dataclass(frozen=True)
 class Result:
-    """One property. `verdicts`: by prover. `steps`: how it is broken, in words; empty where all provers have proved it."""
+    """One property. `verdicts`: by prover. `steps`: the counterexample in words; empty if all provers have proved the property."""
 
     property: Property
     verdicts: Mapping[str, str]
@@ -68,14 +68,14 @@ class Result:
 
 
 def prove(subject: Subject, folder: Path) -> list[Result]:
-    """Runs both provers; their models and working files stay in `folder`. @raise WorkError when a prover is missing or fails."""
+    """Runs both provers and stores their models and working files in `folder`. @raise WorkError if a prover is missing or fails."""
     told: dict[str, dict[str, list[str]]] = {one.name: {} for one in subject.properties}
     _run_z3(subject, folder, told)
     _run_spin(subject, folder, told)
     results = []
     for one in subject.properties:
         verdicts = {prover: REFUTED if prover in told[one.name] else PROVED for prover in one.provers}
-        # A run from power-up tells more than a single step that z3 could choose freely.
+        # A run from power-up is more informative than a single step, whose start z3 may choose freely.
         words = told[one.name].get("spin") or told[one.name].get("z3") or []
         results.append(Result(one, verdicts, tuple(words)))
     return results
@@ -108,7 +108,7 @@ def _run_spin(subject: Subject, folder: Path, told: dict[str, dict[str, list[str
 
 
 def make_record(results: Sequence[Result], facts: Mapping[str, Any]) -> dict[str, Any]:
-    """What `--json` prints and the evidence keeps."""
+    """The output of `--json`, which is also the stored evidence."""
     rows = [
         {"name": result.property.name, "requirement": result.property.requirement, "sentence": result.property.sentence,
          "provers": dict(result.verdicts), "proved": result.is_proved, "steps": list(result.steps)}

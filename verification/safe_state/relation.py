@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the step relation that `mamori_safe_state_relation` prints: all that the compiled machine can do.
+"""Reads the step relation that `mamori_safe_state_relation` prints: the complete behaviour of the compiled machine.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#step-relation
 """
@@ -19,7 +19,7 @@ from mamori_trace.base.json_node import JsonNode
 
 SCHEMA = "mamori.safe_state/1"
 INPUTS = ("demand", "self_test", "lock_out", "standstill", "faults_cleared", "start_permitted", "start_button", "reset_button", "time")
-"""What the properties speak about, in the order of the digits of a letter."""
+"""The names that the properties use, in the order of the digits of a letter."""
 LEVELS = ("no", "yes")
 VALUES = {
     "demand": ("None", "Degrade", "Ss2", "Ss1", "Sto", "Invalid"),
@@ -36,7 +36,7 @@ Array = npt.NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Label:
-    """What an external observer sees of a situation. `limit` names the bound that its answer to time depends on."""
+    """What an external observer sees of a situation. `limit`: name of the time bound that affects its next step."""
 
     state: str
     is_consistent: bool
@@ -53,7 +53,7 @@ class Label:
 
 @dataclass(frozen=True)
 class Relation:
-    """`next` has the shape (situations, *SHAPE): the situation after each letter. Situation 0 is that after power-up."""
+    """`next` has the shape (situations, *SHAPE): the situation after each letter. Situation 0 is the one after power-up."""
 
     states: tuple[str, ...]
     events: tuple[str, ...]
@@ -65,7 +65,7 @@ class Relation:
 
 
 def run_program(program: Path) -> str:
-    """What the program prints. @raise InputError when it is not there, or the machine has no step relation."""
+    """The output of the program. @raise InputError if the program does not exist, or the machine has no step relation."""
     try:
         done = subprocess.run((str(program),), capture_output=True, text=True, check=False)
     except OSError as error:
@@ -76,7 +76,8 @@ def run_program(program: Path) -> str:
 
 
 def read_node(text: str, path: Path, schema: str, program: str) -> JsonNode:
-    """What `program` printed. @param path where the text comes from, for messages. @raise InputError for another schema or no JSON."""
+    """Parses the output of `program`. @param path origin of the text, for messages. @raise InputError for another schema or invalid
+    JSON."""
     remedy = f"print it again with {program}"
     try:
         node = JsonNode(path, "the relation", json.loads(text), remedy)
@@ -87,7 +88,7 @@ def read_node(text: str, path: Path, schema: str, program: str) -> JsonNode:
 
 
 def read_relation(text: str, path: Path) -> Relation:
-    """@param path where the text comes from, for messages. @raise InputError for a text that is no whole relation."""
+    """@param path origin of the text, for messages. @raise InputError for a text that is not a complete relation."""
     node = read_node(text, path, SCHEMA, "mamori_safe_state_relation")
     _check_inputs(node)
     states = tuple(item.text() for item in node.at("states").items())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The machine as SMT-LIB for z3. Its step is a decision diagram made from the relation; bounds and times are any whole numbers.
+"""The machine as SMT-LIB for z3. Its step is a decision diagram made from the relation; bounds and times are any integers.
 
 @satisfies SWR-FSM-022, SWR-FSM-023      Design: docs/design/safe_state.md#models
 """
@@ -30,7 +30,7 @@ TIMEOUT_S = 120.0
 
 @dataclass(frozen=True)
 class Query:
-    """Something that must be impossible. `owner`: the property, or "" for what all of them rest on."""
+    """A condition that must be unsatisfiable. `owner`: the property, or "" for the base of all properties."""
 
     owner: str
     text: str
@@ -47,7 +47,7 @@ def write_model(machine: Machine) -> str:
 
 
 def _write_views(machine: Machine) -> list[str]:
-    """What an external observer sees, as lists of situations: z3 takes minutes to unfold comparisons of nested choices."""
+    """What an external observer sees, as lists of situations, because z3 takes minutes to unfold comparisons of nested choices."""
 
     def view(name: str, is_seen: Callable[[Label], bool]) -> str:
         return f"(define-fun {name} ((s Int)) Bool {_is_one_of(is_seen)})"
@@ -87,9 +87,8 @@ def _choose(word: str, values: Sequence[str]) -> str:
 
 
 def write_diagram(result: str, root: str, answers: Array, inputs: Sequence[tuple[str, str]]) -> list[str]:
-    """The number that `answers` hold at `root` and the inputs, as the constant `result`: one constant per node of a decision diagram,
-    the deepest first. `inputs`: names and sorts of the axes after the first. Constants and not functions, which z3 would write out
-    at each place where they are used."""
+    """The number in `answers` for `root` and the inputs, as the constant `result`. Each node of the decision diagram becomes one constant,
+    the deepest first; z3 would expand functions at each use. `inputs`: names and sorts of the axes after the first."""
     lines: list[str] = []
     known: dict[tuple[int, bytes], str] = {}
 
@@ -113,7 +112,7 @@ def write_diagram(result: str, root: str, answers: Array, inputs: Sequence[tuple
 
 
 def _write_situation(machine: Machine) -> list[str]:
-    """One step: its inputs, the same with something worse, the past, and which pasts can be."""
+    """One step: its inputs, the same inputs with worse values, the past, and the possible pasts."""
     known = []
     for pasts in machine.pasts:
         words = [f"(and {' '.join(write_literal(*pair) for pair in zip(PASTS, _levels(past), strict=True))})" for past in sorted(pasts)]
@@ -151,7 +150,7 @@ KNOWN = "(known s last_start last_reset has_run)"
 
 
 def list_history_queries(machine: Machine) -> list[str]:
-    """What the pasts rest on: power-up has a known one, and each step and each flipped bit leads from known ones to known ones."""
+    """Base of the pasts: power-up has a known past, and each step and each bit flip leads from known pasts to known pasts."""
     return [
         f"(assert (not (known {machine.first} true true false)))",
         f"(assert (and {KNOWN} (not (known t start_button reset_button has_run_t))))",
@@ -160,7 +159,7 @@ def list_history_queries(machine: Machine) -> list[str]:
 
 
 def list_queries(machine: Machine, wanted: Property) -> list[str]:
-    """What must be impossible for the property to hold."""
+    """Queries that must be unsatisfiable if the property holds."""
     if wanted.induction is not None:
         return _write_induction(machine, wanted.induction)
     return [f"(assert (and {KNOWN} (not {wanted.step})))"] if wanted.step else []
@@ -168,8 +167,8 @@ def list_queries(machine: Machine, wanted: Property) -> list[str]:
 
 def write_induction(induction: Induction, head: Sequence[str], step: Sequence[str], base: str, situation: str,
                     after: Mapping[str, str]) -> list[str]:  # fmt: skip
-    """Base, step and use of the invariant. `head`: definitions of all three, `step`: of the step. `after`: words of the invariant, as they
-    are spelt after the step."""
+    """Base, step and use of the invariant. `head`: definitions for all three queries, `step`: for the step only. `after`: names in the
+    invariant, and their names after the step."""
     moved = re.sub(r"\b\w+\b", lambda word: after.get(word[0], word[0]), induction.invariant)
     return [
         "\n".join([*head, f"(assert {base})", f"(assert (not {induction.invariant}))"]),
@@ -179,16 +178,16 @@ def write_induction(induction: Induction, head: Sequence[str], step: Sequence[st
 
 
 def write_match(time: str, prefix: str, elapsed: str, bound: str) -> str:
-    """The time of the machine is where `elapsed` is relative to the bound."""
+    """The time class of the machine equals the class of `elapsed` relative to the bound."""
     return f"(= {time} (ite (< {elapsed} {bound}) {prefix}Within (ite (= {elapsed} {bound}) {prefix}AtBound {prefix}Beyond)))"
 
 
 COUNTERS = {"age": "Int", "demanded": "Bool", "since_demand": "Int", "unconfirmed": "Bool", "since_stop": "Int"}
-"""Time since the entry into the state; since SS1 was demanded under torque; since an SS2 began whose standstill did not come."""
+"""Time since the entry into the state; since a demand of SS1 under torque; since the start of an SS2 without standstill."""
 
 
 def _write_induction(machine: Machine, induction: Induction) -> list[str]:
-    """Base, step and use of the invariant. A cycle takes 1 to `cycle`; the clock may also jump to either side of the state's time."""
+    """Base, step and use of the invariant. A cycle takes 1 to `cycle`; the clock may also jump to either side of the time of the state."""
     ranges = "(and (> ss2_within 0) (> ss1_within 0) (> cycle 0) (<= 1 tick cycle))"
     elapsed = "(+ age tick)"
     within = {bound: write_match("time", "Time_", elapsed, bound) for bound in ("ss2_within", "ss1_within")}
@@ -212,8 +211,8 @@ def _write_induction(machine: Machine, induction: Induction) -> list[str]:
 
 
 def ask_all(model: str, queries: Sequence[Query], path: Path) -> list[bool]:
-    """Writes a file for z3 alone: it answers "unsat" to each query of a machine that has the properties. @return for each query
-    whether it is impossible. @raise WorkError when z3 is missing or does not answer."""
+    """Writes a file that z3 can also run alone: it answers "unsat" to each query if the machine has the properties. @return for each query,
+    whether it is unsatisfiable. @raise WorkError if z3 is missing or does not answer."""
     asked = "".join(f"(push)\n{query.text}\n(check-sat)\n(pop)\n" for query in queries)
     path.write_text(model + asked, encoding="utf-8")
     answers = _ask(path).split()
@@ -223,7 +222,7 @@ def ask_all(model: str, queries: Sequence[Query], path: Path) -> list[bool]:
 
 
 def ask_values(model: str, query: Query, names: Sequence[str], path: Path) -> dict[str, int]:
-    """What the constants are when the query, which is possible, comes true; 0 and 1 for levels. @raise WorkError like ask_all."""
+    """Values of the constants that satisfy the query; 0 and 1 for levels. @raise WorkError like ask_all."""
     path.write_text(model + f"{query.text}\n(check-sat)\n(get-value ({' '.join(names)}))\n", encoding="utf-8")
     values = dict(re.findall(r"\((\w+) (true|false|\d+)\)", _ask(path)))
     return {name: int(text) if text.isdecimal() else int(text == "true") for name, text in values.items()}

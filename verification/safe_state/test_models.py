@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: relation, merged machine, z3's diagram and spin's branches say the same, and what is incomplete is refused.
-# Method: random runs in all of them side by side; texts with one fault each; provers that answer nonsense.
+# Goal: relation, merged machine, z3's diagram and spin's branches agree, and incomplete data is rejected. Method: random runs in all of
+# them in parallel; texts with one fault each; provers that return invalid output.
 from __future__ import annotations
 
 import json

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the compiled machine and the compiled brakes have each property, and a defect that removes one property is found, and only there.
-# Method: both provers on the models of the built programs, and on those of parts with one seeded defect each.
+# Goal: the compiled machine and brakes have each property, and the provers refute exactly the property that a defect removes. Method: both
+# provers on the models of the built programs, and on models of parts with one seeded defect each.
 from __future__ import annotations
 
 import re
@@ -32,7 +32,7 @@ def results(pair: Pair, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str
 
 
 def prove_faulty(name: str, pair: Pair, folder: Path) -> list[Result]:
-    """@return what is refuted of the part with the seeded defect of the property `name`."""
+    """@return the properties that are refuted for the part with the seeded defect of the property `name`."""
     of_machine = {defect.breaks: defect for defect in DEFECTS}
     of_brakes = {defect.breaks: defect for defect in BRAKE_DEFECTS}
     subject = (MachineSubject(of_machine[name].seed(pair.machine)) if name in of_machine

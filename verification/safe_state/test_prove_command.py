@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: `prove` says and keeps what was proved, and nothing passes when nothing could be proved.
-# Method: the command on the built project, with a defect, without provers, and with a folder that cannot be written.
+# Goal: `prove` prints and stores the proved properties, and fails if no proof was possible. Method: the command on the built project, with
+# a defect, without provers, and with a folder that is not writable.
 from __future__ import annotations
 
 import json

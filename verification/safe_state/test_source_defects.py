@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a slip in the source of machine or brakes reaches the provers: nothing between the C++ and the counterexample is written by hand.
-# Method: a copy of the source with one slip is compiled, explored and checked; what is broken is known beforehand.
+# Goal: the provers detect a defect in the C++ source of machine or brakes, because no step from source to counterexample is manual. Method:
+# a copy of the source with one defect is compiled, explored and checked; the violated properties are known in advance.
 from __future__ import annotations
 
 import shutil
@@ -25,12 +25,12 @@ EDGE = "safety/include/mamori/safety/base/rising_edge.hpp"
 MACHINE = "safety/src/reaction/safe_state_machine.cpp"
 BRAKE_HEADER = "safety/include/mamori/safety/reaction/brake_sequence.hpp"
 BRAKES = "safety/src/reaction/brake_sequence.cpp"
-GATE_SLIPS = ("cell of the table", "bound", "pushed brakes open", "late by one tick")  # the others are `long`
+GATE_SLIPS = ("cell of the table", "bound", "pushed brakes open", "late by one tick")  # the other slips are `long`
 
 
 @dataclass(frozen=True)
 class Slip:
-    """`right` is found once in `file` and becomes `wrong`; the properties `broken` are refuted then."""
+    """The text `right` occurs once in `file` and becomes `wrong`; the provers then refute the properties `broken`."""
 
     file: str
     right: str
@@ -42,7 +42,7 @@ class Slip:
         return self.file in (BRAKE_HEADER, BRAKES)
 
     def put_into(self, folder: Path) -> None:
-        """@param folder copy of the sources, that has `file`."""
+        """@param folder copy of the sources that contains `file`."""
         path = folder / self.file
         text = path.read_text(encoding="utf-8")
         assert text.count(self.right) == 1, "the source has changed; adapt the slip"
@@ -56,7 +56,7 @@ SLIPS = {
     "order of two events": Slip(
         TABLE, "    kSelfTestFailed,       ///< a self test failed, at power-up or later\n"
         "    kDemandSto,            ///< torque off is demanded\n", "    kDemandSto,\n    kSelfTestFailed,\n",
-        # The columns of the table keep their order: what is called STO locks out, and a failed self test leads to Safe.
+        # The columns of the table keep their order: an STO demand now leads to LockedOut, and a failed self test to Safe.
         ("lost-trust-locks-out",)),
     "level for an edge": Slip(
         EDGE, "level && !was_high_", "level", ("held-reset-restarts-nothing", "start-needs-an-edge")),
@@ -76,7 +76,7 @@ SLIPS = {
         ("brakes-close-under-torque-in-ss1-only",)),
     "pushed brakes open": Slip(
         BRAKES, "    return is_standing && have_bitten(now);", "    is_told_ = is_standing;\n    return is_standing && have_bitten(now);",
-        # Where the push comes with the end of the stop, the brakes stay closed, and their time restarts: no claim about it holds.
+        # If the push comes at the end of the stop, the brakes stay closed and their time restarts: the properties about this time fail.
         ("brakes-open-by-a-start-only", "silent-brakes-are-overdue", "torque-outlives-the-hold-within-the-closing-time")),
     "standstill alone confirms": Slip(
         BRAKES, "return is_standing && have_bitten(now);", "return is_standing;", ("ss1-confirmed-by-its-brakes",)),
@@ -92,7 +92,7 @@ SLIPS = {
 
 
 def build_with(slip: Slip, folder: Path) -> str:
-    """@return the relation of the part with the slip: its program, made from a copy of the source, is run."""
+    """@return the relation of the part with the slip, printed by a program built from a copy of the source."""
     for name in ("include", "src"):
         shutil.copytree(ROOT / "safety" / name, folder / "safety" / name)
     slip.put_into(folder)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: callgrind's output is read correctly, and counts are evaluated by limit and baseline. Method: recorded output.
+# Goal: callgrind output is read correctly, and counts are compared with limit and baseline. Method: recorded output.
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the step "Python checks" reports the findings of ruff and mypy with their locations, and then fails. Method: the rules of the
-# project, on a small tree of the same layout.
+# Goal: the step "Python checks" reports the findings of ruff and mypy with their locations, and fails. Method: the rules of the project,
+# applied to a small tree of the same layout.
 from __future__ import annotations
 
 import importlib.util

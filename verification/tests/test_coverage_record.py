@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the trace tool reads the coverage gate's record of each function.
+# Goal: the trace tool reads the record of the coverage gate for each function.
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a death test that accepts any death is found with its location, and no other test.
-# Method: the shipped tree, one seeded call per case, and the whole check on a seeded file of each layer.
+# Goal: exactly the death tests that accept any cause of death are found, with their location. Method: the shipped tree, one seeded call per
+# case, and the complete check on a seeded file of each layer.
 from __future__ import annotations
 
 from pathlib import Path

@@ -15,7 +15,7 @@ HASH = "0123456789abcdef"
 
 def make_program(folder: Path, body: str) -> Path:
     program = folder / "program"
-    # The last argument is the folder of --out.
+    # The last argument is the folder for --out.
     program.write_text(f'#!/bin/bash\nout="${{@: -1}}"\nmkdir -p "$out"\n{body}\n', encoding="utf-8")
     program.chmod(0o755)
     return program

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: recorded courses keep their verdicts and counts, and an incomplete course gives one clear line. Method: short real runs without and with a
-seeded defect, recorded together with the verdict of the C++ judges that this evaluator replaced."""
+"""Goal: recorded courses keep their verdicts and counts, and an incomplete course gives one clear line. Method: short real runs with and
+without a seeded defect, recorded with the verdict of the C++ evaluator that preceded this one."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def set_entry(key: str, value: object) -> Callable[[dict[str, Any]], None]:
 
 
 def stall_runner(content: dict[str, Any]) -> None:
-    """Delays of the runner over the complete run: they explain an overdue window like a stall."""
+    """Delays of the runner over the complete run: like a stall, they explain an overdue window."""
     content["stalls"], content["runner_delays"] = {"begin_ns": [], "end_ns": []}, {"begin_ns": [0], "end_ns": [10_000_000_000]}
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: the evaluation of failing partitions finds each deviation, and excuses a window only where the host was slow. Method: courses made by hand;
-instants in us."""
+"""Goal: the evaluation of failing partitions finds each deviation, and excuses a window only if the host was slow. Method: handwritten
+courses; instants in us."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def react(at: int, fault: str = "silent", is_declared: int = 1) -> Reaction:
 
 
 def receive(last: int, end: int, *others: Reception) -> list[Reception]:
-    """Valid replies in each frame up to `last`, and none after it. `others` replace those of their instants."""
+    """Valid replies in each frame up to `last`, none later. `others` replace the replies at their instants."""
     found = {at * 1000: good(at) if at <= last else nothing(at) for at in range(200, end + 1, 1000)}
     return list((found | {each.at_ns: each for each in others}).values())
 
@@ -99,9 +99,9 @@ def corrupt_late(reacted: int) -> Record:
         (kill(react(INJECTED + BOUND + 1), stalls=[(120_000, 120_500)]), Outcome.LATE_BY_HOST, 0),
         (kill(react(INJECTED + BOUND + 1), stalls=[(90_000, 90_500)]), Outcome.LATE, 0),  # a stall before the fault
         (kill(), Outcome.NOT_DETECTED, 0),
-        (kill(react(END + 1)), Outcome.NOT_DETECTED, 0),  # the partition had ended
+        (kill(react(END + 1)), Outcome.NOT_DETECTED, 0),  # the partition had already ended
         (kill(is_injected=0), Outcome.NOT_INJECTED, 0),
-        # Another reaction than the declared one, or a fault that it cannot have been.
+        # The reaction is not the declared one, or names a fault that this kind cannot cause.
         (kill(react(151_000, is_declared=0)), Outcome.WRONGLY_NAMED, 0),
         (kill(react(151_000, "flooding"), others=[skipping(150_200, 65)]), Outcome.WRONGLY_NAMED, 0),
         (kill(react(151_000, "none")), Outcome.WRONGLY_NAMED, 1),
@@ -112,9 +112,9 @@ def corrupt_late(reacted: int) -> Record:
         (corrupt(wrong(101_200), 101_500), Outcome.IN_TIME, 0),
         (corrupt(malformed(101_200), 101_500), Outcome.IN_TIME, 0),
         (corrupt(malformed(101_200), 103_200), Outcome.IN_TIME, 0),
-        (corrupt(malformed(101_200), 103_201), Outcome.WRONGLY_NAMED, 1),  # long ago
+        (corrupt(malformed(101_200), 103_201), Outcome.WRONGLY_NAMED, 1),  # too long before the reaction
         (corrupt(nothing(101_200), 101_500), Outcome.WRONGLY_NAMED, 1),
-        # While valid replies come, no reaction is due.
+        # No reaction is due while valid replies arrive.
         (corrupt_late(130_200 + BOUND), Outcome.IN_TIME, 0),
         (corrupt_late(130_200 + BOUND + 1), Outcome.LATE, 0),
     ],
@@ -123,7 +123,7 @@ def test_each_fault_has_its_outcome_on_both_sides_of_each_limit(record: Record, 
     evaluation = evaluate_reactions(record)
 
     assert [each for _, each in evaluation.outcomes] == [outcome]
-    # What was not in the time of the partition is a report of its own.
+    # A reaction after the end of the partition counts as a separate report.
     late_ones = sum(reaction.at_ns > END * 1000 for reaction in record.reactions)
     assert evaluation.unexpected.total() == false + late_ones
 
@@ -168,7 +168,7 @@ STARTS = [Start(0, 0), Start(1, 500_000), Start(0, 1_000_000), Start(1, 1_500_00
 
 
 def make_order(overruns: Sequence[int] = (), missed: Sequence[int] = (), ends: Sequence[int] = (100, 600, 1100, 1600)) -> Record:
-    """Two windows of two frames. `overruns` and `missed` are numbers of windows; ends in us."""
+    """Two windows in each of two frames. `overruns` and `missed` contain numbers of windows; ends in us."""
     windows = [Window(*start, start.release_ns + 20_000, end * 1000, int(number in missed), int(number in overruns))
                for number, (start, end) in enumerate(zip(STARTS, ends, strict=True))]  # fmt: skip
     ran = [start for number, start in enumerate(STARTS) if number not in missed]
@@ -214,15 +214,15 @@ ABORTED = make_order(overruns=[2], ends=(100, 600, 1300, 1600))
     [
         (MISSED, (), (), Unexpected.FALSE),
         (make_order(overruns=[2]), (), (), Unexpected.FALSE),
-        (MISSED, [(1050, 1300)], (), Unexpected.SUSPECTED),  # in part within it
-        (MISSED, [(1101, 1300)], (), Unexpected.FALSE),  # it had ended by then
+        (MISSED, [(1050, 1300)], (), Unexpected.SUSPECTED),  # partly within the window
+        (MISSED, [(1101, 1300)], (), Unexpected.FALSE),  # the stall ended before
         # The host took half of the budget, in pieces or at once.
         (LONG_MISSED, (), [(1000, 1060), (1100, 1155)], Unexpected.SUSPECTED),
         (LONG_MISSED, (), [(1000, 1060), (1100, 1154)], Unexpected.FALSE),
-        (LONG_MISSED, (), [(940, 1000), (1300, 1400)], Unexpected.FALSE),  # before it and after it
+        (LONG_MISSED, (), [(940, 1000), (1300, 1400)], Unexpected.FALSE),  # before and after the window
         (LONG_MISSED, (), [(1000, 1115)], Unexpected.BY_HOST),
         (LONG_MISSED, (), [(1000, 1114)], Unexpected.FALSE),
-        # A complete budget from the frame before on. What ended before that frame does not count.
+        # A complete budget from the previous frame on. Stalls that ended before that frame do not count.
         (ABORTED, (), [(-100, -1), (100, 200), (700, 780), (1100, 1150)], Unexpected.SUSPECTED),
         (ABORTED, (), [(-100, -1), (100, 200), (700, 779), (1100, 1150)], Unexpected.FALSE),
     ],

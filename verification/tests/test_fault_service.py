@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: the evaluation of lost watchdog services finds each deviation. Method: trials made by hand, of a watchdog with 5 ms; instants in us."""
+"""Goal: the evaluation of lost watchdog services finds each deviation. Method: handwritten trials of a watchdog with 5 ms; instants in
+us."""
 
 from __future__ import annotations
 
@@ -21,7 +22,7 @@ def make_spans(spans: SpanList) -> Spans:
 
 
 def make_trial(loss: str, closed_us: int = 0, *, serviced_us: int = 10_000, end_us: int = 20_000, injected_us: int = 10_900) -> Trial:
-    """Last service at 10,000 us, lost at 10,900: the watchdog time ends at 15,000. 0: outputs not closed; loss not injected."""
+    """Last service at 10,000 us, loss at 10,900: the watchdog time ends at 15,000. Value 0: outputs not closed, or loss not injected."""
     return Trial(LOSSES.index(loss), int(injected_us > 0), injected_us * 1000, 10_000_000, serviced_us * 1000, int(closed_us > 0), closed_us * 1000, 0,
                  end_us * 1000)  # fmt: skip
 
@@ -37,21 +38,21 @@ def evaluate(trial: Trial, stalls: SpanList = ()) -> Evaluation:
         # Closed within a frame after the time, and later.
         (make_trial("hang", 16_000), (), Outcome.IN_TIME),
         (make_trial("hang", 16_001), [(14_000, 14_999)], Outcome.LATE),
-        (make_trial("hang", 16_001), [(14_000, 15_000)], Outcome.LATE_SUSPECTED),  # it took no time
+        (make_trial("hang", 16_001), [(14_000, 15_000)], Outcome.LATE_SUSPECTED),  # the reaction took no time
         (make_trial("hang", 16_300), [(15_100, 15_399)], Outcome.LATE_SUSPECTED),
         (make_trial("hang", 16_300), [(15_100, 15_400)], Outcome.LATE_BY_HOST),
         # Too early, or never.
         (make_trial("unhealthy", 15_000), (), Outcome.EARLY),
         (make_trial("wait"), (), Outcome.NOT_DETECTED),
-        # The time begins anywhere within the last service.
+        # The watchdog time starts at any instant within the last service.
         (make_trial("hang", 15_000, serviced_us=10_400), (), Outcome.EARLY),
         (make_trial("hang", 15_001, serviced_us=10_400), (), Outcome.IN_TIME),
         (make_trial("hang", 16_400, serviced_us=10_400), (), Outcome.IN_TIME),
         (make_trial("hang", 16_401, serviced_us=10_400), (), Outcome.LATE),
-        # The trial ended before a reaction was due.
+        # The trial ended before the reaction was due.
         (make_trial("wait", end_us=16_000), (), Outcome.ENDED_BY_HOST),
         (make_trial("wait", end_us=16_001), (), Outcome.NOT_DETECTED),
-        # Services too early are wrong at once.
+        # Too early services are an immediate error.
         (make_trial("runaway", 11_900), (), Outcome.IN_TIME),
         (make_trial("runaway", 11_901), (), Outcome.LATE),
     ],
@@ -75,7 +76,7 @@ CLEAN = make_trial("none", 15_010, injected_us=0)
         (CLEAN, [(9_000, 9_999)], Unexpected.FALSE),
         (CLEAN, [(12_000, 12_500)], Unexpected.BY_HOST),
         (CLEAN, [(12_000, 12_499)], Unexpected.SUSPECTED),  # too short for a missed service
-        (make_trial("hang", 10_899), (), Unexpected.FALSE),  # the loss came later
+        (make_trial("hang", 10_899), (), Unexpected.FALSE),  # the loss occurred later
     ],
 )  # fmt: skip
 def test_outputs_closed_without_a_loss_are_false_unless_the_host_stalled(trial: Trial, stalls: SpanList, reason: Unexpected) -> None:

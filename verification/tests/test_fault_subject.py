@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: the campaign engine runs the real-time campaigns by their plans. Method: the shipped plans, faulty copies, and stored courses as results."""
+"""Goal: the campaign engine runs the real-time campaigns by their plans. Method: shipped plans, faulty copies, and stored courses as
+results."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: the evaluation of faults of time finds each deviation. Method: courses made by hand, of a system with two windows and three components;
-instants in us."""
+"""Goal: the evaluation of faults of time finds each deviation. Method: handwritten courses of a system with two windows and three
+components; instants in us."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def test_an_overrun_is_detected_from_its_report_to_the_return_of_its_work() -> N
     [
         ([OTHER], (), (), Outcome.WRONGLY_NAMED),
         ([], (), (), Outcome.NOT_DETECTED),
-        # A report counts until a frame of the time that the host left, after the end.
+        # A report counts until one frame after the end, not counting time that the host took.
         ([overrun(1, 1, 5300, 5310, 7810)], [(6000, 6810)], (), Outcome.LATE_BY_HOST),
         ([overrun(1, 1, 5300, 5310, 7811)], [(6000, 6810)], (), Outcome.NOT_DETECTED),
         ([overrun(1, 1, 5300, 5310, 7940)], [(6000, 6810)], LATE_POLLS, Outcome.LATE_BY_HOST),
@@ -91,26 +91,26 @@ REPORT = overrun(0, 0, 8000, 8010, 8215)
     ("report", "late_polls", "reason"),
     [
         (REPORT, (), Unexpected.FALSE),
-        (REPORT, [(7950, 8099)], Unexpected.FALSE),  # part of it before the window
+        (REPORT, [(7950, 8099)], Unexpected.FALSE),  # partly before the window
         (REPORT, [(7000, 8100)], Unexpected.BY_HOST),
         (REPORT, [(8115, 9000)], Unexpected.BY_HOST),
-        (REPORT, [(8116, 9000)], Unexpected.FALSE),  # most of it after the report
+        (REPORT, [(8116, 9000)], Unexpected.FALSE),  # mostly after the report
         (REPORT, [(7900, 7999), (8216, 9000)], Unexpected.FALSE),
         (REPORT, [(8010, 8060), (8100, 8150)], Unexpected.SUSPECTED),  # in pieces
         (REPORT, [(8010, 8060), (8100, 8149)], Unexpected.FALSE),
-        (REPORT, [(7000, 8000)], Unexpected.SUSPECTED),  # a budget since the frame before
+        (REPORT, [(7000, 8000)], Unexpected.SUSPECTED),  # a complete budget since the previous frame
         (REPORT, [(6000, 7200)], Unexpected.SUSPECTED),
         (REPORT, [(6000, 7199)], Unexpected.FALSE),
         (late(0, 8000, 9100), (), Unexpected.FALSE),
         (late(0, 8000, 9100), [(8000, 9090)], Unexpected.BY_HOST),
-        # The component was ready and did not run for half of its budget.
+        # The component was ready but did not run for half of its budget.
         (overrun(0, 0, 8000, 8010, 8210, component_delay=100), (), Unexpected.SUSPECTED),
         (overrun(0, 0, 8000, 8010, 8210, component_delay=99), (), Unexpected.FALSE),
         (overrun(0, 0, 8000, 8010, 8209, component_delay=100), (), Unexpected.FALSE),  # too early
         (overrun(0, 0, 8000, 8250, 8300, component_delay=100), (), Unexpected.SUSPECTED),  # its window ends first
         (overrun(0, 0, 8000, 8250, 8299, component_delay=100), (), Unexpected.FALSE),
         (late(0, 8000, 9100, component_delay=100), (), Unexpected.FALSE),
-        # The runner was ready and did not run for half of its lateness.
+        # The runner was ready but did not run for half of its lateness.
         (late(0, 8000, 9400, runner_delay=700), (), Unexpected.SUSPECTED),
         (late(0, 8000, 9400, runner_delay=699), (), Unexpected.FALSE),
         (late(0, 8000, 8200, runner_delay=100), (), Unexpected.SUSPECTED),
@@ -141,7 +141,7 @@ def test_no_late_poll_and_another_injection_explain_no_report() -> None:
         # Work that has not returned one frame later shares the cause.
         ([overrun(0, 0, 8000, 8010, 8215), overrun(0, 0, 9000, 9010, 9010)], [(8000, 8210)], {Unexpected.BY_HOST: 1}),
         ([overrun(0, 0, 8000, 8010, 8215), overrun(0, 0, 10_000, 10_010, 10_010)], [(8000, 8210)], {Unexpected.BY_HOST: 1, Unexpected.FALSE: 1}),
-        # False reports that one delay causes count once.
+        # False reports with the same cause count once.
         ([late(0, 8000, 9400), late(1, 8300, 9401)], (), {Unexpected.FALSE: 1}),
         ([late(0, 8000, 9400), late(1, 9400, 10_900)], (), {Unexpected.FALSE: 1}),
         ([late(0, 8000, 9400), late(1, 9401, 10_900)], (), {Unexpected.FALSE: 2}),
@@ -192,7 +192,7 @@ def test_a_report_of_another_window_or_with_its_whole_budget_is_not_that_of_a_de
         ([overrun(1, 1, 5300, 5310, 6815), late(0, 6000, 6816)], Outcome.IN_TIME),
         ([late(0, 6000, 6816)], Outcome.NOT_DETECTED),
         ([overrun(1, 1, 5300, 5401, 6815)], Outcome.IN_TIME),  # its own window started late
-        ([overrun(0, 0, 6000, 6101, 6815)], Outcome.NOT_DETECTED),  # another one that did
+        ([overrun(0, 0, 6000, 6101, 6815)], Outcome.NOT_DETECTED),  # another window that started late
         ([overrun(1, 1, 6300, 6401, 6815)], Outcome.NOT_DETECTED),  # of the frame after
     ],
 )  # fmt: skip
@@ -214,10 +214,10 @@ def test_a_late_report_of_a_guard_that_works_is_late() -> None:
     [
         ([OWN], "lock", 6810, Outcome.IN_TIME),
         ([OTHER], "lock", 6810, Outcome.WRONGLY_NAMED),
-        ([], "lock", 5510, Outcome.NOT_INJECTED),  # the mutex was free within the budget
+        ([], "lock", 5510, Outcome.NOT_INJECTED),  # the mutex was released within the budget
         ([], "lock", 5511, Outcome.NOT_DETECTED),
-        ([overrun(1, 1, 5300, 5305, 5506)], "lock", 5510, Outcome.IN_TIME),  # its window had begun before it
-        ([], "work", 5510, Outcome.NOT_DETECTED),  # work takes as long as it is injected
+        ([overrun(1, 1, 5300, 5305, 5506)], "lock", 5510, Outcome.IN_TIME),  # its window had started before the injection
+        ([], "work", 5510, Outcome.NOT_DETECTED),  # injected work takes its full time
     ],
 )  # fmt: skip
 def test_a_component_that_waited_for_a_lock_is_reported_and_one_that_found_it_free_was_not_injected(
@@ -242,7 +242,7 @@ def wrong_clock(fault: str, seen: int) -> WatchFinding:
 
 
 def watch(injections: Sequence[Hold | ClockFault], findings: Sequence[WatchFinding], stalls: SpanList = ()) -> Evaluation:
-    """An overdue window must be found in 1 ms, a wrong clock in 21 ms."""
+    """The monitor must find an overdue window in 1 ms, a wrong clock in 21 ms."""
     holds = [each for each in injections if isinstance(each, Hold)]
     faults = [each for each in injections if isinstance(each, ClockFault)]
     return evaluate_watch(Bounds(1_000_000, 21_000_000), holds, faults, findings, make_spans(stalls))
@@ -270,7 +270,7 @@ def test_a_hang_and_a_wrong_clock_are_detected_by_their_findings() -> None:
         (HOLD, [wrong_clock("slow_clock", 5500)], (), Outcome.WRONGLY_NAMED),
         (FAST, [wrong_clock("slow_clock", 55_000)], (), Outcome.WRONGLY_NAMED),
         (FAST, [overdue(55_000, 55_450, 80_000)], (), Outcome.WRONGLY_NAMED),
-        (FAST, [overdue(55_000, 55_450, 80_000)], [(55_000, 55_300)], Outcome.MASKED),  # the host stalled, and the finding hid the clock
+        (FAST, [overdue(55_000, 55_450, 80_000)], [(55_000, 55_300)], Outcome.MASKED),  # the host stalled, and its finding masked the clock
         # The bounds.
         (HOLD, [overdue(5000, 6000, 27_000)], (), Outcome.IN_TIME),
         (HOLD, [overdue(5000, 6001, 27_000)], (), Outcome.LATE),
@@ -290,9 +290,9 @@ def test_a_hang_and_a_wrong_clock_have_their_outcomes_on_both_sides_of_each_limi
     ("finding", "stalls", "reason"),
     [
         (overdue(9000, 9450, 30_000), (), Unexpected.FALSE),
-        (overdue(9000, 9450, 30_000), [(8000, 8999)], Unexpected.FALSE),  # it ended before anything was due
+        (overdue(9000, 9450, 30_000), [(8000, 8999)], Unexpected.FALSE),  # the stall ended before anything was due
         (overdue(9000, 9450, 30_000), [(8000, 9000)], Unexpected.BY_HOST),
-        (wrong_clock("slow_clock", 9450), [(9000, 9450)], Unexpected.FALSE),  # a stall makes no clock wrong
+        (wrong_clock("slow_clock", 9450), [(9000, 9450)], Unexpected.FALSE),  # a stall never makes a clock wrong
     ],
 )  # fmt: skip
 def test_a_finding_without_an_injection_is_false_unless_the_host_stalled(finding: WatchFinding, stalls: SpanList, reason: Unexpected) -> None:

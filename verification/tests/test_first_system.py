@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the smallest example is short, and its page shows the message of the compiler. Method: the example without its connection.
+# Goal: the smallest example is short, and its page shows the compiler message. Method: the example without its connection.
 from __future__ import annotations
 
 import re
@@ -32,7 +32,7 @@ def test_example_is_one_short_file() -> None:
     assert sorted(path.name for path in SOURCE.parent.iterdir()) == ["CMakeLists.txt", "main.cpp"]
 
 
-# g++ comes with every command that builds; clang with those that check.
+# Every command that builds provides g++; those that check also provide clang.
 @pytest.mark.verifies("SWR-TAB-009", technique="fault_injection", polarity="violation")
 @pytest.mark.parametrize("compiler", [name for name in ("g++", "clang++-19") if shutil.which(name) is not None])
 def test_missing_connection_is_refused_with_the_message_of_the_page(compiler: str, tmp_path: Path) -> None:

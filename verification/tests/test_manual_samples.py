@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each C++ sample of the manual is compiled. Method: the check on the manual itself, then on small pages with one defect each.
+# Goal: each C++ sample of the manual is compiled. Method: the check on the manual itself, and on small pages with one defect each.
 from __future__ import annotations
 
 from pathlib import Path
@@ -28,7 +28,7 @@ def check(root: Path, page: str, name: str = "wheel.md") -> list[tuple[str, int,
 
 OWNERS = {"first_system.md": "SWR-TAB-009", "table_with_modes.md": "SWR-TAB-014", "porting.md": "SWR-CNF-008", "supervision.md": "SWR-SUP-033",
           "integrity.md": "SWR-AOU-010", "e2e.md": "SWR-E2E-040"}  # fmt: skip
-"""Pages that a requirement of their own names."""
+"""Pages that have their own requirement."""
 PAGES = sorted(path.relative_to(ROOT / "docs/manual").as_posix() for path in (ROOT / "docs/manual").rglob("*.md"))
 
 

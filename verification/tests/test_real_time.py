@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: the measurement of the real-time part counts what its programs decided. Method: programs of one line that write courses with known verdicts."""
+"""Goal: the measurement of the real-time part counts the verdicts of its programs. Method: one-line programs that write courses with known
+verdicts."""
 
 from __future__ import annotations
 
@@ -17,12 +18,12 @@ TIME = CAMPAIGNS["time"]
 
 
 def write_program(build: Path, campaign: Campaign, *verdicts: str) -> None:
-    """A program that writes the course of the next verdict at each run, with the last one again and again."""
+    """A program that writes the course of the next verdict at each run, and repeats the last verdict."""
     program = campaign.get_program(build)
     program.parent.mkdir(parents=True, exist_ok=True)
     for number, verdict in enumerate(verdicts):
         course = json.loads((COURSES / f"{campaign.name}.json").read_text(encoding="utf-8"))
-        if verdict != "passed":  # too few faults took effect: by the host only if it stalled
+        if verdict != "passed":  # too few faults took effect; a host cause only if the host stalled
             course |= {"requested": 100, "host": course["host"] | {"stalls": int(verdict == "inconclusive")}}
         (program.parent / str(number)).write_text(json.dumps(course) if verdict != "crashed" else "", encoding="utf-8")
     program.write_text(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goal: a run fails on exact evidence only, passes only without any doubt, and is inconclusive in between. Method: evidence made by hand, both
+"""Goal: a run fails only on exact evidence, passes only without doubt, and is inconclusive otherwise. Method: handwritten evidence on both
 sides of each limit."""
 
 from __future__ import annotations

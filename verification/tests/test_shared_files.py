@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Evidence comes from the repository only: a test that reads files outside it verifies no requirement.
+"""Evidence uses only files of the repository: a test that reads other files verifies no requirement.
 
-Method: the sources of all tests are searched for paths to `../shared`; the search itself is tested on written samples.
+Method: searches the sources of all tests for paths to `../shared`; the search itself is tested on written samples.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ LAYERS = ("kernel", "safety", "ports", "simbody_sim", "examples", "profiles", "t
 
 
 def find_tagged_readers(source: str) -> list[str]:
-    """Tests of a Python source that read a file outside the project, by a constant or directly, and have a tag."""
+    """Tagged tests of a Python source that read a file outside the project, directly or by a constant."""
     tree = ast.parse(source)
     constants: set[str] = set()
     for node in tree.body:

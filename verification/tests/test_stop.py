@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a stopped command ends its children, including grandchildren and those that ignore signals, and reports that in one line.
-# Method: a real process that runs a step, stopped by a signal as soon as the child of the step runs.
+# Goal: a stopped command ends its children, including grandchildren and children that ignore signals, and reports that in one line.
+# Method: a real process that runs a step. A signal stops it as soon as the child of the step runs.
 from __future__ import annotations
 
 import signal

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the page on supervision shows a message of the compiler. Method: a test of the compiler expects the same message.
+# Goal: the page on supervision shows the actual compiler message. Method: a test of the compiler expects the same message.
 from __future__ import annotations
 
 import re

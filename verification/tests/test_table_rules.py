@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the page of the rules of a system table is what the kernel states. Method: comparison with the list of the kernel.
+# Goal: the page of table rules agrees with the kernel. Method: comparison with the list of the kernel.
 from __future__ import annotations
 
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the large project is clean and reproducible; usage is measured; a missing reference implementation and wrong arguments are reported.
+# Goal: the large project is clean and reproducible; usage is measured; missing reference implementations and wrong arguments are reported.
 # Method: small sizes, child processes with known usage, a host without the reference implementations.
 from __future__ import annotations
 

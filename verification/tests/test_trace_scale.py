@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the cost of a check grows no faster than the project, nothing is read twice, and an unchanged project is not read.
-# Method: generated projects of two sizes; calls, opened files and bytes are counted, which load of the host cannot change.
+# Goal: the cost of a check grows at most in proportion to the project; no file is read twice, and an unchanged project is not read.
+# Method: generated projects of two sizes; counted calls, opened files and bytes, which do not depend on host load.
 from __future__ import annotations
 
 import collections
@@ -24,7 +24,7 @@ REPORT_BYTES_EACH = 2_000
 REPORT_BYTES_FIXED = 500_000
 CALLS_EACH = 600
 OPENS_MAX = 2
-"""Of one file: the C++ and the script readers may both look at the same one."""
+"""Readings of one file: both the C++ and the script reader may open it."""
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +36,7 @@ def projects(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path]:
 
 
 def count_calls(words: list[str]) -> int:
-    """Function calls of a check after its modules are loaded, including those of C functions."""
+    """Function calls of a check, including C functions, after its modules are loaded."""
     count = 0
 
     def take(_frame: FrameType, event: str, _argument: Any) -> None:

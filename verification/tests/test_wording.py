@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: an expression of the list is found in every text, and its number never rises unnoticed. Method: small trees.
+# Goal: an expression of the list is found in every text, and an increase of its number is detected. Method: small trees.
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The trace tool at scale: a large generated project, and the cost of its check next to two other tools (docs/design/trace.md#cache)."""
+"""The trace tool at scale: a large generated project, and the cost of its check compared with two other tools
+(docs/design/trace.md#cache)."""

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cost of checking a large project: cold, unchanged, with the report, and next to OpenFastTrace and StrictDoc, in one run.
+"""Cost of checking a large project: cold, unchanged, with the report, and compared with OpenFastTrace and StrictDoc, in one run.
 
     python -P -m verification.trace_bench [--requirements N] [--repeats N] [--peers] [--limit S] [--out DIR]
 
-Exit status: 0 all runs of Mamori were clean, 1 one was not, 2 wrong arguments. Times are no gate: hosts differ; tests compare counts.
+Exit status: 0 if all runs of Mamori were clean, 1 if one was not, 2 for wrong arguments. Times are not checked, because hosts differ; tests
+compare counts.
 
 @satisfies SWR-TRC-090      Design: docs/design/trace.md#cache
 """
@@ -25,13 +26,13 @@ from verification.trace_bench.usage import Usage, run_measured, take_median
 
 ROOT = Path(__file__).resolve().parents[2]
 _SETTLE_S = 2.2
-"""A file that was written this shortly before a run is never trusted to be unchanged (docs/design/trace.md#cache)."""
+"""The cache never treats a file as unchanged if it was written this shortly before a run (docs/design/trace.md#cache)."""
 _MEGA = 1e6
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One line of the table: a run, or the reason for its absence."""
+    """One row of the table: a run, or why it is missing."""
 
     title: str
     usage: Usage | None = None
@@ -51,7 +52,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def measure_own(plan: Plan, base: Path, repeats: int, limit_s: float) -> list[Row]:
-    """The runs of Mamori; each row is the run of median CPU time."""
+    """The runs of Mamori; each row is the run with the median CPU time."""
     root = get_folder(plan, "native", base)
     write_native(plan, root, with_git=True)
     time.sleep(_SETTLE_S)
@@ -76,7 +77,7 @@ _OWN_ROWS = 3
 
 
 def measure_peers(plan: Plan, base: Path, limit_s: float) -> list[Row]:
-    """Each reference implementation once, with check and report; none of them has a separate check."""
+    """One run of each reference implementation, with check and report, because none has a separate check."""
     cache = base / "peers"
     oft_root, oft_out = get_folder(plan, "openfasttrace", base), base / "openfasttrace_report" / "index.html"
     sdoc_root, sdoc_out = get_folder(plan, "strictdoc", base), base / "strictdoc_report"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Creates a large clean project: requirements on three levels, C++ sources and tests, results, review lock. Same size, same bytes.
+"""Creates a large clean project: requirements on three levels, C++ sources and tests, results, review lock. Equal sizes give equal bytes.
 
 `Plan` contains the project; `write_native` writes it for the trace tool, `peer_projects` for the reference implementations.
 """
@@ -58,7 +58,7 @@ class Source:
 
 @dataclass(frozen=True)
 class Plan:
-    """A project of `count` requirements: one of ten is a need, three are system, six are software requirements."""
+    """A project of `count` requirements. Of ten requirements, one is a need, three are system and six are software requirements."""
 
     count: int
 
@@ -83,13 +83,13 @@ class Plan:
 
     @cached_property
     def sources(self) -> list[Source]:
-        """Five functions each, so 10,000 requirements have 1,200 sources."""
+        """Sources with five functions each: 10,000 requirements have 1,200 sources."""
         parts = _slice(self.software, _SOURCE_FUNCTIONS)
         return [Source(f"code/area_{_get_area(part[0])}/unit_{index:04d}.cpp", tuple(part)) for index, part in enumerate(parts)]
 
     @cached_property
     def tests(self) -> list[Source]:
-        """One test for each software requirement, fifty to a file."""
+        """One test for each software requirement, fifty per file."""
         parts = _slice(self.software, _SOURCE_FUNCTIONS * _TEST_SOURCES)
         return [Source(f"code/area_{_get_area(part[0])}/tests/group_{index:03d}_test.cpp", tuple(part)) for index, part in enumerate(parts)]
 
@@ -108,7 +108,7 @@ class Plan:
 
 
 def get_folder(plan: Plan, kind: str, base: Path) -> Path:
-    """Folder of the project of that plan below `base`."""
+    """Folder of the project for this plan, below `base`."""
     return base / f"{kind}_{plan.count}"
 
 
@@ -123,9 +123,9 @@ def get_test(requirement: Requirement) -> tuple[str, str]:
 
 
 def write_native(plan: Plan, root: Path, with_git: bool = False) -> None:
-    """Writes the project to `root`, which is created again.
+    """Writes the project to `root`, which is deleted first.
 
-    @param with_git makes it a repository of one commit, which the evidence names, as in a real project.
+    @param with_git makes `root` a repository of one commit, which the evidence names, as in a real project.
     """
     if plan.count < LEAST:
         raise ValueError(f"a project of {plan.count} requirements has no three levels; ask for at least {LEAST}")
@@ -151,7 +151,7 @@ def write_native(plan: Plan, root: Path, with_git: bool = False) -> None:
 
 
 def list_documents(plan: Plan) -> Iterator[tuple[str, str]]:
-    """(path, text) of each Markdown file: a hundred items per file, and the design document that they name."""
+    """(path, text) of each Markdown file: a hundred items per file, and the design document to which they refer."""
     folders = {"STK": "stakeholder", "SYS": "system", "SWR": "software"}
     for level, items in (("STK", plan.needs), ("SYS", plan.system), ("SWR", plan.software)):
         for index, part in enumerate(_slice(items, _AREA_ITEMS)):
@@ -183,7 +183,7 @@ def format_source(source: Source, tag: str) -> str:
 
 
 def format_tests(source: Source, tag: str) -> str:
-    """GoogleTest source with one test for each requirement. @param tag as of `format_source`."""
+    """GoogleTest source with one test for each requirement. @param tag as in `format_source`."""
     head = "// SPDX-License-Identifier: Apache-2.0\n#include <gtest/gtest.h>\n\n"
     tests = []
     for each in source.requirements:

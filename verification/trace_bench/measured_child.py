@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs one command and writes its resource usage: `measured_child.py RESULT LIMIT COMMAND...`.
 
-A separate, small process: the maximum memory that the system reports for a process is never below that of its parent.
+A separate, small process, because the reported maximum memory of a process is never below that of its parent.
 """
 
 import json

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes a plan for the other tools: OpenFastTrace Markdown with tagged sources, StrictDoc documents with related sources.
 
-Items, statements, links, functions and tests are those of the native project. OpenFastTrace reads no test results, so it gets none;
+Items, statements, links, functions and tests equal those of the native project. OpenFastTrace reads no test results, so it gets none.
 StrictDoc reads them from files with the corresponding names.
 """
 
@@ -18,7 +18,7 @@ _NEEDS = {"STK": "req", "SYS": "dsn", "SWR": "impl, utest"}
 
 
 def write_openfasttrace(plan: Plan, root: Path) -> None:
-    """Three documents and the sources, in `root`, which is created again."""
+    """Writes three documents and the sources to `root`, which is deleted first."""
     shutil.rmtree(root, ignore_errors=True)
     for level, items in (("STK", plan.needs), ("SYS", plan.system), ("SWR", plan.software)):
         _write(root / "doc" / f"{level.lower()}.md", f"# {level} items\n\n" + "".join(map(_format_specification, items)))
@@ -26,7 +26,7 @@ def write_openfasttrace(plan: Plan, root: Path) -> None:
 
 
 def write_strictdoc(plan: Plan, root: Path) -> None:
-    """Three documents, the sources and the results, in `root`, which is created again."""
+    """Writes three documents, the sources and the results to `root`, which is deleted first."""
     shutil.rmtree(root, ignore_errors=True)
     features = '[\n  "REQUIREMENT_TO_SOURCE_TRACEABILITY",\n  "SOURCE_FILE_LANGUAGE_PARSERS",\n]'
     _write(root / "strictdoc.toml", f'[project]\ntitle = "Large project"\nfeatures = {features}\n')

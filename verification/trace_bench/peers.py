@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Installs the reference implementations: OpenFastTrace by Maven, StrictDoc by pip into a separate environment, in one cache folder.
 
-If one is not available, a sentence states the reason and the remedy; the measurement continues without it and shows the sentence.
+If one is unavailable, a sentence states cause and remedy; the measurement continues without it and shows the sentence.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _MAIN = "org.itsallcode.openfasttrace.core.cli.CliStarter"
 
 @dataclass(frozen=True, slots=True)
 class Peer:
-    """`command` is the beginning of its command line; empty if it is not installed, and `reason` states why."""
+    """`command` is the beginning of its command line. If empty, it is not installed, and `reason` states why."""
 
     title: str
     command: tuple[str, ...] = ()
@@ -37,7 +37,7 @@ def get_openfasttrace(cache: Path) -> Peer:
     repository = cache / "maven"
     jar = repository.joinpath(*_NAME.replace(":", ".").split(".")[:3], "openfasttrace", OPENFASTTRACE, f"openfasttrace-{OPENFASTTRACE}.jar")
     if not jar.is_file():
-        # The jar contains all its parts; its declared dependencies are the same parts, which the registry may lack.
+        # The jar contains all its parts. Its declared dependencies are the same parts, which the registry may lack.
         reason = _run(["mvn", "-q", "-B", "dependency:get", f"-Dartifact={_NAME}:{OPENFASTTRACE}", "-Dtransitive=false",
                        f"-Dmaven.repo.local={repository}"])  # fmt: skip
         if reason or not jar.is_file():

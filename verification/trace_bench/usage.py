@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Resource usage of one command: CPU time of it and all its children, wall time, maximum memory of one process."""
+"""Resource usage of one command: CPU time including all its children, wall time, maximum memory of one process."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ _CHILD = Path(__file__).with_name("measured_child.py")
 
 @dataclass(frozen=True, slots=True)
 class Usage:
-    """`cpu_s` is user and system time of the process and its finished children. `ended` False: stopped at the limit, so all are lower bounds."""
+    """`cpu_s` is the user and system time of the process and its finished children. `ended` False: stopped at the limit; all values are
+    lower bounds."""
 
     status: int
     cpu_s: float
@@ -26,7 +27,7 @@ class Usage:
 
 
 def run_measured(command: Sequence[str], log: Path, limit_s: float) -> Usage:
-    """Runs `command` with its output in `log`. After `limit_s` it is ended with all its children."""
+    """Runs `command` with its output in `log`. After `limit_s`, ends it and all its children."""
     log.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder, log.open("wb") as output:
         result = Path(folder) / "usage.json"
@@ -36,5 +37,5 @@ def run_measured(command: Sequence[str], log: Path, limit_s: float) -> Usage:
 
 
 def take_median(usages: Sequence[Usage]) -> Usage:
-    """The run of median CPU time, so that its figures belong together; the lower one for an even number."""
+    """The run with the median CPU time, so that its figures belong together; the lower of two middle runs."""
     return sorted(usages, key=lambda usage: usage.cpu_s)[(len(usages) - 1) // 2]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fault-injection campaign: runs a program once per planned fault and judges each run by its physics.
+"""Fault-injection campaign: runs a program once per planned fault and evaluates each run by its physics.
 
     plan = load_plan(Path("faults.yaml"))
     selection = select(plan, names=["encoder_freeze"], instants=1)      # all scenarios, all instants: select(plan)

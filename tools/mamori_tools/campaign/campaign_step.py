@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The campaign as a step, and the checks of its input that come before any long work.
+"""The campaign as a step, and the checks of its input before any long work.
 
-Campaign and motion reader are imported where they are used: they pull in large libraries, and `build` needs neither.
+Campaign and motion reader are imported on use, because they load large libraries, which `build` does not need.
 
 @satisfies SWR-CLI-005      Design: docs/design/launcher.md#launcher
 """
@@ -23,22 +23,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CampaignRequest:
-    """What the user asked of a campaign. Nothing given: all that the plan says."""
+    """The request of the user. Without values: the complete plan."""
 
     motion: Path
     scenarios: tuple[str, ...] = ()
     instants: int | None = None
 
     def check(self, project: Project) -> tuple[str, ...]:
-        """@return what the motion has that is not used, in words. @raise InputError for a motion that cannot be followed, or scenarios
-        and instants that it or the plan lacks."""
+        """@return the unused parts of the motion, in words. @raise InputError for a motion that cannot be followed, or for scenarios and
+        instants that the motion or the plan lacks."""
         from mamori_tools.campaign import load_subject
 
         selection = self._select(project)
         return load_subject(selection.plan.subject).expand(selection, self._list_files(project)).notes
 
     def run(self, context: Context, tick: Tick, log: TextIO) -> None:
-        """Runs the campaign as a step, with a line per case in `log`. @raise WorkError when a case failed."""
+        """Runs the campaign as a step, with one line per case in `log`. @raise WorkError if a case failed."""
         from mamori_tools.campaign import CaseResult, Settings, run_campaign
         from mamori_trace.base.errors import InputError
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A campaign on one screen: a row per scenario, with its worst figures."""
+"""A campaign on one screen: one row per scenario, with its worst figures."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ def summarise_campaign(campaign: dict[str, Any]) -> tuple[Row, list[Row]]:
 
 def _make_row(name: str, cases: list[dict[str, Any]]) -> Row:
     passed = sum(case["verdict"] == "pass" for case in cases)
-    runs = [case["run"] for case in cases if case["run"]]  # a program that crashed left none
+    runs = [case["run"] for case in cases if case["run"]]  # a crashed program left no record
     reactions = [run["reacted_at_s"] - run["fault"]["at_s"] for run in runs
                  if run["fault"] is not None and run["reacted_at_s"] is not None]
     travels = [max(run["physics"]["stop_travel_rad"]) for run in runs
-               if run["fault"] is not None and run["reacted_at_s"] is not None]  # an arm that went on did not stop
+               if run["fault"] is not None and run["reacted_at_s"] is not None]  # an arm that continued did not stop
     errors = [run["physics"]["max_tracking_error_rad"] for run in runs]
     return (
         name,
@@ -46,7 +46,7 @@ def _worst(values: Iterable[float], unit: str, digits: int) -> str:
 
 
 def show_campaign(context: Context) -> None:
-    """The table of all scenarios; nothing when no campaign was run."""
+    """The table of all scenarios; empty if no campaign was run."""
     path = context.project.evidence / "campaign" / "campaign.json"
     if not path.exists():
         return

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plan, case, check and evaluation: what the campaign engine knows of each subject.
+"""Plan, case, check and evaluation: the data that the campaign engine knows of each subject.
 
-A subject derives its own plan, scenario and case from these classes and adds what only it needs.
+A subject derives its own plan, scenario and case from these classes and adds its specific data.
 
 @satisfies SWR-CMP-001      Design: docs/design/simulation.md#campaign-plan
 """
@@ -23,7 +23,7 @@ Verdict = Literal["passed", "failed", "inconclusive"]
 
 @dataclass(frozen=True)
 class Check:
-    """One line of a verdict, in words for a person."""
+    """One line of a verdict, in words for readers."""
 
     name: str
     wanted: str
@@ -58,7 +58,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Selection:
-    """Scenarios of a plan, in its order. `instants`: the number of cases of each, from its first on; None: all."""
+    """Scenarios of a plan, in its order. `instants`: number of cases of each scenario, from its first on; None: all."""
 
     plan: Plan
     scenarios: tuple[Scenario, ...]
@@ -78,9 +78,9 @@ class Case:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """What came of a case. `run` is the record that the program wrote, as JSON value; empty where there is none.
+    """Result of a case. `run` is the record of the program as a JSON value; empty if there is none.
 
-    Equal cases give equal records, so a record has no path, and no wall time except the entry `wall_s`.
+    Equal cases give equal records: a record contains no path, and no wall time except the entry `wall_s`.
     """
 
     run: Mapping[str, Any]
@@ -89,14 +89,14 @@ class Evaluation:
 
 
 def conclude(checks: Sequence[Check]) -> Verdict:
-    """`passed` if there is a check and each check passed, otherwise `failed`."""
+    """`passed` if there is at least one check and each check passed, otherwise `failed`."""
     return "passed" if checks and all(check.passed for check in checks) else "failed"
 
 
 def select(plan: Plan, names: Sequence[str] = (), instants: int | None = None) -> Selection:
-    """Scenarios by name, all where no name is given; the first `instants` cases of each, all where None.
+    """Scenarios by name (all without names), with the first `instants` cases of each (all if None).
 
-    Raises InputError for an unknown name (with the nearest ones), and for less than one instant or more than the plan has.
+    Raises InputError for an unknown name (with the nearest ones), and if `instants` is below one or above the number in the plan.
     """
     known = [scenario.name for scenario in plan.scenarios]
     for name in names:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`mamori campaign`: runs a fault campaign, continues a stopped one, or runs one of its cases again.
+"""`mamori campaign`: runs a fault campaign, continues a stopped one, or repeats one of its cases.
 
 @satisfies SWR-CMP-012, SWR-CMP-013      Design: docs/design/simulation.md#campaign-runs
 """
@@ -85,7 +85,7 @@ def _list_scenarios(selection: Selection, as_json: bool) -> str:
 
 
 def _sum_up(result: CampaignResult, settings: Settings) -> list[str]:
-    """Failed cases, and one closing line."""
+    """The failed cases, and one closing line."""
     kept = f", {result.kept} of them by an earlier call" if result.kept else ""
     return [
         *(line for each in result.failed_cases for line in (f"{each.case.id}: {each.failure}", f"    {each.reproduction}")),

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the cases on the workers of a Dask cluster. Only the client stores results.
 
-A worker needs these tools and the program under test, at the same path and with the same content. Inputs go to the worker with the
-case. The files of the run return in the result, so no shared folder is needed.
+A worker needs these tools and the program under test, at the same path and with the same content. Input files are sent to the worker with
+the case. The result contains the files of the run, so no shared folder is needed.
 
 @satisfies SWR-CMP-010, SWR-CMP-011      Design: docs/design/simulation.md#campaign-on-dask
 """
@@ -26,33 +26,33 @@ from mamori_trace.base.errors import InputError, MissingError, WorkError
 
 LOCAL = "local"
 CONNECT_S = 10.0
-"""Time within which a scheduler must answer [s]."""
+"""Time limit for the reply of a scheduler [s]."""
 
 NO_WORKER_S = 30.0
-"""Time without any worker after which the campaign ends [s]; a worker that was ended is started again within seconds."""
+"""Time without any worker after which the campaign ends [s]; a killed worker is restarted within seconds."""
 
 FILE_BYTES_MAX = 64_000_000
-"""Largest size of all files of one case that is sent back [bytes]; a case of the example arm has about 1,000,000."""
+"""Maximum size of all returned files of one case [bytes]; a case of the example arm has about 1,000,000."""
 
 _POLL_S = 0.5
-_TASKS_PER_WORKER = 2  # one that runs and one that waits
+_TASKS_PER_WORKER = 2  # one running and one waiting task
 
 Files = Mapping[str, bytes]
 """Path relative to the folder of a case -> content."""
 
 
 def run_on_dask(works: Sequence[Work], inputs: Files, root: Path, address: str, workers: int, at_once_max: int | None) -> Generator[Outcome]:
-    """Yields each run when its files are in `root / work.folder`. `workers` belongs to the address `local`.
+    """Yields each run once its files are in `root / work.folder`. `workers` applies to the address `local`.
 
-    Raises MissingError without the package, InputError where the scheduler does not answer, WorkError where a worker cannot run the
-    program or the cluster is lost.
+    Raises MissingError without the package, InputError if the scheduler does not reply, WorkError if a worker cannot run the program or the
+    cluster is lost.
     """
     try:
         import distributed
     except ImportError:
         raise MissingError("--dask needs the package dask[distributed]; install it by: .venv/bin/python -m pip install 'mamori[dask]'") from None
     with contextlib.ExitStack() as stack:
-        # Each failure becomes one line of ours.
+        # Logging is off, because each failure is reported in one line of this command.
         stack.callback(logging.disable, logging.root.manager.disable)
         logging.disable(logging.CRITICAL)
         client = _connect(distributed, stack, address, workers)
@@ -65,7 +65,7 @@ def run_on_dask(works: Sequence[Work], inputs: Files, root: Path, address: str, 
         while waiting or running:
             while waiting and len(running) < at_once:
                 work = waiting.pop()
-                # A key of its own: the scheduler must not answer with the result of an earlier campaign.
+                # A unique key: the scheduler must not return the result of an earlier campaign.
                 running[client.submit(run_on_worker, work, dict(inputs), key=f"{work.case}-{uuid.uuid4().hex}", pure=False)] = work
             for future in _take_finished(distributed, client, list(running), address):
                 outcome, files = _get_result(future, address)
@@ -76,7 +76,7 @@ def run_on_dask(works: Sequence[Work], inputs: Files, root: Path, address: str, 
 
 
 def run_on_worker(work: Work, inputs: Files) -> tuple[Outcome, Files]:
-    """Runs one case in a temporary folder of the worker. Raises WorkError that names the worker."""
+    """Runs one case in a temporary folder of the worker. Raises WorkError with the name of the worker."""
     try:
         with tempfile.TemporaryDirectory(prefix="mamori-") as name:
             root = Path(name)
@@ -114,8 +114,8 @@ def _get_worker_name() -> str:
 
 def _connect(distributed: Any, stack: contextlib.ExitStack, address: str, workers: int) -> Any:
     if address == LOCAL:
-        resource_tracker.ensure_running()  # its start would unblock the signal in the thread that starts the workers
-        # The threads of the cluster and its workers inherit the mask: Ctrl-C reaches the main thread of this process only.
+        resource_tracker.ensure_running()  # started here, because its start would unblock the signal in the thread that starts the workers
+        # The threads of the cluster and its workers inherit the mask, so Ctrl-C reaches only the main thread of this process.
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
             cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0",
@@ -126,7 +126,7 @@ def _connect(distributed: Any, stack: contextlib.ExitStack, address: str, worker
             signal.pthread_sigmask(signal.SIG_SETMASK, mask)
     try:
         return stack.enter_context(distributed.Client(address, timeout=CONNECT_S))
-    except Exception as error:  # another server may answer anything
+    except Exception as error:  # another server may send any reply
         reason = " ".join(str(error).split())[:200] or type(error).__name__
         raise InputError(f"--dask {address}: no Dask scheduler answers within {CONNECT_S:g} s ({reason}); "
                          "check the address and start it by: dask scheduler") from error  # fmt: skip
@@ -137,7 +137,7 @@ def _list_workers(client: Any) -> list[Any]:
 
 
 def _take_finished(distributed: Any, client: Any, futures: Sequence[Any], address: str) -> list[Any]:
-    """Waits until at least one future is done. Raises WorkError when the scheduler or the last worker is lost."""
+    """Waits until at least one future is done. Raises WorkError if the scheduler or the last worker is lost."""
     seen_s = time.monotonic()
     while True:
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parts that the plans of all subjects have: seed, scenarios, their names and requirements.
+"""Parts common to the plans of all subjects: seed, scenarios, their names and requirements.
 
 @satisfies SWR-CMP-001      Design: docs/design/simulation.md#campaign-plan
 """
@@ -23,7 +23,7 @@ AnyScenario = TypeVar("AnyScenario", bound=Scenario)
 
 
 def read_scenarios(root: Node, read_scenario: Callable[[Node], AnyScenario]) -> tuple[AnyScenario, ...]:
-    """At least one scenario, each with its own name. Raises InputError with file and line, as the other functions."""
+    """At least one scenario, each with a unique name. Like the other functions, raises InputError with file and line."""
     nodes = root.get("scenarios").as_list()
     if not nodes:
         raise root.get("scenarios").error("lists no scenario; add one")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Verdicts as evidence: campaign.json and JUnit (docs/design/trace.md#evidence-files), each written whole."""
+"""Verdicts as evidence: campaign.json and JUnit (docs/design/trace.md#evidence-files), each written atomically."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ VERDICT_WORDS: Mapping[Verdict, str] = {"passed": "pass", "failed": "fail", "inc
 
 @dataclass(frozen=True)
 class CaseResult:
-    """An evaluated case. `command` ran it in `wall_s` [s]; `description` is what the subject states of it; `reproduction` says how to
-    run it again."""
+    """An evaluated case. `command` ran it in `wall_s` [s]; `description` is the statement of the subject about it; `reproduction` states
+    how to repeat it."""
 
     case: Case
     evaluation: Evaluation
@@ -49,7 +49,7 @@ class CaseResult:
 
     @property
     def failure(self) -> str:
-        """The failed checks in words; empty where the case passed."""
+        """The failed checks in words; empty if the case passed."""
         return "; ".join(f"{check.name}: wanted {check.wanted}, was {check.measured}"
                          for check in self.checks if not check.passed)  # fmt: skip
 
@@ -72,9 +72,9 @@ class CaseResult:
 
 @dataclass(frozen=True)
 class CampaignResult:
-    """All evaluated cases, in the order of the plan. `result_hash` covers what does not depend on place and time of the runs.
+    """All evaluated cases, in the order of the plan. `result_hash` covers everything that does not depend on host and time of the runs.
 
-    `kept`: number of cases that an earlier call ran. `notes`: what of the inputs is not used, in words.
+    `kept`: number of cases from an earlier call. `notes`: unused parts of the inputs, in words.
     """
 
     cases: tuple[CaseResult, ...]
@@ -89,7 +89,7 @@ class CampaignResult:
 
     @property
     def passed(self) -> bool:
-        """True where there is a case and none failed."""
+        """True if there is a case and none failed."""
         return bool(self.cases) and not self.failed_cases
 
     def count(self, verdict: Verdict) -> int:
@@ -102,7 +102,7 @@ class CampaignResult:
         write_text(evidence / "junit" / "campaign.xml", self.to_junit())
 
     def to_junit(self) -> str:
-        """Each case once per requirement that it verifies."""
+        """Each case, once per requirement that it verifies."""
         suite = ElementTree.Element("testsuite", name="campaign")
         for each in self.cases:
             for requirement, polarity in each.case.requirements.items():
@@ -135,5 +135,5 @@ def _make_testcase(result: CaseResult, requirement: str, polarity: str) -> Eleme
 
 
 def _clean(text: str) -> str:
-    """XML knows no control characters; a program's last words may have some."""
+    """Removes control characters, which XML forbids; the last output of a program may contain some."""
     return "".join(letter if letter.isprintable() else " " for letter in text)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the cases of a campaign, stores each result when its case has finished, and writes the evidence after the last one.
+"""Runs the cases of a campaign, stores each result once its case has finished, and writes the evidence after the last one.
 
 @satisfies SWR-CMP-005, SWR-CMP-006, SWR-CMP-007, SWR-CMP-009      Design: docs/design/simulation.md#campaign-runs
 """
@@ -30,19 +30,20 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.nearest_names import nearest_names
 
 DEFAULT_TIMEOUT_S = 120.0
-"""Wall time after which a run is ended; a run takes about a second."""
+"""Wall time after which a run is killed [s]; a run takes about a second."""
 
 _CASE_FOLDER = re.compile(r"[a-z][a-z0-9_]*-\d+")
 _ATTEMPT = ".attempt-"
 _COMMIT = "MAMORI_COMMIT"
 
 Progress = Callable[[CaseResult, int, int], None]
-"""Told of each evaluated case: the result, how many are done, how many there are."""
+"""Called for each evaluated case: the result, number of finished cases, number of all cases."""
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How a campaign is run. `jobs`: processes at a time, None: one per usable core. `dask`: `local` or an address; None: no cluster."""
+    """How a campaign is run. `jobs`: number of parallel processes, None: one per usable core. `dask`: `local` or an address; None: no
+    cluster."""
 
     program: Path
     files: Mapping[str, Path]
@@ -58,12 +59,12 @@ def run_campaign(selection: Selection, settings: Settings, progress: Progress | 
     """Runs and evaluates all cases, writes `campaign/` and `junit/campaign.xml` below `settings.evidence`.
 
     Finished cases of an earlier call with the same plan, program, inputs and settings are kept. campaign.json of an earlier campaign is
-    removed first, so a campaign that does not end leaves none. `environment`: None for evidence/environment.json, or what this process
-    knows; its commit is handed on to the program as MAMORI_COMMIT, so that each run names it.
-    A case whose program fails, hangs or writes no complete record is a failed case. On any exception, KeyboardInterrupt
-    among them, the running processes are ended.
-    Raises InputError: program or model missing, a bad number, an instant that the motion does not have, no room to write, results of
-    another campaign; MissingError: no Dask; WorkError: the program changed, or the cluster was lost.
+    removed first, so that an aborted campaign leaves none. `environment`: None for evidence/environment.json, or the data of this process.
+    Its commit is passed to the program as MAMORI_COMMIT, so that each run names it.
+    A case whose program fails, hangs or writes no complete record is a failed case. On any exception, including KeyboardInterrupt, the
+    running processes are ended.
+    Raises InputError: program or model missing, an invalid number, an instant that the motion lacks, no disk space, results of another
+    campaign; MissingError: no Dask; WorkError: the program changed, or the cluster was lost.
     """
     campaign = _Campaign(selection, settings)
     folder = settings.evidence / "campaign"
@@ -89,21 +90,21 @@ def run_campaign(selection: Selection, settings: Settings, progress: Progress | 
 
 @dataclass(frozen=True)
 class Replay:
-    """A case that was run again. `stored` is its earlier result; None where there is none of the same campaign."""
+    """A repeated case. `stored` is its earlier result; None if the same campaign has none."""
 
     result: CaseResult
     stored: Evaluation | None
 
     @property
     def is_equal(self) -> bool | None:
-        """Whether verdict, checks and record are those of the stored result; None where there is none."""
+        """Whether verdict, checks and record equal those of the stored result; None if there is none."""
         if self.stored is None:
             return None
         return calc_result_hash([(self.result.case, self.result.evaluation)]) == calc_result_hash([(self.result.case, self.stored)])
 
 
 def replay_case(selection: Selection, settings: Settings, name: str) -> Replay:
-    """Runs one case again in the new folder `campaign/replay/<case id>`. Raises as `run_campaign`; InputError for an unknown case."""
+    """Repeats one case in the new folder `campaign/replay/<case id>`. Raises like `run_campaign`; InputError for an unknown case."""
     campaign = _Campaign(selection, settings)
     campaign.find_case(name)
     folder = settings.evidence / "campaign"
@@ -118,7 +119,7 @@ def replay_case(selection: Selection, settings: Settings, name: str) -> Replay:
 
 
 class _Campaign:
-    """What one call runs: cases, program, inputs, and the key that its results are stored by."""
+    """The work of one call: cases, program, inputs, and the key under which its results are stored."""
 
     def __init__(self, selection: Selection, settings: Settings) -> None:
         if settings.jobs is not None and settings.jobs < 1:
@@ -144,7 +145,7 @@ class _Campaign:
 
     @property
     def key(self) -> Key:
-        """What decides the results."""
+        """All inputs that determine the results."""
         plan = self._selection.plan
         inputs = {name: hashlib.sha256(content).hexdigest() for name, content in self._expansion.inputs.items()}
         return {
@@ -171,7 +172,7 @@ class _Campaign:
                 write_durably(folder / name, content)
 
     def run(self, names: set[str], folder: Path) -> Generator[CaseResult]:
-        """Runs the cases `names`; yields each with its files in the folder of its id."""
+        """Runs the cases `names`; yields each with its files in the folder with its id."""
         with _guard_folder(folder):
             attempt = Path(tempfile.mkdtemp(prefix=_ATTEMPT, dir=folder))
         try:
@@ -193,7 +194,7 @@ class _Campaign:
         return CaseResult(case, evaluation, command, wall_s, self._subject.describe(case), self._make_reproduction(case, evaluation, command))
 
     def _make_reproduction(self, case: Case, evaluation: Evaluation, command: tuple[str, ...]) -> str:
-        """The commit that was run, and the one command that runs the case again: program, configuration, fault plan, seed."""
+        """The tested commit, and one command that repeats the case: program, configuration, fault plan, seed."""
         plan = self._selection.plan
         if all(scenario in plan.scenarios for scenario in self._selection.scenarios):
             files = [word for option, path in self._settings.files.items() for word in (f"--{option}", str(path.absolute()))]
@@ -217,7 +218,7 @@ class _Campaign:
 
 
 def find_environment(evidence: Path) -> dict[str, Any]:
-    """What evidence/environment.json says; without it, what this process knows of its machine."""
+    """Content of evidence/environment.json; without it, the data that this process has about its host."""
     try:
         content = json.loads((evidence / "environment.json").read_text(encoding="utf-8"))
         if isinstance(content, dict):
@@ -234,7 +235,7 @@ def find_environment(evidence: Path) -> dict[str, Any]:
 
 
 def _clear(evidence: Path, finished: set[str]) -> None:
-    """Removes the evidence of an earlier campaign and what a killed one left, except the folders of the cases `finished`."""
+    """Removes the evidence of an earlier campaign and the remains of a killed one, except the folders of the cases `finished`."""
     folder = evidence / "campaign"
     with _guard_folder(evidence):
         (evidence / "junit").mkdir(parents=True, exist_ok=True)
@@ -243,7 +244,7 @@ def _clear(evidence: Path, finished: set[str]) -> None:
         for old in folder.iterdir():
             is_case = _CASE_FOLDER.fullmatch(old.name) and old.name not in finished
             if (is_case or old.name.startswith(_ATTEMPT)) and old.is_dir() and not old.is_symlink():
-                # A program of a killed campaign may still write there.
+                # A program of a killed campaign may still write to this folder.
                 shutil.rmtree(old, ignore_errors=not is_case)
 
 

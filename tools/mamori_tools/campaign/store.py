@@ -34,20 +34,20 @@ SCHEMA = "mamori.case_result/1"
 KEY_SCHEMA = "mamori.campaign_key/1"
 
 WALL_TIME = "wall_s"
-"""Entry of a run record that the result hash leaves out."""
+"""Entry of a run record that the result hash excludes."""
 
 SELECTION = "selection"
 """Part of the key: the selected cases."""
 
 Key = Mapping[str, str]
-"""What decides the results of a campaign: part -> value or SHA-256."""
+"""The inputs that determine the results of a campaign: part -> value or SHA-256."""
 
 
 class Store:
-    """The stored results of one campaign folder. Holds the folder until `close`. Thread safety: none."""
+    """The stored results of one campaign folder. Locks the folder until `close`. Thread safety: none."""
 
     def __init__(self, folder: Path) -> None:
-        """Raises InputError where the folder cannot be written, MissingError where another campaign writes to it."""
+        """Raises InputError if the folder is not writable, MissingError if another campaign writes to it."""
         self._folder = folder
         self._results = folder / "results"
         try:
@@ -65,9 +65,9 @@ class Store:
         os.close(self._lock)
 
     def begin(self, key: Key, restart: bool) -> None:
-        """Prepares the folder for the campaign `key`: keeps its finished cases, or discards all where `restart`.
+        """Prepares the folder for the campaign `key`: keeps its finished cases, or discards all if `restart`.
 
-        Raises InputError where results of another campaign are there.
+        Raises InputError if the folder contains results of another campaign.
         """
         path = self._results / "key.json"
         found = None if restart else _read_key(path)
@@ -87,18 +87,18 @@ class Store:
             raise _refuse_folder(self._results, error) from error
 
     def read_results(self) -> dict[str, tuple[Evaluation, float]]:
-        """Finished cases: id -> evaluation and wall time [s]. Raises InputError where a part is damaged."""
+        """Finished cases: id -> evaluation and wall time [s]. Raises InputError if a part is damaged."""
         return {path.stem: _read_part(path) for path in sorted(self._results.glob("*.parquet"))}
 
     def find_result(self, key: Key, case: str) -> Evaluation | None:
-        """The stored result of a case of the campaign `key`, with any selection of cases; None where there is none."""
+        """The stored result of a case of the campaign `key`, with any selection of cases; None if there is none."""
         path = self._results / f"{case}.parquet"
         found = _read_key(self._results / "key.json")
         is_same = found is not None and {**found, SELECTION: ""} == {**key, SELECTION: ""}
         return _read_part(path)[0] if is_same and path.exists() else None
 
     def add(self, result: CaseResult) -> None:
-        """Stores a finished case. It survives the end of this process from now on."""
+        """Stores a finished case, which is then retained if this process ends."""
         path = self._results / f"{result.case.id}.parquet"
         assert not path.exists(), f"{result.case.id} is stored twice"
         try:
@@ -116,7 +116,8 @@ class Store:
 
 
 def calc_result_hash(results: Sequence[tuple[Case, Evaluation]]) -> str:
-    """SHA-256 of what does not depend on place and time of the runs: case ids, verdicts, checks and run records, in the given order."""
+    """SHA-256 of all data that do not depend on host and time of the runs: case ids, verdicts, checks and run records, in the given
+    order."""
     content = [
         [case.id, evaluation.verdict, [asdict(check) for check in evaluation.checks],
          {name: value for name, value in evaluation.run.items() if name != WALL_TIME}]
@@ -178,7 +179,7 @@ def _read_part(path: Path) -> tuple[Evaluation, float]:
 
 
 def write_durably(path: Path, content: bytes | memoryview) -> None:
-    """Raises OSError. After the return, file and name are on the disk."""
+    """Raises OSError. On return, file and name are on the disk."""
     with whole_file(path) as part, part.open("wb") as file:
         file.write(content)
         file.flush()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The interface between the campaign engine and what a campaign injects faults into: its subjects.
+"""The interface between the campaign engine and its subjects, the systems that receive faults.
 
-A subject is an object registered under the entry points `mamori.subjects` of pyproject.toml. The engine starts programs, bounds
-their time, stores results and writes evidence. The subject reads its plan, forms the command of a case and decides the verdict.
+A subject is an object registered under the entry points `mamori.subjects` of pyproject.toml. The engine starts programs, limits their time,
+stores results and writes evidence. The subject reads its plan, forms the command of a case and determines the verdict.
 
 @satisfies SWR-CMP-008      Design: docs/design/simulation.md#campaign-plan
 """
@@ -23,12 +23,12 @@ from mamori_trace.base.nearest_names import nearest_names
 GROUP = "mamori.subjects"
 SCHEMA = "mamori.fault_plan/1"
 DEFAULT_SUBJECT = "arm"
-"""Subject of a plan that names none."""
+"""Subject of a plan without the key `subject`."""
 
 
 @dataclass(frozen=True)
 class Expansion:
-    """The cases of one campaign, and the input files that each run reads: file name -> content. `notes` are shown to the user."""
+    """The cases of one campaign, and the input files of each run: file name -> content. `notes` are shown to the user."""
 
     cases: tuple[Case, ...]
     inputs: Mapping[str, bytes] = field(default_factory=dict)
@@ -36,9 +36,9 @@ class Expansion:
 
 
 class Subject(Protocol):
-    """One system under test. An object without state: calls may come in any order.
+    """One system under test. An object without state: calls may occur in any order.
 
-    A call receives only plans, scenarios and cases that this subject made.
+    A call receives only plans, scenarios and cases of this subject.
     """
 
     @property
@@ -51,34 +51,36 @@ class Subject(Protocol):
 
     @property
     def jobs_max(self) -> int | None:
-        """Cases that may run at the same time; 1 where a case needs the host alone, None for any number."""
+        """Maximum number of parallel cases; 1 if a case needs the host alone, None for any number."""
 
     def get_program(self, project: Project) -> Path:
         """Default of `--program`: the program under test in the build folder of the checkout."""
 
     def get_files(self, project: Project) -> Mapping[str, Path]:
-        """Defaults of the options `--model` and `--motion`; has only the keys `model` and `motion` that the subject uses."""
+        """Defaults of the options `--model` and `--motion`; its only keys are `model` and `motion`, if the subject uses them."""
 
     def read_plan(self, root: Node, path: Path) -> Plan:
-        """Reads all keys of a plan, the common keys `schema` and `subject` included. Raises InputError with file and line."""
+        """Reads all keys of a plan, including the common keys `schema` and `subject`. Raises InputError with file and line."""
 
     def expand(self, selection: Selection, files: Mapping[str, Path]) -> Expansion:
-        """Cases in the order of the plan. `files` has the keys of `get_files`. Raises InputError for a file or a plan that cannot be used."""
+        """Cases in the order of the plan. `files` has the keys of `get_files`. Raises InputError for an unusable file or plan."""
 
     def command(self, case: Case, program: Path, inputs: Path, folder: Path) -> tuple[str, ...]:
-        """The command line of a case. The files of the expansion are in `inputs`; the program may write into `folder` only.
+        """The command line of a case. The files of the expansion are in `inputs`; the program may write only to `folder`.
 
         Standard output and standard error of the program go to `folder/program.log`. Status 0 means that the record is complete.
         """
 
     def evaluate(self, case: Case, folder: Path, problem: str) -> Evaluation:
-        """Decides the verdict from the files in `folder`. `problem` is empty, or says why the run does not count (time-out, exit status).
+        """Determines the verdict from the files in `folder`. `problem` is empty, or states why the run does not count (time-out, exit
+        status).
 
-        A missing or malformed record gives a failed check; no exception.
+        A missing or malformed record gives a failed check, not an exception.
         """
 
     def describe(self, case: Case) -> dict[str, Any]:
-        """What campaign.json states of a case beyond id, scenario, title, requirements and result: at least `polarity` and `expected`."""
+        """The entries of a case in campaign.json besides id, scenario, title, requirements and result: at least `polarity` and
+        `expected`."""
 
 
 def list_subjects() -> list[str]:
@@ -94,7 +96,7 @@ def load_subject(name: str) -> Subject:
 
 
 def load_plan(path: Path | str) -> Plan:
-    """Reads a plan by the subject that it names. Raises InputError, one line with file and line, for the first fault found."""
+    """Reads a plan by the subject that it names. Raises InputError with one line, including file and line number, for the first error."""
     root = load(path, "fault plan")
     entries = root.as_mapping()
     schema = root.get("schema")

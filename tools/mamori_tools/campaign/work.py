@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the program under test, one process per case, on this computer: as a local campaign does it, and each Dask worker.
+"""Runs the program under test on this host, one process per case. Local campaigns and Dask workers use it.
 
 @satisfies SWR-CMP-004, SWR-CMP-010      Design: docs/design/simulation.md#campaign-runs
 """
@@ -45,7 +45,7 @@ class Work:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A finished run. `problem` is empty, or says in one line why the run does not count. `wall_s` [s]."""
+    """A finished run. `problem` is empty, or states in one line why the run does not count. `wall_s` [s]."""
 
     case: str
     problem: str
@@ -53,7 +53,7 @@ class Outcome:
 
 
 def read_program(path: Path) -> Program:
-    """Raises InputError where the file is no program."""
+    """Raises InputError if the file is not a program."""
     if not path.is_file() or not os.access(path, os.X_OK):
         raise InputError("no program that can be run; build it first (./mamori build) or give its path", path)
     path = path.absolute()
@@ -61,7 +61,7 @@ def read_program(path: Path) -> Program:
 
 
 def check_program(program: Program) -> None:
-    """Raises WorkError unless the file at the path of the program is the one that the campaign began with."""
+    """Raises WorkError unless the file at the path of the program is still that of the start of the campaign."""
     if not program.path.is_file() or not os.access(program.path, os.X_OK):
         raise WorkError(f"{program.path}: no program that can be run; copy it there from the computer that starts the campaign")
     if _hash(program.path, _get_stamp(program.path)) != program.sha256:
@@ -89,10 +89,10 @@ class _Job:
 
 
 def run_local(works: Sequence[Work], root: Path, jobs: int) -> Generator[Outcome]:
-    """Keeps up to `jobs` processes busy and yields each run when it has ended, its files in `root / work.folder`.
+    """Keeps up to `jobs` processes busy and yields each run when it has ended, with its files in `root / work.folder`.
 
-    A run that exceeds its time is ended with its children. Closing the iterator ends all runs. Raises InputError where the
-    program cannot be started, WorkError where it is no longer the same.
+    A run that exceeds its time limit is killed with its children. Closing the iterator ends all runs. Raises InputError if the program
+    cannot be started, WorkError if it has changed.
     """
     waiting = list(works)[::-1]
     running: list[_Job] = []
@@ -118,7 +118,7 @@ def _start(work: Work, root: Path) -> _Job:
     folder.mkdir(parents=True)
     try:
         with (folder / LOG).open("wb") as log:
-            # A session of its own: what the program starts ends with it, and Ctrl-C reaches this process only.
+            # A separate session: processes that the program starts end with it, and Ctrl-C reaches only this process.
             process = subprocess.Popen(work.command, cwd=root, env={**os.environ, **work.variables}, stdin=subprocess.DEVNULL,
                                        stdout=log, stderr=subprocess.STDOUT, start_new_session=True)  # fmt: skip
     except OSError as error:
@@ -138,14 +138,14 @@ def _conclude(job: _Job, root: Path) -> Outcome:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """Ends a process and what it started; does nothing to one that has ended."""
+    """Ends a process and its children; has no effect if it has already ended."""
     if process.poll() is None:
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
 
 
 def _last_words(log: Path) -> str:
-    """The last line that the program wrote, shortened."""
+    """The last output line of the program, shortened."""
     with log.open("rb") as file:
         file.seek(max(0, log.stat().st_size - 4096))
         lines = file.read().decode("utf-8", errors="replace").split("\n")

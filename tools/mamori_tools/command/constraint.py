@@ -19,11 +19,11 @@ from mamori_trace.base.nearest_names import nearest_names
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 ENUMERATION = re.compile(rf"{NAME.pattern}(::{NAME.pattern})*")
 ELEMENTS_MAX = 65534
-"""Of a parameter: mamori::Parameter."""
+"""Arguments of mamori::Parameter."""
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """@raise InputError for a constraint that is not in the notation, or an unknown type."""
+    """@raise InputError for a constraint outside the notation, or an unknown type."""
     type_ = _read_type(arguments.type, arguments.names)
     if arguments.elements > ELEMENTS_MAX:
         raise InputError(f"constraint: argument --elements: {arguments.elements} is more than {ELEMENTS_MAX}; specify a smaller number")

@@ -20,7 +20,7 @@ from mamori_tools.host.project import RELEASE, ROOT, Project
 from mamori_tools.host.session import begin, finish
 from mamori_tools.host.steps import Context, Tier, run_steps
 
-SHOWN_WIDTH = 110  # characters of a line of names
+SHOWN_WIDTH = 110  # maximum characters in a line of names
 
 
 def demo(jobs: int, motion: Path | None, scenarios: tuple[str, ...], instants: int | None) -> int:

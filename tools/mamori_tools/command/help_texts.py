@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stores the help texts that the launcher script prints on a computer with nothing installed but bash.
+"""Stores the help texts that the launcher script prints on a host with only bash.
 
     python -P -m mamori_tools.command.help_texts
 

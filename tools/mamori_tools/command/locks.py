@@ -25,9 +25,9 @@ MADE_IN = re.compile(r"^CMAKE_CACHEFILE_DIR:INTERNAL=(.*)$", re.MULTILINE)
 
 @contextlib.contextmanager
 def hold_locks(arguments: argparse.Namespace, words: Sequence[str]) -> Iterator[None]:
-    """Holds the locks of a writing command; a reader takes none. A stopped command ends its children before it releases the locks.
+    """Holds the locks of a writing command; readers take none. A stopped command ends its children before it releases the locks.
 
-    @raise MissingError if another command writes there, or the folder is not writable.
+    @raise MissingError if another command holds a lock, or the folder is not writable.
     """
     command = " ".join(("./mamori", *words))
     with contextlib.ExitStack() as stack:
@@ -41,13 +41,13 @@ def hold_locks(arguments: argparse.Namespace, words: Sequence[str]) -> Iterator[
             discard_moved_trees(folder)
         try:
             yield
-        except (KeyboardInterrupt, OSError):  # also when the reader of the output has ended: no child process writes without the lock
+        except (KeyboardInterrupt, OSError):  # also after the reader of the output has ended: no child process writes without the lock
             end_children()
             raise
 
 
 def list_written(arguments: argparse.Namespace) -> list[Path]:
-    """Folders of the projects that the command writes to: the checkout, and the project in its arguments."""
+    """Folders of the projects that the command writes to: the checkout, and the project among its arguments."""
     match arguments.command:
         case "demo" | "run" | "test" | "fuzz" | "prove":
             return [ROOT]
@@ -68,7 +68,7 @@ def _with_project(folder: Path | None) -> list[Path]:
 
 
 def _find_project(system: str) -> Path | None:
-    """The user project that contains the folder `system`; None for other folders and for programs."""
+    """The user project that contains the folder `system`; None for any other folder or a program."""
     from mamori_tools.timing.system import find_project
 
     folder = Path(system)
@@ -78,7 +78,7 @@ def _find_project(system: str) -> Path | None:
 
 
 def discard_moved_trees(root: Path) -> None:
-    """Lets CMake configure a build tree again after its folder was moved or copied, because CMake rejects such a tree."""
+    """Permits CMake to configure a build tree again after its folder was moved or copied; otherwise CMake rejects the tree."""
     for cache in sorted(path for pattern in ("*", "*/*") for path in (root / "build").glob(f"{pattern}/CMakeCache.txt")):
         found = MADE_IN.search(cache.read_text(encoding="utf-8", errors="replace"))
         if found is None or os.path.realpath(found[1]) == os.path.realpath(cache.parent):

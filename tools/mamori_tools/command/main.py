@@ -31,12 +31,12 @@ HELP = ("help", "-h", "--help")
 
 
 def list_commands() -> dict[str, EntryPoint]:
-    """The registered commands by name. A command is imported when it is called."""
+    """The registered commands by name. Each command is imported on its first call."""
     return {point.name: point for point in sorted(entry_points(group=GROUP), key=lambda point: point.name)}
 
 
 def make_parser(wanted: str | None = None, with_trace: bool = False) -> Parser:
-    """@param wanted the command whose arguments are added; None: all except `trace`, whose libraries no other command needs."""
+    """@param wanted the command whose arguments are added; None: all except `trace`, whose libraries only `trace` needs."""
     parser = Parser(prog=PROGRAM, allow_abbrev=False, usage="%(prog)s COMMAND [options]", description=ABOUT)
     parser.statuses = {4: "timing without real-time privileges"}
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=Parser, prog=PROGRAM)
@@ -83,7 +83,7 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
 
 def _split(argv: list[str]) -> tuple[list[str], tuple[str, ...]]:
-    """@return the arguments of the command, and those after the first `--`, which `timing` passes to its program."""
+    """@return the arguments of the command, and those after the first `--`, which `timing` forwards to its program."""
     if argv[:1] != ["timing"] or "--" not in argv:
         return argv, ()
     place = argv.index("--")
@@ -91,14 +91,14 @@ def _split(argv: list[str]) -> tuple[list[str], tuple[str, ...]]:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input), 3 (a tool is missing, or another command holds
-    the lock), 4 (timing without privileges), 130 (stopped) or 141 (the reader of the output has ended)."""
+    """@return exit status: 0, 1 (something failed), 2 (wrong arguments or input), 3 (a tool is missing, or another command holds the lock),
+    4 (timing without privileges), 130 (stopped) or 141 (the reader of the output has ended)."""
     try:
         raise_on_signals()
         status = run(list(sys.argv[1:] if argv is None else argv))
-        sys.stdout.flush()  # reports an output error here, not when Python ends
+        sys.stdout.flush()  # output errors occur here, not when Python ends
         return status
-    except BrokenPipeError:  # the reader of standard output has read enough
+    except BrokenPipeError:  # the reader of standard output has ended
         discard_output()
         return EXIT_PIPE
     except InputError as error:
@@ -120,7 +120,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _refuse(message: str, status: int) -> int:
-    """One line, for any name of the user."""
+    """Makes one line of any name that the user gives."""
     line = " ".join(message.split())
     print(f"{PROGRAM}: {line.encode('utf-8', 'backslashreplace').decode('utf-8')}", file=sys.stderr)
     return status

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`mamori new NAME`: a user project, created from the first example, so that an API change needs an edit at one location only.
+"""`mamori new NAME`: creates a user project from the first example, so that API changes affect only one source.
 
-The sources of examples/minimal are cut at their landmarks and joined again. Only parts that the example does not have (requirements,
-tests, CMake of a separate project) are stored as text, in start/. The folder is created atomically.
+The sources of examples/minimal are split at landmarks and recombined. Only parts that the example lacks (requirements, tests, CMake of a
+separate project) are stored as text, in start/. The folder is created atomically.
 
 @satisfies SWR-CLI-024, SWR-CLI-025      Design: docs/design/launcher.md#new-projects
 """
@@ -28,13 +28,13 @@ from mamori_trace.base.errors import InputError
 START = Path(__file__).parent / "start"
 EXAMPLE = ROOT / "examples" / "minimal"
 NAME_LENGTH_MAX = 64
-# Targets that CMake or this project defines itself.
+# Targets that CMake or this project already defines.
 RESERVED = frozenset("all clean help install list_install_components package package_source edit_cache rebuild_cache test mamori".split())
 LANDMARKS = ("using mamori::Status;", "static Wheel wheel;", "/// What surrounds the components", "int main() {\n")
 
 
 def new(path: Path) -> int:
-    """Creates the project. @return the exit status. @raise InputError: nothing is written then."""
+    """Creates the project. @return exit status. @raise InputError: then nothing is written."""
     target = check_target(path)
     files = make_files(target.name)
     try:
@@ -49,7 +49,7 @@ def new(path: Path) -> int:
 
 
 def check_target(path: Path) -> Path:
-    """@return the absolute path of the new folder. @raise InputError if it cannot become a project."""
+    """@return the absolute path of the new folder. @raise InputError if the folder is unsuitable."""
     name = path.name
     if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > NAME_LENGTH_MAX:
         raise InputError(f"'{path}' ends in no valid name of a project; use a lower-case letter, then lower-case letters, digits "
@@ -113,7 +113,7 @@ def replace_once(text: str, old: str, new_text: str) -> str:
 
 
 def make_run(main: str) -> str:
-    """The main function of the example as a function for any devices."""
+    """The main function of the example, converted to a function for any devices."""
     text = replace_once(main, "int main() {\n", "/// Runs the system for `frame_count` major frames. @return 0 when each action succeeded.\n"
                         "inline int run_system(int frame_count, mamori::ports::virtual_time::FrameDevices& devices) {\n")  # fmt: skip
     text = replace_once(text, "    Printer printer;\n", "")
@@ -122,7 +122,7 @@ def make_run(main: str) -> str:
 
 
 def make_recorder(printer: str) -> str:
-    """The devices of the example, with a body that records."""
+    """The devices of the example, with a recording body."""
     start = replace_once(printer[printer.index("class Printer"):], "class Printer ", "class Recorder ")
     head = re.match(r".*?end_frame\([^)]*\)[^{]*\{\n", start, re.DOTALL)
     if head is None:
@@ -132,7 +132,7 @@ def make_recorder(printer: str) -> str:
 
 
 def tag_monitor(components: str) -> str:
-    """Names the requirement at the component that satisfies it."""
+    """Adds the requirement to the component that satisfies it."""
     return replace_once(components, "class Monitor ", "/// @satisfies SWR-APP-001, SYS-001\nclass Monitor ")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The steps of Mamori's own tests. `verification` registers them, so that the tools import no higher package."""
+"""The steps of the tests of Mamori itself. `verification` registers them, so that the tools import no higher package."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mamori_tools.host.steps import Action, Step, Tier
 
 
 class OwnPlans(Protocol):
-    """The object that the entry point `own` of the group `mamori.plans` names."""
+    """The object that is registered as entry point `own` of the group `mamori.plans`."""
 
     def list_test_steps(self, project: Project, campaign: Action, tier: Tier) -> tuple[Step, ...]:
         """`./mamori test`."""

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`mamori run`: one case of the example arm with its plots, and the end state that the fault plan expects.
+"""`mamori run`: one case of the example arm with its plots, and the end state according to the fault plan.
 
-Values that the user omits come from the most similar scenario of the plan. That scenario also states the expected
-end state. Campaign, motion reader and report are imported when they are used, because they load large libraries.
+The most similar scenario of the plan provides omitted values and the expected end state. Campaign, motion reader and report are imported on
+use, because they load large libraries.
 
 @satisfies SWR-CLI-013      Design: docs/design/launcher.md#one-case
 """
@@ -39,7 +39,7 @@ FAULT_HELP = """KIND[,key=value...]; default: none
 Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end"""
 KEYS = ("joint", "channel", "magnitude", "at", "duration")
 REJECTED_INPUT = 2
-"""Exit status of the program for input that it rejects."""
+"""Exit status of the program for rejected input."""
 
 
 def run_case(jobs: int, motion_file: Path | None, fault: str | None) -> int:
@@ -93,7 +93,7 @@ def select_case(plan: Plan, motion: Motion, fault: str | None) -> Selection:
     if not scenarios:
         raise InputError(f"run: --fault: unknown kind '{kind}'; known: {_join(each.fault.kind for each in known)}")
     given = _read_pairs(pairs, scenarios[0], motion)
-    # Scenarios in the order of the plan; a scenario with all given values comes first.
+    # Scenarios in the order of the plan, except that a scenario with all given values comes first.
     scenario = max(scenarios, key=lambda each: sum(getattr(each.fault, _FIELDS[key]) == value
                                                    for key, value in given.items() if key in _FIELDS))  # fmt: skip
     spec = replace(scenario.fault, **{_FIELDS[key]: value for key, value in given.items() if key in _FIELDS})
@@ -106,7 +106,7 @@ def select_case(plan: Plan, motion: Motion, fault: str | None) -> Selection:
 
 
 _FIELDS = {"joint": "joint", "channel": "channel", "magnitude": "magnitude", "duration": "duration_s"}
-"""Part of a fault on the command line -> field of the plan."""
+"""Key of a fault on the command line -> field of the plan."""
 
 
 def _read_pairs(pairs: Iterable[str], scenario: ArmScenario, motion: Motion) -> dict[str, Any]:
@@ -161,7 +161,7 @@ def _join(words: Iterable[str]) -> str:
 
 
 def summarise(result: CaseResult) -> list[str]:
-    """One screen: fault, reaction, stopping figures, expected and real end state."""
+    """One screen: fault, reaction, stopping figures, expected and actual end state."""
     from mamori_tools.campaign.arm.selection import ArmCase
 
     case, run = result.case, result.run

@@ -24,7 +24,7 @@ from mamori_trace.base.nearest_names import nearest_names
 
 
 def build(jobs: int, folder: Path | None, preset: str) -> int:
-    """Builds the shipped project, and then the one in `folder` against its package. @return exit status."""
+    """Builds the shipped project, then the project in `folder` against its package. @return exit status."""
     check_preset(preset)
     project = Project(check_folder(folder) if folder else ROOT, preset)
     outcomes = run_steps(plans.build_plan(project), Context(project, jobs))
@@ -35,7 +35,7 @@ def build(jobs: int, folder: Path | None, preset: str) -> int:
 
 
 def verify(jobs: int, folder: Path | None) -> int:
-    """Tests, campaign, trace check and report of the shipped project or of the one in `folder`. @return exit status."""
+    """Tests, campaign, trace check and report of the shipped project or of the project in `folder`. @return exit status."""
     if folder is None:
         return verify_own(jobs)
     project = Project(check_folder(folder))

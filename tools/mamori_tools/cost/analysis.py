@@ -18,7 +18,7 @@ from mamori_tools.timing.reader import PASSES, Array
 
 @dataclass(frozen=True)
 class Count:
-    """Instruction counts; each is a counted value. `cycle`: the first major frame with the maximum."""
+    """Instruction counts; each is an actual count. `cycle`: the first major frame with the maximum."""
 
     count: int
     min: int
@@ -51,8 +51,8 @@ class Ratio:
 
 @dataclass(frozen=True)
 class Pace:
-    """The ratio that converts counts to times. `ns_per_instruction`: the largest median, which `component` has;
-    `least_ns` the smallest median. `reference_ns`: the ratio of the reference work, for comparison."""
+    """The ratio that converts counts to times. `ns_per_instruction`: the largest median, of `component`; `least_ns`: the smallest median.
+    `reference_ns`: the ratio of the reference work, for comparison."""
 
     ns_per_instruction: float
     component: str
@@ -123,7 +123,7 @@ def list_steps(runs: Sequence[ClassRun], pace: Pace) -> list[StepRow]:
 
 
 def list_limits(runs: Sequence[ClassRun], pace: Pace, margin_percent: float) -> list[LimitRow]:
-    """Each budget and each declared worst case for which a window instance was counted."""
+    """Each budget and each declared worst case with at least one counted window instance."""
     table = runs[0].table
     rows = []
     for index, window in enumerate(table.windows):
@@ -136,7 +136,7 @@ def list_limits(runs: Sequence[ClassRun], pace: Pace, margin_percent: float) -> 
 
 
 def list_findings(limits: Sequence[LimitRow], runs: Sequence[ClassRun], ratios: Sequence[Ratio], margin_percent: float) -> list[str]:
-    """One line each: limits below the measured maximum plus margin, and components without a count."""
+    """One line for each limit below the measured maximum plus margin, and for each component without a count."""
     table = runs[0].table
     findings = []
     for row in limits:
@@ -164,7 +164,7 @@ def _calc_ratios(run: ClassRun, component: int) -> Array:
 
 
 def _sum_openings(run: ClassRun, chosen: Array, values: Array) -> tuple[Array, Array]:
-    """@return sum of `values` over the chosen steps of each instance of one window, and the releases of the instances."""
+    """@return sums of `values` over the chosen steps of each instance of one window, and the releases of the instances."""
     releases, place = np.unique(run.steps["release_ns"][chosen], return_inverse=True)
     # Floating-point sums are exact here: counts and times are far below 2**53.
     return np.bincount(place, weights=values[chosen], minlength=len(releases)).astype(np.int64), releases
@@ -177,13 +177,13 @@ def _describe(values: Array, releases: Array, table: Table) -> Count:
 
 
 def _pick(ordered: Array, permille: int) -> float:
-    """Nearest rank: an existing value."""
+    """Nearest rank, so that the result is an existing value."""
     return ordered[-(-permille * len(ordered) // 1000) - 1]
 
 
 def _make_limit(what: str, name: str, limit_ns: int, members: Sequence[int], runs: Sequence[ClassRun], pace: Pace, margin_percent: float
                 ) -> list[LimitRow]:  # fmt: skip
-    """@return the worst window instance over all classes; nothing if none was counted."""
+    """@return the worst window instance of all classes; None if none was counted."""
     worst: tuple[int, ClassRun, int] | None = None
     for run in runs:
         chosen = np.isin(run.steps["component"], members)

@@ -32,7 +32,7 @@ Key = tuple[str, str, str]
 
 @dataclass(frozen=True)
 class Baseline:
-    """`maxima` [instructions]. The other fields must be equal in a compared run."""
+    """`maxima` [instructions]. All other fields must be equal in a compared run."""
 
     path: Path
     system: str
@@ -49,7 +49,7 @@ def make_class_fingerprint(classes: Sequence[InputClass]) -> str:
 
 
 def load_baseline(path: Path, system: str, classes: Sequence[InputClass]) -> Baseline:
-    """@raise InputError for an invalid baseline, or one of another format, system or set of input classes."""
+    """@raise InputError for an invalid baseline, or one with another format, system or set of input classes."""
     try:
         data = tomllib.loads(read_text(path, "baseline", 1_000_000).text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
@@ -86,7 +86,7 @@ def _read_max(row: dict[str, Any]) -> int:
 
 
 def check_origin(baseline: Baseline, table: Table, build: Build) -> None:
-    """@raise InputError if it belongs to another table or compiler, because such counts are not comparable."""
+    """@raise InputError if the baseline belongs to another table or compiler, because counts are then not comparable."""
     for what, before, now in (("compiler", baseline.build.compiler, build.compiler), ("flags", baseline.build.flags, build.flags),
                               ("C library", baseline.build.c_library, build.c_library)):  # fmt: skip
         if before != now:
@@ -97,7 +97,7 @@ def check_origin(baseline: Baseline, table: Table, build: Build) -> None:
 
 
 def judge_growth(baseline: Baseline, rows: Sequence[StepRow], growth_percent: float) -> list[str]:
-    """@return one finding per maximum that grew by more than allowed, per new maximum, and per missing maximum."""
+    """@return one finding per maximum that grew by more than the permitted growth, per new maximum, and per missing maximum."""
     now = {(row.input_class, row.component, row.pass_name): row for row in rows}
     findings = []
     for key, row in now.items():
@@ -114,7 +114,7 @@ def judge_growth(baseline: Baseline, rows: Sequence[StepRow], growth_percent: fl
 
 
 def write_baseline(path: Path, system: str, table: Table, classes: Sequence[InputClass], build: Build, rows: Sequence[StepRow]) -> None:
-    """Atomic. @raise InputError if it cannot be written."""
+    """Writes the baseline atomically. @raise InputError if that fails."""
     steps = "".join(f"\n[[step]]\nclass = {_quote(row.input_class)}\ncomponent = {_quote(row.component)}\npass = {_quote(row.pass_name)}\n"
                     f"max = {row.instructions.max}\n" for row in rows)  # fmt: skip
     belongs = "".join(f"{key} = {_quote(value)}\n" for key, value in asdict(build).items())
@@ -129,5 +129,5 @@ classes = "{make_class_fingerprint(classes)}"
 
 
 def _quote(text: str) -> str:
-    """A basic string of TOML: like that of JSON, except for DEL."""
+    """A basic string of TOML, equal to that of JSON except for DEL."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -22,7 +22,7 @@ CLASS_KEYS = ("name", "cycles", "first", "every", "arguments")
 NAME = re.compile(r"[A-Za-z0-9_-]{1,40}")
 CYCLES_MAX = 1_000_000
 COUNTED_MAX = 20_000
-"""Each counted step takes milliseconds."""
+"""Maximum number of counted cycles; each counted step takes milliseconds."""
 PERCENT_MAX = 1000.0
 GROWTH_PERCENT = 2.0
 
@@ -31,7 +31,7 @@ GROWTH_PERCENT = 2.0
 class InputClass:
     """Inputs that execute some of the branches of a system: the declared `arguments` of its program.
 
-    The major frames `first`, `first + every`, ... of `cycles` are counted.
+    The major frames `first`, `first + every`, ... below `cycles` are counted.
     """
 
     name: str
@@ -40,13 +40,13 @@ class InputClass:
     every: int
     arguments: tuple[str, ...]
     words: tuple[str, ...]
-    """The arguments as the program gets them."""
+    """The arguments in the form for the program."""
 
 
 @dataclass(frozen=True)
 class CostPlan:
-    """Input classes and limits [percent]: a budget is at least the measured maximum plus `margin_percent` of it;
-    a maximum is at most that of the baseline plus `growth_percent` of it."""
+    """Input classes and limits [percent]. A budget must be at least the measured maximum plus `margin_percent`; a maximum may be at most
+    that of the baseline plus `growth_percent`."""
 
     margin_percent: float
     growth_percent: float
@@ -54,7 +54,7 @@ class CostPlan:
 
 
 def read_plan(system: System, project: Project) -> CostPlan:
-    """@raise InputError if the system has no such table, or an invalid one."""
+    """@raise InputError if the table of the system is missing or invalid."""
     if system.file is None:
         raise InputError(f"cost: '{system.program.name}' has no input classes; name a folder with a {FILE} that has a [cost]")
     if not system.cost:
@@ -75,7 +75,7 @@ def read_plan(system: System, project: Project) -> CostPlan:
 
 
 def choose(plan: CostPlan, names: Sequence[str]) -> tuple[InputClass, ...]:
-    """Classes of these names; all if none is given. @raise InputError for an unknown name."""
+    """Classes with these names; all without names. @raise InputError for an unknown name."""
     known = [one.name for one in plan.classes]
     for name in names:
         if name not in known:

@@ -37,7 +37,7 @@ TOOL = "valgrind"
 
 @dataclass(frozen=True)
 class Request:
-    """The request of the user. No classes: all of them."""
+    """The request of the user. Without classes: all classes."""
 
     system: str
     classes: tuple[str, ...] = ()
@@ -109,7 +109,7 @@ def check(request: Request, jobs: int) -> Job:
 
 
 def _prepare_folder(job: Job) -> None:
-    """Removes earlier results, so that none counts for this run. @raise InputError."""
+    """Removes earlier results, so that none of them counts for this run. @raise InputError."""
     try:
         for name in RESULTS:
             (job.folder / name).unlink(missing_ok=True)

@@ -29,7 +29,7 @@ ASSUMPTION = ("times are counts at the worst median ratio of a component on this
 
 @dataclass(frozen=True)
 class Report:
-    """One call. `host` contains setting and state before and after (timing/environment.py)."""
+    """One call. `host` contains settings and the state before and after (timing/environment.py)."""
 
     system: str
     plan: CostPlan
@@ -98,7 +98,7 @@ def _make_class(run: ClassRun) -> dict[str, Any]:
 
 
 def write_results(report: Report, environment: dict[str, object], folder: Path) -> list[Path]:
-    """Writes each file atomically. @return the paths."""
+    """Writes each file atomically. @return their paths."""
     paths = [folder / "cost.json", folder / "cost.txt"]
     write_text(paths[0], json.dumps(make_record(report, environment), indent=1) + "\n")
     write_text(paths[1], make_text(report))

@@ -26,7 +26,7 @@ from mamori_trace.base.json_node import JsonNode
 SCHEMA = "mamori.cost_run/1"
 FUNCTION = "mamori_counted_step"
 COUNTING_S_PER_CYCLE = 0.5
-"""So long a cycle may take under callgrind: it makes a program some fifty times slower, and each step is written down."""
+"""Maximum time of a cycle under callgrind, which slows programs about fifty times and writes a record for each step."""
 START_S = 60.0
 PROGRAM_USAGE = 2
 
@@ -35,7 +35,7 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Build:
-    """Compiler, flags and C library of the program: counts of another build are not comparable."""
+    """Compiler, flags and C library of the program: counts of different builds are not comparable."""
 
     compiler: str
     flags: str
@@ -56,8 +56,8 @@ class Facts:
 
 @dataclass(frozen=True)
 class ClassRun:
-    """One input class. `steps` (STEP) in execution order; for each of them `instructions` of the step alone, and
-    `times_ns` between the two clock readings around it, less the time of the readings themselves."""
+    """One input class. `steps` (STEP) are in execution order. For each step, `instructions` are those of the step alone, and `times_ns` is
+    the time between both clock readings, minus the time of the readings themselves."""
 
     input_class: InputClass
     table: Table
@@ -66,12 +66,12 @@ class ClassRun:
     times_ns: Array
     reference_instructions: int
     facts: Facts
-    """Of the run by the clock."""
+    """Facts of the real-time run."""
 
 
 def run_class(system: System, one: InputClass, log: Path, tell: Tell) -> ClassRun:
-    """@raise WorkError if a run fails or the two differ, InputError for invalid files, InputError if the program
-    rejects its arguments, KeyboardInterrupt if it was stopped."""
+    """@raise WorkError if a run fails or both runs differ, InputError for invalid files or rejected arguments, KeyboardInterrupt if it was
+    stopped."""
     with tempfile.TemporaryDirectory(prefix="mamori-cost-") as scratch:
         folder = Path(scratch)
         out = folder / "callgrind.out"
@@ -108,7 +108,7 @@ def _run(system: System, one: InputClass, by: str, out: Path, before: Sequence[s
 
 
 def read_cost(folder: Path, one: InputClass) -> tuple[Table, Array, Facts]:
-    """The files of one run. @raise InputError for an incomplete file, or one of another class than `one`."""
+    """The files of one run. @raise InputError for an incomplete file, or one of another class."""
     table = read_table(folder / "table.json")
     if table.findings:
         raise InputError(f"breaks a rule: {table.findings[0]}; ./mamori table --text shows all", folder / "table.json")
@@ -132,7 +132,7 @@ def read_cost(folder: Path, one: InputClass) -> tuple[Table, Array, Facts]:
 
 
 def _check_same(one: InputClass, table: Table, counted: Array, timed: Array) -> None:
-    """@raise WorkError if the two runs executed different steps, because no time then belongs to a count."""
+    """@raise WorkError if both runs executed different steps: times then do not belong to counts."""
     if len(counted) != len(timed):
         raise WorkError(f"class '{one.name}': {len(counted)} steps under callgrind, {len(timed)} by the clock; the program must do the same "
                         "again with the same arguments")  # fmt: skip

@@ -21,14 +21,14 @@ from mamori_trace.base.nearest_names import nearest_names
 
 SCHEMA = "mamori.e2e_residual/1"
 SECONDS_PER_HOUR = 3600
-# Per hour: 1 % of the upper limit of each level.
+# Per hour: 1 % of the upper limit of each safety integrity level.
 BUDGETS = {1: Decimal("1e-7"), 2: Decimal("1e-8"), 3: Decimal("1e-9"), 4: Decimal("1e-10")}
 PE_LEAST, PE_MOST = Decimal("1e-30"), Decimal("0.5")
 RATE_LEAST, RATE_MOST = Decimal("1e-9"), Decimal("1e9")
-DIGITS_MOST = 12  # of a count
-LIST_LENGTH_MAX = 14  # bytes: in longer messages two flipped bits pass in profiles 2 and 22
-EXACT_LENGTH_MAX = 65_535  # bytes: longer messages have only a bound
-WIDTH_COUNTED = 32  # bits: dual words of wider checksums are too many
+DIGITS_MOST = 12  # digits of a count
+LIST_LENGTH_MAX = 14  # bytes: in longer messages, profiles 2 and 22 miss some patterns of two flipped bits
+EXACT_LENGTH_MAX = 65_535  # bytes: for longer messages there is only a bound
+WIDTH_COUNTED = 32  # bits: wider checksums have too many dual words
 EXACT, ESTIMATE, BOUND = "exact", "estimate", "bound"
 WITHIN, OVER, NOT_SHOWN, REFUSED = "within", "over", "not shown", "refused"
 
@@ -62,7 +62,7 @@ class Answer:
         return self.residual * self.channel.rate_hz * SECONDS_PER_HOUR * self.channel.receivers
 
     def judge(self, budget: Decimal) -> str:
-        """Whether the limit [1/h] is met. A bound above the limit shows nothing."""
+        """Whether the limit [1/h] is met. A bound above the limit proves nothing."""
         if self.channel.profile.checksum is CRC8_H2F and self.channel.length > LIST_LENGTH_MAX:
             return REFUSED
         if self.rate > budget:
@@ -71,19 +71,19 @@ class Answer:
 
     @property
     def status(self) -> int:
-        """Exit status: 1 if the limit of no level is met."""
+        """Exit status: 1 if no limit is met."""
         return EXIT_OK if any(self.judge(budget) == WITHIN for budget in BUDGETS.values()) else EXIT_FAILED
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """@return exit status: 0, 1 (the limit of no level is met). @raise InputError."""
+    """@return exit status: 0, 1 (no limit is met). @raise InputError."""
     answer = answer_channel(check(arguments))
     print(make_json(answer) if arguments.json else make_text(answer))
     return answer.status
 
 
 def check(arguments: argparse.Namespace) -> Channel:
-    """@raise InputError with the option, the fault and the valid values."""
+    """@raise InputError with the option, the error and the valid values."""
     number = arguments.profile.strip().lower().removeprefix("p").lstrip("0")
     known = [str(profile) for profile in PROFILES]
     if number not in known:
@@ -110,7 +110,7 @@ def _read_count(text: str, option: str) -> int:
 
 
 def _read_number(text: str, option: str, wanted: str) -> Decimal:
-    """The exact written value; infinity and not-a-number are rejected."""
+    """The exact value of the text; infinity and not-a-number are rejected."""
     try:
         number = Decimal(text)
     except InvalidOperation:
@@ -121,7 +121,7 @@ def _read_number(text: str, option: str, wanted: str) -> Decimal:
 
 
 def answer_channel(channel: Channel) -> Answer:
-    """The best result within about a minute. @raise InputError if a stored file is damaged."""
+    """The best result that is available within about a minute. @raise InputError if a stored file is damaged."""
     checksum, bits = channel.profile.checksum, 8 * channel.length
     limits = _list_limits(channel)
     if checksum.width > WIDTH_COUNTED:
@@ -183,7 +183,7 @@ def _list_limits(channel: Channel) -> tuple[str, ...]:
 
 
 def make_text(answer: Answer) -> str:
-    """The text output."""
+    """Output as text."""
     channel = answer.channel
     patterns = (
         "or more; patterns not counted" if answer.patterns is None else f"bits; {answer.patterns} patterns of so many bits pass"
@@ -210,7 +210,7 @@ def make_text(answer: Answer) -> str:
 
 
 def make_json(answer: Answer) -> str:
-    """The same for programs. Numbers other than counts have 17 digits."""
+    """The same output for programs. Numbers other than counts have 17 digits."""
     channel = answer.channel
     document = {
         "schema": SCHEMA,

@@ -107,10 +107,10 @@ class Fact:
 
 
 def calc_shares(spectrum: Spectrum) -> Iterator[tuple[int, float]]:
-    """For each weight the share of its patterns that pass, in units of 2^-width.
+    """For each weight, the share of its patterns that pass, in units of 2^-width.
 
-    Krawtchouk polynomials divided by their value at 0 stay within -1 .. 1, and the values of one half of the weights follow from
-    the other half. The widest floating-point numbers therefore lose less than 1e-6.
+    Krawtchouk polynomials divided by their value at 0 stay within -1 .. 1. The values for one half of the weights follow from the other
+    half. With the widest floating-point numbers, the loss is therefore less than 1e-6.
     """
     bits = spectrum.bits
     weights = np.array(sorted(spectrum.counts), dtype=np.longdouble)
@@ -125,14 +125,14 @@ def calc_shares(spectrum: Spectrum) -> Iterator[tuple[int, float]]:
 
 
 def make_fact(spectrum: Spectrum) -> Fact:
-    """The share is rounded up."""
+    """Rounds the share up."""
     distance = find_distance(spectrum)
     greatest = max((share for weight, share in calc_shares(spectrum) if weight > distance.bits), default=0.0)
     return Fact(spectrum.bits // 8, distance, math.ceil(100 * greatest + 1e-3))
 
 
 def make_facts(checksum: Checksum, lengths: Iterable[int]) -> Iterator[Fact]:
-    """@raise ValueError a stored file is missing or damaged."""
+    """@raise ValueError if a stored file is missing or damaged."""
     for length in lengths:
         spectrum = load(checksum, length)
         if spectrum is None and checksum.width > 16:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Residual error of a checksum: the exact probability that a damaged message passes, from the weights of the dual code.
 
-The error patterns that pass are a linear code: the errors whose syndromes add up to zero. Its dual has 2^width words. The weight
-of each word is one value of the Walsh-Hadamard transform of the syndromes. From these weights the identities of MacWilliams give
-the number of passing patterns of each weight, as integers, and the probability that one passes.
+The error patterns that pass form a linear code: the errors whose syndromes add up to zero. Its dual code has 2^width words. The weight of
+each word follows from one value of the Walsh-Hadamard transform of the syndromes. From these weights, the MacWilliams identities give the
+number of passing patterns of each weight (as integers), and the probability that a pattern passes.
 
 @satisfies SWR-E2E-020, SWR-E2E-021      Design: docs/design/e2e.md#residual-error
 Source: MacWilliams and Sloane, The Theory of Error-Correcting Codes, chapter 5; IEC 61784-3 (rate of residual errors)
@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-GUARD_DIGITS = 30  # kept in a result after cancellation
-LOW_BITS = 16  # of a dual word: one block of the transform; 2^16 numbers of 16 bits fit the cache of a core
-BATCH = 16  # blocks at a time
+GUARD_DIGITS = 30  # digits of a result that remain after cancellation
+LOW_BITS = 16  # bits of a dual word: one block of the transform; 2^16 numbers of 16 bits fit the cache of a core
+BATCH = 16  # number of parallel blocks
 NO_TELLING: Callable[[float], None] = lambda share: None  # noqa: E731
 
 Words = npt.NDArray[np.uint64]
@@ -31,7 +31,7 @@ Words = npt.NDArray[np.uint64]
 
 @dataclass(frozen=True)
 class Checksum:
-    """The properties that determine which errors pass. `gap`: bits [0 ..] that are divided but not sent, between payload and checksum."""
+    """The properties that determine which errors pass. `gap`: bits [0 ..] between payload and checksum that are divided but not sent."""
 
     name: str
     width: int
@@ -57,7 +57,7 @@ class Profile:
     length_max: int
 
 
-# An identifier before the payload (1, 11) changes no error; one after it (2, 22, 5, 6) is a gap.
+# An identifier before the payload (1, 11) has no influence on errors; an identifier after it (2, 22, 5, 6) is a gap.
 PROFILES = {
     profile.number: profile
     for profile in (
@@ -93,7 +93,7 @@ class Distance:
 
 
 def calc_syndromes(checksum: Checksum, bits: int) -> list[int]:
-    """Contribution of each sent bit to the remainder: first the bits of the checksum, then the payload from its end."""
+    """Contribution of each sent bit to the remainder: first the bits of the checksum, then those of the payload from its end."""
     top, mask = checksum.width - 1, (1 << checksum.width) - 1
     syndromes, power = [], 1
     for place in range(bits + checksum.gap):
@@ -117,9 +117,9 @@ def transform(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def make_blocks(checksum: Checksum, bits: int) -> Iterator[tuple[float, npt.NDArray[Any]]]:
-    """Transforms of all 2^width dual words, some blocks at a time, each with the finished share of the work [0 .. 1].
+    """Transforms of all 2^width dual words, several blocks at a time, each with the completed share of the work [0 .. 1].
 
-    A block has the dual words of one upper part; the upper part only changes the signs of the syndromes.
+    A block contains the dual words with one upper part, which only changes the signs of the syndromes.
     """
     low_bits = min(checksum.width, LOW_BITS)
     blocks = 1 << (checksum.width - low_bits)
@@ -129,7 +129,7 @@ def make_blocks(checksum: Checksum, bits: int) -> Iterator[tuple[float, npt.NDAr
     order = np.argsort(lows, kind="stable")
     lows, highs, times = lows[order], highs[order], times[order]
     starts = np.flatnonzero(np.concatenate(([True], lows[1:] != lows[:-1])))
-    signs = np.array([1], dtype=np.int8)  # of a word: -1 where it has an odd number of ones
+    signs = np.array([1], dtype=np.int8)  # sign of a word: -1 for an odd number of ones
     for _ in range(checksum.width - low_bits):
         signs = np.concatenate((signs, -signs))
     number = np.int16 if bits <= np.iinfo(np.int16).max else np.int32
@@ -142,9 +142,9 @@ def make_blocks(checksum: Checksum, bits: int) -> Iterator[tuple[float, npt.NDAr
 
 
 def calc_spectrum(checksum: Checksum, bits: int, tell: Callable[[float], None] = NO_TELLING) -> Spectrum:
-    """Weights of all 2^width dual words: milliseconds up to 16 bits, most of a minute for 32.
+    """Weights of all 2^width dual words. Takes milliseconds up to 16 bits, and nearly a minute for 32 bits.
 
-    @param bits length of the message, at least the width of the checksum. @param tell receives the finished share [0 .. 1].
+    @param bits length of the message, at least the width of the checksum. @param tell receives the completed share [0 .. 1].
     """
     counts = np.zeros(2 * bits + 1, dtype=np.int64)
     for share, values in make_blocks(checksum, bits):
@@ -156,7 +156,7 @@ def calc_spectrum(checksum: Checksum, bits: int, tell: Callable[[float], None] =
 
 
 def count_patterns(spectrum: Spectrum) -> Iterator[int]:
-    """Number of passing error patterns of 0, 1, 2 .. bits (MacWilliams). @raise ValueError these are not weights of a dual code."""
+    """Number of passing error patterns of 0, 1, 2 .. bits (MacWilliams). @raise ValueError if these are not weights of a dual code."""
     bits = spectrum.bits
     weights = sorted(spectrum.counts)
     before, now = [0] * len(weights), [1] * len(weights)  # Krawtchouk polynomials of two adjacent degrees
@@ -182,8 +182,8 @@ def find_distance(spectrum: Spectrum) -> Distance:
 def calc_residual(spectrum: Spectrum, distance: Distance, pe: Decimal) -> Decimal:
     """Probability that a message arrives damaged and passes [1 per message].
 
-    It is the probability of all passing patterns minus that of no error. The cancelled digits are known beforehand, because
-    patterns of the minimum weight are a part of the result; that many more digits are used, so none is lost.
+    The result is the probability of all passing patterns minus the probability of no error. The number of cancelled digits is known in
+    advance, because patterns of the minimum weight are part of the result. Using so many more digits avoids any loss.
     @param pe bit error probability, above 0 and up to 0.5.
     """
     shared = 1 + ((1 - pe) / pe) ** distance.bits / distance.patterns
@@ -196,7 +196,8 @@ def calc_residual(spectrum: Spectrum, distance: Distance, pe: Decimal) -> Decima
 
 
 def sum_patterns(spectrum: Spectrum, pe: Decimal) -> Decimal:
-    """The same as a plain sum over the patterns of each weight, for comparison, because it is too slow for long messages."""
+    """The same result as a plain sum over the patterns of each weight. It is for comparison only, because it is too slow for long
+    messages."""
     terms = (
         count * pe**turned * (1 - pe) ** (spectrum.bits - turned) for turned, count in enumerate(count_patterns(spectrum)) if turned
     )
@@ -204,16 +205,17 @@ def sum_patterns(spectrum: Spectrum, pe: Decimal) -> Decimal:
 
 
 def bound_residual(bits: int, distance: int, pe: Decimal) -> Decimal:
-    """Upper bound for any message if only the Hamming distance is known [1 per message]: the probability of so many flipped bits."""
+    """Upper bound for any message if only the Hamming distance is known [1 per message]: the probability of at least that many flipped
+    bits."""
     return min(Decimal(1), comb(bits, distance) * pe**distance)
 
 
 @cache
 def find_least_distance(checksum: Checksum, bits: int) -> int:
-    """A proven Hamming distance, found by trying all patterns of few bits: for checksums too wide for the dual code.
+    """A proven Hamming distance from a search of all patterns of few bits, for checksums too wide for the dual code.
 
-    Sums of one, two, three syndromes, as far as memory permits: two equal sums of k are a pattern of 2 k bits. A single flipped
-    bit never passes, for any length.
+    Forms sums of one, two, three syndromes, as far as memory permits: two equal sums of k syndromes are a passing pattern of 2 k bits. A
+    single flipped bit never passes, at any length.
     """
     depth = next((depth for depth, most in ((3, 256), (2, 4096), (1, 524_288)) if bits <= most), 0)
     syndromes = np.array(calc_syndromes(checksum, bits) if depth else [], dtype=np.uint64)
@@ -227,7 +229,7 @@ def find_least_distance(checksum: Checksum, bits: int) -> int:
         if (sums[size][1:] == sums[size][:-1]).any():
             return 2 * size
     least = max(2, 2 * depth + 1)
-    # A polynomial with an even number of terms detects every odd number of flipped bits.
+    # A polynomial with an even number of terms detects any odd number of flipped bits.
     return least + least % 2 if (checksum.polynomial.bit_count() + 1) % 2 == 0 else least
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Weights of the dual codes of 32-bit checksums, stored in `spectra/` because each takes most of a minute to calculate.
+"""Weights of the dual codes of 32-bit checksums. They are stored in `spectra/`, because each takes nearly a minute to calculate.
 
     python -P -m mamori_tools.e2e.spectra [--again]
 
-creates the missing files, or all of them. A file is accepted only with its own checksum, and its counts only if they
-are those of a dual code: every resulting number of patterns is a non-negative integer.
+creates the missing files, or, with --again, all files. A file is accepted only with its own checksum, and its counts only if they are those
+of a dual code: every resulting number of patterns is a non-negative integer.
 
 @satisfies SWR-E2E-027      Design: docs/design/e2e.md#residual-error
 """
@@ -23,11 +23,11 @@ from mamori_tools.e2e.residual import CRC32, CRC32_P4, Checksum, Spectrum, calc_
 from mamori_trace.base.text_file import write_text
 
 FOLDER = Path(__file__).parent / "spectra"
-# Bytes: the lengths of the published table, and lengths between and above for rows of residual_facts.hpp. 38: the longest
-# message with distance 8; 8191: with 4, in longer ones two flipped bits pass.
+# Bytes: the lengths of the published table, and lengths between and above for rows of residual_facts.hpp. 38: the longest message with
+# distance 8. 8191: the longest with distance 4; in longer messages, two flipped bits may pass.
 P4_LENGTHS = (12, 16, 20, 24, 28, 32, 38, 48, 56, 64, 96, 128, 256, 512, 1024, 2048, 4096, 8191)
 STORED = ((CRC32, 64), *((CRC32_P4, length) for length in P4_LENGTHS))
-PATTERNS_CHECKED = 130  # weights from 0 on; each is a check of all counts together
+PATTERNS_CHECKED = 130  # weights from 0 on; each checks all counts together
 
 
 def locate(checksum: Checksum, length: int) -> Path:
@@ -36,7 +36,7 @@ def locate(checksum: Checksum, length: int) -> Path:
 
 
 def load(checksum: Checksum, length: int) -> Spectrum | None:
-    """@return None if it is not stored. @raise ValueError the file is damaged."""
+    """@return None if it is not stored. @raise ValueError if the file is damaged."""
     path = locate(checksum, length)
     if (checksum, length) not in STORED or not path.exists():
         return None
@@ -54,7 +54,7 @@ def load(checksum: Checksum, length: int) -> Spectrum | None:
 
 
 def check(spectrum: Spectrum) -> None:
-    """@raise ValueError these are not weights of a dual code."""
+    """@raise ValueError if these are not weights of a dual code."""
     if sum(spectrum.counts.values()) != 1 << spectrum.checksum.width:
         raise ValueError(f"there are not 2^{spectrum.checksum.width} words")
     for _ in islice(count_patterns(spectrum), PATTERNS_CHECKED):

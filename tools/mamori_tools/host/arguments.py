@@ -17,15 +17,15 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.nearest_names import nearest_names
 
 PROGRAM = "mamori"
-DIGITS_MAX = 12  # of an option that counts something
+DIGITS_MAX = 12  # maximum of an option that counts
 
 
 @dataclass(frozen=True)
 class Command:
-    """`run` returns the exit status. It raises InputError, MissingError or OSError, which become one line.
+    """`run` returns the exit status. It may raise InputError, MissingError or OSError, which are reported in one line.
 
-    `summary` is the line of the overview. `statuses` replaces or extends the common meanings of exit statuses. `usage_end` names the
-    arguments after those that argparse knows. `examples` are command lines without the program."""
+    `summary` is the line of the overview. `statuses` replaces or extends the common meanings of exit statuses. `usage_end` names additional
+    arguments that argparse does not know. `examples` are command lines without the program."""
 
     add_arguments: Callable[[argparse.ArgumentParser], None]
     run: Callable[[argparse.Namespace], int]
@@ -37,7 +37,7 @@ class Command:
 
 
 class Parser(argparse.ArgumentParser):
-    """Rejects an unknown word with one line that names the nearest known words."""
+    """Rejects an unknown word in one line with the nearest known words."""
 
     statuses: Mapping[int, str] = {}
     usage_end = ""
@@ -68,7 +68,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def at_least_one(text: str) -> int:
-    """Type of an option that counts something."""
+    """Type of an option that counts."""
     if not (text.isascii() and text.isdecimal()) or not text.strip("0"):
         raise argparse.ArgumentTypeError(f"'{text}' is no whole number from 1 on")
     if len(text) > DIGITS_MAX:
@@ -77,6 +77,6 @@ def at_least_one(text: str) -> int:
 
 
 def add_jobs(parser: argparse.ArgumentParser, scope: str = "") -> None:
-    """The option of each command that compiles or runs several programs at the same time."""
+    """The option of commands that compile or run several programs at the same time."""
     parser.add_argument("--jobs", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
                         help=f"parallel jobs{scope and f' {scope}'} (at least 1); default: number of processors")  # fmt: skip

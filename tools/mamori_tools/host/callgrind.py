@@ -20,7 +20,7 @@ from mamori_trace.base.errors import WorkError
 REPETITIONS = 1000
 OPTIONS = ("--tool=callgrind", "--collect-atstart=no", "--toggle-collect=measured_*", "--zero-before=begin_counting")
 
-# In the notation of callgrind, without arguments and version.
+# In callgrind notation, without arguments and version.
 HEAP = re.compile(r"^(malloc|calloc|realloc|free|cfree|memalign|aligned_alloc|posix_memalign|pvalloc|valloc|reallocarray"
                   r"|operator (new|delete)(\[\])?|_Zn[wa].*|_Zd[la].*|sbrk|brk|mmap|mmap64)$")  # fmt: skip
 
@@ -30,7 +30,7 @@ _COST = re.compile(r"^[+\-*\d]\S* (\d+)$")
 
 @dataclass(frozen=True)
 class Profile:
-    """Callgrind's record of the repetitions: instructions, and the names of the executed functions."""
+    """callgrind's record of the repetitions: instructions, and the names of the executed functions."""
 
     instructions: int
     functions: frozenset[str]
@@ -50,7 +50,7 @@ class Profile:
 
 
 def _strip(name: str) -> str:
-    """Removes from `operator new(unsigned long)` and `malloc@@GLIBC_2.2` the text after the name, and the mark of the part file."""
+    """Removes the text after the name, as in `operator new(unsigned long)` and `malloc@@GLIBC_2.2`, and the mark of the part file."""
     return re.sub(r"('\d+)?$", "", name.partition("(")[0].partition("@")[0])
 
 
@@ -81,14 +81,14 @@ def parse_profile(text: str) -> Profile:
 
 
 def make_step_options(function: str, out: Path) -> list[str]:
-    """Options that make valgrind count each single call of `function`, and nothing else; list_totals() then reads `out`."""
+    """Options with which valgrind counts each single call of `function` and nothing else; list_totals() then reads `out`."""
     return ["valgrind", "--tool=callgrind", "--collect-atstart=no", f"--toggle-collect={function}", f"--dump-after={function}",
             "--combine-dumps=yes", "--dump-line=no", f"--callgrind-out-file={out}"]  # fmt: skip
 
 
 def list_totals(path: Path) -> list[int]:
-    """Instructions of each call, in order, from a file for make_step_options(). Each call is followed by a dump, and the end by an
-    empty dump. @raise WorkError if the file is truncated or has other content."""
+    """Instructions of each call, in order, from a file for make_step_options(). A dump follows each call, and an empty dump ends the file.
+    @raise WorkError if the file is truncated or has other content."""
     totals, is_trigger = [], []
     try:
         with path.open(encoding="utf-8", errors="replace") as lines:
@@ -131,7 +131,7 @@ def run_profiles(program: Path, operations: Iterable[str], tell: Callable[[str],
 def makes_system_calls(program: Path, operation: str, repetitions: int = REPETITIONS) -> bool:
     """Runs the operation in a process that the operating system kills at its first system call.
 
-    @return whether it was killed. @raise WorkError if it failed in another way.
+    @return whether it was killed. @raise WorkError if it failed for another reason.
     """
     done = subprocess.run([str(program), operation, str(repetitions), "--sealed"], capture_output=True, text=True,
                           check=False, stdin=subprocess.DEVNULL)  # fmt: skip

@@ -24,7 +24,7 @@ STYLES = {"passed": "green", "failed": "bold red", "skipped": "yellow"}
 
 
 class _Output(Console):
-    """rich ends the process with status 1 after the reader has ended; the command has its own status for that."""
+    """When the reader has ended, rich would end the process with status 1; the command has a separate status for that."""
 
     def on_broken_pipe(self) -> None:
         raise  # rich calls this while it handles the BrokenPipeError

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads CTest's list of the tests of a project, and runs them so that each test process has its own result folder.
+"""Reads CTest's list of the tests of a project, and runs them with a separate result folder for each test process.
 
-CTest runs a second test folder. It includes the tests of the project with all their properties and adds one environment
-variable to each. GoogleTest selects a file name when a program starts: two processes that share a folder lose results.
+CTest runs a second test folder, which includes the tests of the project with all their properties and adds an environment variable to each.
+GoogleTest selects a file name when a program starts: two processes that share a folder would lose results.
 
 @satisfies SWR-CLI-032      Design: docs/design/launcher.md#tests-of-a-project
 """
@@ -28,7 +28,7 @@ _SETTINGS = ("DartConfiguration.tcl", "CTestCustom.cmake", "CTestCustom.ctest")
 
 @dataclass(frozen=True)
 class ProjectTest:
-    """One test of `ctest -N`. `number` counts from 1, as CTest does."""
+    """One test of `ctest -N`. `number` counts from 1, as in CTest."""
 
     number: int
     name: str
@@ -73,7 +73,7 @@ def list_tests(build: Path) -> list[ProjectTest]:
 
 
 def make_environment() -> dict[str, str]:
-    """The environment of all tests: a filter or a repetition for GoogleTest in the caller's shell does not apply."""
+    """The environment of all tests: excludes GoogleTest filters and repetitions from the shell of the caller."""
     return {name: value for name, value in os.environ.items() if not name.startswith(_GTEST)}
 
 
@@ -94,9 +94,9 @@ def prepare(tests: list[ProjectTest], build: Path, folder: Path) -> None:
 
 
 def get_result_folder(folder: Path, test: ProjectTest) -> Path:
-    """Result folder of the process of `test`. Its name is a number, because a test name can contain characters that no file name can.
+    """Result folder of the process of `test`. Its name is a number, because test names may contain characters that file names cannot.
 
-    Tests with the same name share the folder of the last one. CTest sets a property by name, so they run one after another.
+    Tests with the same name share the folder of the last one, because CTest sets a property by name. They therefore run in sequence.
     """
     return folder / "results" / f"{test.number:04}"
 
@@ -109,7 +109,7 @@ def run_tests(folder: Path, jobs: int, log: Path, root: Path, tick: Tick) -> int
 
 
 def read_records(folder: Path) -> dict[str, list[Record]]:
-    """CTest's own record of the run, by test name. @raise WorkError if CTest has not written it."""
+    """Record of the run by CTest itself, by test name. @raise WorkError if CTest has not written it."""
     path = folder / "ctest.xml"
     try:
         cases = list(ElementTree.parse(path).iter("testcase"))
@@ -122,7 +122,7 @@ def read_records(folder: Path) -> dict[str, list[Record]]:
 
 
 def _read_record(case: ElementTree.Element) -> Record:
-    """CTest also reports a test as skipped if it could not start it: a missing program, file or fixture. That is a failure."""
+    """CTest reports a test as skipped also if it could not start it (missing program, file or fixture). That counts as a failure."""
     status, seconds = case.get("status", ""), case.get("time", "0")
     output = " ".join((case.findtext("system-out") or "").split())
     if status == "run":
@@ -139,7 +139,7 @@ def _read_record(case: ElementTree.Element) -> Record:
 
 
 def _quote(text: str) -> str:
-    """A bracket argument of CMake: no character in it has a meaning."""
+    """A bracket argument of CMake, in which no character has a special meaning."""
     level = 0
     while f"]{'=' * level}]" in text or text.endswith("]" + "=" * level):
         level += 1

@@ -28,7 +28,7 @@ COMPILERS = ("g++", "clang++-19", "arm-none-eabi-g++")
 
 
 def write_environment(project: Project, command: Sequence[str]) -> Path:
-    """Atomically writes the record for a run of `command`. @return its path."""
+    """Writes the record for a run of `command` atomically. @return its path."""
     record = collect_environment(project, command)
     project.evidence.mkdir(parents=True, exist_ok=True)
     path = project.evidence / "environment.json"
@@ -37,7 +37,7 @@ def write_environment(project: Project, command: Sequence[str]) -> Path:
 
 
 def renew_environment(context: Context, _tick: Tick, _log: TextIO) -> None:
-    """Writes the record of the running command again, after a step that changed the inputs of results."""
+    """Writes the record of the running command again after a step that changed inputs of results."""
     write_environment(context.project, ["./mamori", *sys.argv[1:]])
 
 
@@ -63,12 +63,12 @@ def collect_environment(project: Project, command: Sequence[str]) -> dict[str, A
 
 
 def _ask_git(root: Path, *words: str) -> str:
-    """The project's git, whose configuration starts no program."""
+    """git for the project, with a configuration that starts no program."""
     return (run_git(root, words) or b"").decode(errors="replace").strip()
 
 
 def _ask(argv: list[str], cwd: Path | None = None) -> str:
-    """Output of a program; nothing if it is missing or fails."""
+    """Output of a program; empty if it is missing or fails."""
     try:
         done = subprocess.run(argv, cwd=cwd, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     except OSError:

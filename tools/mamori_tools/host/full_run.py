@@ -20,7 +20,7 @@ SCHEMA = "mamori.full_run/1"
 
 
 def read_full_run(root: Path) -> dict[str, Any]:
-    """The record, or nothing if there is no readable one."""
+    """The record; None if there is no readable one."""
     try:
         record = json.loads((root / FILE).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -29,7 +29,7 @@ def read_full_run(root: Path) -> dict[str, Any]:
 
 
 def record_full_run(project: Project, outcomes: Sequence[Outcome]) -> None:
-    """Writes the record of a run, for any result of its steps, from its `outcomes` and its environment record."""
+    """Writes the record of a run, with any result of its steps, from its `outcomes` and its environment record."""
     environment = json.loads((project.evidence / "environment.json").read_text(encoding="utf-8"))
     record = {
         "schema": SCHEMA,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Queries a GoogleTest program for its cases, so that a result file with fewer cases is detected.
+"""Queries a GoogleTest program for its cases, to detect result files with missing cases.
 
 @satisfies SWR-CLI-032      Design: docs/design/launcher.md#tests-of-a-project
 """
@@ -22,7 +22,7 @@ _OUTPUT = "--gtest_output"
 
 
 def is_gtest_program(path: str) -> bool:
-    """Whether the file contains GoogleTest, linked into it or as a shared library."""
+    """Whether GoogleTest is linked into the file or used as a shared library."""
     try:
         data = Path(path).read_bytes()
     except OSError:
@@ -31,7 +31,7 @@ def is_gtest_program(path: str) -> bool:
 
 
 def list_cases(command: tuple[str, ...], folder: Path, environment: Mapping[str, str]) -> list[Case] | None:
-    """The cases that `command` selects; None if the program lists none in GoogleTest's format."""
+    """The cases that `command` selects; None if the program does not list them in GoogleTest's format."""
     with tempfile.TemporaryDirectory(prefix="mamori-list-") as place:
         path = Path(place) / "cases.xml"
         argv = [*command, "--gtest_list_tests", f"{_OUTPUT}=xml:{path}"]
@@ -53,9 +53,9 @@ def read_cases(path: Path) -> list[Case] | None:
 
 
 def find_own_output(command: tuple[str, ...], folder: Path) -> Path | None:
-    """The XML file that the command line itself specifies to GoogleTest, which the environment cannot change; None without one.
+    """The XML file in the command line, which the environment cannot change; None without such a file.
 
-    A folder if it is not XML or not a single file: it is not readable then.
+    Returns a folder, which is not readable as a file, if the output is not XML or not a single file.
     """
     own = None
     for word in command[1:]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The help text of a parser. It depends on the parser only: neither terminal, environment nor Python version changes it.
+"""The help text of a parser. It depends only on the parser, not on terminal, environment or Python version.
 
 The stored copies in command/help are made by `python -P -m mamori_tools.command.help_texts`.
 
@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 
 WIDTH = 100
 COLUMN_MAX = 24
-"""A longer option has its description on the lines below it."""
+"""The description of a longer option starts on the next line."""
 INSTALL = ("--install", "first install the missing Debian packages that the command needs (needs root or sudo). Without it, the command asks "
            "on a terminal. Elsewhere it names the packages and ends with status 3")  # fmt: skip
 STATUSES = {0: "success", 1: "something failed, or there are findings", 2: "wrong arguments or input",
@@ -40,7 +40,7 @@ def _format_usage(parser: argparse.ArgumentParser, usage_end: str) -> list[str]:
     words += _list_option_words(parser)
     lead = f"usage: {program} "
     lines, line = [], lead
-    for word in [*words, usage_end] if usage_end else words:  # a word with its value or its alternatives stays on one line
+    for word in [*words, usage_end] if usage_end else words:  # a word stays on one line with its value or its alternatives
         if len(line) + len(word) > WIDTH and line.strip() != lead.strip():
             lines.append(line.rstrip())
             line = " " * len(lead)

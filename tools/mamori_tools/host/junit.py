@@ -53,7 +53,7 @@ def list_failures(files: Iterable[Path]) -> list[str]:
 
 
 def _read_cases(path: Path) -> list[TestResult] | None:
-    """Each case once, however many requirements it names; None for a file that is not complete."""
+    """Each case once, for any number of named requirements; None for an incomplete file."""
     problems: list[Problem] = []
     results = read_junit_file(path, path.name, UNIT, path.parent, problems)
     return None if problems else [result for result in results if result.is_first]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Steps that several commands share, and the tables of steps behind `demo`, `build` and `verify`.
+"""Steps that several commands share, and the step tables of `demo`, `build` and `verify`.
 
 @satisfies SWR-CLI-006, SWR-CLI-012      Design: docs/design/launcher.md#steps
 """
@@ -35,7 +35,7 @@ def build_step(preset: str, tier: Tier = Tier.QUICK, targets: tuple[str, ...] = 
 
 
 def trace_steps(*options: str) -> tuple[Step, ...]:
-    """Records, trace check and report: the end of every plan; without the report in `--quick`. The report is also written after a failure."""
+    """Records, trace check and report: the end of every plan. `--quick` omits the report. The report is also written after a failure."""
     return (
         Step(name="evidence records", function=record_evidence, tier=Tier.QUICK),
         Step(
@@ -57,8 +57,8 @@ def campaign_step(campaign: Action) -> Step:
 
 
 def timing_step() -> Step:
-    """A short real-time run for the report. Its findings fail nothing, because a shared host is late and may deny privileges. A
-    missing result fails."""
+    """A short real-time run for the report. Its findings fail nothing, because a shared host causes lateness and may deny privileges. Only
+    a missing result is a failure."""
     return Step(
         name="timing run",
         commands=((*COMMAND, "timing", "examples/safe_arm", "--cycles", TIMING_CYCLES, "--jobs", "{jobs}"),),
@@ -69,7 +69,7 @@ def timing_step() -> Step:
 
 
 def demo_plan(campaign: Action) -> tuple[Step, ...]:
-    """The example arm: only its program is built, and no test is run. Results of other plans may be missing."""
+    """The example arm: builds only its program and runs no test. Results of other plans may be missing."""
     return (
         build_step(RELEASE, targets=(EXAMPLE_TARGET,)),
         campaign_step(campaign),
@@ -79,7 +79,7 @@ def demo_plan(campaign: Action) -> tuple[Step, ...]:
 
 
 def find_not_run(plan: tuple[Step, ...], whole: tuple[Step, ...]) -> list[str]:
-    """Names of the steps of `whole` that are not in `plan`, in their order."""
+    """Names of the steps of `whole` that are not in `plan`, in order."""
     names = {step.name for step in plan}
     return [step.name for step in whole if step.name not in names]
 

@@ -27,8 +27,8 @@ PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
 
 
 def run_logged(argv: Sequence[str], log: Path, cwd: Path, tick: Tick, env: Mapping[str, str] | None = None) -> int:
-    """Runs `argv` in `cwd` with its output appended to `log`; calls `tick` with the newest log line. @return exit status;
-    127 if the program does not exist."""
+    """Runs `argv` in `cwd` and appends its output to `log`; calls `tick` with the newest log line. @return exit status; 127 if the program
+    does not exist."""
     with log.open("a", encoding="utf-8") as out:
         print("$", *argv, file=out, flush=True)
         try:
@@ -46,7 +46,7 @@ def run_logged(argv: Sequence[str], log: Path, cwd: Path, tick: Tick, env: Mappi
 
 
 def read_tail(log: Path, lines: int) -> list[str]:
-    """The last non-empty `lines` of `log`; nothing if there is no log."""
+    """The last non-empty `lines` of `log`; empty without a log."""
     if not log.exists():
         return []
     text = log.read_text(encoding="utf-8", errors="replace")
@@ -54,7 +54,7 @@ def read_tail(log: Path, lines: int) -> list[str]:
 
 
 def read_last_line(log: Path) -> str:
-    """The latest line of a log that may be long and still grow."""
+    """The latest line of a log that may be long and may still grow."""
     with log.open("rb") as file:
         file.seek(max(0, file.seek(0, os.SEEK_END) - LOG_TAIL_BYTES))
         lines = file.read().decode("utf-8", errors="replace").split("\n")
@@ -62,14 +62,14 @@ def read_last_line(log: Path) -> str:
 
 
 def discard_output() -> None:
-    """Redirects standard output to the null device, so that Python prints no error at its end after the reader has ended."""
+    """Redirects standard output to the null device after the reader has ended, so that Python prints no error at its end."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def raise_on_signals() -> None:
-    """SIGINT and SIGTERM both stop the command in order, also if a parent shell had set SIGINT to be ignored.
+    """SIGINT and SIGTERM both stop the command in order, even if a parent shell had set SIGINT to be ignored.
 
-    A grandchild whose own parent the same signal ends first becomes a child of this process, not of init.
+    If the same signal ends the parent of a grandchild first, the grandchild becomes a child of this process, not of init.
     """
     ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
@@ -77,7 +77,7 @@ def raise_on_signals() -> None:
         raise KeyboardInterrupt(signal.Signals(number).name)
 
     def stop_later(dropped: sys.UnraisableHookArgs) -> None:
-        if isinstance(dropped.exc_value, KeyboardInterrupt):  # it came in a destructor, which cannot raise; raised again after the destructor
+        if isinstance(dropped.exc_value, KeyboardInterrupt):  # the signal came in a destructor, which cannot raise; raised again afterwards
             signal.setitimer(signal.ITIMER_REAL, AGAIN_S)
         else:
             sys.__unraisablehook__(dropped)
@@ -89,8 +89,8 @@ def raise_on_signals() -> None:
 
 
 def end_children() -> None:
-    """Ends every descendant of this process: asks first, then, after GRACE_S, does not ask."""
-    import psutil  # here, so that no other command loads it
+    """Ends every descendant of this process: first by request, after GRACE_S by force."""
+    import psutil  # imported here, because only a stopped command needs it
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
@@ -101,8 +101,8 @@ def end_children() -> None:
         is_any_left = False
         is_late = time.monotonic() >= deadline
         for child in psutil.Process().children(recursive=True):
-            with contextlib.suppress(psutil.NoSuchProcess):  # it ended by itself in the meantime
-                if child.status() == psutil.STATUS_ZOMBIE:  # its parent has not read its exit status yet
+            with contextlib.suppress(psutil.NoSuchProcess):  # the process ended by itself in the meantime
+                if child.status() == psutil.STATUS_ZOMBIE:  # its parent has not yet read its exit status
                     continue
                 is_any_left = True
                 if is_late or child not in asked:

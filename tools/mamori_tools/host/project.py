@@ -17,7 +17,7 @@ CHECKED_LAYERS = ("kernel", "safety", "ports")
 
 @dataclass(frozen=True)
 class Project:
-    """A source tree and the folders that its runs write to. `preset` names the build whose evidence counts."""
+    """A source tree and the folders to which its runs write. `preset` names the build whose evidence counts."""
 
     root: Path
     preset: str = RELEASE
@@ -44,7 +44,7 @@ class Project:
 
     @property
     def safe_arm(self) -> Path:
-        """The example's program."""
+        """The program of the example."""
         return self.build / "examples" / "safe_arm" / "safe_arm"
 
     @property
@@ -59,7 +59,7 @@ class Project:
 
     @property
     def campaign_plan(self) -> Path:
-        """The injected faults, and the expected results."""
+        """The injected faults and their expected results."""
         return self.root / "examples" / "safe_arm" / "faults.yaml"
 
     def cpp_sources(self, layers: tuple[str, ...] = CPP_LAYERS) -> list[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tests of a user's project as a step: every test of `ctest -N` ends with a result of this run, or the step fails.
+"""The tests of a user project as a step: every test of `ctest -N` must have a result of this run, or the step fails.
 
 @satisfies SWR-CLI-032, SWR-CLI-033      Design: docs/design/launcher.md#tests-of-a-project
 """
@@ -27,12 +27,12 @@ from mamori_trace.base.text_file import write_text
 from mamori_trace.base.whole_file import whole_file
 
 PROGRAMS = "programs.json"
-"""Which program wrote which result file; beside the second test folder's files."""
+"""Names the program that wrote each result file; stored with the files of the second test folder."""
 
 _SHOWN = 3
 _SLUG_LENGTH = 60
 _OWN_VERDICT = ("WILL_FAIL", "PASS_REGULAR_EXPRESSION")
-"""Properties by which CTest passes a test whose program fails: the cases of the program do not count then."""
+"""Properties with which CTest passes a test although its program fails: the cases of the program then do not count."""
 
 
 @dataclass
@@ -74,7 +74,7 @@ def run_project_tests(context: Context, tick: Tick, log: TextIO) -> None:
 
 
 def find_program(project: Project, result: Path) -> Path | None:
-    """The program that wrote the result file of a project's test."""
+    """The program that wrote the result file of a test of the project."""
     try:
         programs = json.loads((get_folder(project) / PROGRAMS).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -96,7 +96,7 @@ def _get_stamp(path: Path) -> tuple[int, int, int] | None:
 
 
 def _list_cases(tests: list[ProjectTest], jobs: int) -> dict[int, list[gtest_program.Case]]:
-    """The cases of every test that is a GoogleTest program. A disabled test does not run, so it has none."""
+    """The cases of every test that is a GoogleTest program. A disabled test does not run, so it has no cases."""
     base = ctest_run.make_environment()
     known: dict[str, bool] = {}
 
@@ -117,7 +117,7 @@ def _list_cases(tests: list[ProjectTest], jobs: int) -> dict[int, list[gtest_pro
 
 def _copy_own_outputs(tests: list[ProjectTest], own: dict[int, Path | None], before: dict[Path, tuple[int, int, int] | None],
                       folder: Path) -> None:  # fmt: skip
-    """A file that the command line names is copied if it is new and belongs to this test alone."""
+    """A file that the command line names is copied if it is new and belongs only to this test."""
     count = Counter(path for path in own.values() if path is not None)
     for test in tests:
         path = own[test.number]
@@ -130,7 +130,7 @@ def _copy_own_outputs(tests: list[ProjectTest], own: dict[int, Path | None], bef
 def _collect(tests: list[ProjectTest], records: dict[str, list[Record]], listed: dict[int, list[gtest_program.Case]], folder: Path,
              junit: Path) -> Collected:  # fmt: skip
     collected = Collected()
-    last = {test.name: test for test in tests}  # tests that share a name share a folder
+    last = {test.name: test for test in tests}  # tests with the same name share a folder
     shared = Counter(test.name for test in tests)
     waiting = {name: sorted(ctest_run.get_result_folder(folder, test).glob("*.xml")) for name, test in last.items()}
     for test in tests:
@@ -156,7 +156,7 @@ def _collect(tests: list[ProjectTest], records: dict[str, list[Record]], listed:
 
 
 def _match_shared(files: list[Path], listed: list[gtest_program.Case] | None) -> list[Path]:
-    """The first file whose cases are those of the test; none for another kind of test."""
+    """The first file that contains the cases of the test; None for other kinds of tests."""
     return next(([path] for path in files if listed and set(gtest_program.read_cases(path) or ()) >= set(listed)), [])
 
 
@@ -167,7 +167,7 @@ def _find_missing(test: ProjectTest, whole: list[Path], files: list[Path], liste
         return [f"test '{test.name}' passed, and its result file {torn[0]} is malformed; run it alone and look at its end"]
     wanted = listed.get(test.number, [])
     if whole and _is_sharded(test):
-        return []  # a shard runs a part of its list; the trace check finds a case that no shard ran
+        return []  # a shard runs a part of its list; the trace check finds cases that no shard ran
     present = {case for path in whole for case in gtest_program.read_cases(path) or ()}
     lost = [case for case in wanted if case not in present]
     if not lost:
@@ -184,7 +184,7 @@ def _is_sharded(test: ProjectTest) -> bool:
 
 
 def _name_result(junit: Path, test: ProjectTest, index: int) -> Path:
-    """A readable name that its number makes unique."""
+    """A readable name with a number that makes it unique."""
     slug = re.sub(r"[^A-Za-z0-9]+", "-", test.name).strip("-")[:_SLUG_LENGTH]
     return junit / f"{test.number:04}{f'.{index}' if index else ''}{'-' if slug else ''}{slug}.xml"
 
@@ -197,7 +197,7 @@ def _give(path: Path, junit: Path, test: ProjectTest, index: int) -> Path:
 
 
 def _write_record(record: Record, junit: Path, test: ProjectTest, index: int) -> Path:
-    """One result from CTest's own record."""
+    """One result, from the record of CTest."""
     suite = ElementTree.Element("testsuite", name="ctest")
     case = ElementTree.SubElement(suite, "testcase", name=test.name, classname=test.name, time=record.seconds)
     if record.verdict != "passed":

@@ -26,10 +26,10 @@ _SKIPPED = ("CMakeFiles", "_deps", "evidence")
 
 
 def collect_inputs(project: Project, compilers: dict[str, str], python: str) -> dict[str, str]:
-    """Hashes of the current inputs of results. Sources without git have none."""
+    """Hashes of the current inputs of results. Sources outside git have none."""
     try:
         sources = calc_sources(project.root, read_code_schema(project.root).no_evidence)
-    except InputError:  # the trace check reports the fault
+    except InputError:  # the trace check reports the error
         sources = ""
     presets = project.root / "CMakePresets.json"
     preset = presets.read_text(encoding="utf-8") if presets.is_file() else ""
@@ -44,14 +44,14 @@ def record_evidence(context: Context, _tick: Tick, log: TextIO) -> None:
 
 
 def write_records(project: Project) -> int:
-    """Records every evidence file with the inputs of environment.json. @return how many. @raise WorkError without that file."""
+    """Records every evidence file with the inputs in environment.json. @return their number. @raise WorkError without that file."""
     rows = _make_rows(project, list_recorded(project.evidence), _read_inputs(project))
     write_rows(project.evidence, rows)
     return len(rows)
 
 
 def renew_records(project: Project, files: Iterable[Path], inputs: dict[str, str]) -> None:
-    """Records `files`, which one command has created from `inputs`. Other evidence without a record stays unrecorded."""
+    """Records `files`, which one command has created from `inputs`. Other unrecorded evidence stays unrecorded."""
     if (project.evidence / NAME).is_file():
         write_rows(project.evidence, read_rows(project.evidence) | _make_rows(project, files, inputs))
 
@@ -74,7 +74,7 @@ def _make_rows(project: Project, files: Iterable[Path], inputs: dict[str, str]) 
 
 
 def _find_programs(build: Path) -> dict[str, Path]:
-    """Test programs by name: a JUnit file is named after its program."""
+    """Test programs by name, because a JUnit file has the name of its program."""
     programs: dict[str, Path] = {}
     for folder, folders, files in os.walk(build):
         folders[:] = sorted(name for name in folders if name not in _SKIPPED)

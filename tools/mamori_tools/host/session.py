@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Begin and end of a command that runs steps: earlier evidence is removed first; at the end one screen states the results.
+"""Start and end of a command that runs steps: earlier evidence is removed first; a final screen states the results.
 
 @satisfies SWR-CLI-006      Design: docs/design/launcher.md#steps
 """
@@ -23,9 +23,9 @@ FAILURE_LENGTH = 2000  # characters of a failed result in the closing lines
 
 
 def begin(project: Project, jobs: int, presets: Sequence[str]) -> Context:
-    """Removes the evidence of earlier runs, so that none of it counts for this one, and records the environment.
+    """Removes the evidence of earlier runs, so that none of it counts for this run, and records the environment.
 
-    @raise InputError if the report could not be written at the end.
+    @raise InputError if writing the report at the end would fail.
     """
     check_report_folder(project.report.parent)
     for preset in presets:
@@ -38,7 +38,7 @@ def begin(project: Project, jobs: int, presets: Sequence[str]) -> Context:
 
 
 def check_report_folder(folder: Path) -> None:
-    """@raise InputError if no file can be written there; this is reported before the work."""
+    """@raise InputError if no file can be written there; checked before the work."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -61,7 +61,7 @@ def show_steps(outcomes: Sequence[Outcome], context: Context) -> None:
 
 
 def show_failures(outcome: Outcome, context: Context) -> None:
-    """The failed results of a step with their complete messages, because some systems keep only the end of the screen."""
+    """The failed results of a step with complete messages, because some systems store only the end of the output."""
     for text in outcome.failures[:FAILURES_SHOWN]:
         context.screen.say(f"{outcome.name}: {text[:FAILURE_LENGTH]}")
 

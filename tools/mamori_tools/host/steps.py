@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a table of steps: each is timed, logged and evaluated; a failed step stops only the steps that require it.
+"""Runs a table of steps. Each step is timed, logged and evaluated; a failed step stops only the steps that require it.
 
 @satisfies SWR-CLI-006, SWR-CLI-007      Design: docs/design/launcher.md#steps
 """
@@ -29,7 +29,7 @@ INCONCLUSIVE = "inconclusive"
 
 
 class Tier(IntEnum):
-    """The three runs of `./mamori test`. Each has all steps of the previous one."""
+    """The three variants of `./mamori test`. Each includes all steps of the previous one."""
 
     QUICK = 0
     GATE = 1
@@ -38,24 +38,24 @@ class Tier(IntEnum):
 
 @dataclass(frozen=True)
 class Context:
-    """The data of the run that its steps may use."""
+    """The data of the run that are available to its steps."""
 
     project: Project
     jobs: int
     screen: Screen = field(default_factory=Screen)
-    outcomes: dict[str, Outcome] = field(default_factory=dict)  # of the steps that have ended
+    outcomes: dict[str, Outcome] = field(default_factory=dict)  # of completed steps
 
 
 Action = Callable[[Context, Tick, TextIO], None]
-"""The work of a step that is no program: gets the run, news for the screen, and the open log. @raise WorkError to fail."""
+"""The work of a step without a program: receives the run, a function for screen messages, and the open log. @raise WorkError to fail."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One row of a table of steps: `commands` run in order in the project folder, then `function`.
+    """One row of a table of steps: `commands` run in order in the project folder, followed by `function`.
 
-    In a command, `{root}`, `{build}`, `{evidence}`, `{junit}`, `{python}`, `{jobs}` are replaced by their values, and `{result}` by
-    a temporary name that becomes `<evidence>/junit/<result>` when the command has ended. An argument that is a key of `lists`
+    In a command, `{root}`, `{build}`, `{evidence}`, `{junit}`, `{python}`, `{jobs}` are replaced by their values, and `{result}` by a
+    temporary name. That file becomes `<evidence>/junit/<result>` when the command has ended. An argument that is a key of `lists`
     (`{files}`) is replaced by several arguments.
     """
 
@@ -65,10 +65,10 @@ class Step:
     needs: tuple[str, ...] = ()
     lists: dict[str, list[str]] = field(default_factory=dict)
     result: str = ""
-    junit: str = ""  # folder, relative to the root, of its new JUnit result files; default: that of the evidence
+    junit: str = ""  # folder of its new JUnit result files, relative to the root; default: that of the evidence
     produces: str = ""  # file, relative to the root, that the step must write
-    accepted: tuple[int, ...] = (0,)  # exit statuses of a command that did its work
-    inconclusive: tuple[int, ...] = ()  # exit statuses of a command that could not show anything on this host
+    accepted: tuple[int, ...] = (0,)  # exit statuses of a command that completed its work
+    inconclusive: tuple[int, ...] = ()  # exit statuses of a command that is inconclusive on this host
     tier: Tier = Tier.GATE  # the smallest run with this step
 
 
@@ -112,7 +112,7 @@ def total(outcomes: Sequence[Outcome]) -> Counts:
 
 
 def all_passed(outcomes: Sequence[Outcome]) -> bool:
-    """True if every step ran and passed; a skipped step shows nothing."""
+    """True if every step ran and passed; a skipped step is not a pass."""
     return all(outcome.verdict == "passed" for outcome in outcomes)
 
 
@@ -137,9 +137,9 @@ def _run_step(step: Step, context: Context, tick: Tick) -> Outcome:
     if not reason and counts.failed:
         reason = f"{counts.failed} results failed"
     if reason and not counts.failed:
-        counts += Counts(failed=1)  # it failed without a failed result
+        counts += Counts(failed=1)  # the step failed without a failed result
     elif counts.total == 0:
-        counts = Counts(passed=1)  # a step without results of its own is one result
+        counts = Counts(passed=1)  # a step without results counts as one result
     verdict = "failed" if reason else "passed"
     failures = tuple(list_failures(files)) if counts.failed else ()
     cpu_s = _get_children_cpu_s() - cpu_start
@@ -153,8 +153,8 @@ def _get_children_cpu_s() -> float:
 
 
 def _get_stamp(path: Path) -> tuple[int, int, int] | None:
-    """Values that change when a file is written or replaced; nothing if there is no file. Times are not sufficient: two files that
-    are written within one tick of the file system's clock have equal times."""
+    """Values that change when a file is written or replaced; empty if there is no file. Times are not sufficient: two files that are
+    written within one tick of the file system clock have equal times."""
     if not path.is_file():
         return None
     status = path.stat()
@@ -162,7 +162,7 @@ def _get_stamp(path: Path) -> tuple[int, int, int] | None:
 
 
 def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:
-    """@return why the step failed, or nothing."""
+    """@return why the step failed; empty if it passed."""
     project = context.project
     part = project.junit / f".{step.result}.part"
     values = {"root": str(project.root), "build": str(project.build), "evidence": str(project.evidence),
@@ -184,7 +184,7 @@ def _do_work(step: Step, context: Context, log: Path, tick: Tick) -> str:
 
 
 def _run_commands(step: Step, values: dict[str, str], part: Path, context: Context, log: Path, tick: Tick) -> str:
-    """@return which command failed, or nothing."""
+    """@return which command failed; empty if none did."""
     for command in step.commands:
         argv = [word for template in command for word in _expand(template, step.lists, values)]
         status = run_logged(argv, log, context.project.root, tick)

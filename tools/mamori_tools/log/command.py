@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`mamori log FILE`: prints the file of a flight recorder and exports it.
 
-Exit status: 0 each record is readable, 1 printed but something is damaged or missing, 2 nothing to print or wrong usage.
+Exit status: 0 all records are readable, 1 printed but something is damaged or missing, 2 nothing to print or wrong usage.
 
 @satisfies SWR-REC-011, SWR-REC-012, SWR-REC-013      Design: docs/design/recorder.md#the-command-log
 """
@@ -31,14 +31,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Raises InputError with one line if there is nothing to print. @return the exit status."""
+    """Raises InputError in one line if there is nothing to print. @return exit status."""
     _refuse_input_as_output(arguments)
     recording = read_recording(arguments.file)  # rejects a path without a file name, such as '.'
     names, complaint = _choose_names(arguments)
     try:
         _print(arguments, recording, names)
     except BrokenPipeError:
-        # The reader of the lines has ended; Python must not print an error at its end.
+        # The reader of the output has ended; Python must not print an error at its end.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     _export(arguments, recording, names)
     for line in filter(None, (complaint, _make_complaint(recording))):
@@ -54,7 +54,7 @@ def _refuse_input_as_output(arguments: argparse.Namespace) -> None:
 
 
 def _choose_names(arguments: argparse.Namespace) -> tuple[Names, str]:
-    """The names to use, and one line if a table that the user did not request is invalid."""
+    """The names to use, and one line if a default table of names is invalid."""
     if arguments.names is not None:
         return read_names(arguments.names), ""
     found = default_names_path(arguments.file)

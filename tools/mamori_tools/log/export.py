@@ -124,7 +124,7 @@ def _make_crash(recording: Recording) -> dict[str, object] | None:
 
 @contextmanager
 def _replace(path: Path) -> Iterator[BinaryIO]:
-    """A temporary file that replaces `path` if the block ends without an exception, and is removed otherwise."""
+    """A temporary file that replaces `path` if the block ends without an exception; otherwise it is removed."""
     try:
         with whole_file(path) as part, part.open("wb") as stream:
             yield stream

@@ -27,7 +27,7 @@ READERS: Mapping[str, Callable[[str], object]] = {
 
 @dataclass(frozen=True)
 class Names:
-    """Names of sources, codes and arguments; a number without a name is shown as a number."""
+    """Names of sources, codes and arguments; numbers without a name are shown as numbers."""
 
     sources: Mapping[int, str] = field(default_factory=dict)
     codes: Mapping[int, str] = field(default_factory=dict)
@@ -51,7 +51,7 @@ def default_names_path(path: Path) -> Path:
 
 
 def read_names(path: Path) -> Names:
-    """Raises InputError, with the location in the table, for an invalid table of names."""
+    """Raises InputError with the location for an invalid table of names."""
     reader = READERS.get(path.suffix.lower())
     if reader is None:
         raise InputError(f"a name table ends in {', '.join(READERS)}; name one of these", path)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the file of a flight recorder: every valid record, and a finding for everything else.
+"""Reads the file of a flight recorder: every valid record, and a finding for all other content.
 
-The bytes are described in docs/design/recorder.md#region; kernel/include/mamori/kernel/record/flight_format.hpp writes them.
+docs/design/recorder.md#region describes the format; kernel/include/mamori/kernel/record/flight_format.hpp writes it.
 
-A file of the real-time port ends with the record of a crash, which ports/posix_rt/src/crash_note.cpp writes.
+A file of the real-time port ends with a crash record, written by ports/posix_rt/src/crash_note.cpp.
 
 @satisfies SWR-REC-011, SWR-REC-013, SWR-PRT-028      Design: docs/design/recorder.md#the-command-log
 """
@@ -36,7 +36,7 @@ WATCHDOG = 0xFFFE
 SEQUENCE_MAX = 1 << 62
 SEVERITIES = ("info", "warning", "fault")
 MAX_BYTES = 1 << 30
-"""Largest file that is read: 26 million records."""
+"""Maximum file size: 26 million records."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Finding:
-    """A fault in the recording. `place` is its number in the order of records."""
+    """A defect of the recording. `place` is its number in the order of records."""
 
     kind: str  # torn, corrupt, missing, stale, header, cut, trailing
     place: int
@@ -71,7 +71,7 @@ class Crash:
     time_ns: int
     signal: str
     is_sent: bool
-    """By kill, raise or abort; else an instruction could not go on."""
+    """True for kill, raise or abort; otherwise an instruction failed."""
     address: int
     window: int | None
     component: int | None
@@ -81,7 +81,7 @@ class Crash:
 
 @dataclass(frozen=True)
 class Recording:
-    """Content of a file. `records` and `findings` are in the order of their numbers."""
+    """Content of a file. `records` and `findings` are ordered by number."""
 
     path: Path
     capacity: int
@@ -103,7 +103,7 @@ class Recording:
 
 @dataclass
 class _Ring:
-    """Slots of the file: the first `slot_count` of a ring of `capacity`; the file may be truncated after them."""
+    """Slots in the file: the first `slot_count` of a ring of `capacity`, because the file may be truncated."""
 
     capacity: int
     slot_count: int
@@ -112,7 +112,7 @@ class _Ring:
 
 
 def read_recording(path: Path) -> Recording:
-    """Reads `path`, which may be in use. Raises InputError if it cannot contain any record."""
+    """Reads `path`, which may be in use. Raises InputError if it cannot contain records."""
     data = _read_bytes(path)
     findings: list[Finding] = []
     problem = _check_header(path, data)
@@ -122,7 +122,7 @@ def read_recording(path: Path) -> Recording:
     else:
         capacity = HEADER.unpack_from(data)[5]
         findings.extend(_check_length(data, capacity))
-    # With an invalid header the location of a record is not checked, because the capacity may differ.
+    # If the header is invalid, locations of records are not checked, because the capacity may be wrong.
     ring = _read_slots(data, capacity, is_place_known=not problem)
     if problem and not ring.records:
         raise InputError(f"is no recorder file ({problem}); name the file that a flight recorder wrote", path)
@@ -158,7 +158,7 @@ def _read_bytes(path: Path) -> bytes:
 
 
 def _check_header(path: Path, data: bytes) -> str:
-    """@return the fault of the header; nothing if it is valid."""
+    """@return the defect of the header; empty if it is valid."""
     if data[: len(MAGIC)] != MAGIC:
         return "it does not begin as one"
     if len(data) < HEADER_BYTES:
@@ -189,7 +189,7 @@ def _check_length(data: bytes, capacity: int) -> Iterator[Finding]:
 
 
 def _read_crash(data: bytes, capacity: int) -> Crash | None:
-    """The record after the last slot; None if there is none, or it is incomplete."""
+    """The record after the last slot; None if it is missing or incomplete."""
     offset = _offset_of(capacity)
     if len(data) != offset + CRASH_NOTE.size:
         return None
@@ -224,19 +224,19 @@ def _read_slots(data: bytes, capacity: int, is_place_known: bool) -> _Ring:
 
 
 def _find_missing(ring: _Ring) -> Iterator[Finding]:
-    """Findings of the ring: each present slot must contain its number of the latest lap."""
+    """Findings of the ring: each slot in the file must contain its number of the latest lap."""
     capacity = ring.capacity
     newest = ring.records[-1].sequence
     first = max(1, newest - capacity + 1)
     have = {record.sequence for record in ring.records}
     explained = set()
     for slot, kind in ring.damaged:
-        # The slot after the newest held the oldest record, and may have been about to take the next number.
+        # The slot after the newest record contained the oldest one, and may have been about to be overwritten.
         number = newest + 1 - (newest - slot) % capacity
         number += capacity if number < 1 else 0
         before = number - capacity if number > newest else 0
         explained |= {number, before}
-        # The newest record may be among the truncated ones: then the number is only a position for the output.
+        # If the newest record may be truncated, the number is only a position for the output.
         is_known = ring.slot_count == capacity
         yield _describe_damage(kind, slot, number, f"record {number}{f' or {before}' if before > 0 else ''}, " if is_known else "")
     for record in ring.records:
@@ -255,7 +255,7 @@ def _describe_damage(kind: str, slot: int, number: int, what: str) -> Finding:
 
 
 def _describe_gap(first: int, last: int, ring: _Ring) -> Iterator[Finding]:
-    """Numbers `first` to `last`, less than a lap, of the present slots; the content of the others is unknown."""
+    """Numbers `first` to `last` (less than a lap) whose slots are in the file; the content of other slots is unknown."""
     for turn in range((first - 1) // ring.capacity, (last - 1) // ring.capacity + 1):
         begin = max(first, turn * ring.capacity + 1)
         end = min(last, turn * ring.capacity + ring.slot_count)

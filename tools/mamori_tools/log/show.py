@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A recording as lines for the terminal: records and findings in the order of their numbers, then one line that counts.
+"""A recording as lines for the terminal: records and findings ordered by number, then one line with counts.
 
 rich follows NO_COLOR and omits colours if the output is not a terminal.
 
@@ -24,7 +24,7 @@ KINDS = ("torn", "corrupt", "missing", "stale", "header", "cut", "trailing")
 
 
 class _Console(Console):
-    """A reader that ends early ends the printing, not the program; rich would also end the program."""
+    """When the reader ends early, only the printing stops; rich would also end the program."""
 
     def on_broken_pipe(self) -> None:
         raise BrokenPipeError
@@ -37,7 +37,7 @@ def format_time(time_ns: int) -> str:
 
 
 def format_damage(recording: Recording) -> str:
-    """The kinds of findings with their counts; empty when there are none."""
+    """The kinds of findings with their counts; empty if there are none."""
     counts = [(kind, recording.count(kind)) for kind in KINDS]
     return ", ".join(f"{count} {kind}" for kind, count in counts if count)
 
@@ -95,7 +95,7 @@ def _join(cells: tuple[str, ...], widths: list[int]) -> str:
 
 
 def _merge(recording: Recording) -> Iterator[int | Finding]:
-    """Indices of records and findings, by number; a missing record is at its expected position."""
+    """Indices of records and findings, ordered by number; a missing record is at its expected position."""
     waiting = list(reversed(recording.findings))
     for index, record in enumerate(recording.records):
         while waiting and waiting[-1].place <= record.sequence:

@@ -32,7 +32,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def summary(motion: Motion, limits: ArmLimits) -> str:
-    """Summary of a motion for a reader: length, and per joint the extremes with their limits."""
+    """Summary of a motion for readers: length, and per joint the extremes with their limits."""
     speed = motion.get_speeds().max(axis=0)
     lines = [f"{motion.source_name}: {motion.duration_s:g} s, {len(motion.time_s)} samples, "
              f"{len(motion.joint_names)} joints"]

@@ -2,9 +2,9 @@
 """BodyMotion YAML in the form of Choreonoid and OpenHRP tools.
 
 First format: `type: BodyMotion` with a component `MultiValueSeq` / `JointPosition`. Second format (`formatVersion: 2`):
-`type: CompositeSeq`, `content: BodyMotion` with `MultiValueSeq` / `JointDisplacement`. Keys of the parent (frameRate,
-numFrames) apply to a component without its own. Read from parser events: a walking motion of 7,000 frames has
-300,000 of them, and each sample keeps its line.
+`type: CompositeSeq`, `content: BodyMotion` with `MultiValueSeq` / `JointDisplacement`. Keys of the parent (frameRate, numFrames) apply to a
+component without its own. The file is read from parser events, because a walking motion of 7,000 frames has 300,000 events. Each sample
+keeps its line.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from mamori_trace.base.text_file import SourceText
 _JOINT_CONTENTS = frozenset({"JointPosition", "JointDisplacement"})
 
 _INHERITED = ("frameRate", "numFrames")
-"""Keys of the parent that hold for a component that does not state them itself."""
+"""Keys of the parent that apply to a component without its own."""
 
 Header = dict[str, tuple[str, int]]
 """Scalar entries of a mapping: key -> (text, line)."""
@@ -38,7 +38,7 @@ class _Component:
 
     @property
     def content(self) -> str:
-        # Early files call the key "purpose".
+        # Early files name the key "purpose".
         return (self.header.get("content") or self.header.get("purpose") or ("", 0))[0]
 
 
@@ -69,7 +69,7 @@ def read_body_motion(source: SourceText, joints: int, surplus: int = 0) -> Sampl
 
 
 def _count_parts(source: SourceText, component: _Component, joints: int, surplus: int) -> int:
-    """Parts per frame: as the component declares, otherwise as in its first frame."""
+    """Parts per frame: as the component declares, otherwise as in the first frame."""
     text, line = component.header.get("numParts", ("", 0))
     frames = component.frames or []
     if text:
@@ -185,7 +185,7 @@ def _read_component(source: SourceText, events: Iterator[yaml.Event], start: yam
 
 def _read_frames(source: SourceText, events: Iterator[yaml.Event],
                  component: _Component) -> list[tuple[int, list[str]]]:
-    """Frames as texts with their lines. A fault is stored: it matters only if this is the joint component."""
+    """Frames as texts with their lines. An error is stored: it matters only if this is the joint component."""
     frames: list[tuple[int, list[str]]] = []
     while not isinstance(item := next(events), yaml.SequenceEndEvent):
         line = line_of(item)
@@ -210,7 +210,7 @@ def _read_frames(source: SourceText, events: Iterator[yaml.Event],
 
 def _entries(source: SourceText, events: Iterator[yaml.Event],
              header: Header) -> Iterator[tuple[str, int, yaml.Event]]:
-    """Reads a mapping: scalars are added to `header`; the start of every other value is yielded, and the caller consumes it."""
+    """Reads a mapping. Scalars are added to `header`; for other values the start is yielded, and the caller consumes the value."""
     seen: set[str] = set()
     while not isinstance(key := next(events), yaml.MappingEndEvent):
         line = line_of(key)

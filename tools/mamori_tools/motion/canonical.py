@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The only format in which a motion is given to a program: a whitespace table with all digits and reproducible bytes."""
+"""The only format of motions for programs: a whitespace table with all digits and reproducible bytes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mamori_trace.base.text_file import write_text
 def canonical_text(motion: Motion) -> str:
     """Three comment lines (source, SHA-256 of the source, columns), then `time q1 .. qn` per sample.
 
-    Numbers are the shortest ones that read back to the same value. The text contains no path, date or user.
+    Numbers are the shortest ones that convert back to the same value. The text contains no path, date or user.
     """
     name = motion.source_name.encode("unicode_escape").decode("ascii")
     columns = " ".join(f"q{joint}[rad]" for joint in range(1, len(motion.joint_names) + 1))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The checks of every motion before anything moves. Pure functions: samples and limits in, first fault out."""
+"""The checks of every motion before execution. Pure functions from samples and limits to the first error."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from mamori_tools.motion.motion import MAX_DURATION_S, Samples, calc_speeds
 from mamori_trace.base.errors import InputError
 
 SPEED_TOLERANCE = 1e-9
-"""Relative excess of a speed that is rounding: a speed is a difference of decimals over a difference of decimals."""
+"""Permitted relative rounding excess of a speed, because speeds are quotients of differences of decimals."""
 
 
 def check_samples(samples: Samples, limits: ArmLimits) -> None:
-    """Raises InputError for the first of: too few samples, bad times, too long, position out of range, too fast."""
+    """Raises InputError for the first error: too few samples, bad times, too long, position out of range, too fast."""
     if len(samples.rows) < 2:
         line = samples.lines[0] if samples.lines else 1
         raise InputError(f"{len(samples.rows)} sample(s), at least 2 make a motion; add samples", samples.path, line)

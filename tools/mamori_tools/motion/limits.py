@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The limits of a motion, read from the model file of the arm. Only this module of the package knows the keys of that file."""
+"""The limits of a motion, read from the model file of the arm. Only this module of the package uses the keys of that file."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from pathlib import Path
 from mamori_trace.base.marked_yaml import Node, load
 
 OPERATING_FRACTION = 0.8
-"""Part of the mechanical speed limit that a motion may use where the model states no `motion_speed_limit_rad_s`.
+"""Share of the mechanical speed limit that a motion may use if the model has no `motion_speed_limit_rad_s`.
 
-The rest is left to the controller: tracking a motion at the very limit would overshoot it.
+The rest is for the controller: tracking a motion at the full limit would exceed the limit.
 """
 
 OPERATING_MARGIN_RAD = 0.1
-"""Distance that a motion keeps from the mechanical end of a joint: a guard stops the arm before the end stop does."""
+"""Minimum distance of a motion from the mechanical end of a joint: a guard stops the arm before the end stop."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class JointLimits:
 
 @dataclass(frozen=True)
 class ArmLimits:
-    """Limits of an arm. `ignored_columns` columns may follow the joints in a table; they are dropped."""
+    """Limits of an arm. In a table, `ignored_columns` additional columns may follow the joints; they are ignored."""
 
     model: Path
     joints: tuple[JointLimits, ...]
@@ -69,7 +69,7 @@ def _positive(node: Node, joint: str) -> float:
 
 
 def _ignored_columns(root: Node) -> int:
-    """`motion_columns_ignored` is a count or a list of names; missing means none."""
+    """`motion_columns_ignored` is a count or a list of names; default: none."""
     entries = root.as_mapping()
     if "motion_columns_ignored" not in entries:
         return 0
@@ -83,5 +83,5 @@ def _ignored_columns(root: Node) -> int:
 
 
 def _value(node: Node) -> Node:
-    """The plain value of a figure that may name its source: `{value: .., source: ..}` or the value itself."""
+    """The value of a figure that may name its source: `{value: .., source: ..}` or only the value."""
     return node.get("value") if isinstance(node.value, dict) else node

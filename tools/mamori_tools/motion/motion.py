@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The data of the readers: samples as in the file, and the checked motion."""
+"""The data of the readers: unchanged samples of the file, and the checked motion."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 
 MAX_DURATION_S = 600.0
-"""Longest motion that is read [s]."""
+"""Maximum duration of a motion [s]."""
 
 MAX_SAMPLES = 1_000_000
-"""Most samples that are read: the longest motion at more than 1.6 kHz."""
+"""Maximum number of samples: the longest motion at more than 1.6 kHz."""
 
 
 @dataclass
 class Samples:
-    """Content of a file, not yet checked against an arm. One entry per sample in `lines`, `time_s`, `rows`."""
+    """Content of a file before the check against an arm. One entry per sample in `lines`, `time_s`, `rows`."""
 
     path: Path
     sha256: str
@@ -50,7 +50,7 @@ class Motion:
         return calc_speeds(self.time_s, self.position_rad)
 
     def calc_mean_speed(self, start_s: float, end_s: float) -> np.ndarray:
-        """Distance between the positions at two instants divided by the time between them [rad/s], shape (joints,).
+        """Distance between the positions at two instants divided by the elapsed time [rad/s], shape (joints,).
 
         Positions are interpolated; before the start and after the end the motion is at rest.
         """

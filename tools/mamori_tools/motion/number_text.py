@@ -13,7 +13,7 @@ _SHOWN = 24
 
 
 def parse_number(word: str, path: Path, line: int, what: str) -> float:
-    """The finite number in `word`. Raises InputError, which names `what`, if there is none."""
+    """The finite number in `word`. Raises InputError with `what` if there is none."""
     try:
         # float() also accepts 1_000 and digits of other scripts; motion files contain neither.
         number = float(word) if word.isascii() and "_" not in word else None

@@ -18,7 +18,7 @@ _YAML_SUFFIXES = frozenset({".yaml", ".yml", ".seq"})
 
 
 def read_motion(path: Path | str, limits: ArmLimits) -> Motion:
-    """Reads and checks a motion. Raises InputError, one line with file and line number, for the first fault found."""
+    """Reads and checks a motion. Raises InputError with one line, including file and line number, for the first error."""
     source = read_text(path, "motion file")
     if is_body_motion(source):
         samples = read_body_motion(source, len(limits.joints), limits.ignored_columns)
@@ -30,7 +30,7 @@ def read_motion(path: Path | str, limits: ArmLimits) -> Motion:
 
 
 def is_body_motion(source: SourceText) -> bool:
-    """True for a YAML suffix, or if the first line other than a comment looks like YAML."""
+    """True for a YAML suffix, or if the first non-comment line looks like YAML."""
     if source.path.suffix.lower() in _YAML_SUFFIXES:
         return True
     for line in source.text.split("\n"):

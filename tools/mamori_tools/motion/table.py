@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whitespace table: one sample per line, the time [s] and then the joint positions [rad]; `#` begins a comment."""
+"""Whitespace table: each line contains one sample, first the time [s], then the joint positions [rad]; `#` begins a comment."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from mamori_trace.base.text_file import SourceText
 
 
 def read_table(source: SourceText, joints: int, ignored_columns: int) -> Samples:
-    """Reads a table of `joints` positions per line, or of `joints + ignored_columns`, whose last ones are dropped.
+    """Reads a table of `joints` positions per line, or of `joints + ignored_columns`, whose last columns are ignored.
 
-    Times are shifted so that the first is 0, in exact decimal arithmetic, so 0.003 - 0.001 stays 0.002.
+    Times are shifted to start at 0, in exact decimal arithmetic, so that 0.003 - 0.001 stays 0.002.
     Raises InputError: wrong or changing number of columns, not a finite number, too many lines.
     """
     samples = Samples(source.path, source.sha256)

@@ -27,13 +27,13 @@ class Range:
 
 @dataclass(frozen=True)
 class Constraint:
-    """One item for every element, or one item for each. An element may have a value of any range of its item."""
+    """One item for all elements, or one for each. The value of an element may be in any range of its item."""
 
     type: ScalarType
     items: tuple[tuple[Range, ...], ...]
 
     def format_canonical(self) -> str:
-        """The one text of this constraint. It has no names of elements, no spaces and no duplicate choices."""
+        """The canonical text of this constraint. It has no names of elements, no spaces and no duplicate choices."""
         return ",".join(self._format_item(item) for item in self.items)
 
     def format_cpp(self) -> str:
@@ -85,10 +85,10 @@ class Constraint:
             return f"{text}{'' if '.' in text or 'e' in text else '.0'}{'F' if self.type == FLOAT else ''}"
         suffix = "ULL" if self.type.maximum >= 2**63 else "LL" if self.type.maximum >= 2**31 else ""
         if value in (-(2**31), -(2**63)) and value == self.type.lowest:
-            return f"({int(value) + 1}{suffix} - 1)"  # the number without its sign is not in the type
+            return f"({int(value) + 1}{suffix} - 1)"  # the type cannot represent the number without its sign
         return text + suffix
 
 
 def name_enumerator(name: str) -> str:
-    """`very_slow` is the enumerator `kVerySlow`."""
+    """`very_slow` becomes the enumerator `kVerySlow`."""
     return "k" + "".join(part[:1].upper() + part[1:] for part in name.split("_"))

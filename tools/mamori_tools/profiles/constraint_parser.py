@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads a constraint in the notation of the RTC Profile. The first violated rule ends the reading.
+"""Reads a constraint in the notation of the RTC Profile. Reading ends at the first violated rule.
 
 @satisfies SWR-PAR-001      Design: docs/design/parameters.md#notation
 Source: RTC Profile 0.2/0.3, attribute `constraint` of a configuration parameter, as RTSystemEditor reads it
@@ -22,7 +22,7 @@ SPACES = re.compile(r"[ \t]*")
 
 
 class Rule(Enum):
-    """What can be wrong. The value is the sentence that messages show."""
+    """Possible errors. The value is the sentence in messages."""
 
     NUMBER_EXPECTED = "a number is expected here"
     NOT_IN_TYPE = "the type does not have this value"
@@ -40,7 +40,7 @@ class Rule(Enum):
 
 
 class ConstraintError(ValueError):
-    """A violated rule and the first character that violates it, counted from 0."""
+    """A violated rule and the first violating character, counted from 0."""
 
     def __init__(self, rule: Rule, position: int) -> None:
         super().__init__(f"{rule.value} (column {position + 1})")
@@ -54,7 +54,7 @@ def parse_constraint(text: str, type_: ScalarType, element_count: int = 1) -> Co
 
 
 class _Parser:
-    """One pass from left to right. Each loop consumes at least one character in each round."""
+    """One pass from left to right. Each iteration of a loop consumes at least one character."""
 
     def __init__(self, text: str, type_: ScalarType, element_count: int) -> None:
         self._text = text
@@ -156,7 +156,7 @@ class _Parser:
         return Range(value, value)
 
     def _parse_from_number(self) -> Range:
-        """A number alone, or one that is compared with x."""
+        """A single number, or a number that is compared with x."""
         number = self._take_number()
         self._skip_spaces()
         if self._is_at("="):
@@ -164,7 +164,7 @@ class _Parser:
         if not self._is_at("<>"):
             return Range(number, number)
         is_less, is_open = self._take_comparison()
-        limits = self._narrow(Range(), not is_less, is_open, number)  # 1<x is x>1
+        limits = self._narrow(Range(), not is_less, is_open, number)  # 1<x means x>1
         self._skip_spaces()
         if not self._take("x"):
             self._reject(Rule.VARIABLE_EXPECTED)
@@ -176,7 +176,7 @@ class _Parser:
         return self._parse_comparison(limits)
 
     def _parse_comparison(self, limits: Range) -> Range:
-        """Comparison and number after x."""
+        """Comparison and number that follow x."""
         is_less, is_open = self._take_comparison()
         return self._narrow(limits, is_less, is_open, self._take_number())
 
@@ -216,7 +216,7 @@ class _Parser:
         return limits
 
     def _is_empty(self, limits: Range) -> bool:
-        """Of real limits it is not checked how many numbers of the type are between them."""
+        """For real limits, the number of representable values in between is not checked."""
         if self._type.is_real:
             if limits.lower is None or limits.upper is None:
                 return False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The types that an element of a parameter can have, and the value that each of them has for a decimal number.
+"""The element types of parameters, and how each represents a decimal number.
 
 @satisfies SWR-PAR-001      Design: docs/design/parameters.md#notation
 """
@@ -14,13 +14,13 @@ from decimal import Decimal
 
 Value = float | int
 EXPONENT_DIGITS_MAX = 9
-"""A longer exponent is shortened to 9 digits: the number is out of range in either case."""
+"""Longer exponents are shortened to 9 digits; the number is out of range in both cases."""
 EXPONENT = re.compile(r"(?<=[eE])([+-]?)0*(\d+)$", re.ASCII)
 
 
 @dataclass(frozen=True)
 class ScalarType:
-    """Type of an element. Of a type with `names` value i is the name number i."""
+    """Type of an element. In a type with `names`, value i has name number i."""
 
     name: str
     """As in C++."""
@@ -30,7 +30,7 @@ class ScalarType:
     is_real: bool = False
 
     def read(self, text: str) -> Value | None:
-        """The nearest value, of a real type with ties to even. None: the type does not have the number.
+        """The nearest value; for a real type with ties to even. None: the type cannot represent the number.
         @param text sign, digits with at most one point, exponent."""
         text = EXPONENT.sub(lambda match: match[1] + (match[2] if len(match[2]) <= EXPONENT_DIGITS_MAX else "9" * EXPONENT_DIGITS_MAX), text)
         if not self.is_real:
@@ -42,7 +42,7 @@ class ScalarType:
         return value if math.isfinite(value) and not is_lost else None
 
     def format(self, value: Value) -> str:
-        """The shortest decimal number that is read as `value`."""
+        """The shortest decimal number that converts to `value`."""
         if not self.is_real:
             return str(int(value))
         text = repr(float(value))
@@ -57,7 +57,7 @@ def _round_to_single(text: str) -> float:
         return value
     exact = Decimal(text)
     is_even = int.from_bytes(struct.pack("<d", value), "little") % 2 == 0
-    if exact != Decimal(value) and is_even:  # rounding to odd: the second rounding then decides as one rounding would
+    if exact != Decimal(value) and is_even:  # rounding to odd, so that the second rounding gives the result of a single rounding
         value = math.nextafter(value, math.inf if exact > Decimal(value) else -math.inf)
     try:
         single: float = struct.unpack("<f", struct.pack("<f", value))[0]
@@ -76,5 +76,5 @@ TYPES = {type_.name: type_ for type_ in (DOUBLE, FLOAT, BOOL, ScalarType("int", 
 
 
 def make_enumeration(name: str, names: tuple[str, ...]) -> ScalarType:
-    """@param names of the enumerators 0, 1, ..., as a configuration file spells them."""
+    """@param names of the enumerators 0, 1, ..., as in a configuration file."""
     return ScalarType(name, 0, len(names) - 1, names)

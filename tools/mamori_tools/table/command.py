@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Raises InputError with one line; nothing is written then. @return the exit status."""
+    """Raises InputError in one line; then nothing is written. @return exit status."""
     outputs = _choose_outputs(arguments)
     table = read_table(arguments.file)
     # All outputs are created before the first file is written.
@@ -75,7 +75,7 @@ def _choose_outputs(arguments: argparse.Namespace) -> list[tuple[Path, Callable[
     return outputs
 
 
-# Each picture needs its own library or program, which the other outputs do not need.
+# Each picture needs its own library or program; the other outputs do not need them.
 
 
 def _make_text(table: Table) -> str:
@@ -116,7 +116,7 @@ def _print(table: Table) -> None:
         print_table(table)
         sys.stdout.flush()
     except BrokenPipeError:
-        # The reader of the lines has ended; Python must not print an error at its end.
+        # The reader of the output has ended; Python must not print an error at its end.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 

@@ -66,9 +66,9 @@ class Connection:
     way: str
     fresh_within_ns: int | None
     only_in: tuple[int | None, ...] | None
-    """Modes that it was declared for; None: for all."""
+    """Modes for which it was declared; None: all."""
     modes: tuple[int, ...]
-    """Modes in which it works: there both of its components run."""
+    """Modes in which it works: both of its components run in them."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class Table:
 
 
 def read_table(path: Path) -> Table:
-    """Raises InputError, one line with the location, for an incomplete table or one of another schema."""
+    """Raises InputError, one line with the location, for an incomplete table or another schema."""
     source = read_text(path, "table", MAX_BYTES)
     try:
         value = json.loads(source.text, parse_constant=_refuse_constant)
@@ -150,7 +150,7 @@ def read_table(path: Path) -> Table:
 
 
 def _refuse_untold_times(root: JsonNode) -> None:
-    """Rejects non-positive times in a document without findings. The check of the kernel reports such times, so this table was not checked."""
+    """Rejects non-positive times in a document without findings: the kernel check reports such times, so this table was not checked."""
     times = [root.at("frame_ns")]
     times += [window.at(key) for window in root.at("windows").items() for key in ("length_ns", "period_ns", "budget_ns")]
     times += [reaction.at("within_ns") for reaction in root.at("reactions").items()]

@@ -24,7 +24,7 @@ LABEL_STYLE = ".labels text { paint-order: stroke; stroke: white; stroke-width: 
 def draw(text: str, name: str) -> str:
     """The picture as SVG. Raises InputError if graphviz is missing or fails.
 
-    @param text in the language of graphviz. @param name the name of the picture in an error message.
+    @param text in the language of graphviz. @param name of the picture, for error messages.
     """
     program = shutil.which("dot")
     if program is None:
@@ -41,7 +41,7 @@ def draw(text: str, name: str) -> str:
 
 
 def _raise_labels(picture: str) -> str:
-    """Draws edge labels on top. dot draws one edge after the other, each over the labels before it, which would make them unreadable."""
+    """Draws edge labels on top. dot draws edges in sequence, each over previous labels, which would make them unreadable."""
     root = ElementTree.fromstring(picture)
     graph = root.find(f"{SVG}g")
     if graph is None:
@@ -58,5 +58,5 @@ def _raise_labels(picture: str) -> str:
 
 
 def quote(*lines: str) -> str:
-    """Literal lines of text in the dot language, without escapes and HTML."""
+    """Literal text lines in the dot language, without escapes and HTML."""
     return '"' + "\\n".join(clean(line).replace("\\", "\\\\").replace('"', '\\"') for line in lines) + '"'

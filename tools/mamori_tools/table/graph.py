@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The data flow of a system table: components as boxes, grouped by core, partition and window; connections as edges. Graphviz
-computes the layout.
+"""The data flow of a system table: components as boxes, grouped by core, partition and window; connections as edges. Graphviz computes the
+layout.
 
 @satisfies SWR-TAB-006      Design: docs/design/cost.md#graph
 """
@@ -16,18 +16,18 @@ from mamori_tools.table.svg import COLOURS, calc_width
 from mamori_tools.table.words import format_modes, format_time
 
 PLAIN_FROM = 400
-"""Connections from which on edges are straight: the search for curves takes minutes there."""
+"""From this number of connections on, edges are straight, because the search for curves would take minutes."""
 LABELS_MAX = 40
-"""Connections up to which labels within a window are part of the layout; for many more of them dot gives up."""
+"""Up to this number of connections, labels within a window are part of the layout; dot fails for much larger numbers."""
 LABEL_SIZE = 9
 GAP_MAX = 4.0
-"""Largest distance of two columns [inch], whatever the ports are called."""
+"""Maximum distance of two columns [inch], for any length of port names."""
 MODES_LENGTH_MAX = 24
-"""Letters of modes beside a connection; more of them are counted, and named where the mouse rests."""
+"""Maximum letters of mode names next to a connection. If they are longer, only the count is shown, and a tooltip names the modes."""
 EDGE_STYLES = {
     "same_window": 'color="#1b1b1b", constraint=false',
     "later_window": 'color="#0072b2", constraint=false',
-    # If these run side by side, a label in the middle would be ambiguous: it is above the edge, near the source.
+    # If these edges run in parallel, a label in the middle would be ambiguous: it is above the edge, near the source.
     "next_frame": 'color="#0072b2", style=dashed, labeldistance=6, labelangle=-18, constraint=false',
     "crossing": 'color="#d55e00", penwidth=2, constraint=false',
     "queue": 'color="#009e73", penwidth=2, arrowhead=normalnormal, constraint=false',
@@ -48,7 +48,7 @@ def make_dot(table: Table) -> str:
 
 def _make_lines(table: Table) -> Iterator[str]:
     splines = "true" if len(table.connections) < PLAIN_FROM else "line"
-    # Labels are placed after the layout: the gap between two columns fits the longest one.
+    # Labels are placed after the layout: the gap between two columns fits the longest label.
     lines = (line for connection in table.connections for line in _make_label(table, connection))
     gap = max([calc_width(line, LABEL_SIZE) for line in lines], default=0.0) / 72 + 0.5
     yield "digraph table {"
@@ -78,7 +78,7 @@ def _make_core(table: Table, core: int) -> Iterator[str]:
                 yield from _make_window(table, index, COLOURS[windows.index(index) % len(COLOURS)])
         if partition:
             yield "}"
-    # Left to right in the order of their first starts.
+    # Windows from left to right, ordered by first start.
     columns = [name for index in windows if table.components_of(index) for name in _name_columns(table, index)]
     for earlier, later in itertools.pairwise(columns):
         yield f"{earlier} -> {later} [style=invis, weight=100];"
@@ -86,7 +86,7 @@ def _make_core(table: Table, core: int) -> Iterator[str]:
 
 
 def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator[str]:
-    """In the colours of the window in the time line."""
+    """Box of the window, in its colours of the time line."""
     window = table.windows[index]
     label = f"{window.name}, every {format_time(window.period_ns)}"
     yield f'subgraph cluster_window_{index} {{ label={quote(label)}; labelloc=t; style="filled,solid"; bgcolor="{colours[0]}"; ' \
@@ -95,7 +95,7 @@ def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator
         yield f'{name} [shape=point, style=invis, width=0.01, height=0.01, label=""];'
     for component in table.components_of(index):
         yield _make_node(table, component)
-    # From top to bottom in execution order.
+    # Components from top to bottom in execution order.
     components = table.components_of(index)
     yield f"{{ rank=same; {'; '.join(f'c{component}' for component in components)} }}"
     for earlier, later in itertools.pairwise(components):
@@ -104,10 +104,10 @@ def _make_window(table: Table, index: int, colours: tuple[str, str]) -> Iterator
 
 
 def _name_columns(table: Table, index: int) -> list[str]:
-    """The columns of a window from left to right, each represented by one of its nodes; the last one contains the components.
+    """The columns of a window from left to right, each represented by one of its nodes; the last column contains the components.
 
-    A connection past a component between its ends is a bow to the left. dot does not count the bow as part of the window's box, but it
-    counts an empty column.
+    A connection that passes a component between its ends bends to the left. dot does not include the bend in the box of the window, but it
+    includes an empty column.
     """
     components = table.components_of(index)
     is_past_another = any(
@@ -131,19 +131,19 @@ def _make_edge(table: Table, connection: Connection) -> Iterator[str]:
     age = "" if connection.fresh_within_ns is None else f", fresh within {format_time(connection.fresh_within_ns)}"
     modes = format_modes(table, connection.modes)
     hint = " → ".join(f"{table.component_name(end.component)}.{end.port}" for end in ends) + age + (f", in {modes}" if modes else "")
-    # Within a window the edge is declared from bottom to top, because dot stacks upwards, and drawn from top to bottom.
+    # Within a window, the edge is declared from bottom to top, because dot stacks upwards; it is drawn from top to bottom.
     pair, is_back = (f"c{sink} -> c{source}", True) if connection.way == "same_window" else (f"c{source} -> c{sink}", False)
-    # A vertical edge leaves and arrives at a side without other edges; otherwise dot would draw it twice.
+    # A vertical edge starts and ends at a side without other edges; otherwise dot would draw it twice.
     is_straight = connection.way in ("crossing", "queue") and _calc_column(table, source) == _calc_column(table, sink)
     ports = ", tailport=w, headport=w" if is_straight else ""
-    # A circle at the source marks modes; dot calls the end of a reversed edge its head.
+    # A circle at the source marks modes; dot names the end of a reversed edge its head.
     marks = {False: "dir=back" if is_back else "dir=forward", True: f"dir=both, arrow{'head' if is_back else 'tail'}=odot"}[bool(modes)]
     place = {"same_window": "label" if len(table.connections) <= LABELS_MAX else "xlabel", "next_frame": "taillabel"}.get(connection.way, "xlabel")
     yield f"{pair} [{marks}, {place}={quote(*_make_label(table, connection))}, tooltip={quote(hint)}, {EDGE_STYLES[connection.way]}{ports}];"
 
 
 def _make_label(table: Table, connection: Connection) -> list[str]:
-    """Its lines: the ports, and the modes if the component does not run in all."""
+    """Lines of the label: the ports, and the modes if the connection does not work in all."""
     out, into = connection.source.port, connection.sink.port
     modes = format_modes(table, connection.modes)
     if len(modes) > MODES_LENGTH_MAX:
@@ -152,6 +152,6 @@ def _make_label(table: Table, connection: Connection) -> list[str]:
 
 
 def _calc_column(table: Table, component: int) -> int:
-    """Index of the component's window among those of its core."""
+    """Index of the window of the component among the windows of its core."""
     index = table.components[component].window
     return -1 if index is None else table.windows_of(table.windows[index].core).index(index)

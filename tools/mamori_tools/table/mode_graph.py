@@ -19,7 +19,7 @@ SAFE_FILL, SAFE_EDGE = "#c4e8dc", "#009e73"
 LEGEND = "dot: the system starts here · green: safe mode"
 ANY_MODE, WAY_OUT = "any mode", "failed switch or request"
 BRIEF_FROM = 200
-"""Arrows from which on the search for the best places ends early: it takes minutes there, and nobody follows so many."""
+"""From this number of arrows on, the search for the best positions ends early, because it would take minutes."""
 EMPTY = "The table has no modes: all of its components run."
 
 
@@ -59,7 +59,7 @@ def _make_node(table: Table, index: int, mode: Mode) -> str:
     hint = "runs " + (", ".join(table.component_name(number) for number in mode.components) or "nothing")
     start = f'start{index} [shape=circle, style=filled, fillcolor="{INK}", label="", width=0.15, tooltip="start"]; ' \
             f"start{index} -> m{index};" if mode.initial else ""  # fmt: skip
-    # No row of the table leads to the safe mode; the kernel enters it by itself.
+    # No row of the table leads to the safe mode: the kernel enters it without a transition.
     way_out = f"any{index} [label={quote(ANY_MODE)}, shape=plaintext, style=solid]; " \
               f"any{index} -> m{index} [label={quote(WAY_OUT)}, style=dashed];" if mode.safe else ""  # fmt: skip
     return f"m{index} [label={quote(*lines)}, tooltip={quote(hint)}{safe}]; {start} {way_out}"

@@ -14,7 +14,7 @@ from mamori_trace.base.json_node import JsonNode
 
 TYPES = {"real": DOUBLE, "whole": ScalarType("integer", -(2**63), 2**64 - 1)}
 Values = tuple[float | int | None, ...]
-"""One for each element; None: no number that JSON has."""
+"""One value for each element; None: a number that JSON cannot represent."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Reference:
     """A reference to another row."""
 
     index: int | None
-    """None: there is no such row."""
+    """None if there is no such row."""
     name: str
 
 
@@ -32,7 +32,7 @@ class Mode:
     safe: bool
     initial: bool
     components: tuple[int | None, ...]
-    """Those that run; None: one that the table does not know."""
+    """Running components; None: a component that is not in the table."""
     set: Reference | None
 
 
@@ -50,7 +50,7 @@ class Parameter:
     name: str
     type: str | None
     constraint: str
-    """In canonical form where the type is known."""
+    """In canonical form if the type is known."""
     values: Values | None
 
 

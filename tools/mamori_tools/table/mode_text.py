@@ -14,7 +14,7 @@ from mamori_tools.table.words import format_reference, format_values
 
 Row = tuple[str, ...]
 WIDTH_MAX = 120
-"""Letters of a line of the matrix; more modes begin a matrix of their own."""
+"""Maximum letters in a line of the matrix; further modes form a separate matrix."""
 RUNS, RESTS = "x", "-"
 SET_ROW = "(configuration set)"
 
@@ -27,7 +27,7 @@ def make_title(table: Table) -> str:
 
 
 def make_matrices(table: Table) -> Iterator[list[Row]]:
-    """Components by modes, the headings first; each matrix has as many modes as fit on a line."""
+    """Components by modes, headings first; each matrix has as many modes as fit on a line."""
     rows = [("component", *(mode.name for mode in table.modes))]
     for index, component in enumerate(table.components):
         rows.append((component.name, *(RUNS if index in mode.components else RESTS for mode in table.modes)))

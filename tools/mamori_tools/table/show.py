@@ -14,7 +14,7 @@ from mamori_tools.table.text import make_lines
 
 
 class _Console(Console):
-    """A reader that ends early ends the printing, not the program; rich would also end the program."""
+    """When the reader ends early, only the printing stops; rich would also end the program."""
 
     def on_broken_pipe(self) -> None:
         raise BrokenPipeError

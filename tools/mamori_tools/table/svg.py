@@ -24,7 +24,7 @@ def calc_width(text: str, size: float = FONT_SIZE) -> float:
 
 
 def shorten(text: str, width: float, size: float = FONT_SIZE) -> str:
-    """The text, or its two ends with three dots between if it is too long, because long names differ at either end."""
+    """The text. If it is too long: both its ends with three dots in between, because long names differ at either end."""
     if calc_width(text, size) <= width:
         return text
     for kept in range(len(text) - 1, 1, -1):
@@ -50,7 +50,7 @@ class Drawing:
         self.box(0, 0, width, height, PAPER)
 
     def box(self, x: float, y: float, width: float, height: float, fill: str, edge: str = "none", hint: str = "") -> None:
-        """@param hint viewers show it under the mouse pointer."""
+        """@param hint text that viewers show under the mouse pointer."""
         element = ElementTree.SubElement(self._root, "rect", {
             "x": f"{x:.2f}", "y": f"{y:.2f}", "width": f"{max(0.0, width):.2f}", "height": f"{height:.2f}", "fill": fill,
             "stroke": edge, "stroke-width": "0.8"})  # fmt: skip

@@ -105,12 +105,12 @@ def _findings(table: Table) -> Iterator[Line]:
 
 
 def _plain(name: str) -> str:
-    """A name without characters that would control the terminal or break the line."""
+    """A name without characters that would control the terminal or end the line."""
     return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
 
 
 def _align(rows: list[tuple[str, ...]]) -> Iterator[Line]:
-    """Columns as wide as their contents; a column that is empty in every row is omitted with its heading."""
+    """Columns as wide as their contents; a column without any content is omitted with its heading."""
     rows = [tuple(_plain(cell) for cell in row) for row in rows]
     kept = [column for column in range(len(rows[0])) if any(row[column] for row in rows[1:])]
     widths = {column: max(len(row[column]) for row in rows) for column in kept}

@@ -19,13 +19,13 @@ BOX_HEIGHT = 14.0
 HEAD = 44.0
 SMALL = 10
 SHORT_MIN = 10
-"""Letters that a shortened name has at least: fewer say nothing."""
+"""Minimum letters of a shortened name: fewer are not meaningful."""
 BOXES_MAX = 4000
-"""Openings that one row shows one by one; more of them would be finer than a pixel."""
+"""Maximum window instances that one row shows individually; more would be finer than a pixel."""
 
 
 class _Scale:
-    """Pixels of an instant in the major frame."""
+    """Position of an instant in the major frame [px]."""
 
     def __init__(self, left: float, frame_ns: int) -> None:
         self.left = left
@@ -64,7 +64,7 @@ def _draw_legend(drawing: Drawing, right: float) -> None:
 
 
 def _draw_core(drawing: Drawing, scale: _Scale, table: Table, core: int, y: float, name_width: float) -> float:
-    """The lane of a core, and below it a row for each of its windows. @return the position of the next lane."""
+    """The lane of a core, and below it a row for each of its windows. @return position of the next lane."""
     indices = table.windows_of(core)
     drawing.box(MARGIN - 6, y, name_width + TIME_WIDTH + 12, LANE_HEIGHT, "#f1f3f4")
     drawing.text(MARGIN, y + 20, f"core {core}", bold=True)
@@ -98,7 +98,7 @@ def _draw_openings(drawing: Drawing, scale: _Scale, table: Table, window: Window
         left = scale.at(opening)
         width = scale.at(opening + window.length_ns) - left
         edge = INK if width >= 2 else "none"
-        # A window that is thinner than a pixel stays visible.
+        # A window thinner than a pixel stays visible.
         drawing.box(left, y, max(width, 1.0), height, pale, edge, hint)
         drawing.box(left, y, max(scale.at(opening + window.budget_ns) - left, 1.0), height, full, edge, hint)
         short = shorten(name, width - 6)
@@ -117,7 +117,7 @@ def _format_times(window: Window) -> str:
 
 
 def _make_ticks(frame_ns: int) -> list[int]:
-    """About ten instants at 1, 2 or 5 times a power of ten, so that they are easy to read."""
+    """About ten instants at 1, 2 or 5 times a power of ten, which are easy to read."""
     if frame_ns <= 0:
         return [0]
     step = next(factor * 10**power for power in range(20) for factor in (1, 2, 5) if factor * 10**power * 12 >= frame_ns)

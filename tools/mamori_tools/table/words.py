@@ -14,7 +14,7 @@ WAY_TEXTS = {
     "queue": "queue",
 }
 OTHERS_MAX = 2
-"""Modes that `all but` names: a list of exceptions is harder to read than one of names."""
+"""Maximum number of modes after `all but`, because lists of exceptions are harder to read."""
 UNITS = ((1_000_000_000, "s"), (1_000_000, "ms"), (1_000, "µs"), (1, "ns"))
 
 
@@ -55,7 +55,7 @@ def format_modes(table: Table, modes: tuple[int, ...]) -> str:
 
 
 def format_reference(reference: Reference | None) -> str:
-    """The name; a missing object has a question mark; empty for none."""
+    """The name; a question mark for a missing object; empty for none."""
     if reference is None:
         return ""
     is_unknown = reference.index is None and reference.name != "?"

@@ -13,10 +13,10 @@ import numpy as np
 from mamori_tools.timing.reader import COMPLETED, MISSED, NOT_BACK, OUTCOMES, OVERRUN, Array, Measurement
 
 OPENED = (COMPLETED, OVERRUN, MISSED)
-"""Outcomes that tell how late a window was; the others had nothing to be late for."""
+"""Outcomes with a lateness; other instances had no window start."""
 
 TENTH_MIN = 100
-"""Smallest tenth of a run with a median that a few late releases do not change."""
+"""Minimum values in a tenth of a run, so that a few late releases do not change the median."""
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,8 @@ class Series:
 
 @dataclass(frozen=True)
 class Miss:
-    """An overrun or skipped window. `component`: the component that had not returned, or had not begun; empty if none ran.
-    `is_host`: the window was released too late for its complete budget, or did not get the processor within it."""
+    """An overrun or skipped window. `component`: the component that had not returned or not begun; empty if none ran. `is_host`: the window
+    was released too late for its complete budget, or did not get the processor within it."""
 
     cycle: int
     release_ns: int
@@ -56,8 +56,8 @@ class Miss:
 
 @dataclass(frozen=True)
 class Drift:
-    """Drift of one window [ns]. `planned_ns`: largest distance of a planned instant from the schedule; a missing instance is a distance of
-    a period. The others: median lateness in the first and the last tenth of the run, None if a tenth has fewer than TENTH_MIN values."""
+    """Drift of one window [ns]. `planned_ns`: maximum distance of a planned instant from the schedule; a missing instance counts as one
+    period. Other fields: median lateness in the first and the last tenth of the run; None if a tenth has fewer than TENTH_MIN values."""
 
     planned_ns: int
     first_ns: int | None
@@ -70,8 +70,8 @@ class Drift:
 
 @dataclass(frozen=True)
 class WindowRow:
-    """One window: plan and measurement. `response` is closed - release, `used` is closed - woke; the margins are the minimum
-    remainders of length and of budget; None if nothing was measured."""
+    """One window: plan and measurement. `response` is closed - release, `used` is closed - woke. The margins are the minimum remainders of
+    length and budget; None if nothing was measured."""
 
     window: str
     core: int
@@ -109,7 +109,7 @@ def describe(values: Array) -> Distribution | None:
 
 
 def _pick(ordered: Array, permille: int) -> int:
-    """The smallest value that at least `permille` thousandths of all do not exceed; in integers, because 0.999 is not exact."""
+    """The smallest value that at least `permille` thousandths of all values do not exceed. Uses integers, because 0.999 is not exact."""
     return int(ordered[-(-permille * len(ordered) // 1000) - 1])
 
 
@@ -121,7 +121,7 @@ def calc_lateness(run: Measurement, window: int) -> Series:
 
 
 def calc_drift(run: Measurement, index: int) -> Drift:
-    """Planned instants relative to the first one plus whole periods, and the change of the lateness during the run."""
+    """Planned instants, compared with the first one plus whole periods, and the change of lateness during the run."""
     window = run.table.windows[index]
     releases = run.openings["release_ns"][run.rows_of(index)]
     first = releases[:1] - (releases[:1] - window.offset_ns) % window.period_ns
@@ -133,8 +133,8 @@ def calc_drift(run: Measurement, index: int) -> Drift:
 
 
 def calc_execution(run: Measurement, component: int) -> tuple[Series, int]:
-    """Sum of the steps of one component in each window instance in which all of them returned. @return it, and the number of
-    instances in which one did not."""
+    """Sum of the steps of one component in each window instance in which all its steps returned. @return the sums, and the number of
+    instances with a step that did not return."""
     of_it = run.steps["component"] == component
     steps, rows = run.steps[of_it], run.opening_of_step[of_it]
     if not len(steps):
@@ -150,7 +150,7 @@ def calc_execution(run: Measurement, component: int) -> tuple[Series, int]:
 
 
 def count_cut(run: Measurement, component: int) -> int:
-    """Overruns of the component's window: their total time is unknown."""
+    """Overruns of the window of the component, whose total time is unknown."""
     window = run.table.components[component].window
     return 0 if window is None else int((run.openings[run.rows_of(window)]["outcome"] == OVERRUN).sum())
 
@@ -200,8 +200,8 @@ def list_misses(run: Measurement) -> list[Miss]:
 
 @dataclass(frozen=True)
 class _StepIndex:
-    """Steps sorted by the row of their window instance, and those that outlasted the period of their window, so that a run
-    in which everything overruns is evaluated quickly."""
+    """Steps sorted by the row of their window instance, and steps longer than the period of their window. This makes the evaluation fast
+    even if every window of a run overruns."""
 
     steps: Array
     rows: Array
@@ -209,8 +209,8 @@ class _StepIndex:
     long_rows: Array
 
     def list_candidates(self, first: int, row: int) -> Array:
-        """Steps of window instance `row`, and the last long one before it, from row `first` on: while work hangs, nothing else
-        of its window runs."""
+        """Steps of window instance `row`, and the last long step before it, since row `first`. While work hangs, nothing else of its
+        window runs."""
         begin, end = np.searchsorted(self.rows, [row, row + 1])
         long_begin, long_end = np.searchsorted(self.long_rows, [first, row])
         return np.concatenate((self.long_steps[max(long_begin, long_end - 1) : long_end], self.steps[begin:end]))
@@ -241,13 +241,14 @@ def _make_miss(run: Measurement, index: _StepIndex, row: int) -> Miss:
 
 
 def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | None, str, bool]:
-    """@return the component that had not returned at the deadline of an overrun, or none; what happened; whether the host caused it."""
+    """@return the component that had not returned at the deadline of an overrun (empty if none), what happened, and whether the host caused
+    it."""
     opening = run.openings[row]
     number = int(opening["window"])
     window = run.table.windows[number]
-    # As in the executive: a window that starts late keeps its budget, but not beyond its planned end.
+    # As in the executive, a late window keeps its budget, but not beyond its planned end.
     deadline = min(int(opening["woke_ns"]) + window.budget_ns, int(opening["release_ns"]) + window.length_ns)
-    # Also steps of earlier window instances: while work hangs, its window does not start again.
+    # Includes steps of earlier window instances: while work hangs, its window does not start again.
     steps = index.list_candidates(run.rows_of(number).start, row)
     late = steps[(steps["start_ns"] <= deadline) & ((steps["end_ns"] == NOT_BACK) | (steps["end_ns"] > deadline))]
     if len(late):
@@ -268,9 +269,9 @@ def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | N
 
 
 def list_findings(windows: list[WindowRow], components: list[ComponentRow], misses: list[Miss]) -> list[str]:
-    """One line each: overruns that the code caused, declared worst cases that are too low, and planned instants off the schedule.
+    """One line for each overrun that the code caused, each declared worst case that is too low, and each planned instant off the schedule.
 
-    Windows that were skipped or shortened after a late release are not included, because the host caused them.
+    Excludes windows that were skipped or shortened after a late release, because the host caused them.
     """
     findings = []
     for row in components:
@@ -288,7 +289,7 @@ def list_findings(windows: list[WindowRow], components: list[ComponentRow], miss
 
 
 def list_drift_notes(windows: list[WindowRow]) -> list[str]:
-    """Windows whose median lateness changed by more than a tenth of their period. The host alone can cause that, so it is no finding."""
+    """Windows whose median lateness changed by more than a tenth of their period. Not a finding, because the host alone can cause it."""
     return [
         f"window '{window.window}': the median lateness changed by {window.drift.shift_ns / 1e3:g} us from the first to the last tenth of the run"
         for window in windows

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The stored ratios of a system's components: written on request, and compared with a new run.
+"""The stored ratios of the components of a system: written on request, and compared with a new run.
 
-A ratio is the median execution time over that of a fixed piece of work in the same run. A slower or busier host
-therefore changes it less than it changes times.
+A ratio is the median execution time divided by that of a fixed piece of work in the same run. A slower or busier host therefore changes
+ratios less than times.
 
 @satisfies SWR-TIM-020, SWR-TIM-021      Design: docs/design/timing.md#baseline
 """
@@ -24,14 +24,14 @@ from mamori_trace.base.text_file import read_text, write_text
 
 SCHEMA = "mamori.timing_baseline/1"
 LIMIT_FACTOR = 1.5
-"""Room for what ratios do not even out (caches, frequency steps): a median that grew by half has another cause."""
+"""Margin for effects that ratios do not cancel (caches, frequency steps): a median that grew by half has another cause."""
 KEYS = ("schema", "system", "table", "limit_factor", "component")
 HOW_TO_MEND = "write it anew with ./mamori timing SYSTEM --accept FILE"
 
 
 @dataclass(frozen=True)
 class Baseline:
-    """`ratios`: of each component, in the order of the table; names may be equal, so the index identifies a component."""
+    """`ratios`: of each component, in table order; the index identifies a component, because names may be equal."""
 
     path: Path
     system: str
@@ -41,7 +41,7 @@ class Baseline:
 
 
 def make_fingerprint(table: Table) -> str:
-    """Hash of all keys of a table that this command reads; a new key of the format does not change it."""
+    """Hash of all keys of a table that this command reads; new keys of the format do not change it."""
     return hashlib.sha256(json.dumps(asdict(table), sort_keys=True).encode()).hexdigest()
 
 
@@ -82,13 +82,13 @@ def _read_positive(value: object, what: str, least: float = math.ulp(0.0)) -> fl
 
 
 def check_table(baseline: Baseline, table: Table) -> None:
-    """@raise InputError if it belongs to another table, because figures of another system are not comparable."""
+    """@raise InputError if the baseline belongs to another table, because its figures are then not comparable."""
     if baseline.table != make_fingerprint(table):
         raise InputError(f"was made of another table of '{baseline.system}'; {HOW_TO_MEND}", baseline.path)
 
 
 def judge_ratios(baseline: Baseline, ratios: Sequence[tuple[str, float]]) -> list[str]:
-    """@return one finding per component over its limit, and per component of the baseline that the run does not have."""
+    """@return one finding per component over its limit, and per component of the baseline that the run lacks."""
     findings = []
     if [name for name, _ in ratios] != [name for name, _ in baseline.ratios]:
         missing = [name for name, _ in baseline.ratios if name not in dict(ratios)]
@@ -103,7 +103,7 @@ def judge_ratios(baseline: Baseline, ratios: Sequence[tuple[str, float]]) -> lis
 
 
 def write_baseline(path: Path, system: str, table: Table, ratios: Sequence[tuple[str, float]]) -> None:
-    """Atomic. @raise InputError if it cannot be written."""
+    """Writes the baseline atomically. @raise InputError if that fails."""
     rows = "".join(f"\n[[component]]\nname = {_quote(name)}\nratio = {ratio!r}\n" for name, ratio in ratios)
     write_text(path, f"""# SPDX-License-Identifier: Apache-2.0
 # Median execution time of each component over that of a fixed piece of work in the same run, written by
@@ -116,5 +116,5 @@ limit_factor = {LIMIT_FACTOR}
 
 
 def _quote(text: str) -> str:
-    """A basic string of TOML: like that of JSON, except for DEL."""
+    """A basic string of TOML, equal to that of JSON except for DEL."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

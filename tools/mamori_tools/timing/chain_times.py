@@ -17,7 +17,7 @@ from mamori_tools.timing.reader import COMPLETED, NOT_BACK, Array, Measurement
 
 @dataclass(frozen=True)
 class Violation:
-    """A value that took longer than virtual time permits, although every window of its chain completed."""
+    """A value that took longer than possible in virtual time, although every window of its chain completed."""
 
     cycle: int
     measured_ns: int
@@ -26,7 +26,7 @@ class Violation:
 
 @dataclass(frozen=True)
 class ChainRow:
-    """One chain. `broken`: samples that an overrun, a skipped window or a component that did not run interrupted."""
+    """One chain. `broken`: samples that an overrun, a skipped window or a missing component run interrupted."""
 
     name: str
     virtual: Response
@@ -54,7 +54,7 @@ class _Spans:
     ends: Array
 
     def find(self, wanted: Array) -> tuple[Array, Array]:
-        """@return row for each requested release, and whether there is one."""
+        """@return a row for each requested release, and whether that row exists."""
         if not len(self.releases):
             return np.zeros(len(wanted), np.int64), np.zeros(len(wanted), bool)
         rows = np.minimum(np.searchsorted(self.releases, wanted), len(self.releases) - 1)
@@ -77,11 +77,11 @@ def _collect_spans(run: Measurement, component: int) -> _Spans:
 def _measure(run: Measurement, chain: Chain, spans: dict[int, _Spans]) -> ChainRow:
     first = run.table.components[chain.components[0]].window
     last = run.table.components[chain.components[-1]].window
-    assert first is not None and last is not None  # find_chains() returns no others
+    assert first is not None and last is not None  # find_chains() returns only such chains
     samples = run.openings["release_ns"][run.rows_of(first)]
     releases = follow(run.table, chain, samples)
     ended = run.openings["release_ns"][run.rows_of(last)]
-    inside = releases[-1] <= (ended[-1] if len(ended) else -1)  # the others were not complete when the run ended
+    inside = releases[-1] <= (ended[-1] if len(ended) else -1)  # other samples were incomplete at the end of the run
     whole = inside.copy()
     rows = []
     for component, wanted in zip(chain.components, releases, strict=True):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event chains of a table: the components that a value passes from its sampling to its effect, and the instants in virtual time.
+"""The event chains of a table: the components that a value passes from sampling to effect, and the instants in virtual time.
 
 Source: reaction time over sampled chains as in Feiertag et al., "A compositional framework for end-to-end path delay
         calculation of automotive systems under different path semantics", 2008; strongly connected components by Tarjan, 1972,
@@ -18,9 +18,9 @@ from mamori_tools.table.document import Table
 from mamori_tools.timing.reader import Array
 
 CHAINS_MAX = 64
-"""More paths than a person compares; a table of layers that are fully connected has millions."""
+"""Maximum number of paths for a reader; a table with fully connected layers has millions."""
 VISITS_MAX = 100_000
-"""Steps of the search, so that a table of many dead ends cannot hold the command up."""
+"""Maximum number of search steps, so that tables with many dead ends cannot block the command."""
 SAME_WINDOW = "same_window"
 
 
@@ -47,17 +47,17 @@ class Chain:
 @dataclass(frozen=True)
 class ChainSet:
     chains: tuple[Chain, ...]
-    note: str = ""  # why chains are missing, or that feedback was left out
+    note: str = ""  # why chains are missing, or that feedback was ignored
 
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """Permitted growth of the budget of one window of a chain without any effect on the response.
+    """Permitted growth of the budget of one window of a chain without effect on the response.
 
-    Outputs are published at the planned window end, for any execution time. So a budget may grow by `budget_growth_ns` within its
-    length; the length by `core_gap_ns` until the next window of the core; and by `reader_gap_ns` until the next window of the
-    chain would read one window instance later. `response_per_length`: growth of the response per growth of the length, 1 for the
-    acting window and 0 for the others.
+    Outputs are published at the planned window end, for any execution time. The budget may therefore grow by `budget_growth_ns` within the
+    window length, and the length by `core_gap_ns` until the next window of the core. From a growth by `reader_gap_ns`, the next window of
+    the chain would read one window instance later. `response_per_length`: growth of the response per growth of the length, 1 for the acting
+    window and 0 for all others.
     """
 
     window: str
@@ -73,8 +73,8 @@ class Sensitivity:
 class Response:
     """Virtual time of one chain [ns]: from the sampling window start to the planned end of the acting window.
 
-    `reaction_max_ns`: from an event directly after the sample at the instant `worst_phase_ns` of the major frame, which therefore
-    waits for the next sample.
+    `reaction_max_ns`: from an event directly after the sample at the instant `worst_phase_ns` of the major frame. This event waits for the
+    next sample.
     """
 
     min_ns: int
@@ -100,7 +100,7 @@ def find_chains(table: Table, limit: int = CHAINS_MAX) -> ChainSet:
 
 
 def list_links(table: Table) -> list[Link]:
-    """Pairs of connected components, once each. If a pair has several connections, the direct one counts."""
+    """Pairs of connected components, once each. Of several connections of a pair, a direct one takes precedence."""
     found: dict[tuple[int, int], Link] = {}
     for one in table.connections:
         source, sink = one.source.component, one.sink.component
@@ -114,7 +114,7 @@ def list_links(table: Table) -> list[Link]:
 
 
 def find_feedback(table: Table, links: list[Link]) -> set[Link]:
-    """Links to an earlier component that close a loop. A link to an earlier window that closes none is not feedback."""
+    """Links to an earlier component that close a loop. Links to an earlier window that close no loop are not feedback."""
     reach = _find_reachable(links)
 
     def place(index: int) -> tuple[int, int]:
@@ -125,7 +125,7 @@ def find_feedback(table: Table, links: list[Link]) -> set[Link]:
 
 
 def _find_reachable(links: list[Link]) -> dict[int, set[int]]:
-    """Components that are reachable from each one; a component reaches itself only through a loop."""
+    """Components that are reachable from each component; a component reaches itself only through a loop."""
     after: dict[int, set[int]] = {}
     for link in links:
         after.setdefault(link.source, set()).add(link.sink)
@@ -144,9 +144,9 @@ def _find_reachable(links: list[Link]) -> dict[int, set[int]]:
 
 
 def _walk(links: list[Link], limit: int) -> tuple[list[Chain], bool]:
-    """All paths from beginnings to ends, depth first in table order. @return at most `limit`, and whether there are more.
+    """All paths from starts to ends, depth first in table order. @return at most `limit` paths, and whether there are more.
 
-    Without feedback there is no loop, so each path is simple and the search terminates.
+    Without feedback there are no loops, so each path is simple and the search terminates.
     """
     after: dict[int, list[Link]] = {}
     for link in links:
@@ -169,8 +169,8 @@ def _walk(links: list[Link], limit: int) -> tuple[list[Chain], bool]:
 
 
 def follow(table: Table, chain: Chain, samples: Array) -> list[Array]:
-    """@param samples planned starts [ns] of the window of the chain's first component. @return the planned starts at which each component
-    first reads the values sampled there (logical execution time: published at the planned window end)."""
+    """@param samples planned starts [ns] of the window of the first component. @return the planned starts at which each component first
+    reads the values of these samples (logical execution time: published at the planned window end)."""
     releases = [samples]
     for link in chain.links:
         now = releases[-1]
@@ -191,12 +191,12 @@ def _window_of(table: Table, component: int) -> int:
 
 
 def calc_response(table: Table, chain: Chain) -> Response:
-    """Exact over all samples of one major frame; every later frame is equal, because all periods divide it."""
+    """Exact over all samples of one major frame. Later frames are equal, because all periods divide the frame."""
     first, last = (table.windows[_window_of(table, chain.components[end])] for end in (0, -1))
     samples = np.arange(first.offset_ns, table.frame_ns, first.period_ns, dtype=np.int64)
     releases = follow(table, chain, samples)
     times = releases[-1] + last.length_ns - samples
-    # Sample k + 1, one period later, reads an event directly after sample k, which then passes along the chain.
+    # Sample k + 1, one period later, is the first to read an event directly after sample k.
     reaction = first.period_ns + np.roll(times, -1)
     worst = int(np.argmax(reaction))
     return Response(int(times.min()), int(times.max()), int(reaction.max()), int(samples[worst]), _list_sensitivity(table, chain, releases))
@@ -213,7 +213,7 @@ def _list_sensitivity(table: Table, chain: Chain, releases: list[Array]) -> tupl
     for place, component in enumerate(chain.components):
         is_last = place == len(chain.components) - 1
         if not is_last and chain.links[place].is_direct:
-            continue  # one row per window: that of its last component in the chain
+            continue  # one row per window, for its last component in the chain
         index = _window_of(table, component)
         window = table.windows[index]
         reader = None if is_last else int((releases[place + 1] - releases[place] - window.length_ns).min())
@@ -225,7 +225,7 @@ def _list_sensitivity(table: Table, chain: Chain, releases: list[Array]) -> tupl
 def calc_core_gap(table: Table, window: int) -> int:
     """Minimum time [ns] from a planned end of `window` to the next planned window start on its core.
 
-    Two strictly periodic windows meet at every distance that equals their first distance modulo the gcd of their periods.
+    Two strictly periodic windows occur at every distance that equals their first distance modulo the gcd of their periods.
     """
     mine = table.windows[window]
     gaps = [mine.period_ns - mine.length_ns]

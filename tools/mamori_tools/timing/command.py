@@ -39,7 +39,7 @@ CYCLES = 60_000
 RESULTS = ("timing.json", "timing.txt", *(f"{name}{suffix}" for name in ("release_lateness", "execution_time", "chain_latency")
                                           for suffix in (".svg", ".png")))  # fmt: skip
 PROBE_S = 20.0
-"""A program that takes longer for one cycle and its start does not run in real time."""
+"""If cycle plus start take longer, the program does not run in real time."""
 TAIL_LINES = 10
 PROGRAM_FAILED, PROGRAM_USAGE = 1, 2
 
@@ -119,7 +119,7 @@ def check(request: Request, jobs: int) -> Job:
 
 
 def check_folder(folder: Path, command: str = "timing") -> None:
-    """@param command name of the command for the message. @raise InputError if no file can be written there."""
+    """@param command name of the command, for the message. @raise InputError if no file can be written there."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -129,7 +129,7 @@ def check_folder(folder: Path, command: str = "timing") -> None:
 
 
 def _prepare_folder(job: Job) -> None:
-    """Removes earlier results, so that none counts for this run. @raise InputError."""
+    """Removes earlier results, so that none of them counts for this run. @raise InputError."""
     try:
         for path in [*(job.folder / name for name in RESULTS), job.log, *(job.data / name for name in FILES)]:
             path.unlink(missing_ok=True)
@@ -140,7 +140,7 @@ def _prepare_folder(job: Job) -> None:
 
 
 def build_system(system: System, context: Context) -> bool:
-    """Builds `system` if necessary. @return whether its program exists; errors were shown."""
+    """Builds `system` if necessary. @return whether its program exists; errors were already shown."""
     if not system.target:
         return True
     project = context.project
@@ -157,9 +157,9 @@ def build_system(system: System, context: Context) -> bool:
 
 
 def _probe(job: Job) -> float | None:
-    """One cycle. It checks the files of the program, its table against that of the baseline, and the duration of a cycle.
+    """Runs one cycle. Checks the files of the program, its table against that of the baseline, and the duration of a cycle.
 
-    @return duration of all cycles [s], or None if the program failed, which was shown. @raise InputError.
+    @return duration of all cycles [s]; None if the program failed, after an error message. @raise InputError.
     """
     with tempfile.TemporaryDirectory(prefix="mamori-timing-") as scratch:
         ending = run_program(job.make_argv(1, Path(scratch)), job.log, PROBE_S, lambda _: None)
@@ -240,7 +240,7 @@ def _accept(job: Job, report: Report, path: Path) -> None:
 
 
 def print_result(text: str, record: dict[str, Any] | None) -> None:
-    """Requested output on standard output: `record` as JSON, or else `text`. All other output goes to standard error."""
+    """Prints the requested output to standard output: `record` as JSON, or `text`. All other output goes to standard error."""
     if record is not None:
         print(json.dumps(record, indent=1))
         return

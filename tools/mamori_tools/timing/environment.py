@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Properties and load of the host during a run, as far as available, because times are meaningless without them.
+"""Properties and load of the host during a run, as far as available. Times are meaningless without them.
 
 @satisfies SWR-TIM-019      Design: docs/design/timing.md#environment
 """
@@ -50,13 +50,13 @@ def collect_state() -> dict[str, object]:
 
 
 def calc_steal_share(before: Mapping[str, object], after: Mapping[str, object]) -> float:
-    """@param before, after results of collect_state(). @return share of all processor time that other virtual machines had, 0 .. 1."""
+    """@param before added to results of collect_state(). @return share of all processor time that other virtual machines used, 0 .. 1."""
     total, steal = (int(str(after[key])) - int(str(before[key])) for key in ("ticks", "steal_ticks"))
     return steal / total if total > 0 else 0.0
 
 
 def find_preemption(version: str, realtime: str) -> str:
-    """@param version output of `uname -v`. @param realtime content of /sys/kernel/realtime, which only a real-time kernel has."""
+    """@param version output of `uname -v`. @param realtime content of /sys/kernel/realtime, which only real-time kernels have."""
     words = version.replace("-", "_").split()
     for mode in ("PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT"):
         if mode in words:
@@ -65,7 +65,7 @@ def find_preemption(version: str, realtime: str) -> str:
 
 
 def read_ticks(stat: str) -> Ticks:
-    """@param stat content of /proc/stat. User times include guest times, so the first eight fields are sufficient."""
+    """@param stat content of /proc/stat. User times already include guest times, so the first eight fields are sufficient."""
     words = stat.partition("\n")[0].split()
     numbers = [int(word) for word in words[1:9]] if words[:1] == ["cpu"] else []
     return Ticks(sum(numbers), numbers[7] if len(numbers) > 7 else 0)

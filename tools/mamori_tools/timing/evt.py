@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Extreme-value estimate of an execution time, only if the series permits one; otherwise the reason of the rejection.
+"""Extreme-value estimate of an execution time if the series permits one; otherwise the reason of the rejection.
 
-Block maxima with a Gumbel distribution, fitted to the even blocks and tested on the odd ones.
+Block maxima with a Gumbel distribution, fitted to even blocks and tested on odd blocks.
 
 Source: runs test: Wald and Wolfowitz, "On a test whether two samples are from the same population", 1940.
         Portmanteau test: Ljung and Box, "On a measure of lack of fit in time series models", 1978, here on ranks.
@@ -25,10 +25,10 @@ from mamori_tools.timing.reader import Array
 
 BLOCK = 50
 BLOCKS_MIN = 40
-"""Half of them are fitted, half tested: with fewer than 20 each, neither says anything."""
+"""Half of the blocks are fitted, half tested; with fewer than 20 each, the result is meaningless."""
 BLOCKS_WANTED = 200
 DISTINCT_MIN = 10
-"""Maxima with fewer values are steps of a clock, not a continuous quantity."""
+"""Maxima with fewer different values are clock steps, not a continuous quantity."""
 LAGS = 20  # even: the chi-squared tail then has a closed form
 P_MIN = 0.05
 TAIL_Z_MAX = 1.645  # one-sided, 5 %
@@ -49,8 +49,8 @@ class Test:
 
 @dataclass(frozen=True)
 class Estimate:
-    """`quantiles_ns`: value [ns] that one window instance exceeds with each of PROBABILITIES; empty after a rejection, with the
-    reason in `refusal`."""
+    """`quantiles_ns`: value [ns] that a window instance exceeds with each probability in PROBABILITIES. After a rejection it is empty, and
+    `refusal` contains the reason."""
 
     tests: tuple[Test, ...]
     quantiles_ns: dict[float, float]
@@ -58,7 +58,7 @@ class Estimate:
 
 
 def estimate(values: Array, cut_count: int = 0) -> Estimate:
-    """@param values [ns] in order of time, one per window instance. @param cut_count instances with an incomplete time."""
+    """@param values [ns] in order of time, one per window instance. @param cut_count instances with incomplete time."""
     if cut_count:
         return _refuse((), f"{cut_count} openings were cut off: the longest times are not among the values")
     block = max(BLOCK, len(values) // BLOCKS_WANTED)
@@ -91,7 +91,7 @@ def _refuse(tests: tuple[Test, ...], reason: str) -> Estimate:
 
 
 def check_runs(values: Array) -> Test:
-    """Runs above and below the median, two-sided; equal values are left out."""
+    """Runs above and below the median, two-sided; values equal to the median are excluded."""
     median = float(np.median(values))
     above = values[values != median] > median
     n1, n2 = int(above.sum()), int((~above).sum())
@@ -106,7 +106,7 @@ def check_runs(values: Array) -> Test:
 
 
 def check_correlation(values: Array) -> Test:
-    """Ljung-Box over LAGS lags, of the ranks, because in raw times one outlier would hide every correlation."""
+    """Ljung-Box over LAGS lags, applied to ranks, because one outlier in raw times would hide every correlation."""
     _, inverse, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
     ranks = (last - (counts - 1) / 2.0)[inverse]
@@ -149,7 +149,7 @@ def fit_gumbel(maxima: Array) -> tuple[float, float]:
 
 
 def check_tail(maxima: Array) -> Test:
-    """Whether the tail is heavier than Gumbel's, which would make the estimate too low. A lighter one only makes it too high."""
+    """Whether the tail is heavier than Gumbel, which would make the estimate too low. A lighter tail only makes it too high."""
     _, l2, l3 = calc_l_moments(maxima)
     c = 2.0 / (3.0 + l3 / l2) - math.log(2.0) / math.log(3.0)
     shape = 7.8590 * c + 2.9554 * c * c  # negative: heavier than Gumbel

@@ -24,18 +24,18 @@ from mamori_tools.timing.report import Report
 from mamori_tools.timing.text import format_us, make_printable, shorten
 from mamori_trace.base.whole_file import whole_file
 
-# Distinguishable for all readers, also in grey: measurement, limit, and additional lines.
+# All readers can distinguish these, also in grey: measurement, limit, and additional lines.
 MEASURED, LIMIT, INK, FAINT, WARN = "#0072b2", "#d55e00", "#222222", "#cccccc", "#b00020"
 SUFFIXES = (".svg", ".png")
 ROWS_MAX = 16
-"""More rows than that no screen shows; the worst are drawn, all are in timing.json."""
+"""Maximum number of drawn rows. The worst ones are drawn; timing.json contains all."""
 BINS = 80
 POINTS_MAX = 2000
 ROW_INCH = 1.5
 TITLE_LENGTH = 68
 WIDTH_INCH = 11.0
 LOGARITHMIC_FROM = 20.0
-"""From this ratio of greatest to least on, an axis of time is logarithmic."""
+"""From this ratio of maximum to minimum on, a time axis is logarithmic."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Limit:
 
 @dataclass(frozen=True)
 class Row:
-    """One line of a picture: measured values [ns] and their limits."""
+    """One row of a picture: measured values [ns] and their limits."""
 
     title: str
     values: Array
@@ -104,7 +104,7 @@ def _make_subtitle(report: Report) -> str:
 
 
 def make_figure(title: str, rows: Sequence[Row], subtitle: str, marks: Sequence[str]) -> Figure:
-    """One line per row: histogram on the left, tail with the limits on the right. All tails share the time axis."""
+    """One line per row: histogram on the left, tail with limits on the right. All tails share the time axis."""
     worst_first = sorted(range(len(rows)), key=lambda index: -int(rows[index].values.max()))
     shown = [rows[index] for index in sorted(worst_first[:ROWS_MAX])]
     height = ROW_INCH * len(shown) + 1.5 + 0.25 * len(marks)
@@ -128,7 +128,7 @@ def make_figure(title: str, rows: Sequence[Row], subtitle: str, marks: Sequence[
 
 
 def _find_span(values: Sequence[float]) -> tuple[float, float]:
-    """@param values times [ns]. @return span [µs] of a time axis that contains all of them."""
+    """@param values times [ns]. @return span [µs] of a time axis that contains all values."""
     low, high = max(1.0, min(values)) / 1e3, max(1.0, max(values)) / 1e3
     if high >= LOGARITHMIC_FROM * low:
         return low / 1.15, high * 1.3
@@ -137,7 +137,7 @@ def _find_span(values: Sequence[float]) -> tuple[float, float]:
 
 
 def _draw_histogram(axis: Any, row: Row) -> None:
-    """Detail of the bulk: a separate axis without the limits, which may be far away."""
+    """Detail of the bulk: a separate axis without limits, which may be far away."""
     low, high = _find_span([float(row.values.min()), float(row.values.max())])
     edges = np.geomspace(low, high, BINS) if _is_logarithmic(low, high) else np.linspace(low, high, BINS)
     axis.hist(np.maximum(row.values, 1) / 1e3, bins=edges, color=MEASURED)
@@ -150,7 +150,7 @@ def _draw_histogram(axis: Any, row: Row) -> None:
 
 
 def _draw_tail(axis: Any, row: Row, low: float, high: float) -> None:
-    """The exact share of window instances that took longer: each point belongs to the empirical distribution."""
+    """The exact share of window instances that took longer; each point belongs to the empirical distribution."""
     times, share = calc_tail(row.values)
     axis.step(times / 1e3, share, where="post", color=MEASURED, linewidth=1.6)
     axis.plot(times[-1:] / 1e3, share[-1:], marker="o", markersize=4, color=MEASURED)
@@ -168,8 +168,8 @@ def _draw_tail(axis: Any, row: Row, low: float, high: float) -> None:
 
 
 def calc_tail(values: Array) -> tuple[Array, Array]:
-    """@return at most POINTS_MAX points: values [ns], ascending, and the share of larger values. The maximum, which no value
-    exceeds, gets its own share, because a logarithmic axis has no 0. Complete tail, and a part of the bulk."""
+    """@return at most POINTS_MAX points: values [ns], ascending, and the share of larger values. No value exceeds the maximum: it gets its
+    own share, because a logarithmic axis has no 0. Contains the complete tail and a part of the bulk."""
     ordered = np.sort(values)
     count = len(ordered)
     from_end = np.unique(np.concatenate((np.arange(min(count, POINTS_MAX // 2)), np.geomspace(1, count, POINTS_MAX // 2).astype(np.int64) - 1)))
@@ -190,7 +190,7 @@ def _is_logarithmic(low: float, high: float) -> bool:
 
 
 def _set_time_axis(axis: Any, low: float, high: float) -> None:
-    """Plain numbers; on a logarithmic axis at 1, 2 and 5 of each decade, or at 1 if there are many decades."""
+    """Plain numbers. On a logarithmic axis at 1, 2 and 5 of each decade, or at 1 if there are many decades."""
     axis.tick_params(labelsize=8)
     axis.grid(color=FAINT, linewidth=0.6)
     axis.set_axisbelow(True)

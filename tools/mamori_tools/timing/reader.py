@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The four files of a measured run as checked arrays. The parts of a `Measurement` are consistent.
+"""Reads the four files of a measured run as checked arrays. The parts of a `Measurement` are consistent.
 
 @satisfies SWR-TIM-010, SWR-TIM-011, SWR-TIM-028      Design: docs/design/timing.md#files
 """
@@ -24,15 +24,15 @@ RIGHTS = ("priority", "processor", "memory")
 COMPLETED, OVERRUN, MISSED, STOPPED, NOT_DUE = range(5)
 OUTCOMES = ("completed", "overrun", "missed", "stopped", "not due")
 PACES = ("none", "steady", "burst")
-"""Requests from outside in a block of major frames."""
+"""Paces of requests from outside in a block of major frames."""
 PASSES = ("execute", "state update", "mode step")
 NOT_BACK = -1
-"""End of a step that had not come back when the run ended."""
+"""End of a step that had not returned when the run ended."""
 
 OPENING = np.dtype([("release_ns", "<i8"), ("woke_ns", "<i8"), ("closed_ns", "<i8"), ("window", "<u4"), ("outcome", "<u4")])
 STEP = np.dtype([("release_ns", "<i8"), ("start_ns", "<i8"), ("end_ns", "<i8"), ("component", "<u4"), ("pass", "<u4")])
 INSTANT_NS_MAX = 2**53
-"""104 days: below it a float counts nanoseconds exactly, and a key of instant and window fits 64 bits."""
+"""104 days: below this value, a float counts nanoseconds exactly, and a key of instant and window fits 64 bits."""
 
 HOW_TO_MEND = "measure again"
 Array = np.ndarray[Any, np.dtype[Any]]
@@ -40,7 +40,7 @@ Array = np.ndarray[Any, np.dtype[Any]]
 
 @dataclass(frozen=True)
 class Right:
-    """A real-time privilege that the program requested. `errno` is the reason of the denial, 0 if it was granted."""
+    """A real-time privilege that the program requested. `errno` is the reason of a denial, 0 if it was granted."""
 
     name: str
     is_granted: bool
@@ -49,8 +49,8 @@ class Right:
 
 @dataclass(frozen=True)
 class Requests:
-    """Requests from outside: `count`, and the index in PACES for each block of `block_cycles` major frames, from frame 0 on. After the first
-    block, each three blocks are a round with each pace once."""
+    """Requests from outside: `count`, and the index in PACES for each block of `block_cycles` major frames, from frame 0 on. After the
+    first block, every three blocks form a round with each pace once."""
 
     block_cycles: int
     count: int
@@ -59,7 +59,7 @@ class Requests:
 
 @dataclass(frozen=True)
 class Measurement:
-    """One run. `openings` (OPENING) is sorted by window, then by release; `opening_of_step` is the row of each step's window instance.
+    """One run. `openings` (OPENING) is sorted by window, then by release; `opening_of_step` is the row of the window instance of each step.
 
     All instants [ns] since the epoch of the run; frame n begins at n * table.frame_ns.
     """
@@ -75,7 +75,7 @@ class Measurement:
     rights: tuple[Right, ...]
     notes: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
-    """What the program itself reports: it knows whether its system left the operating state."""
+    """Findings that the program itself reports, for example that its system left the operating state."""
     requests: Requests | None = None
 
     def rows_of(self, window: int) -> slice:
@@ -117,7 +117,7 @@ def load_json(path: Path) -> object:
 
 
 def _read_run(run: JsonNode, table: Table) -> tuple[int, int, bool, int]:
-    """@return cycles asked, cycles run, whether the run is partial, reference time [ns]."""
+    """@return requested cycles, executed cycles, whether the run is partial, reference time [ns]."""
     schema = run.at("schema").text()
     if schema != SCHEMA:
         raise run.at("schema").complain(f"is '{schema}', this command reads '{SCHEMA}'")
@@ -156,7 +156,7 @@ def read_right(name: str, node: JsonNode) -> Right:
 
 
 def read_rows(path: Path, kind: np.dtype[Any], what: str) -> Array:
-    """A NumPy file of version 1.0 with one dimension of `kind`, of the length in its header. @raise InputError."""
+    """A NumPy file of version 1.0 with one dimension of `kind`, and the length given in its header. @raise InputError."""
     try:
         with path.open("rb") as file:
             version = np.lib.format.read_magic(file)
@@ -189,7 +189,7 @@ def _check_instants(rows: Array, names: tuple[str, ...], path: Path) -> None:
 
 
 def _check_openings(rows: Array, table: Table, path: Path) -> None:
-    """Each window instance is possible, and there once. Drift from the schedule is a finding of the analysis."""
+    """Checks that each window instance is possible and occurs once. Drift from the schedule is a finding of the analysis."""
     if not len(rows):
         raise InputError(f"has no opening at all; let the program run for a whole cycle, or {HOW_TO_MEND}", path)
     _refuse_first(rows["window"] >= len(table.windows), rows, path, f"name a window beyond the {len(table.windows)} of the table")
@@ -202,7 +202,7 @@ def _check_openings(rows: Array, table: Table, path: Path) -> None:
 
 
 def _check_counts(rows: Array, table: Table, cycles: int, path: Path) -> None:
-    """A window has its instances in each cycle; one cycle may be missing, because a run may begin or end within one."""
+    """Checks that a window has its instances in each cycle. One cycle may be missing, because a run may begin or end within a cycle."""
     counts = np.bincount(rows["window"], minlength=len(table.windows))
     for window, count in zip(table.windows, counts, strict=True):
         least = (cycles - 1) * (table.frame_ns // window.period_ns)
@@ -212,7 +212,7 @@ def _check_counts(rows: Array, table: Table, cycles: int, path: Path) -> None:
 
 
 def check_steps(rows: Array, table: Table, path: Path, by_clock: bool = True) -> None:
-    """@param by_clock release and start are on one time line. @raise InputError for the first impossible row."""
+    """@param by_clock release and start are on the same time line. @raise InputError for the first impossible row."""
     count = len(table.components)
     _refuse_first(rows["component"] >= count, rows, path, f"name a component beyond the {count} of the table")
     _refuse_first(rows["pass"] >= len(PASSES), rows, path, f"have a pass beyond the {len(PASSES)} that there are")
@@ -226,7 +226,7 @@ def check_steps(rows: Array, table: Table, path: Path, by_clock: bool = True) ->
 
 
 def _match_steps(steps: Array, openings: Array, table: Table, is_partial: bool, path: Path) -> tuple[Array, Array, tuple[str, ...]]:
-    """@return steps with a window instance, its row for each, and a note on the steps of a stopped run without one."""
+    """@return steps with a window instance, its row for each, and a note on steps of a stopped run without one."""
     if not len(steps):
         return steps, np.zeros(0, dtype=np.int64), ()
     window_of = np.array([-1 if component.window is None else component.window for component in table.components], dtype=np.int64)

@@ -36,15 +36,15 @@ from mamori_trace.base.text_file import write_text
 
 SCHEMA = "mamori.timing/1"
 EXIT_NO_RIGHTS = 4
-"""Measured, with nothing to complain about, but without all real-time rights."""
+"""Exit status of a measurement without findings, but without all real-time privileges."""
 MISSES_STORED = 10_000
 VIOLATIONS_STORED = 1_000
 
 
 @dataclass(frozen=True)
 class Report:
-    """One call. `estimates`: one for each row of `components`. `findings`: deviations that the code or the run caused.
-    `host` contains setting and state before and after (environment.py). `was_stopped`: a user or a signal ended it early."""
+    """One call. `estimates`: one for each row of `components`. `findings`: deviations caused by the code or the run. `host` contains
+    settings and the state before and after (environment.py). `was_stopped`: a user or a signal ended it early."""
 
     system: str
     run: Measurement
@@ -67,12 +67,12 @@ class Report:
 
     @property
     def host_misses(self) -> list[Miss]:
-        """Window instances that the host lost: released too late, or without the processor."""
+        """Window instances that the host lost: released too late, or without processor time."""
         return [miss for miss in self.misses if miss.is_host]
 
     @property
     def status(self) -> int:
-        """In order of priority: a stopped run was not evaluated, and a finding is more important than a missing privilege."""
+        """In order of priority: a stopped run was not evaluated, and findings are more important than missing privileges."""
         if self.was_stopped:
             return EXIT_INTERRUPTED
         if self.findings:
@@ -93,7 +93,7 @@ class Report:
 
 def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: bool, was_stopped: bool, findings: Sequence[str]
                 ) -> Report:  # fmt: skip
-    """Analyses `run`. @param findings known findings from outside its files."""
+    """Analyses `run`. @param findings known findings that are not in its files."""
     windows, components, misses = list_windows(run), list_components(run), list_misses(run)
     (chains, chain_note), shifts = list_chains(run), list_shifts(run)
     indices = [index for index, one in enumerate(run.table.components) if one.window is not None]
@@ -155,7 +155,7 @@ def _make_chain(row: ChainRow) -> dict[str, Any]:
 
 
 def write_record(record: dict[str, Any], folder: Path) -> Path:
-    """Atomic. @return its path."""
+    """Writes the record atomically. @return its path."""
     path = folder / "timing.json"
     write_text(path, json.dumps(record, indent=1) + "\n")
     return path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Effect of requests from outside: how far they shift the median start of each window.
+"""Effect of requests from outside: the shift of the median start of each window.
 
 @satisfies SWR-PRT-039      Design: docs/design/timing.md#requests
 """
@@ -20,8 +20,8 @@ BLOCKS_MIN = 1 + len(PACES)
 
 @dataclass(frozen=True)
 class ShiftRow:
-    """One window, over the rounds [ns]: median start after the planned instant without requests, and the differences to it within the same
-    round. None without a complete round."""
+    """One window, over all rounds [ns]: median start after the planned instant without requests, and the differences from it within the
+    same round. None without a complete round."""
 
     window: str
     start: Distribution | None
@@ -30,7 +30,7 @@ class ShiftRow:
 
 
 def check_requests(run: Measurement, cycles: int) -> None:
-    """@param run of a first cycle. @raise InputError if the program made no requests, or `cycles` have no complete round."""
+    """@param run of a first cycle. @raise InputError if the program made no requests, or `cycles` contain no complete round."""
     if run.requests is None:
         raise InputError("timing: the program ignored --requests; set TimingOptions::with_requests in the program")
     if cycles < (least := BLOCKS_MIN * run.requests.block_cycles):
@@ -38,7 +38,7 @@ def check_requests(run: Measurement, cycles: int) -> None:
 
 
 def list_shifts(run: Measurement) -> list[ShiftRow]:
-    """Without requests: an empty list."""
+    """Empty list if there were no requests."""
     return [] if run.requests is None else [_make_row(run, run.requests, index) for index in range(len(run.table.windows))]
 
 
@@ -65,7 +65,7 @@ def _make_row(run: Measurement, requests: Requests, index: int) -> ShiftRow:
 
 
 def list_shift_findings(run: Measurement, rows: list[ShiftRow]) -> list[str]:
-    """Shifts of 1 % of the major frame or more, and requests that were not made."""
+    """Shifts of at least 1 % of the major frame, and requests that were not made."""
     if run.requests is None:
         return []
     blocks = run.requests.paces[: _count_blocks(run, run.requests)]

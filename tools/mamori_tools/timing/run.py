@@ -20,21 +20,21 @@ from mamori_trace.base.errors import InputError
 
 POLL_S = 0.1
 GRACE_S, GRACE_SHARE = 30.0, 0.05
-"""How long a program that was asked to stop may take to write its files; the more cycles, the longer."""
+"""How long a program may take to write its files after a stop request; depends on the number of cycles."""
 OVERTIME_FACTOR = 1.5
 OVERTIME_S = 30.0
-"""A program lives at most this much longer than its cycles take: the grid of its frames is absolute, so it cannot fall behind."""
+"""Maximum run time beyond that of its cycles: the schedule of major frames is absolute, so a program cannot fall behind."""
 INTERRUPTED = 130
 LOAD_TOOL = "stress-ng"
 LOAD_MARGIN_S = 60
 
 Tick = Callable[[float], None]
-"""Takes the seconds since the program began."""
+"""Receives the seconds since the start of the program."""
 
 
 @dataclass(frozen=True)
 class Ending:
-    """How a program ended. `status` as Popen gives it: negative for a signal."""
+    """How a program ended. `status` follows Popen: negative for a signal."""
 
     status: int
     seconds: float
@@ -43,12 +43,12 @@ class Ending:
 
     @property
     def was_stopped(self) -> bool:
-        """Whether it was stopped: by this command, or by a signal to the program itself."""
+        """Whether it was stopped by this command, or by a signal to the program itself."""
         return self.was_interrupted or (self.status == INTERRUPTED and not self.was_late)
 
     @property
     def reason(self) -> str:
-        """The error of the program, or nothing."""
+        """The error of the program; empty without one."""
         if self.was_late:
             return f"the program did not end by itself and was stopped after {self.seconds:.0f} s"
         if self.was_stopped or self.status == 0:
@@ -59,8 +59,8 @@ class Ending:
 
 
 def run_program(argv: Sequence[str], log: Path, expected_s: float, tick: Tick) -> Ending:
-    """Runs `argv` with its output appended to `log`. Forwards Ctrl-C and SIGTERM as one SIGINT, then waits for the files
-    of the program. @raise InputError if it cannot be run."""
+    """Runs `argv` and appends its output to `log`. Forwards Ctrl-C and SIGTERM as one SIGINT, then waits for the files of the program.
+    @raise InputError if it cannot be run."""
     begin = time.monotonic()
     limit_s = expected_s * OVERTIME_FACTOR + OVERTIME_S
     grace_s = GRACE_S + expected_s * GRACE_SHARE
@@ -88,7 +88,7 @@ def run_program(argv: Sequence[str], log: Path, expected_s: float, tick: Tick) -
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Ignores Ctrl-C and SIGTERM while results are written. Writing takes seconds; an interruption would lose the measurement."""
+    """Ignores Ctrl-C and SIGTERM for the seconds in which results are written, because an interruption would lose the measurement."""
     handlers = {number: signal.signal(number, signal.SIG_IGN) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield
@@ -98,7 +98,7 @@ def undisturbed() -> Iterator[None]:
 
 
 def _stop(child: subprocess.Popen[bytes], number: signal.Signals, grace_s: float) -> int:
-    """Sends a signal, waits, then kills. A second Ctrl-C is ignored, because it would lose the files that the first one requested.
+    """Sends a signal, waits, then kills. Ignores a second Ctrl-C, because it would lose the files that the first one requested.
 
     @return exit status.
     """
@@ -112,7 +112,7 @@ def _stop(child: subprocess.Popen[bytes], number: signal.Signals, grace_s: float
 
 
 def _kill(child: subprocess.Popen[bytes]) -> None:
-    """Ends the program's group while the program lives, after an exception as well."""
+    """Ends the process group of the program while the program runs, also after an exception."""
     if child.poll() is None:
         os.killpg(child.pid, signal.SIGKILL)
         child.wait()
@@ -126,9 +126,9 @@ def check_load() -> None:
 
 @contextmanager
 def make_load(is_wanted: bool, expected_s: float, log: Path) -> Iterator[list[str]]:
-    """Keeps all processors and some memory busy meanwhile. It stops by itself if this command cannot stop it.
+    """Keeps all processors and some memory busy. The load stops by itself if this command cannot stop it.
 
-    @return list of the errors of the load, filled when it ends.
+    @return list of errors of the load, filled when the load ends.
     """
     problems: list[str] = []
     if not is_wanted:

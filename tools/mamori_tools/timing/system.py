@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The meaning of SYSTEM: a folder with a `timing.toml`, in Mamori or in a user project, or an existing program.
+"""Resolves SYSTEM: a folder with a `timing.toml`, in Mamori or in a user project, or an existing program.
 
 @satisfies SWR-TIM-022, SWR-TIM-029      Design: docs/design/timing.md#system
 """
@@ -25,9 +25,8 @@ _USES_MAMORI = re.compile(r"^\s*find_package\s*\(\s*mamori\b", re.MULTILINE)
 
 @dataclass(frozen=True)
 class System:
-    """A program that writes the files of docs/design/timing.md#files. `project` receives its build and its evidence.
-    `target`: its CMake target; empty: nothing to build.
-    `cost`: the unchecked table of `mamori cost` in the file; `file` is empty if there is none."""
+    """A program that writes the files of docs/design/timing.md#files. `project` receives its build and its evidence. `target`: its CMake
+    target; empty: nothing to build. `cost`: the unchecked table of `mamori cost` in the file; its `file` is empty if there is none."""
 
     name: str
     program: Path
@@ -58,7 +57,7 @@ def list_systems(project: Project) -> list[str]:
 
 
 def find_project(folder: Path, shipped: Project, command: str) -> Project:
-    """The project that contains `folder`: the shipped one, or the nearest parent folder that is built against its package.
+    """The project that contains `folder`: the shipped project, or the nearest parent folder that is built against its package.
 
     @raise InputError if there is none.
     """

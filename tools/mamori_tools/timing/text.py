@@ -17,12 +17,12 @@ MISSES_SHOWN = 5
 CHAINS_SHOWN = 6
 ROWS_SHOWN = 12
 NAME_LENGTH = 90
-MEMBER_LENGTH_MIN = 6  # characters of a chain member, when the name of the chain is shortened
+MEMBER_LENGTH_MIN = 6  # characters of a chain member if the name of the chain is shortened
 FINDINGS_SHOWN = 8
 
 
 def make_text(report: Report, is_whole: bool) -> str:
-    """@param is_whole all rows and reasons; otherwise the rows that fit on a screen, and a note on the rest."""
+    """@param is_whole all rows and reasons; otherwise the rows that fit on a screen, and a note about the rest."""
     parts = [_make_head(report), _make_windows(report, is_whole), _make_components(report, is_whole), _make_chains(report, is_whole),
              _make_shifts(report, is_whole), _make_misses(report, is_whole), _make_estimates(report, is_whole), _make_verdict(report, is_whole)]  # fmt: skip
     return make_printable("\n\n".join("\n".join(part) for part in parts if part) + "\n")
@@ -176,13 +176,13 @@ def format_us(ns: int | None) -> str:
 
 
 def make_printable(text: str) -> str:
-    """Removes control characters of names, which come from a file, before they reach a terminal."""
+    """Removes control characters of names from a file, before they reach a terminal."""
     return "".join(letter if letter.isprintable() or letter == "\n" else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 
 def shorten(name: str, length: int = NAME_LENGTH) -> str:
-    """At most `length` characters, an even number. Each member of a chain keeps its beginning, so that chains which differ in one
-    member stay different; of a single name, and of more members than fit, both ends are kept."""
+    """At most `length` characters, an even number. Each member of a chain keeps its beginning, so that chains that differ in one member
+    stay distinguishable. A single name, or a list of too many members, keeps both ends."""
     members = name.split(" > ")
     for kept in range(max(map(len, members)), MEMBER_LENGTH_MIN - 1, -1) if len(members) > 1 else ():
         short = " > ".join(one if len(one) <= kept else f"{one[: kept - 2]}.." for one in members)

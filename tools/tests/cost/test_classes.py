@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: input classes are read as declared, and an invalid description is rejected with one line. Method: written descriptions.
+# Goal: input classes are read correctly, and an invalid description is rejected in one line. Method: written descriptions.
 from __future__ import annotations
 
 from pathlib import Path

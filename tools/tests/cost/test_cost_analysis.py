@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: figures, ratio and limits agree with the steps, and a limit that is too low is named. Method: runs with given counts and
-# times.
+# Goal: figures, ratio and limits agree with the steps, and limits that are too low are named. Method: runs with given counts and times.
 from __future__ import annotations
 
 from pathlib import Path

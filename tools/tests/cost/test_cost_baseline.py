@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a maximum count that grew is named, and a baseline of another system is rejected. Method: a written baseline, then changed.
+# Goal: a maximum count that grew is named, and a baseline of another system is rejected. Method: a written baseline with changes.
 from __future__ import annotations
 
 import dataclasses

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: invalid arguments are rejected before the work, results are complete, and the status is correct. Method: the command with
-# given runs instead of counted ones.
+# Goal: invalid arguments are rejected before the work, results are complete, and the exit status is correct. Method: the command with given
+# runs instead of counted ones.
 from __future__ import annotations
 
 import json

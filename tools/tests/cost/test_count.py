@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: each step has the count of its own call, and inconsistent runs are rejected. Method: prepared files and output of callgrind;
-# verification/proofs/test_cost.py shows that real counts are exact.
+# Goal: each step has the count of its own call, and inconsistent runs are rejected. Method: prepared files and callgrind output;
+# verification/proofs/test_cost.py proves that real counts are exact.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -23,7 +23,7 @@ REFERENCE = 10_000
 
 
 class FakeRuns:
-    """Writes the files of both runs instead of running anything. Tests change their content."""
+    """Writes the files of both runs without running a program. Tests change their content."""
 
     def __init__(self, folder: Path) -> None:
         self.document = make_table()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Goal: the command shows rate, distance and verdicts of a channel, states the method, and rejects an invalid channel.
-# Method: the command with channels of the published table, both sides of each limit of its options, and a damaged stored file.
+# Method: the command with channels of the published table, both sides of each option limit, and a damaged stored file.
 from __future__ import annotations
 
 import json
@@ -28,7 +28,7 @@ def ask(capsys: Capture, *words: str) -> dict[str, Any]:
 
 
 def get_verdicts(document: dict[str, Any]) -> list[str]:
-    """Of SIL 1 to 4."""
+    """Limits of SIL 1 to 4."""
     assert [row["sil"] for row in document["budgets"]] == [1, 2, 3, 4]
     return [row["verdict"] for row in document["budgets"]]
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: residual errors and Hamming distances equal the published ones, only complete stored weights are accepted, and the figures for
-# the compiler follow from them. Method: the published table; patterns tried one by one; exact sums; damaged files.
+# Goal: residual errors and Hamming distances equal the published ones, only complete stored weights are accepted, and the figures for the
+# compiler follow from them. Method: the published table; exhaustive trials of patterns; exact sums; damaged files.
 from __future__ import annotations
 
 import itertools
@@ -103,7 +103,7 @@ def test_bounds_hold() -> None:
     assert residual.find_least_distance(CRC64, 524_288) == 4
     assert residual.find_least_distance(CRC32_P4, 65_536) == 2  # its period is 65534 bits
     assert residual.find_least_distance(CRC32_P4, 4_194_304 * 8) == 2
-    assert residual.find_least_distance(CRC32, 256) == 6  # found, not only a lower bound: some six bits pass
+    assert residual.find_least_distance(CRC32, 256) == 6  # exact, not only a lower bound: some patterns of six bits pass
 
 
 @pytest.mark.verifies("SWR-E2E-020", technique="back_to_back")
@@ -144,7 +144,7 @@ def test_stored_weights_are_those_of_a_dual_code(checksum: Checksum, length: int
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder of stored files with one in it."""
+    """A folder of stored files that contains one file."""
     spectrum = get_spectrum(CRC32_P4, 16)
     monkeypatch.setattr(spectra, "FOLDER", tmp_path / "spectra")
     (tmp_path / "spectra").mkdir()

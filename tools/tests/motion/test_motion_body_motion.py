@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""BodyMotion files. Method: small files created here, one fault each; public files of another arm if present."""
+"""BodyMotion files. Method: small generated files with one error each; public files of another arm if available."""
 
 from __future__ import annotations
 
@@ -194,7 +194,7 @@ def test_no_tag_constructs_an_object(tmp_path: Path, limits: ArmLimits) -> None:
 
 
 def needs(path: Path) -> pytest.MarkDecorator:
-    """A file outside the project is not evidence for a requirement: these tests have no tag. They are skipped if it is missing."""
+    """A file outside the project is not evidence, so these tests have no tag. They are skipped if the file is missing."""
     return pytest.mark.skipif(not path.exists(), reason=f"{path} is absent")
 
 

@@ -131,7 +131,7 @@ def test_every_joint_of_the_shipped_motion_moves_and_stays_calm(limits: ArmLimit
     assert travel.min() >= 0.3
     assert np.abs(motion.position_rad).max() <= 1.2
     assert 6.0 <= motion.duration_s <= 8.0
-    # Rest at both ends and no jump of speed: the largest change of speed from step to step is an acceleration of 3 rad/s2.
+    # Rest at both ends and no speed jump: the maximum change of speed between steps corresponds to 3 rad/s2.
     velocity = np.diff(motion.position_rad, axis=0) / np.diff(motion.time_s)[:, np.newaxis]
     assert np.all(velocity[0] == 0.0) and np.all(velocity[-1] == 0.0)
     assert np.abs(np.diff(velocity, axis=0)).max() / 0.005 < 3.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whitespace tables, and files that are neither. Method: small files created here, one fault each."""
+"""Whitespace tables and invalid files. Method: small generated files with one error each."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def test_a_missing_last_line_end_is_noted(tmp_path: Path, limits: ArmLimits) -> 
 
 
 def needs(path: Path) -> pytest.MarkDecorator:
-    """A file outside the project is not evidence for a requirement: these tests have no tag. They are skipped if it is missing."""
+    """A file outside the project is not evidence, so these tests have no tag. They are skipped if the file is missing."""
     return pytest.mark.skipif(not path.exists(), reason=f"{path} is absent")
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the parser accepts the notation and nothing else, and an accepted text keeps its meaning in canonical form and in C++.
-# Method: a table of texts; random constraints and random texts of a fixed seed; the C++ compiler compares each accepted row.
+# Goal: the parser accepts exactly the notation, and an accepted text keeps its meaning in canonical form and in C++.
+# Method: a table of texts; random constraints and random texts with a fixed seed; the C++ compiler compares each accepted row.
 from __future__ import annotations
 
 import random
@@ -162,7 +162,7 @@ def make_comparison(constraint: Constraint, count: int, index: int) -> str:
 
 
 def _make_number(type_: ScalarType, value: Value | None) -> str:
-    """The value in C++, without the decimal number of the constraint: a real one in hexadecimal."""
+    """The value in C++, independent of the decimal number in the constraint: real values are hexadecimal."""
     if value is None:
         return ""
     if type_.is_real:

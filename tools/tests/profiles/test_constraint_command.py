@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the command shows what a constraint is in C++, or why it is rejected. Bad arguments: test_bad_input.py.
+# Goal: the command shows the C++ form of a constraint, or why it is rejected. test_bad_input.py tests bad arguments.
 from __future__ import annotations
 
 import pytest

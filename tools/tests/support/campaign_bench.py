@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A folder with plan, model, motion and a small program in the place of the simulated arm. The program keeps the contract of the arm
-and can be told by the fault plan to crash, to hang, to be slow, or to write something broken."""
+"""A folder with plan, model, motion and a small program that replaces the simulated arm. The program complies with the contract of the arm.
+The fault plan can make it crash, hang, run slowly, or write invalid output."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ scenarios:
     requirements: {SYS-023: violation, SYS-026: nominal}
 """
 
-# The magnitude of message_late says how the program misbehaves.
+# The magnitude of message_late selects the misbehaviour of the program.
 PROGRAM = """\
 #!{python}
 import json, os, sys, time
@@ -83,7 +83,7 @@ if mode == 8:
 
 
 class Bench:
-    """A folder with plan, program and model, and one call that runs a campaign in it."""
+    """A folder with plan, program and model, and a function that runs a campaign in it."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -102,7 +102,7 @@ class Bench:
         self.plan.write_text(PLAN.replace("magnitude: 0.0", f"magnitude: {mode}.0"))
 
     def write_long_plan(self, cases: int) -> None:
-        """One fault-free case, and `cases` with a fault that take a tenth of a second."""
+        """One fault-free case, and `cases` cases with a fault, which take a tenth of a second each."""
         self.write_plan(9)
         instants = ", ".join(f"{number / (cases + 1):.5f}" for number in range(1, cases + 1))
         self.plan.write_text(self.plan.read_text().replace("instants: [0.25, 0.5]", f"instants: [{instants}]"))

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Simulated counted runs: steps, instructions and times for the analysis, and the files of the contract of
-docs/design/cost.md#files."""
+"""Simulated counted runs: steps, instructions and times for the analysis, and files in the format of docs/design/cost.md#files."""
 
 from __future__ import annotations
 
@@ -20,9 +19,9 @@ from mamori_tools.timing.reader import RIGHTS, STEP, Right
 BUILD = Build("GNU 12.2.0", "-O2", "glibc 2.36")
 REFERENCE_INSTRUCTIONS = 10_000
 EMPTY = 9
-"""What counting takes of each call."""
+"""Instructions that counting adds to each call."""
 
-# Of the table of timing_run.py: component to instructions in each cycle.
+# From the table of timing_run.py: component to instructions in each cycle.
 Counts = Mapping[int, Sequence[int]]
 COUNTS: Counts = {0: (500, 510, 500, 505), 1: (2000, 2000, 2300, 2000), 2: (9000, 9000, 9000, 12_000), 3: (100, 100, 100, 100)}
 NS_PER_INSTRUCTION = {0: 0.5, 1: 0.4, 2: 0.25, 3: 2.0}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A Dask scheduler and workers as processes of this computer, which a test may end by `kill -9`."""
+"""A Dask scheduler and workers as processes of this host, which a test may end by `kill -9`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ START_S = 300.0
 
 
 class Cluster:
-    """Use as context manager. `folder` takes the files of the cluster."""
+    """Use as a context manager. `folder` receives the files of the cluster."""
 
     def __init__(self, folder: Path) -> None:
         folder.mkdir()
@@ -42,7 +42,7 @@ class Cluster:
                 self.address = json.loads(file.read_text())["address"]
 
     def add_worker(self) -> subprocess.Popen[bytes]:
-        """Without a nanny: a worker that was ended is not started again. Returns when the scheduler knows the worker."""
+        """Starts a worker without a nanny: a killed worker is not restarted. Returns when the scheduler knows the worker."""
         from distributed import Client
 
         name = f"worker{len(self._processes)}"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A simulated host in a folder, for the tests of the launcher script. PATH contains only its `bin`: programs of the system by links,
-and stand-ins for the package manager, sudo and Python that record their calls. Installing a package copies its folder of
-`store`, so its commands and headers appear, and the real preprocessor finds the headers."""
+"""A simulated host in a folder, for the tests of the launcher script. PATH contains only its `bin`, with links to system programs and
+stand-ins for the package manager, sudo and Python, which record their calls. Installing a package copies its folder from `store`, so that
+its commands and headers appear, and the real preprocessor finds the headers."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ VENV_PYTHON = ('if [ "$1" = --version ]; then echo Python 3.11.2; exit 0; fi\nec
                'case "$*" in *pip*) exit "${FAKE_PIP:-0}";; '
                '*) echo "packages: $MAMORI_PACKAGES" >>"$BOX/calls"; printf %s "${FAKE_OUTPUT:-}";; esac')  # fmt: skip
 
-# The files of each Debian package that the launcher may search. A script if its text matters, otherwise only a name.
+# The files of each Debian package that the launcher may search for. A script if its content matters, otherwise only a name.
 STORE: dict[str, dict[str, str]] = {
     "python3": {"bin/python3": PYTHON},
     "python3-venv": {"share/python3-venv": ""},
@@ -89,7 +89,7 @@ class Box:
         for name in ("mamori", "requirements.lock", "requirements-test.lock", "pyproject.toml"):
             shutil.copy(ROOT / name, self.folder)
         shutil.copytree(FOLDER, self.folder / FOLDER.relative_to(ROOT))
-        # Without a compiler, the folders of the real system would be searched.
+        # Without a compiler, the launcher would search the folders of the real system.
         script = self.folder / "mamori"
         text = script.read_text(encoding="utf-8")
         assert text.count(" /usr/local/include /usr/include;") == 1
@@ -119,6 +119,6 @@ class Box:
 
 
 def listen_to_ctrl_c() -> None:
-    """Runs in a child before it becomes the launcher, because bash cannot undo that its parent ignores or blocks the signal."""
+    """Runs in a child before it executes the launcher, because bash cannot undo an ignored or blocked signal of its parent."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

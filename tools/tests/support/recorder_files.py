@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Handwritten recorder files, independent of the code that reads and writes them."""
+"""Handwritten recorder files, independent of the code that writes and reads such files."""
 
 from __future__ import annotations
 

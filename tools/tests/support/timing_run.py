@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Simulated measured runs: tables, rows and files of the contract of docs/design/timing.md#files, and a program
-that writes them."""
+"""Simulated measured runs: tables, rows and files in the format of docs/design/timing.md#files, and a program that writes them."""
 
 from __future__ import annotations
 
@@ -47,7 +46,7 @@ def make_table(windows: Sequence[tuple[Any, ...]] = WINDOWS, components: Sequenc
 
 def make_rows(table: dict[str, Any], times_us: Sequence[float], cycles: int, seed: int = 1, first_frame: int = 3
               ) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:  # fmt: skip
-    """Window instances and steps in order of time: each window late by some us, each component around its median `times_us`."""
+    """Window instances and steps in order of time. Each window is late by some us; execution times vary around the medians `times_us`."""
     random = np.random.default_rng(seed)
     openings, steps = [], []
     for index, window in enumerate(table["windows"]):
@@ -93,7 +92,7 @@ def write_run(folder: Path, table: dict[str, Any], openings: np.ndarray[Any, Any
     return folder
 
 
-# Replaces a system: copies the files prepared for this number of cycles, so that it starts as fast as a C++ program.
+# Replaces a system: copies the files prepared for this number of cycles, so that it starts as quickly as a C++ program.
 PROGRAM = """#!{python} -SE
 import os, shutil, signal, sys, time
 
@@ -123,7 +122,7 @@ sys.exit(130 if stopped else 1 if "fail" in words and not is_probe else 0)
 
 
 def make_program(folder: Path) -> Path:
-    """A program that writes the last files of prepare() in `folder`. @return its path."""
+    """A program that writes the latest files of prepare() in `folder`. @return its path."""
     path = folder / "fake_system"
     path.write_text(PROGRAM.format(python=sys.executable, data=folder / "data", requests=json.dumps(make_requests())), encoding="utf-8")
     path.chmod(0o755)
@@ -131,7 +130,7 @@ def make_program(folder: Path) -> Path:
 
 
 def prepare(folder: Path, cycles: int = 100, fault: str = "", refused: Sequence[str] = (), slower: float = 1.0, frame_us: int = 1000) -> None:
-    """Prepares the measurement of the program of `folder`. `fault`: one overrun or skipped window; a stopped run has 100 cycles."""
+    """Prepares the measurement for the program in `folder`. `fault`: one overrun or skipped window; a stopped run has 100 cycles."""
     table = make_table(frame_us=frame_us)
     for name, asked, done in (("probe", 1, 1), ("whole", cycles, cycles), ("partial", cycles, min(100, cycles - 1))):
         openings, steps = make_rows(table, [row[3] * slower for row in COMPONENTS], done)
@@ -141,7 +140,7 @@ def prepare(folder: Path, cycles: int = 100, fault: str = "", refused: Sequence[
 
 
 def _spoil(openings: np.ndarray[Any, Any], steps: np.ndarray[Any, Any], fault: str) -> None:
-    """One fault in the control window of the tenth cycle of the run."""
+    """One fault in the control window in the tenth cycle of the run."""
     if not fault:
         return
     row = int(np.flatnonzero(openings["window"] == 1)[10])

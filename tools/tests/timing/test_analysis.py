@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: figures, misses and their responsible components equal values calculated by hand.
+# Goal: figures, misses and their responsible components equal manually calculated values.
 # Method: a run of a few window instances with given instants, one fault at a time.
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ US = 1000
 
 
 Instants = tuple[int, int, int, float, float | None]
-"""Frame, component, pass, start and end [us]; an end that did not come is None."""
+"""Frame, component, pass, start and end [us]; None for a missing end."""
 
 
 class Rows:
-    """A run of four window instances in frames 1 .. 4, each late by 10 us, with two steps of 30 us and 40 us; one table of instants [us]
-    from the release."""
+    """A run of four window instances in frames 1 .. 4, each late by 10 us, with two steps of 30 us and 40 us. One table of instants [us],
+    counted from the release."""
 
     def __init__(self) -> None:
         self.openings = [[10, 90, COMPLETED] for _ in range(4)]
@@ -144,7 +144,7 @@ def test_component_that_is_not_back_at_the_deadline_is_guilty(rows: Rows, tmp_pa
 
     assert (misses[0].cycle, misses[0].window, misses[0].outcome, misses[0].component, misses[0].late_ns) == (3, "work", "overrun", guilty, 10 * US)
     assert misses[0].reason == said
-    if end is None:  # the work still hangs, and the next window instance states since when
+    if end is None:  # the work still hangs; the next window instance states the start of the hang
         assert (misses[1].cycle, misses[1].component, misses[1].reason) == (4, "first", "never came back; it began in cycle 3")
 
 
@@ -159,7 +159,7 @@ def test_step_that_ends_on_the_deadline_is_not_the_guilty_one(rows: Rows, tmp_pa
 @pytest.mark.verifies("SWR-TIM-014", technique="error_guessing")
 @pytest.mark.parametrize(("end", "is_host"), [(450, True), (451, False), (None, False)])
 def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Path, end: int | None, is_host: bool) -> None:
-    rows.openings[2] = [250, 301, OVERRUN]  # with its complete budget it would have had until 450 us
+    rows.openings[2] = [250, 301, OVERRUN]  # the complete budget would have lasted until 450 us
     rows.steps[2] = [(2, 0, 0, 252, 290), (2, 1, 0, 291, end)]
     rows.steps[3] = [] if end is None else rows.steps[3]
 
@@ -215,7 +215,7 @@ def test_overrun_is_a_finding_with_cycle_and_component(rows: Rows, tmp_path: Pat
 
 
 def read_drifting(folder: Path, planned_ns: int = 0, late_ns: int = 0, count: int = 1000, missing: int | None = None) -> Measurement:
-    """Instances whose planned instant is off by `planned_ns` and whose lateness grows by `late_ns`, more in each frame."""
+    """Instances whose planned instant is off by `planned_ns`, and whose lateness grows by `late_ns` in each frame."""
     openings = np.zeros(count, OPENING)
     frames = np.arange(count)
     openings["release_ns"] = (1000 * (frames + 1) + 100) * US + frames * planned_ns

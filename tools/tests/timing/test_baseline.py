@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Goal: ratios are stored, compared at their limit, and never compared with those of another system, table or format.
-# Method: baselines written by the tool and then edited.
+# Method: baselines that the tool writes and the test edits.
 from __future__ import annotations
 
 from pathlib import Path

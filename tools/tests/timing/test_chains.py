@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Goal: event chains follow the values, their virtual times are exact, and measurements are compared with them.
-# Method: small tables with results calculated on paper; measured runs with one fault.
+# Method: small tables with manually calculated results; measured runs with one fault.
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -78,7 +78,7 @@ def test_response_is_from_the_opening_that_samples_to_the_planned_close_that_act
     assert (found.min_ns, found.max_ns, found.reaction_max_ns, found.worst_phase_ns) == (900 * US, 900 * US, 1900 * US, 0)
 
 
-# A slow sampler supplies a fast actor: major frame 2000; sampler every 1000 at 0 (length 300); actor every 400 at 100 (length 50), core 1.
+# A slow sampler feeds a fast actor: major frame 2000; sampler every 1000 at 0 (length 300); actor every 400 at 100 (length 50), core 1.
 # Sample 0 is published at 300 and read at 500: 550 in total. Sample 1000 is published at 1300 and read at exactly 1300: 350.
 RATES = (("slow", 0, 0, 300, 1000, 300), ("fast", 1, 100, 50, 400, 50))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the command checks everything before it runs, keeps and marks the measured data, and its status is correct.
+# Goal: the command checks everything before the run, keeps and marks the measured data, and its exit status is correct.
 # Method: a program that writes prepared measurements (timing_run.py), also one that fails, hangs or is stopped.
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ sys.exit(main(sys.argv[2:]))
 
 @pytest.fixture
 def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A program without pictures, which take most of the time of a call and have their own tests."""
+    """A program for calls without pictures, which dominate the run time and have their own tests."""
     monkeypatch.setattr("mamori_tools.timing.picture.draw_report", lambda report, folder: [])
     return make_program(tmp_path)
 
@@ -240,7 +240,7 @@ def test_what_is_in_the_way_of_a_result_is_named(program: Path, name: str, capsy
 
 
 def stop_while_measuring(program: Path, number: signal.Signals, grace_s: float, *words: str) -> tuple[int, str]:
-    """@return exit status and output of a command that got the signal `number` while its program measured."""
+    """@return exit status and output of a command that received the signal `number` while its program measured."""
     out = program.parent / "out"
     prepare(program.parent, 60_000)
     argv = [sys.executable, "-P", "-c", RUNNER, str(grace_s), "timing", str(program), "--out", str(out), "--", "wait", *words]
@@ -307,7 +307,7 @@ esac
 
 @pytest.fixture
 def project(program: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A project whose example is built by a cmake that copies the program. @return its root."""
+    """A project whose example is built by a fake cmake that copies the program. @return its root."""
     root = program.parent / "project"
     (root / "examples" / "arm").mkdir(parents=True)
     (root / "examples" / "arm" / "timing.toml").write_text(

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: an extreme-value estimate is given for a series that permits one, and rejected with a reason for every other.
-# Method: seeded series of known kind, and single tests compared with values of the literature.
+# Goal: an extreme-value estimate is given for each series that permits one; every other series is rejected with a reason.
+# Method: seeded series of known kind; single tests compared with values from the literature.
 from __future__ import annotations
 
 import numpy as np
@@ -93,7 +93,7 @@ def test_runs_are_counted_as_in_a_worked_example() -> None:
 
 @pytest.mark.verifies("SWR-TIM-018", technique="back_to_back")
 def test_l_moments_are_those_of_a_worked_example() -> None:
-    # Calculated from all subsamples of {1, 2, 4}: mean 7/3, half the mean difference 1, third 1/3 (x3 - 2 x2 + x1).
+    # Calculated from all subsamples of {1, 2, 4}: mean 7/3, half of the mean difference 1, third 1/3 (x3 - 2 x2 + x1).
     assert calc_l_moments(np.array([4.0, 1.0, 2.0])) == pytest.approx((7 / 3, 1.0, 1 / 3))
 
 

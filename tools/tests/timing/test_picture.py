@@ -76,7 +76,7 @@ def test_tail_is_the_exact_share_above_each_value() -> None:
     times, share = calc_tail(np.array([40, 10, 20, 20]))
 
     assert times.tolist() == [10, 20, 40]
-    assert share.tolist() == [0.75, 0.25, 0.25]  # none is above 40: it has its own share
+    assert share.tolist() == [0.75, 0.25, 0.25]  # no value is above 40: it has its own share
 
 
 @pytest.mark.verifies("SWR-TIM-027", technique="boundary_values")

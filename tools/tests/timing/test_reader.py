@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a run is read completely and quickly, and truncated, edited or inconsistent files are rejected.
+# Goal: a run is read completely and quickly; truncated, edited or inconsistent files are rejected.
 # Method: runs from timing_run.py, with one fault at a time.
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from mamori_trace.base.errors import InputError
 TIMES_US = [row[3] for row in COMPONENTS]
 HOST = {"setting": collect_setting(), "before": collect_state(), "after": collect_state()}
 READ_S_MAX = 5.0
-"""Five times what is wanted of an idle machine: a test never fails for a busy one."""
+"""Five times the limit for an idle host, so that the test does not fail on a busy one."""
 
 
 def write(folder: Path, count: int = 20, **changes: Any) -> Path:
@@ -68,7 +68,7 @@ def test_whole_run_is_read_with_its_steps_at_their_openings(tmp_path: Path) -> N
 def test_a_minute_of_a_thousand_cycles_a_second_is_read_in_about_a_second(tmp_path: Path) -> None:
     write(tmp_path, 60_000)
 
-    begin = time.process_time()  # the time of other programs does not count
+    begin = time.process_time()  # time of other programs is excluded
     run = read_measurement(tmp_path)
 
     assert len(run.steps) == 240_000

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the effect of requests from outside is the median of the differences within the rounds, and one of 1 % of the major frame is a finding.
+# Goal: the effect of requests from outside is the median of the differences within the rounds; an effect of 1 % of the major frame is a
+# finding.
 # Method: runs whose starts in the blocks with requests are shifted, on both sides of each limit.
 from __future__ import annotations
 
@@ -16,7 +17,7 @@ from mamori_trace.base.errors import InputError
 TABLE = make_table(windows=(("work", 0, 100, 300, 1000, 200),), components=(("only", 0, None, 0),), connections=())
 PACES = (0, 0, 1, 2, 1, 2, 0, 2, 0, 1)
 BLOCK = 20
-PLANNED = 6 * BLOCK  # requests at one per millisecond
+PLANNED = 6 * BLOCK  # requests in the pace of one per millisecond
 START_NS = (50_000, 90_000, 30_000)  # in each round
 STEADY_NS = (2_000, 1_000, -1_000)
 BURST_NS = (0, 5_000, 30_000)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What several actions share: the arguments that choose the input, the exit status, the printing of an outcome.
+"""Common parts of the actions: the arguments that select the input, the exit status, the printing of an outcome.
 
 @satisfies SWR-TRC-108      Design: docs/design/trace.md#command
 """
@@ -30,12 +30,12 @@ SARIF = "sarif"
 
 
 def add_root(parser: argparse.ArgumentParser) -> None:
-    """`--root`, which every action has."""
+    """`--root`, an option of every action."""
     parser.add_argument("--root", type=Path, default=Path("."), metavar="DIR", help="project folder (default: here)")
 
 
 def add_input(parser: argparse.ArgumentParser) -> None:
-    """What to read: project and evidence."""
+    """The input: project and evidence."""
     add_root(parser)
     parser.add_argument("--evidence", type=Path, metavar="DIR", help="default: build/host-release/evidence, or the only one")
     add_foreign(parser)
@@ -46,7 +46,7 @@ def add_input(parser: argparse.ArgumentParser) -> None:
 
 
 def add_output(parser: argparse.ArgumentParser, *more: str) -> None:
-    """How to print: as text, JSON, or one of `more`."""
+    """The output format: text, JSON, or one of `more`."""
     parser.add_argument("--output", choices=("text", "json", *more), default="text", help="how to print (default: text)")
     parser.add_argument("--json", dest="output", action="store_const", const="json", help="the same as --output json")
 
@@ -57,7 +57,7 @@ def read_input(arguments: argparse.Namespace) -> Project:
         raise InputError("--release and --allow-missing contradict each other; give one of them")
     foreign = get_foreign(arguments)
     if foreign is not None:
-        from mamori_trace.formats.in_place import read_in_place  # loads much that a project of Mamori's own format does not need
+        from mamori_trace.formats.in_place import read_in_place  # loads much that a project in Mamori's own format does not need
 
         project = read_in_place(foreign, list_rule_ids())
     else:
@@ -67,7 +67,7 @@ def read_input(arguments: argparse.Namespace) -> Project:
 
 
 def warn_of_gap(root: Path) -> None:
-    """Reports on standard error which sources the choice of a new id could not read."""
+    """Reports on standard error the sources that could not be searched for used ids."""
     from mamori_trace.readers.history import describe_gap  # runs git, which most actions do not
 
     gap = describe_gap(root)
@@ -76,7 +76,7 @@ def warn_of_gap(root: Path) -> None:
 
 
 def find_item(project: Project, name: str) -> Item:
-    """The item of that id. Raises InputError, which names the nearest ids."""
+    """The item with this id. Raises InputError with the nearest ids."""
     item = project.items.get(name)
     if item is None:
         near = ", ".join(project.suggest(name))
@@ -85,7 +85,7 @@ def find_item(project: Project, name: str) -> Item:
 
 
 def demand_readable(project: Project) -> None:
-    """Raises InputError if a file of the project could not be read, because that file may contain ids and areas."""
+    """Raises InputError if a project file could not be read, because that file may contain ids and areas."""
     for problem in project.problems:
         if problem.rule == unreadable_input.RULE.id:
             raise InputError(f"{problem.place}: {problem.message}")
@@ -97,7 +97,7 @@ def print_outcome(arguments: argparse.Namespace, project: Project, findings: lis
         print(format_json(project, findings, verdicts), end="")
         return
     if arguments.output == SARIF:
-        from mamori_trace.reports.sarif import format_sarif  # asks for the version of the package, which is slow
+        from mamori_trace.reports.sarif import format_sarif  # queries the version of the package, which is slow
 
         print(format_sarif(project, findings), end="")
         return

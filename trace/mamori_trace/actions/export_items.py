@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _demand_single(project: ForeignProject) -> None:
-    """Raises InputError for an id with two items, because a format that stores items by id would lose one."""
+    """Raises InputError if two items have one id: a format that stores items by id would lose one."""
     first: dict[str, Place] = {}
     for item in project.items:
         if item.id in first:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The arguments that choose a project in another tool's format: `--format FORMAT PATH [--results FILES]`.
+"""The arguments that select a project in the format of another tool: `--format FORMAT PATH [--results FILES]`.
 
 @satisfies SWR-TRC-045      Design: docs/design/trace_formats.md#in-place
 """

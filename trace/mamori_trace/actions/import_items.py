@@ -67,13 +67,13 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _read_maps(root: Path) -> dict[str, str]:
-    """The maps of earlier imports, by the path that the user knows."""
+    """The maps of earlier imports, by the path that the user specified."""
     paths = (path for path in (root / "requirements").rglob(MAP_NAME) if path.is_file())
     return {path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace") for path in paths}
 
 
 def _tell(outcome: Takeover, written: list[Path], problems: list[Problem]) -> None:
-    """All parts that were not imported, in order of file and line, and the imported parts."""
+    """All parts that were not imported, ordered by file and line, then the imported parts."""
     rows = [(loss.place, loss.what) for loss in outcome.losses] + [(problem.place, problem.message) for problem in problems]
     for place, what in sorted(set(rows)):
         print(f"{place}: not taken over: {what}")

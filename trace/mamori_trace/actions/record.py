@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _run(command: list[str]) -> int:
-    """@return the exit status as a shell reports it."""
+    """@return the exit status in the convention of the shell."""
     sys.stdout.flush()
     try:
         with subprocess.Popen(command) as child:
@@ -88,7 +88,7 @@ def _run(command: list[str]) -> int:
 
 
 def _record(folder: Path, made: list[Path], inputs: dict[str, str], programs: list[Path], folders: list[str]) -> None:
-    """Adds the rows of the new files, drops the rows of removed files and keeps the others."""
+    """Adds the rows of new files, drops the rows of removed files, and keeps all others."""
     base = folder.resolve()
     outside = [path for path in made if not path.resolve().is_relative_to(base)]
     if outside:
@@ -116,7 +116,7 @@ def _collect_inputs(root: Path, folders: list[str], program: str, command: list[
 
 
 def _name_folders(root: Path, given: list[Path]) -> list[str]:
-    """Folders relative to the root. Raises InputError for a folder that is missing or outside the root."""
+    """Folders relative to the root. Raises InputError if a folder is missing or outside the root."""
     names = []
     for path in given:
         if not path.exists():
@@ -146,6 +146,6 @@ def _find_folder(made: list[Path]) -> Path:
 
 
 def _get_stamp(path: Path) -> Stamp:
-    """Values that change when a file is written or replaced."""
+    """Values that change when the file is written or replaced."""
     status = path.stat()
     return status.st_ino, status.st_size, status.st_mtime_ns

@@ -35,7 +35,7 @@ def read_rows(folder: Path) -> Rows:
 
 
 def make_rows(folder: Path, files: Iterable[Path], inputs: dict[str, str], find_program: Callable[[Path], Path | None]) -> Rows:
-    """One row for each file. `find_program` returns the program that wrote a file, if known. Raises OSError."""
+    """One row for each file. `find_program` returns the program that wrote the file, if known. Raises OSError."""
     rows: Rows = {}
     for path in files:
         program = find_program(path)

@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"{pdf}: is the file of the page, too; give --pdf and --out two names")
     try:
         if pdf is not None:
-            find_chromium()  # before the long reading
+            find_chromium()  # before the slow reading
         project = read_input(arguments)
         findings, verdicts = write_report(project, out, None if pdf is None else lambda page: print_page(page, pdf))
     except WorkError as error:

@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     date = datetime.date.today().isoformat()
     give_up_ids(project, gone, date)
     count = review_links(project, chosen, date, reviewer)
-    write_ids(project.root, project.former_ids)  # first: the lock forgets these ids
+    write_ids(project.root, project.former_ids)  # first, because the lock is about to drop these ids
     write_lock(arguments.root, project.lock or ReviewLock(), lock_path)
     print(f"{count} links recorded as reviewed by {reviewer} in {lock_path or LOCK_PATH}")
     if gone:
@@ -70,7 +70,7 @@ def _read(arguments: argparse.Namespace) -> tuple[Project, Path | None]:
 
 
 def list_gone(project: Project) -> dict[str, str]:
-    """Ids that reviewed links name and no item has, with the fingerprint of their last review."""
+    """Ids without an item that reviewed links name, each with the fingerprint of its last review."""
     gone: dict[str, str] = {}
     for each in project.lock.reviews.values() if project.lock is not None else ():
         for name, fingerprint in ((each.child, each.child_fingerprint), (each.parent, each.parent_fingerprint)):
@@ -80,14 +80,14 @@ def list_gone(project: Project) -> dict[str, str]:
 
 
 def give_up_ids(project: Project, gone: dict[str, str], date: str) -> None:
-    """Enters retired ids into the ledger. An id that is already in it keeps its first entry."""
+    """Adds retired ids to the ledger. An id that is already there keeps its first entry."""
     for name, fingerprint in gone.items():
         former = FormerId(name, fingerprint, date, read_title(project.root, name), Place(IDS_PATH, 1))
         project.former_ids.setdefault(name, former)
 
 
 def review_links(project: Project, chosen: set[str], date: str, reviewer: str) -> int:
-    """Records a review of each suspect link with an end in `chosen`; removes links that no longer exist.
+    """Records a review of each suspect link that has an end in `chosen`, and removes links that no longer exist.
 
     An unchanged link keeps its date and its reviewer. @return number of recorded links.
     """

@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _describe(signed: bool, opinion: Opinion) -> str:
-    """What the signature shows."""
+    """Result of the signature check, in words."""
     if not signed:
         return "not signed"
     if opinion.fault:

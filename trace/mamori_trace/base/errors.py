@@ -9,7 +9,7 @@ from pathlib import Path
 class InputError(Exception):
     """An argument or a file cannot be used; exit status 2.
 
-    `path` and `line` (counted from 1) are None where the fault has no location in a file.
+    `path` and `line` (counted from 1) are None if the error has no location in a file.
     """
 
     def __init__(self, text: str, path: Path | str | None = None, line: int | None = None) -> None:
@@ -24,11 +24,11 @@ class MissingError(Exception):
 
 
 class WorkError(Exception):
-    """The work could not be done: a program failed, or left no usable result; exit status 1."""
+    """The work failed: a program failed, or gave no usable result; exit status 1."""
 
 
 class FormatError(ValueError):
-    """A text does not have the format that it claims. The caller adds the file. `column` counts from 1; None where there is none."""
+    """A text does not have the specified format. The caller adds the file. `column` counts from 1; None if there is none."""
 
     def __init__(self, text: str, column: int | None = None) -> None:
         self.column = column

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""File access shared by the readers: paths as findings show them, text that may be badly encoded, the source tree.
+"""File access for all readers: paths as findings show them, text with invalid encoding, the source tree.
 
-A path that cannot be opened or listed is a problem, not an absence: otherwise an unreadable folder would count as empty.
+A path that cannot be opened or listed is a problem, not an absence: an unreadable folder must not count as empty.
 
 @satisfies SWR-TRC-009      Design: docs/design/trace.md#input-errors
 """
@@ -26,7 +26,7 @@ def get_shown_path(path: Path, root: Path) -> str:
         lost = path.is_symlink() and not path.exists()  # the user can correct the link, not its target
         whole = path.parent.resolve() / path.name if lost else path.resolve()
         return whole.relative_to(root.resolve()).as_posix()
-    except (OSError, RuntimeError):  # a loop of links, or a name that is too long
+    except (OSError, RuntimeError):  # a cycle of links, or a name that is too long
         return os.path.relpath(path, root).replace(os.sep, "/")
     except ValueError:
         return path.as_posix()
@@ -52,19 +52,19 @@ def read_text(path: Path, shown: str, problems: list[Problem]) -> str:
 
 
 def note_unreadable(error: OSError, shown: str, problems: list[Problem]) -> None:
-    """One problem for a file or folder, however often it is read."""
+    """Reports one problem for a file or folder, even if it is read several times."""
     problem = Problem(UNREADABLE, Place(shown, 1), f"cannot be read: {explain(error)}")
     if problem not in problems:
         problems.append(problem)
 
 
 def walk_folders(top: Path, root: Path, problems: list[Problem]) -> Iterator[tuple[str, list[str], list[str]]]:
-    """Like os.walk without following links to folders; a folder that cannot be listed is a problem."""
+    """Like os.walk, but does not follow links to folders; a folder that cannot be listed is a problem."""
     return os.walk(top, onerror=lambda error: note_unreadable(error, get_shown_path(Path(error.filename), root), problems))
 
 
 def walk_whole(top: Path) -> Iterator[tuple[str, list[str], list[str]]]:
-    """Like `walk_folders` for callers that need the complete tree: raises OSError for a folder that cannot be listed."""
+    """Like `walk_folders`, for callers that need the complete tree: raises OSError if a folder cannot be listed."""
     return os.walk(top, onerror=_raise)
 
 
@@ -73,7 +73,7 @@ def _raise(error: OSError) -> None:
 
 
 def list_paths(folder: Path, pattern: str, root: Path, problems: list[Problem]) -> list[Path]:
-    """Like Path.glob, sorted, for names and stars between slashes. A missing folder has no paths; one that cannot be listed is a problem."""
+    """Like Path.glob, sorted, for names and stars between slashes. A missing folder gives no paths; an unlistable one is a problem."""
     found = [folder]
     for part in pattern.split("/"):
         found = [each / name for each in found for name in _list_names(each, root, problems) if fnmatch.fnmatchcase(name, part)]
@@ -91,7 +91,7 @@ def _list_names(folder: Path, root: Path, problems: list[Problem]) -> list[str]:
 
 
 def walk_sources(root: Path, suffixes: tuple[str, ...], problems: list[Problem]) -> Iterator[tuple[Path, str]]:
-    """Source files below `root` with one of `suffixes`, and their displayed paths, sorted by path.
+    """Source files below `root` with one of `suffixes`, each with its displayed path, sorted by path.
 
     Excludes hidden folders, build trees, requirements, documents and reports.
     """
@@ -106,7 +106,7 @@ def walk_sources(root: Path, suffixes: tuple[str, ...], problems: list[Problem])
 
 
 def is_test_file(shown: str) -> bool:
-    """Whether a source file contains tests: it is in a folder of tests or is named like a test."""
+    """Whether a source file contains tests: it is in a test folder or has the name of a test."""
     *folders, name = shown.split("/")
     if "tests" in folders or "test" in folders or name.startswith("test_"):
         return True

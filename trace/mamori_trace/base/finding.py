@@ -14,7 +14,7 @@ OFF = "off"
 class Place(NamedTuple):
     """A line of a file. `file` is relative to the project root if it is inside; `line` counts from 1.
 
-    A tuple, because a large project has tens of thousands: creation takes half the time of a frozen class, and comparison takes less.
+    A tuple, because a large project has tens of thousands: creation takes half the time of a frozen class, and comparison is faster.
     """
 
     file: str
@@ -38,7 +38,7 @@ class Problem:
 class Rule:
     """A rule: `id` never changes its meaning; `about` states its requirement in one sentence.
 
-    `severity` applies unless a rule pack specifies another. A rule with severity OFF reports only if a rule pack requires it. `release`
+    `severity` applies unless a rule pack specifies another one. A rule with severity OFF reports only if a rule pack enables it. `release`
     replaces the severity in the check of a release.
     """
 

@@ -18,10 +18,10 @@ _HARMLESS = ("core.fsmonitor=false", "core.hooksPath=/dev/null", "core.pager=cat
              "core.attributesFile=/dev/null", "credential.helper=", "gpg.program=false", "gpg.ssh.program=false",
              "gpg.x509.program=false", "log.showSignature=false", "protocol.allow=never", "uploadpack.packObjectsHook=", "gc.auto=0",
              "maintenance.auto=false", "submodule.recurse=false", "core.gitProxy=", "sequence.editor=false", "core.editor=false")  # fmt: skip
-"""What the command line says goes before what a repository says."""
+"""Settings of the command line override the settings of a repository."""
 _MORE_OPTIONS = {"diff": ("--no-ext-diff", "--no-textconv", "--ignore-submodules=dirty"), "log": ("--no-ext-diff", "--no-textconv"),
                  "show": ("--no-ext-diff", "--no-textconv"), "status": ("--ignore-submodules=dirty",)}  # fmt: skip
-"""A look into a submodule would start a git of its own, which knows nothing of the settings above."""
+"""git would inspect a submodule with a separate git process, which ignores the settings above."""
 _FILTER = re.compile(r"""^[ \t]*\[[ \t]*filter[ \t]+"([^"\n]+)"[ \t]*\]|^[ \t]*\[filter\.([\w.-]+)\]""", re.MULTILINE | re.IGNORECASE)
 _PATH = re.compile(r"""^[ \t]*path[ \t]*=[ \t]*"?([^"\n#;]+)""", re.MULTILINE | re.IGNORECASE)
 _FILES_MAX = 32
@@ -43,7 +43,7 @@ def make_git_command(root: Path | str, arguments: Sequence[str]) -> list[str]:
 
 
 def run_git(root: Path | str, arguments: Sequence[str], timeout_s: float = TIMEOUT_S) -> bytes | None:
-    """The output of git; empty if git is missing, fails, or takes longer than `timeout_s`."""
+    """The output of git; None if git is missing, fails, or takes longer than `timeout_s`."""
     return _run(make_git_command(root, arguments), timeout_s)
 
 
@@ -56,7 +56,7 @@ def _run(command: list[str], timeout_s: float) -> bytes | None:
 
 
 def _find_command(words: list[str]) -> int:
-    """Index of git's own command, after `-c SETTING`."""
+    """Index of the git command, after all `-c SETTING`."""
     index = 0
     while index < len(words) and words[index] == "-c":
         index += 2
@@ -64,7 +64,7 @@ def _find_command(words: list[str]) -> int:
 
 
 def _list_filters(root: Path | str) -> list[str]:
-    """Settings that disable each content filter of the repository configuration. git has no option that disables all of them."""
+    """Settings that disable each content filter of the repository configuration; git has no option that disables all filters."""
     pending = _find_configurations(Path(root))
     names: set[str] = set()
     for _ in range(_FILES_MAX):

@@ -17,7 +17,7 @@ from mamori_trace.base.files import UNREADABLE, get_shown_path, read_text
 from mamori_trace.base.finding import Place, Problem
 
 _WHOLE_MAX = 2**63
-"""Whole numbers of evidence are 64 bit wide; a greater one is none, and would not become a float."""
+"""Integers in evidence have at most 64 bits. Larger ones are invalid, because some could not be converted to float."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class Each:
 
 
 def read_json(path: Path, schema: str, root: Path, problems: list[Problem]) -> tuple[dict[str, Any], str] | None:
-    """Content and text. @return None if the file has no usable content; a problem then reports it."""
+    """Content and text. @return None if the file has no usable content, after reporting a problem."""
     shown = get_shown_path(path, root)
     text = read_text(path, shown, problems)
     if not text and any(problem.place.file == shown for problem in problems):
@@ -77,8 +77,8 @@ def read_records(
 def find_misfit(value: Any, shape: Any, name: str) -> str:
     """Describes the first mismatch with its location in the file (`windows[2].budget_ns is no whole number`); empty if all values match.
 
-    `shape`: `int`, `float` (any finite number), `str`, `bool`; `[shape]`: a list of such values; a table from keys to shapes: the
-    required keys; `Maybe`, `Each`. The recursion depth is that of the shape, for any `value`.
+    `shape`: `int`, `float` (any finite number), `str`, `bool`; `[shape]`: a list of such values; a table from keys to shapes: the required
+    keys; `Maybe`, `Each`. The recursion depth depends on the shape only, not on `value`.
     """
     if isinstance(shape, Maybe):
         return "" if value is None else find_misfit(value, shape.shape, name)
@@ -114,7 +114,7 @@ def _is_whole(value: object) -> bool:
 
 
 def _is_text(value: object) -> bool:
-    """Half of a surrogate pair cannot be encoded."""
+    """Rejects half of a surrogate pair, which cannot be encoded."""
     return isinstance(value, str) and not any("\ud800" <= letter <= "\udfff" for letter in value)
 
 

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """YAML in which every value has its line, so that messages can name the location of an invalid value.
 
-Only text, lists and mappings are built, from parser events: no tag constructs an object. An alias may replace one
-scalar, as model files use it for a source. Aliases of lists and mappings are rejected, so that a small file cannot
-grow without limit.
+Only text, lists and mappings are built, from parser events; no tag constructs an object. An alias may replace only a scalar: model files
+use this for sources. Aliases of lists and mappings are rejected, because a small file could otherwise grow without limit.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ _NULL = frozenset({"", "~", "null", "Null", "NULL"})
 
 
 def parse_events(source: SourceText) -> Iterator[yaml.Event]:
-    """Parser events of the one document in `source`, without the stream events.
+    """Parser events of the only document in `source`, without the stream events.
 
     Raises InputError on a syntax error and on a second document.
     """
@@ -54,7 +53,7 @@ def parse_events(source: SourceText) -> Iterator[yaml.Event]:
 
 
 def line_of(event: yaml.Event) -> int:
-    """Line of the beginning of the event, counted from 1."""
+    """Line of the start of the event, counted from 1."""
     assert event.start_mark is not None  # the parser gives each event its location
     return event.start_mark.line + 1
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One writing command at a time in a project folder: an exclusive `flock` on `build/mamori.lock`, which names its holder.
+"""Permits only one writing command at a time in a project folder: an exclusive `flock` on `build/mamori.lock`, which names its holder.
 
 The kernel releases the lock when its holder ends for any reason. A remaining file is therefore not a lock.
-Child processes do not inherit the descriptor. They inherit the key of the lock in the environment, which admits them.
+Child processes do not inherit the descriptor. They inherit the key of the lock in the environment, which gives them access.
 
 @satisfies SWR-CLI-040, SWR-CLI-041      Design: docs/design/launcher.md#lock
 """
@@ -31,9 +31,9 @@ _READ_PAUSE_S = 0.02
 
 @contextlib.contextmanager
 def hold_lock(folder: Path, command: str) -> Iterator[None]:
-    """Holds the lock of `folder` for `command`; does nothing if a caller of this process holds it.
+    """Holds the lock of `folder` for `command`; has no effect if a caller of this process holds it.
 
-    Raises MissingError immediately when another command holds it, OSError when the file cannot be created.
+    Raises MissingError immediately if another command holds it, OSError if the file cannot be created.
     """
     path = folder.resolve() / LOCK
     is_made = not path.parent.exists()
@@ -54,7 +54,7 @@ def hold_lock(folder: Path, command: str) -> Iterator[None]:
         else:
             os.environ[KEYS] = keys
         with contextlib.suppress(OSError):
-            path.unlink()  # while it is held: a process that opened it meanwhile detects the removed name and opens it again
+            path.unlink()  # before the release: a process that opened the file meanwhile detects the removed name and opens it again
             if is_made:
                 path.parent.rmdir()
         os.close(descriptor)
@@ -83,7 +83,7 @@ def _acquire(path: Path) -> int | None:
             tries += 1
             if _is_running(holder) or tries >= _READ_TRIES:
                 raise MissingError(_describe(holder, path)) from None
-            time.sleep(_READ_PAUSE_S)  # the holder has not written its name yet
+            time.sleep(_READ_PAUSE_S)  # the holder has not yet written its name
         finally:
             if descriptor >= 0:
                 os.close(descriptor)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Signs and verifies by `ssh-keygen -Y`: engineers already have such keys, and the project needs no cryptography of its own.
+"""Signs and verifies with `ssh-keygen -Y`: engineers already have such keys, and the project needs no own cryptography.
 
 @satisfies SWR-TRC-077      Design: docs/design/trace.md#signature
 """
@@ -28,7 +28,7 @@ class Opinion:
 
 
 def demand_key(key: Path) -> None:
-    """Raises InputError if signing with `key` is impossible, before any work is done."""
+    """Raises InputError if signing with `key` is impossible; called before any work."""
     _demand_tool()
     if not key.is_file():
         raise InputError(f"{key}: no such key; make one with `ssh-keygen -t ed25519 -f FILE`")
@@ -43,7 +43,7 @@ def sign(data: bytes, key: Path) -> bytes:
 
 
 def check_signature(data: bytes, signature: bytes, signers: Path | None) -> Opinion:
-    """Checks whether `signature` belongs to `data` and, if the file `signers` is given, to which signer. Raises InputError."""
+    """Checks that `signature` belongs to `data` and, with the file `signers`, to which signer. Raises InputError."""
     _demand_tool()
     if signers is not None:
         _check_signers(signers)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A strict reader of the plain tar archives that `mamori trace bundle` writes: regular files with short headers, nothing else.
+"""A strict reader of the plain tar archives that `mamori trace bundle` writes. It accepts only regular files with short headers.
 
-The reader of the standard library loads extended headers of any size into memory and accepts links, devices and sparse files. An external
-archive must not be able to use any of these. This reader writes nothing to disk.
+The reader of the standard library loads extended headers of any size into memory, and accepts links, devices and sparse files. External
+archives must not be able to use these features. This reader writes nothing to disk.
 
 @satisfies SWR-TRC-076      Design: docs/design/trace.md#verify
 """

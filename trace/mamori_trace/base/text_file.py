@@ -11,7 +11,7 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.whole_file import TargetError, whole_file
 
 MAX_BYTES = 200_000_000
-"""Largest file that is read. A joint motion of ten minutes at 1 kHz has less."""
+"""Maximum size of a file. A joint motion of ten minutes at 1 kHz is smaller."""
 
 
 @dataclass(frozen=True)
@@ -58,9 +58,9 @@ def read_text(path: Path | str, what: str, max_bytes: int = MAX_BYTES) -> Source
 
 
 def write_text(path: Path | str, text: str) -> None:
-    """Writes `text` under a temporary name in the folder of `path` and renames the complete file.
+    """Writes `text` to a temporary file in the folder of `path`, then renames it.
 
-    Raises InputError if the folder is missing or not writable; no file remains then.
+    Raises InputError if the folder is missing or not writable; then no file remains.
     """
     try:
         with whole_file(Path(path)) as part:

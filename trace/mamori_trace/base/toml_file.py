@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads one complete TOML file; each fault becomes an error of one kind.
+"""Reads one complete TOML file; every error is of one kind.
 
 @satisfies SWR-TRC-009      Design: docs/design/trace.md#rule-packs
 """
@@ -15,7 +15,7 @@ from mamori_trace.base.system_error import explain
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """The table of `text`. Raises FormatError, also for the other exceptions of the parser of the standard library."""
+    """The table of `text`. Raises FormatError, also instead of other exceptions of the standard parser."""
     try:
         return tomllib.loads(text)
     except RecursionError:
@@ -25,7 +25,7 @@ def parse_toml(text: str) -> dict[str, Any]:
 
 
 def load_toml(path: Path) -> dict[str, Any]:
-    """The table of a file without which no check is possible. Raises FileNotFoundError or InputError."""
+    """The table of a file that every check needs. Raises FileNotFoundError or InputError."""
     try:
         return parse_toml(path.read_text(encoding="utf-8"))
     except FileNotFoundError:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The only function by which host tools write files: atomically.
+"""The only function that writes files of host tools: atomically.
 
-A symbolic link remains; its target is replaced and keeps its mode. Devices and folders are rejected.
+A symbolic link stays; the file at its target is replaced and keeps its mode. Devices and folders are rejected.
 
 @satisfies SWR-CLI-043      Design: docs/design/launcher.md#files-that-are-written
 """
@@ -16,12 +16,12 @@ from pathlib import Path
 
 
 class TargetError(OSError):
-    """The path cannot be a regular file. `str()` is the reason and the remedy, without the path."""
+    """The path cannot be a regular file. `str()` gives the reason and the remedy, without the path."""
 
 
 @contextlib.contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """A temporary name in the folder of the target of `path`; it replaces the target when the block ends without an exception.
+    """A temporary name in the folder of the target of `path`. If the block ends without an exception, that file replaces the target.
 
     Raises OSError. After any exception, including KeyboardInterrupt, the old file is unchanged and the temporary file is removed.
     """
@@ -57,6 +57,7 @@ def name_part(target: Path) -> Path:
 
 
 def remove_parts(folder: Path) -> None:
-    """Removes the temporary files that a killed process left in `folder`. The caller knows that no other process writes there. Raises OSError."""
+    """Removes the temporary files of killed processes in `folder`. The caller must be the only process that writes there. Raises
+    OSError."""
     for part in folder.glob(".*.part"):
         part.unlink()

@@ -17,7 +17,7 @@ from mamori_trace.base.whole_file import find_target as find_file
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Writes `text` under a temporary name and renames it to the target of `path`. Raises InputError; the old file then stays unchanged."""
+    """Writes `text` to a temporary file and renames it to the target of `path`. Raises InputError; the old file then stays unchanged."""
     write_whole_bytes(path, text.encode("utf-8"))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Feeds an XML file to expat in pieces, so that files of any size fit, and rejects content that could fill the memory.
+"""Feeds an XML file to expat in pieces, so that files of any size fit. Rejects content that could fill the memory.
 
 @satisfies SWR-TRC-009, SWR-TRC-042      Design: docs/design/trace.md#input-errors
 """
@@ -17,10 +17,10 @@ from mamori_trace.base.finding import Place, Problem
 
 CHUNK_BYTES = 1 << 18
 DEPTH_MAX = 200
-"""Elements within elements. No writer of evidence comes near; the parser keeps each open one in memory."""
+"""Maximum nesting depth, far above that of evidence. The parser keeps each open element in memory."""
 
 TOKEN_BYTES_MAX = 32 << 20
-"""One tag, or one word of markup. The parser keeps it in memory until its end comes."""
+"""Maximum size of one tag or one markup item. The parser keeps it in memory until its end."""
 
 Parser = xml.parsers.expat.XMLParserType
 Start = Callable[[str, dict[str, str]], None]
@@ -28,7 +28,7 @@ End = Callable[[str], None]
 
 
 def make_parser(start: Start, end: End, text: Callable[[str], None], doctype: bool = False) -> Parser:
-    """A parser with these handlers. @param doctype whether a plain document type is accepted; it is never loaded and may define nothing."""
+    """A parser with these handlers. @param doctype accepts a plain document type; it is never loaded and may define nothing."""
     parser = xml.parsers.expat.ParserCreate()
     depth = 0
 
@@ -56,7 +56,7 @@ def make_parser(start: Start, end: End, text: Callable[[str], None], doctype: bo
 
 
 def feed_file(parser: Parser, path: Path, shown: str, remedy: str, problems: list[Problem]) -> bool:
-    """@return whether the complete file was read; if not, one problem is reported, which ends with `remedy`."""
+    """@return whether the complete file was read; otherwise, one problem is reported, which ends with `remedy`."""
     try:
         if not path.is_file() and path.exists():
             raise OSError("it is no file; put one in its place")

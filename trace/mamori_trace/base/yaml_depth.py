@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rejects deeply nested YAML. The parser calls itself for each level and would otherwise end the process.
+"""Rejects deeply nested YAML, because the parser calls itself for each level and would otherwise crash the process.
 
 @satisfies SWR-TRC-009, SWR-TRC-048      Design: docs/design/trace_formats.md#bad-input
 """
@@ -9,11 +9,11 @@ from __future__ import annotations
 from typing import Any
 
 DEPTH_MAX = 200
-"""Lists and tables within each other. No writer of items or of findings comes near."""
+"""Maximum nesting of lists and tables, far above that of items and findings."""
 
 
 def demand_shallow(text: str, loader: Any) -> None:
-    """Raises ValueError for deeper nesting, and yaml.YAMLError for invalid YAML. Events are read singly, so depth needs no memory."""
+    """Raises ValueError for deeper nesting, and yaml.YAMLError for invalid YAML. Events are read one by one, so nesting needs no memory."""
     import yaml  # slow to load, and few projects have such a file
 
     depth = 0

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Watches the inputs of a run: every opened file, every listed folder and every git query, in all modules.
+"""Records the inputs of a run: every opened file, listed folder and git query, in all modules.
 
-Python reports each input through its audit events, so a new reader needs no code for the cache. An input that the watch cannot check
-(another process, a connection, a written file) prevents the outcome from being stored.
+Python reports each input through its audit events, so a new reader needs no code for the cache. If the watch cannot check an input (another
+process, a connection, a written file), the outcome is not stored.
 
 @satisfies SWR-TRC-091      Design: docs/design/trace.md#cache
 """
@@ -22,7 +22,7 @@ _LIVING = ("/proc/", "/sys/", "/dev/")
 
 
 class InputWatch:
-    """The inputs read between `start` and `stop`, each in its state just before."""
+    """The inputs read between `start` and `stop`, each with its state just before the first access."""
 
     def __init__(self) -> None:
         self.files: dict[str, FileState] = {}
@@ -48,7 +48,7 @@ class InputWatch:
 
     def _take_open(self, path: Any, _mode: str | None, flags: int) -> None:
         if isinstance(path, int) or _is_byte_code((path,)):
-            return  # a descriptor that was opened earlier, or Python's own store of compiled modules
+            return  # an already open descriptor, or a byte-code file of Python
         name = os.path.abspath(os.fsdecode(path))
         if flags & _WRITING or name.startswith(_LIVING):
             self.doubt = self.doubt or ("" if name == os.devnull else f"open {name}")
@@ -61,7 +61,7 @@ class InputWatch:
             return
         name = os.path.abspath(os.fsdecode(path or "."))
         if name not in self.folders and os.path.basename(name) != FOLDER_NAME:
-            self.folders[name] = ""  # the following code also lists the folder and must find it recorded
+            self.folders[name] = ""  # recorded first, because the following line also lists the folder
             self.folders[name] = read_listing(name)
 
 
@@ -73,7 +73,7 @@ def start() -> InputWatch:
     """Starts a new watch; a running watch is abandoned."""
     global _active, _is_hooked
     if not _is_hooked:
-        sys.addaudithook(_hook)  # stays for the life of the process; does nothing between watches
+        sys.addaudithook(_hook)  # stays until the process ends; has no effect between watches
         _is_hooked = True
     _active = InputWatch()
     return _active
@@ -85,7 +85,7 @@ def stop() -> None:
 
 
 def note_question(root: str, arguments: tuple[str, ...], answer: str) -> None:
-    """A git query whose process the watch has seen. It can be repeated and returns the same output if nothing changed."""
+    """Records a git query whose process the watch has seen. The query can be repeated; its output is the same if nothing changed."""
     if _active is not None:
         _active.questions.append((os.path.abspath(root), arguments, answer))
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Repeats the outcome of the last check of an unchanged project without reading it again.
 
-An outcome is stored only if every input is known and none was written shortly before the run. It is repeated only if every input,
-git query, tool file, argument, environment variable and the date are equal. Damaged or unexpected content is not an outcome.
+An outcome is stored only if every input is known and none was written shortly before the run. It is repeated only if every input, git
+query, tool file, argument, environment variable and the date are equal. A damaged or unexpected file does not count as an outcome.
 
 @satisfies SWR-TRC-091, SWR-TRC-092      Design: docs/design/trace.md#cache
 """
@@ -24,7 +24,7 @@ from mamori_trace.cache import inputs, state
 
 SCHEMA = "mamori_trace.outcome/1"
 KEPT_MAX = 8
-"""Outcomes of one project; the oldest goes first."""
+"""Maximum number of outcomes of one project; the oldest is removed first."""
 OFF = "--no-cache"
 
 _ACTION = "check"
@@ -49,7 +49,7 @@ def run_kept(words: Sequence[str], run: Callable[[], int]) -> int:
 
 
 def _find_root(words: Sequence[str]) -> str | None:
-    """Folder of the project whose outcome may be stored; None if none may: another action, an option that forbids it, no folder `build`."""
+    """Folder of the project whose outcome may be stored. None for another action, a forbidding option, or a missing folder `build`."""
     if list(words[:1]) != [_ACTION]:
         return None
     root = "."
@@ -63,14 +63,14 @@ def _find_root(words: Sequence[str]) -> str | None:
 
 
 def _make_key(words: Sequence[str]) -> list[Any]:
-    """All values that determine the outcome, besides the inputs. The tool comes last, because it does not select the file."""
+    """All values besides the inputs that determine the outcome. The tool comes last, because it does not select the file."""
     environment = sorted((name, value) for name, value in os.environ.items() if name not in _HARMLESS)
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     libraries = [path for path in sys.path if path.endswith("site-packages")]
     tool = [sys.version, state.read_tool_state([package]), [state.read_listing(path) for path in libraries]]
     now = time.time()
     dates = [time.strftime("%Y-%m-%d", time.gmtime(now)), time.strftime("%Y-%m-%d", time.localtime(now))]
-    secret = hashlib.sha256(json.dumps(environment).encode()).hexdigest()  # an environment may contain values that no file should contain
+    secret = hashlib.sha256(json.dumps(environment).encode()).hexdigest()  # the environment may contain secrets
     key = [SCHEMA, list(words), os.getcwd(), sys.stdout.isatty(), sys.stderr.isatty(), secret, dates, tool]
     return json.loads(json.dumps(key))
 
@@ -95,7 +95,7 @@ def _is_unchanged(kept: dict[str, Any]) -> bool:
         return False
     if any(state.read_listing(path) != was for path, was in kept["folders"].items()):
         return False
-    from mamori_trace.cache.questions import ask  # this module loads the process module, which takes as long as the rest of this function
+    from mamori_trace.cache.questions import ask  # this import takes as long as the rest of the function
 
     return all(ask(root, *words) == answer for root, words, answer in kept["questions"])
 
@@ -105,7 +105,7 @@ def _run_and_keep(words: Sequence[str], root: str, key: list[Any], path: str, ru
         os.makedirs(os.path.dirname(path), exist_ok=True)
         started_ns = state.read_clock_ns(os.path.dirname(path))
     except OSError:
-        return run()  # a read-only project is checked too
+        return run()  # the record lists no conditions of uncalled functions
     named = _list_named(words, root)
     out, err = _Copy(sys.stdout), _Copy(sys.stderr)
     watch = inputs.start()
@@ -126,7 +126,7 @@ def _run_and_keep(words: Sequence[str], root: str, key: list[Any], path: str, ru
 
 
 def _list_named(words: Sequence[str], root: str) -> dict[str, str | None]:
-    """Folders in which a reader may search a name without listing them: of the project, of its evidence, of each path among the arguments."""
+    """Folders in which a reader may search a name without listing them: below the project, its evidence, and each path in the arguments."""
     folders = state.list_folders(root)
     build = os.path.join(root, "build")
     for name in (state.read_listing(build) or "").split("\0"):
@@ -139,7 +139,7 @@ def _list_named(words: Sequence[str], root: str) -> dict[str, str | None]:
 
 
 def _store(path: str, kept: dict[str, Any]) -> None:
-    """Writes it atomically; a full disk must not fail a completed check."""
+    """Writes the outcome atomically; a full disk must not fail a completed check."""
     body = json.dumps(kept, ensure_ascii=True).encode()
     folder = os.path.dirname(path)
     from mamori_trace.base.whole_file import whole_file  # not needed when an outcome is repeated
@@ -161,7 +161,7 @@ class _Copy(io.TextIOBase):
         self._parts: list[str] = []
 
     def __getattr__(self, name: str) -> Any:
-        """`buffer` and similar attributes, which bypass the copy."""
+        """Forwards `buffer` and similar attributes, whose output is not copied."""
         self.is_whole = False
         return getattr(self.stream, name)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Git queries whose output counts as an input of a run. The next run repeats them to detect changes.
+"""Git queries whose output is an input of a run. The next run repeats them to detect changes.
 
 @satisfies SWR-TRC-091      Design: docs/design/trace.md#cache
 """

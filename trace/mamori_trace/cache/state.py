@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The state of files and folders as in git's index: these values must be equal for the content to count as unchanged.
+"""The state of files and folders, as in the index of git. If these values are equal, the content counts as unchanged.
 
 @satisfies SWR-TRC-091      Design: docs/design/trace.md#cache
 """
@@ -11,9 +11,9 @@ import time
 from collections.abc import Iterable
 
 FOLDER_NAME = "trace_cache"
-"""Of the caches themselves, below `build`; no listing shows it."""
+"""Folder of the caches, below `build`; listings omit it."""
 RACY_NS = 2_000_000_000
-"""A file written this shortly before a run may be written again within the same tick of its file system, as coarse as two seconds."""
+"""A file written this shortly before a run may change again within one tick of its file system, which may be two seconds."""
 
 _SKIPPED = {"node_modules", "__pycache__", "report"}
 
@@ -33,12 +33,12 @@ def read_file_state(path: str) -> FileState:
 
 
 def is_racy(state: FileState, started_ns: int) -> bool:
-    """Whether the file can change again without a change of its state."""
+    """Whether the file may have changed without a change of its state."""
     return state is not None and max(state[4], state[5]) > started_ns - RACY_NS
 
 
 def read_listing(path: str) -> str | None:
-    """Names in a folder, each with its kind; None if it cannot be listed. A name that changed from file to folder differs."""
+    """Names in a folder, each with its kind; None if it cannot be listed. The kind shows a change from file to folder."""
     try:
         with os.scandir(path) as entries:
             names = sorted(_get_kind(entry) + entry.name for entry in entries if entry.name != FOLDER_NAME)
@@ -54,7 +54,7 @@ def _get_kind(entry: os.DirEntry[str]) -> str:
 
 
 def list_folders(root: str) -> dict[str, str | None]:
-    """Listing of each folder below `root` in which a reader may search a name, without hidden folders and build trees."""
+    """Listing of each folder below `root` in which a reader may search a name, except hidden folders and build trees."""
     found: dict[str, str | None] = {}
     waiting = [os.path.abspath(root)]
     while waiting:
@@ -78,7 +78,7 @@ def read_clock_ns(folder: str) -> int:
 
 
 def read_tool_state(folders: Iterable[str]) -> dict[str, FileState]:
-    """State of each file of the tool itself, so that a new version never repeats the outcome of this one."""
+    """State of each file of the tool itself, so that a new version never repeats an outcome of an old one."""
     found: dict[str, FileState] = {}
     for top in folders:
         for folder, names, files in os.walk(top):

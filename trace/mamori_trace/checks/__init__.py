@@ -111,15 +111,15 @@ RULES = (
     evidence_altered,
 )
 
-# It reports what the other rules do not report.
+# Reports problems that the other rules do not report.
 REST_RULES = (not_verified,)
 
-# They check the waivers against the waived findings, so they run after all other rules.
+# Compare the waivers with the waived findings, so they run after all other rules.
 LATE_RULES = (waiver_without_reason, waiver_expired, waiver_unused)
 
 
 def list_rules() -> list[Rule]:
-    """All rules in the order in which a reader meets their subjects."""
+    """All rules, in the order of their subjects for a reader."""
     return [module.RULE for module in RULES + REST_RULES + LATE_RULES]
 
 
@@ -134,7 +134,7 @@ def describe_rules() -> dict[str, str]:
 
 
 def run_checks(project: Project) -> list[Finding]:
-    """All counted findings of all rules, in order of file and line; waived findings are added to `project.waived`."""
+    """All counted findings of all rules, ordered by file and line; adds waived findings to `project.waived`."""
     found = _run(RULES, project)
     project.told = frozenset((finding.rule, finding.item) for finding in found)
     findings, waived = split_waived(found + _run(REST_RULES, project), project.waivers, project.date)

@@ -44,7 +44,7 @@ def _check_environment(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def _compare(project: Project, environment: dict[str, Any], place: Place) -> Iterator[tuple[Place, str, str]]:
-    """If the hash of the sources is known, it decides, because it also detects uncommitted changes. Otherwise the commit decides."""
+    """A known hash of the sources decides, because it also detects uncommitted changes. Otherwise the commit decides."""
     made = str(environment.get("commit") or "")
     sources = get_sources(environment)
     if project.sources and sources:

@@ -29,8 +29,8 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def _judge(project: Project, function: Function) -> str:
-    """What is missing. A header function without a counter is an unused template, or one that only the compiler
-    evaluated: no tool could count it."""
+    """The missing execution, in words. A header function without a counter is an unused template or evaluated only at compile time: tools
+    cannot count it."""
     coverage = project.find_coverage(function.requirements)
     reached = coverage.measure(function)
     if reached.executed or reached.accepted:

@@ -12,7 +12,7 @@ RULE = Rule("id-unrecorded", ERROR, "An id that is given up is recorded, so that
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
-    """Reviewed links show which ids existed. An id that is still named is reported as unknown by another rule."""
+    """Reviewed links show which ids existed. Another rule reports an id that is still named as unknown."""
     if project.lock is None:
         return
     named = {parent for item in project.live_items for parent in item.parents}

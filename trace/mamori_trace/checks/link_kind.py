@@ -25,7 +25,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def _list_links(project: Project) -> Iterator[tuple[Place, str, str, str]]:
-    """(place, kind of the source, link, id) of the links of code, tests and campaign cases. The rule level-order reports parents."""
+    """(place, kind of the source, link, id) of the links of code, tests and campaign cases. Rule level-order checks parent links."""
     for tag in project.tags:
         yield tag.place, "code", "satisfies", tag.requirement
     for test in project.tests:

@@ -17,10 +17,10 @@ RULE = Rule("not-verified", ERROR, "Every approved item has a passed result of e
 
 _OTHERS_TELL = (VERIFIED, DRAFT, NOT_SHOWN, UNBOUND)
 _EXECUTED = {"test", "campaign"}
-"""Methods that a result shows; reviews and analyses have rules of their own."""
+"""Methods that results show; separate rules check reviews and analyses."""
 _TELLING = {"malformed-item", "code-missing", "test-missing", "polarity-missing", "campaign-missing", "result-failed", "result-skipped",
             "result-missing", "review-missing", "suspect-link", "unreadable-input", "duplicate-id", "id-reused"}  # fmt: skip
-"""Rules that name the cause for the item itself."""
+"""Rules that report the cause at the item itself."""
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
@@ -37,7 +37,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
             continue
         children = [child for child in project.children_of.get(item.id, []) if child.id in verdicts]
         if any(child.approved and verdicts[child.id].word not in _OTHERS_TELL for child in children):
-            continue  # the child has a finding, and the item follows it
+            continue  # the child has the finding; the item is a consequence
         methods = [method for method in item.verify if method in _EXECUTED]
         if any(judge_method(project, item, method, children, verdicts) for method in methods):
             yield item.find_place("Verify"), f"{item.id} is {verdict.word}: {'; '.join(verdict.reasons)}", item.id

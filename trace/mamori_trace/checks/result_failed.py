@@ -25,7 +25,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def _describe(case: CampaignCase) -> str:
-    """Expected and measured value; only the written verdict if every check passed."""
+    """Expected and measured value; only the verdict if every check passed."""
     parts = [
         f"{check.get('name')}: wanted {check.get('wanted')}, measured {check.get('measured')}" for check in case.failed_checks
     ]

@@ -16,7 +16,7 @@ _NAMES_MAX = 3
 
 
 def check(project: Project) -> Iterator[tuple[Place, str, str]]:
-    """One finding per suite, with the count: such tests may be useful but show no requirement."""
+    """One finding per suite, with the count: such tests may be useful but verify no requirement."""
     suites: dict[tuple[str, str], list[TestResult]] = defaultdict(list)
     for result in project.results:
         if not result.requirement:

@@ -23,7 +23,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def list_references(project: Project) -> Iterator[tuple[Place, str, str]]:
-    """(place, who, id) for every named id. A result is reported at its test if the test names the same id."""
+    """(place, who, id) for every named id. If the test names the same id, it is reported at the test and not at the result."""
     for item in project.all_items:
         for parent in item.parents:
             yield item.find_place("Parents"), item.id, parent

@@ -21,7 +21,7 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def _list_words(project: Project) -> Iterator[tuple[Place, str, str, str, str]]:
-    """(place, who, technique, polarity, item) of tests, results and cases, without those that the source test already reported."""
+    """(place, who, technique, polarity, item) of tests, results and cases, except those already reported for the source test."""
     told = set()
     for test in project.tests:
         told.add((test.technique, test.polarity))

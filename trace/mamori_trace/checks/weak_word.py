@@ -31,6 +31,6 @@ def check(project: Project) -> Iterator[tuple[Place, str, str]]:
 
 
 def _make_pattern(words: tuple[str, ...]) -> re.Pattern[str]:
-    """One pattern for all words, longest first, so that a complete phrase is named. A hyphen belongs to a word."""
+    """One pattern for all words, longest first, so that complete phrases are named. A hyphen belongs to a word."""
     ordered = sorted(words, key=lambda word: (-len(word), word))
     return re.compile(rf"(?<![\w-])(?:{'|'.join(re.escape(word) for word in ordered)})(?![\w-])", re.IGNORECASE)

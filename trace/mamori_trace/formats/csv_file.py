@@ -35,12 +35,12 @@ _SPLIT = re.compile(r"[,;\s]+")
 
 
 def escape_cell(cell: str) -> str:
-    """Puts an apostrophe before a cell that a spreadsheet would run as a formula, and before one that looks escaped: nothing is lost."""
+    """Puts an apostrophe before a cell that a spreadsheet would execute as a formula, or that looks escaped: both are reversible."""
     return f"'{cell}" if _FORMULA.match(cell) else cell
 
 
 def unescape_cell(cell: str) -> str:
-    """The cell before `escape_cell`; blanks around an unescaped cell do not count."""
+    """The cell before `escape_cell`; ignores blanks around an unescaped cell."""
     return cell[1:] if _ESCAPED.match(cell) else cell.strip()
 
 
@@ -106,6 +106,6 @@ def format_csv(project: ForeignProject) -> str:
 
 
 def _format_cell(cell: str) -> str:
-    """Quoted if necessary; Python's writer leaves a carriage return unquoted, and its reader rejects that."""
+    """Quoted if necessary. Python's writer leaves a carriage return unquoted, which its reader rejects."""
     cell = escape_cell(cell)
     return '"' + cell.replace('"', '""') + '"' if any(sign in cell for sign in ',"\r\n') else cell

@@ -65,7 +65,7 @@ def _read_prefix(folder: Path, root: Path, problems: list[Problem]) -> str | Non
 
 
 def _compose(text: str, shown: str, offset: int, problems: list[Problem]) -> dict[str, yaml.Node]:
-    """Members of the one mapping in `text`, or none and one problem."""
+    """Members of the mapping in `text`; empty after reporting a problem."""
     try:
         demand_shallow(text, _LOADER)
         node = yaml.compose(text, Loader=_LOADER)
@@ -87,7 +87,7 @@ def _get_members(node: yaml.Node) -> dict[str, yaml.Node]:
 
 
 def _get_text(node: yaml.Node, depth: int = 0) -> str:
-    """A value as text; values that are nested deeper than people write are truncated."""
+    """A value as text; nesting that is deeper than in handwritten files is truncated."""
     if isinstance(node, yaml.ScalarNode):
         return "" if node.tag.endswith(":null") else node.value.strip()
     if depth >= 2:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads links from items to files: all the code of the file realises the item, or all its tests verify it.
+"""Reads links from items to files: all code in the file realises the item, or all its tests verify it.
 
 @satisfies SWR-TRC-047      Design: docs/design/trace_formats.md#tags-of-other-tools
 """
@@ -24,7 +24,7 @@ def add_file_links(
 ) -> None:
     """Tags and tests for the files that items name, below the first of `folders` that contains them; paths are relative to that folder.
 
-    A file that is neither code nor test only has to exist. A test that names the item itself is not counted twice.
+    A file that is neither code nor test must only exist. A test that itself names the item is not counted twice.
     """
     known = {(test.requirement, test.suite, test.name) for test in tests}
     for item in items:
@@ -47,7 +47,7 @@ def _find(link: Relation, folders: Sequence[Path]) -> Path | None:
 
 
 def _list_tests(item: ForeignItem, file: Path, shown: str, place: Place, problems: list[Problem]) -> list[SourceTest]:
-    """All tests of the file; if none is known, one without a name, which only a result that names the item can satisfy."""
+    """All tests of the file. If none is known, one test without a name: only a result that names the item can satisfy it."""
     heads = list_heads(read_whole(file, shown, problems) or "", shown)
     if not heads:
         return [SourceTest(item.id, shown, "", "requirements_based", "nominal", place)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds and reads the files of an external project: each file once, although several links may lead to it, and only UTF-8.
+"""Finds and reads the files of an external project. Each file is read once, even if several links lead to it; only UTF-8 is accepted.
 
 @satisfies SWR-TRC-048      Design: docs/design/trace_formats.md#bad-input
 """
@@ -28,7 +28,7 @@ def list_files(path: Path, suffixes: tuple[str, ...], root: Path, problems: list
 
 
 def read_texts(path: Path, suffixes: tuple[str, ...], root: Path, problems: list[Problem]) -> Iterator[tuple[str, str]]:
-    """(shown path, text) of each file that could be read completely."""
+    """(shown path, text) of each file that was read completely."""
     for file in list_files(path, suffixes, root, problems):
         shown = get_shown_path(file, root)
         text = read_whole(file, shown, problems)

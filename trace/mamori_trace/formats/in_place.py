@@ -87,7 +87,7 @@ def read_in_place(given: ForeignInput, rules: Sequence[str]) -> Project:
     attach_sources(project)
     _follow_polarity(project, converted)
     read_judgement(project, rules, given.date)
-    project.pack.grades["design-missing"] = Grades()  # the rule keeps its own severity, which is off, because no format has design links
+    project.pack.grades["design-missing"] = Grades()  # the rule keeps its own severity (off), because no format has design links
     return project
 
 
@@ -96,7 +96,7 @@ def _resolve_all(named: tuple[str, ...], converted: Converted) -> tuple[str, ...
 
 
 def _resolve(named: str, place: Place, converted: Converted, problems: list[Problem]) -> Iterable[str]:
-    """The requirements of an id: itself, those of a test or code item, or the current revision of an outdated one."""
+    """The requirements of an id: the id itself, the requirements of a test or code item, or the current revision of an outdated id."""
     if named in converted.stands_for:
         return converted.stands_for[named]
     current = converted.revisions.get(_REVISION.sub("", named), named)
@@ -132,7 +132,7 @@ def _read_evidence(given: ForeignInput, project: Project) -> Evidence:
 
 
 def _link_results(results: list[TestResult], tests: list[SourceTest], converted: Converted, problems: list[Problem]) -> list[TestResult]:
-    """One result for each requirement that it, or its test in the sources, names."""
+    """One result for each requirement that the result, or its test in the sources, names."""
     known: dict[tuple[str, str], list[SourceTest]] = {}
     for test in tests:
         known.setdefault((test.suite, test.name), []).append(test)
@@ -149,7 +149,7 @@ def _link_results(results: list[TestResult], tests: list[SourceTest], converted:
 
 
 def _follow_polarity(project: Project, converted: Converted) -> None:
-    """An item that cannot specify a polarity requires the polarity that its tests show."""
+    """An item whose format has no polarity requires the polarity that its tests show."""
     for item in project.all_items:
         shown = {test.polarity for test in project.tests_of.get(item.id, [])} | {
             result.polarity or "nominal" for result in project.results_of.get(item.id, [])

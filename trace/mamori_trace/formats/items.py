@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Creates items and a schema of an external project, so that every rule applies to it.
 
-An attribute that the format does not have is neutral: it requires nothing and no rule reports it.
+An attribute that the format lacks is neutral: it requires nothing, and no rule reports it.
 
 @satisfies SWR-TRC-046      Design: docs/design/trace_formats.md#levels-from-data
 """
@@ -30,7 +30,7 @@ _TECHNIQUES = ("requirements_based", "boundary_values", "equivalence_classes", "
 
 @dataclass(slots=True)
 class Converted:
-    """Items and schema; `stands_for` gives the requirements of each test or code item; `polar` the items with a polarity."""
+    """Items and schema; `stands_for`: requirements of each test or code item; `polar`: items with a polarity."""
 
     schema: Schema
     items: list[Item]
@@ -89,7 +89,7 @@ def _assign(items: list[ForeignItem], groups: list[str], mapping: Mapping, probl
 def _link(
     items: list[ForeignItem], mapping: Mapping, revisions: dict[str, str], helpers: set[str], project: ForeignProject, problems: list[Problem]
 ) -> list[list[tuple[str, int]]]:
-    """(parent, line) of each item; reverses links that lead down; reports and corrects outdated revisions."""
+    """(parent, line) of each item. Reverses downward links; reports and corrects outdated revisions."""
     positions = {item.id: position for position, item in reversed(list(enumerate(items)))}
     parents: list[list[tuple[str, int]]] = [[] for _ in items]
     for position, item in enumerate(items):
@@ -167,7 +167,7 @@ def _choose_sil(item: ForeignItem, mapping: Mapping, schema: Schema, problems: l
 
 
 def _demand_statements(items: list[ForeignItem], groups: list[str], outcome: Converted, mapping: Mapping, problems: list[Problem]) -> None:
-    """An empty statement is a problem if the group has statements."""
+    """An empty statement is a problem if enough items of the group have statements."""
     for group in set(groups):
         members = [item for item, own in zip(items, groups, strict=True) if own == group]
         filled = sum(bool((item.statement or "").strip()) for item in members)

@@ -42,7 +42,7 @@ class Lines:
         return bisect_right(self._starts, offset)
 
     def find_key(self, key: str, start: int, end: int | None = None, opens: str = "") -> int:
-        """Offset of the next member `key` from `start` on, or -1. `opens`: the beginning of its value."""
+        """Offset of the next member `key` at or after `start`; -1 if there is none. `opens`: first characters of its value."""
         spellings = {re.escape(json.dumps(key)), re.escape(json.dumps(key, ensure_ascii=False))}
         pattern = re.compile(rf"(?<!\\)(?:{'|'.join(sorted(spellings))})\s*:\s*{re.escape(opens)}")
         match = pattern.search(self._text, start, len(self._text) if end is None else end)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Derives the levels of an external project from its data: groups of items, their order, and the rules of each group.
 
-A property that most items of a group have is required of all; a property of few is required of none.
+A property of most items of a group is required for all of them; a property of few is required for none.
 
 @satisfies SWR-TRC-046      Design: docs/design/trace_formats.md#levels-from-data
 """
@@ -51,7 +51,7 @@ def _group_by_prefix(ids: list[str]) -> list[str]:
 
 
 def split_refined(groups: list[str], parents: list[list[int]], share: float) -> list[str]:
-    """If items of a group refine each other, the refined items become a level of their own."""
+    """If items of a group refine each other, the refined items become a separate level."""
     inside: Counter[str] = Counter()
     sizes = Counter(groups)
     refined = set()
@@ -64,7 +64,7 @@ def split_refined(groups: list[str], parents: list[list[int]], share: float) -> 
 
 
 def infer_levels(items: list[ForeignItem], groups: list[str], parents: list[list[int]], named: list[bool], mapping: Mapping) -> dict[str, Level]:
-    """Levels from the top down. `parents`: positions of the known parents; `named`: whether an item names any parent."""
+    """Levels from top to bottom. `parents`: positions of the known parents; `named`: whether an item names any parent."""
     sizes = Counter(groups)
     up: dict[str, Counter] = defaultdict(Counter)
     for index, above in enumerate(parents):
@@ -107,7 +107,7 @@ def _list_refined(groups: list[str], parents: list[list[int]]) -> list[bool]:
 
 
 def _choose_edges(up: dict[str, Counter], sizes: Counter, share: float) -> dict[str, set[str]]:
-    """Order of the groups: the most frequent links first; a link that would close a cycle is left out."""
+    """Order of the groups: the most frequent links come first; a link that would close a cycle is ignored."""
     counted = sorted((-count, low, high) for low, row in up.items() for high, count in row.items() if low != high)
     edges: dict[str, set[str]] = defaultdict(set)
     for count, low, high in counted:
@@ -127,6 +127,6 @@ def _reach(edges: dict[str, set[str]], start: str) -> set[str]:
 
 
 def _order_groups(groups: list[str], edges: dict[str, set[str]]) -> list[str]:
-    """From the top down; groups without an order are sorted by name."""
+    """From top to bottom; groups without an order are sorted by name."""
     depth = {group: len(_reach(edges, group)) for group in groups}
     return sorted(groups, key=lambda group: (depth[group], group))

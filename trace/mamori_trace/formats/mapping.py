@@ -24,7 +24,7 @@ _FLAGS = ("shall", "needs_child", "needs_code", "from_children", "through_childr
 
 @dataclass(frozen=True, slots=True)
 class Mapping:
-    """`lists`, `shares` and `words` as schemas/common.toml explains them; `levels` is empty if the data decides."""
+    """`lists`, `shares` and `words`: see schemas/common.toml; `levels` is empty if the data determine the levels."""
 
     group_by: str
     lists: dict[str, tuple[str, ...]]
@@ -89,7 +89,7 @@ def _make_mapping(table: dict[str, Any], source: str) -> Mapping:
 
 
 def _make_level(key: str, row: dict[str, Any]) -> Level:
-    """A level of the user's table. `id` is the pattern of the ids; without it, the name of the group applies."""
+    """A level of the user's table. `id` is the pattern of the ids; without a pattern, the name of the group applies."""
     return Level(
         key=key,
         name=str(row.get("name", key)),

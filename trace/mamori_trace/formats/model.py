@@ -12,7 +12,7 @@ from mamori_trace.base.finding import Place
 class Relation:
     """A link to `target`. `role` is the word of the format; `line` is the line of the link.
 
-    `name` is the name of the relation in addition to its role; `review` is the last review of the link, as in trace.lock.
+    `name` is the additional name of the relation; `review` is the last review of the link, as in trace.lock.
     """
 
     role: str
@@ -26,9 +26,9 @@ class Relation:
 class ForeignItem:
     """One requirement as its own tool stores it.
 
-    `statement` is None if the format has no field for one. `kind` and `document` group items into levels; `attributes` are all
-    others, under their own names. `files` are links to files of code and tests. `needs` are the kinds of coverage that the item itself
-    requires, None if the format cannot specify them. `heading`: the item is only the title of the following items, so no rule checks it.
+    `statement` is None if the format has no field for it. `kind` and `document` group items into levels; `attributes` are all other
+    attributes, under their own names. `files` are links to files of code and tests. `needs` are the kinds of coverage that the item
+    requires; None if the format cannot specify them. `heading`: the item is only the title of the following items, so rules ignore it.
     """
 
     id: str
@@ -49,7 +49,7 @@ class ForeignItem:
 
 @dataclass(frozen=True, slots=True)
 class Loss:
-    """A part of a file that belongs to no item, or that the model cannot hold."""
+    """A part of a file that belongs to no item, or that the model cannot represent."""
 
     place: Place
     what: str
@@ -57,7 +57,7 @@ class Loss:
 
 @dataclass(slots=True)
 class ForeignProject:
-    """All items of a project in file order, including two definitions of one id. `headers`: text at the head of each document."""
+    """All items of a project in file order, including duplicate definitions of an id. `headers`: initial text of each document."""
 
     format: str
     items: list[ForeignItem] = field(default_factory=list)

@@ -36,7 +36,7 @@ def looks_alike(name: str, text: str) -> bool:
 
 
 def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
-    """The needs of every needs.json below `path`; a file that the user names may have any name."""
+    """The needs of every needs.json below `path`; a file that the user specifies may have any name."""
     project = ForeignProject(NAME)
     for shown, text in read_texts(path, SUFFIXES, root, problems):
         content = parse_json(text, shown, problems)
@@ -79,7 +79,7 @@ def _read_content(content: Any, text: str, shown: str, root: Path, project: Fore
 
 
 def _find_offsets(keys: list[str], lines: Lines, cursor: int) -> list[int]:
-    """Offset of each need's key; the members have the order of the file."""
+    """Offset of the key of each need; the members are in file order."""
     offsets = []
     for key in keys:
         found = lines.find_key(key, cursor)
@@ -90,7 +90,8 @@ def _find_offsets(keys: list[str], lines: Lines, cursor: int) -> list[int]:
 
 
 def _list_link_fields(version: dict[str, Any]) -> set[str]:
-    """The link types of the project, from the field descriptions of the version. If default values were left out, no other source exists."""
+    """The link types of the project, from the field descriptions of the version. They are the only source if default values were
+    omitted."""
     schema = version.get("needs_schema")
     fields = schema.get("properties") if isinstance(schema, dict) else None
     rows = fields.items() if isinstance(fields, dict) else ()
@@ -124,7 +125,7 @@ def _move(item: ForeignItem, place: Place) -> ForeignItem:
 
 
 def _place_in_source(need: dict[str, Any], shown: str, root: Path, found: dict[str, str]) -> Place | None:
-    """Where the author wrote the need. sphinx-needs writes all needs on one line, which does not help a reader."""
+    """The location where the author wrote the need. sphinx-needs writes all needs on one line, so the line of the export is useless."""
     name, line = f"{need.get('docname') or ''}{need.get('doctype') or '.rst'}", need.get("lineno")
     if not need.get("docname") or not isinstance(line, int) or isinstance(line, bool) or line < 1:
         return None

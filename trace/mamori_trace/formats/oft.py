@@ -20,7 +20,7 @@ SUFFIXES = (".md", ".markdown")
 
 _ID = r"[A-Za-z]+~[A-Za-z][\w.\-]*~\d+"
 _ITEM = re.compile(rf"\s*(?:<a id=\"[^\"]*\">\s*</a>\s*)?`?({_ID})`?\s*|`?({_ID})`?(?![\w~.\-]).*")
-"""OpenFastTrace takes a line that begins with an id for an item, whatever follows."""
+"""OpenFastTrace treats any line that begins with an id as an item."""
 _BROKEN = re.compile(r"\s*`([A-Za-z]+~[^`]*)`\s*")
 _HEADING = re.compile(r" {0,3}#+\s+(.*?)\s*#*")
 _SECTION = re.compile(r"(Covers|Depends|Rationale|Comment|Description):\s*(.*)")
@@ -44,7 +44,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 class _File:
-    """One file that is being read; `_section` is the keyword whose text or list continues."""
+    """One file during reading; `_section` is the keyword whose text or list continues."""
 
     def __init__(self, shown: str, project: ForeignProject, problems: list[Problem]) -> None:
         self._shown = shown

@@ -20,7 +20,7 @@ _FOLDER = "requirements/"
 
 
 def make_neutral(project: Project) -> ForeignProject:
-    """All items with every attribute, in order of files and lines, and the last review of each link."""
+    """All items with every attribute, ordered by file and line, and the last review of each link."""
     neutral = ForeignProject(NAME)
     for item in project.all_items:
         document = item.place.file.removeprefix(_FOLDER)
@@ -48,7 +48,7 @@ def _make_item(item: Item, document: str, project: Project) -> ForeignItem:
 
 
 def format_block(item: ForeignItem, parents: list[str], attributes: dict[str, str]) -> str:
-    """One Markdown block; the parts are those of requirements/README.md and fit on one line each."""
+    """One Markdown block; its parts follow requirements/README.md and fit on one line each."""
     rows = {"Rationale": item.rationale or "-", "Parents": ", ".join(parents) or "-", **attributes}
     lines = "\n".join(f"- {name}: {value}" for name, value in rows.items())
     return f"## {item.id} {item.title}\n\n{item.statement}\n\n{lines}\n"

@@ -14,7 +14,7 @@ from mamori_trace.formats.files import list_files
 from mamori_trace.formats.model import ForeignProject
 
 FORMATS = {"strictdoc": "sdoc", "needs": "needs", "oft": "oft", "doorstop": "doorstop", "trlc": "trlc", "reqif": "reqif", "csv": "csv_file"}
-"""Module of each format, in this package; loaded when it is asked for, since most checks need none of them and they need much."""
+"""Module of each format, in this package. It is loaded on demand, because most checks need none and loading is slow."""
 
 _PEEK_BYTES = 65536
 _PEEK_FILES = 200
@@ -25,7 +25,7 @@ def load_format(name: str) -> ModuleType:
 
 
 def read_format(name: str, path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
-    """All items. Raises InputError if there is nothing to check: no such path, no file of the format, or no item."""
+    """All items. Raises InputError if there is nothing to check: path, file of the format, or items are missing."""
     module = load_format(name)
     if not path.exists():
         raise InputError(f"{path}: no such file or folder")
@@ -46,7 +46,7 @@ def _describe_nothing(name: str, module: ModuleType, path: Path) -> str:
 
 
 def _guess_others(name: str, path: Path) -> list[str]:
-    """Formats other than `name` that files below `path` resemble, the most frequent first."""
+    """Other formats that files below `path` resemble, the most frequent first."""
     counts: dict[str, int] = {}
     for file in islice(list_files(path, ("",), path, []), _PEEK_FILES):
         if not file.is_file():  # reading a pipe would never end

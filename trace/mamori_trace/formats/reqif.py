@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads ReqIF with expat, in one pass: objects, their values by the names of their definitions, relations and specifications.
+"""Reads ReqIF with expat in one pass: objects, values by the names of their definitions, relations and specifications.
 
-A document type definition is rejected unread, because entities can fill the memory.
+A document type definition is rejected without reading, because entities can fill the memory.
 
 @satisfies SWR-TRC-045, SWR-TRC-048, SWR-TRC-051      Design: docs/design/trace_formats.md#formats
 """
@@ -53,7 +53,7 @@ def looks_alike(name: str, text: str) -> bool:
 
 
 def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
-    """All requirements of all files: objects that a relation, a specification or an id of its own marks as requirement."""
+    """All requirements of all files: objects that a relation, a specification or their own id marks as requirements."""
     project = ForeignProject(NAME)
     for file in list_files(path, SUFFIXES, root, problems):
         shown, collector = get_shown_path(file, root), _Collector()
@@ -65,7 +65,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 class _Collector:
-    """Gathers owners while expat parses the file; values and references belong to the innermost owner."""
+    """Collects owners while expat parses the file; values and references belong to the innermost owner."""
 
     def __init__(self) -> None:
         self.owners: list[_Owner] = []
@@ -158,7 +158,7 @@ def _join(collector: _Collector, shown: str, project: ForeignProject, problems: 
     documents = {key: names.get(document, document) for key, document in reversed(collector.places)}
     rank = {key: number for number, (key, _) in reversed(list(enumerate(collector.places)))}
     objects = [owner for owner in collector.owners if owner.tag == "SPEC-OBJECT"]
-    objects.sort(key=lambda owner: rank.get(owner.id, len(rank)))  # stable: objects without a specification stay in file order, last
+    objects.sort(key=lambda owner: rank.get(owner.id, len(rank)))  # stable: objects without a specification keep file order, last
     items: dict[str, ForeignItem] = {}
     for owner in objects:
         item = _make_item(owner, collector, shown, names, documents)
@@ -173,7 +173,7 @@ def _join(collector: _Collector, shown: str, project: ForeignProject, problems: 
 
 
 def _find_headings(items: list[ForeignItem]) -> None:
-    """An object with a chapter name, without text and without links is a heading. A link makes it a requirement."""
+    """An object with a chapter name, but without text and links, is a heading. With a link it is a requirement."""
     linked = {each.target for item in items for each in item.relations}
     for item in items:
         item.heading = item.heading and not (item.statement or item.relations or item.id in linked)

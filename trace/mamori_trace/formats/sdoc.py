@@ -45,7 +45,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 def _demand_uids(nameless: list[tuple[str, Place]], named: Counter[str]) -> Iterator[Problem]:
-    """Rules cannot see a node without a UID. If most nodes of its kind have one, the missing UID is a mistake."""
+    """Rules ignore a node without a UID. If most nodes of its kind have one, the missing UID is reported as an error."""
     counts = Counter(tag for tag, _ in nameless)
     for tag, place in nameless:
         if named[tag] >= counts[tag]:
@@ -53,7 +53,7 @@ def _demand_uids(nameless: list[tuple[str, Place]], named: Counter[str]) -> Iter
 
 
 class _Document:
-    """One file that is being read: a node holds fields, the last of which may be a list of relations or text over many lines."""
+    """One file during reading: a node contains fields; the last field may be a list of relations or text over many lines."""
 
     def __init__(self, shown: str, project: ForeignProject, problems: list[Problem]) -> None:
         self._shown = shown

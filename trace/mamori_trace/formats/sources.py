@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads tags of code and tests of an external project, with ids of any shape, and binds them to functions and tests.
+"""Reads tags in code and tests of an external project, with ids of any form, and binds them to functions and tests.
 
 @satisfies SWR-TRC-047      Design: docs/design/trace_formats.md#tags-of-other-tools
 """
@@ -44,7 +44,7 @@ Numbered = tuple[int, TagWord]
 def read_sources(
     folder: Path, root: Path, problems: list[Problem], code: CodeBase | None = None
 ) -> tuple[list[CodeTag], list[SourceTest]]:
-    """Tags and tests of all source files below `folder`, and the functions of C and C++ files into `code`."""
+    """Tags and tests of all source files below `folder`; adds the functions of C and C++ files to `code`."""
     parser = tree_sitter.Parser(tree_sitter.Language(tree_sitter_cpp.language()))
     tags: list[CodeTag] = []
     tests: list[SourceTest] = []
@@ -106,7 +106,7 @@ def _name_python_lines(text: str) -> dict[int, str]:
 
 
 def _read_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest]:
-    """A tag belongs to the test below its comment or around it. Without a test it has an empty name."""
+    """A tag belongs to the test below its comment, or to the test that contains it; without either, the test name is empty."""
     if shown.endswith(_CPP):
         return _read_cpp_tests(text, shown, words)
     heads = list_heads(text, shown)
@@ -125,7 +125,7 @@ def _read_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest
 
 
 def _read_cpp_tests(text: str, shown: str, words: list[Numbered]) -> list[SourceTest]:
-    """Like `_read_tests`, for C and C++: the test around the tag or the call, or the declaration below the tag."""
+    """Like `_read_tests`, for C and C++: the test that contains the tag or the call, or the declaration below the tag."""
     plain = Plain(text)
     heads = list_cpp_heads(plain, shown)
     ends = {}

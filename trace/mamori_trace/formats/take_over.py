@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Imports an external project as Markdown items: new ids if the old ones do not fit, and a list of all parts that were not imported.
+"""Imports an external project as Markdown items: new ids if the old ones do not fit, and a list of the parts that were not imported.
 
 @satisfies SWR-TRC-049, SWR-TRC-051      Design: docs/design/trace_formats.md#import
 """
@@ -46,7 +46,7 @@ class Takeover:
 def take_over(
     foreign: ForeignProject, mapping: Mapping, schema: Schema, area: str, used: Sequence[str], problems: list[Problem]
 ) -> Takeover:
-    """The files to write. New ids follow all ids in the texts `used`.
+    """The files to write. New ids are above all ids in the texts `used`.
 
     Raises InputError if ids cannot be assigned; `problems` are the findings that the checks would report.
     """
@@ -73,7 +73,7 @@ def take_over(
 
 
 def _name_file(item: ForeignItem, foreign: ForeignProject) -> str:
-    """Documents exported by Mamori keep their files; others are named after their document or their source file."""
+    """Documents exported by Mamori keep their files; other files are named after their document or source file."""
     if item.document in foreign.headers and re.fullmatch(r"(?:[\w-]+/)*[\w.-]+\.md", item.document) and ".." not in item.document:
         return item.document
     source = item.document or item.place.file.rpartition("/")[2].partition(".")[0]
@@ -128,7 +128,7 @@ def _format(item: ForeignItem, judged: Item, outcome: Takeover, mapping: Mapping
 def _choose(
     item: ForeignItem, key: str, judged: str, known: tuple[str, ...], default: str, mapping: Mapping, lost: list[tuple[str, str]]
 ) -> str:
-    """The word of the item if the schema knows it; otherwise the word that the rules used, or the reported default."""
+    """The word of the item if the schema knows it; otherwise the word that the rules used, or a reported default."""
     name = next((each for each in mapping.lists[key] if item.attributes.get(each, "").strip()), "")
     given = item.attributes.get(name, "").strip()
     if given and all(word.strip() in known for word in given.split(",")):
@@ -166,7 +166,7 @@ def format_map(outcome: Takeover) -> str:
 
 
 def find_earlier(outcome: Takeover, maps: dict[str, str]) -> str:
-    """Reports an item of the same file that is in one of `maps`, the texts of earlier imports by name. @return "" for none."""
+    """Reports an item of the same file that is in one of `maps`, the texts of earlier imports by name. @return "" if there is none."""
     for name, text in sorted(maps.items()):
         for line, cells in enumerate(csv.reader(io.StringIO(text)), start=1):
             row = [unescape_cell(cell) for cell in cells]
@@ -176,7 +176,7 @@ def find_earlier(outcome: Takeover, maps: dict[str, str]) -> str:
 
 
 def write_takeover(outcome: Takeover, folder: Path, map_name: str) -> list[Path]:
-    """Writes all files or none. Raises InputError if one exists already or cannot be written."""
+    """Writes all files or none. Raises InputError if a file already exists or cannot be written."""
     files = {folder / name: text for name, text in outcome.files.items()} | {folder / map_name: format_map(outcome)}
     present = sorted(path for path in files if os.path.lexists(path))
     if present:
@@ -191,7 +191,7 @@ def write_takeover(outcome: Takeover, folder: Path, map_name: str) -> list[Path]
     except OSError as error:
         take_back(written)
         raise InputError(f"{path}: cannot be written: {explain(error)}; nothing was taken over") from None
-    except BaseException:  # half of a character, or Ctrl-C
+    except BaseException:  # half of a surrogate pair, or Ctrl-C
         take_back(written)
         raise
     return written

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads TRLC: the record objects of .trlc files. Of .rsl files only the names of enumerations are needed.
+"""Reads TRLC: the record objects of .trlc files. Only the names of enumerations are read from .rsl files.
 
-Unknown syntax ends the file with its line, because a partly understood record could hide a link.
+Unknown syntax ends the reading of the file with a message for its line: a partly read record could hide a link.
 
 @satisfies SWR-TRC-045, SWR-TRC-048      Design: docs/design/trace_formats.md#formats
 """
@@ -45,7 +45,7 @@ class _Token:
 
 @dataclass(slots=True)
 class _Record:
-    """`names` are values that may be references: (attribute, name, line)."""
+    """`names` may be references: (attribute, name, line)."""
 
     item: ForeignItem
     package: str
@@ -72,7 +72,7 @@ def read(path: Path, root: Path, problems: list[Problem]) -> ForeignProject:
 
 
 def _finish(record: _Record, enums: set[str]) -> ForeignItem:
-    """A name is an enumeration word, with or without its package, or else a reference; without a package it is in that of the record."""
+    """A name is a word of an enumeration (with or without its package), or a reference. Without a package, it is in that of the record."""
     item = record.item
     for attribute, name, line in record.names:
         head, dot, word = name.rpartition(".")

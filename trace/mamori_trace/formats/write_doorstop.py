@@ -17,14 +17,14 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.formats.model import ForeignItem, ForeignProject
 
 _UID = re.compile(r"(?P<prefix>[A-Za-z](?:[\w.\-]*?\w)??)(?P<sep>[-_.]?)(?P<number>\d+)", re.ASCII)
-_UID_LENGTH_MAX = 200  # it becomes the name of a file
+_UID_LENGTH_MAX = 200  # becomes the name of a file
 _OWN = {"active", "derived", "header", "level", "links", "normative", "ref", "references", "reviewed", "text"}
 _RETIRED = {"retired", "inactive"}
 _LINE_LENGTH = 120
 
 
 class _Text(str):
-    """A text for readers; it is written as a block of lines, as Doorstop itself does."""
+    """A text for readers, written as a block of lines, like Doorstop does."""
 
 
 class _Dumper(yaml.SafeDumper):
@@ -81,7 +81,8 @@ def _demand_uid(name: str, item: ForeignItem) -> re.Match[str]:
 
 
 def _build_tree(documents: list[_Document], homes: dict[str, str]) -> None:
-    """Puts each document below the target of most of its links. Doorstop needs one tree, so documents without links are below the largest."""
+    """Places each document below the target of most of its links. Doorstop needs one tree, so documents without links go below the
+    largest."""
     known = {document.prefix: document for document in documents}
     for document in documents:
         targets = Counter(homes[each.target] for item in document.items for each in item.relations if each.target in homes)
@@ -96,7 +97,7 @@ def _build_tree(documents: list[_Document], homes: dict[str, str]) -> None:
 
 
 def _list_above(prefix: str, known: dict[str, _Document]) -> list[str]:
-    """The document and its ancestors; there is no cycle, because links that would close one are left out."""
+    """The document and its ancestors; links that would close a cycle are ignored."""
     above = [prefix]
     while known[above[-1]].parent:
         above.append(known[above[-1]].parent)
@@ -111,7 +112,7 @@ def _format_settings(document: _Document) -> str:
 
 
 def _format_item(item: ForeignItem, document: _Document, position: int) -> str:
-    """Links and items have no stamps, because a stamp records a review in Doorstop."""
+    """Links and items have no stamps, because in Doorstop a stamp records a review."""
     others = {f"attribute-{name}" if name in _OWN else name: value for name, value in item.attributes.items()}
     words = {value.lower() for name, value in item.attributes.items() if name.lower() == "status"}
     rows = {

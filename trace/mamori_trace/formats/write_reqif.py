@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes ReqIF: one object per item, one relation per link, one specification per document.
 
-Every value is a string attribute, so nothing is rounded or changed. The creation time is fixed, so that equal items give equal bytes.
+Every value is a string attribute, so nothing is rounded. The creation time is fixed, so that equal items give equal bytes.
 
 @satisfies SWR-TRC-050, SWR-TRC-051      Design: docs/design/trace_formats.md#export
 """
@@ -31,7 +31,7 @@ def format_reqif(project: ForeignProject) -> str:
 
 
 class _Page:
-    """Builds the lines. Identifiers depend only on the object that they identify, not on the order of other objects."""
+    """Builds the lines. An identifier depends only on its object, not on the order of other objects."""
 
     def __init__(self, project: ForeignProject) -> None:
         self.lines = ['<?xml version="1.0" encoding="UTF-8"?>', '<REQ-IF xmlns="http://www.omg.org/spec/ReqIF/20110401/reqif.xsd">']
@@ -135,6 +135,6 @@ def _quote(value: str) -> str:
 
 
 def _make_id(kind: str, name: str) -> str:
-    """A valid XML ID: readable if the name permits, and always with a hash of the name."""
+    """A valid XML ID: readable as far as the name permits, and always with a hash of the name."""
     plain = re.sub(r"[^A-Za-z0-9.\-]", "_", name)[:60]
     return f"{kind}.{plain}.{hashlib.sha256(name.encode()).hexdigest()[:8]}"

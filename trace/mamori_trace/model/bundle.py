@@ -41,7 +41,7 @@ class Manifest:
 
 @dataclass(slots=True)
 class Content:
-    """The files found. `irregular` names entries that are not regular files; `manifest` and `signature` are bytes, or None."""
+    """The found files. `irregular` names entries that are not regular files; `manifest` and `signature` are bytes, or None."""
 
     files: dict[str, Entry] = field(default_factory=dict)
     irregular: dict[str, str] = field(default_factory=dict)
@@ -50,7 +50,7 @@ class Content:
 
 
 def format_manifest(manifest: Manifest) -> str:
-    """Sorted, so that the same files give the same bytes."""
+    """Sorted, so that equal files give equal bytes."""
     content = {
         "schema": SCHEMA,
         "tool": "mamori",
@@ -64,7 +64,7 @@ def format_manifest(manifest: Manifest) -> str:
 
 
 def parse_manifest(data: bytes) -> Manifest:
-    """Raises FormatError if `text` is not a manifest; single invalid entries become faults."""
+    """Raises FormatError if `text` is not a manifest; single invalid entries are added to the faults."""
     try:
         table = json.loads(data.decode("utf-8"), object_pairs_hook=_refuse_repeated)
     except (ValueError, RecursionError) as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The code that was read: its functions, and the requirements that own each function by tags.
+"""The code of the project: its functions, and the requirements that own each function by tags.
 
 @satisfies SWR-TRC-030      Design: docs/design/trace.md#functions
 """
@@ -16,8 +16,8 @@ from mamori_trace.base.finding import Place
 
 @dataclass(frozen=True, slots=True)
 class CodeSchema:
-    """Content of requirements/schema/code.toml: `traced` are the folders and files whose functions need an owner; `no_evidence` those
-    whose change leaves the evidence valid; `integration` those whose tests are integration tests."""
+    """Content of requirements/schema/code.toml. `traced`: folders and files whose functions need an owner. `no_evidence`: those whose
+    change leaves the evidence valid. `integration`: those whose tests are integration tests."""
 
     traced: tuple[str, ...] = ()
     no_evidence: tuple[str, ...] = ()
@@ -35,9 +35,9 @@ def _is_below(file: str, places: tuple[str, ...]) -> bool:
 
 
 class Function(NamedTuple):
-    """A function with a body. Lines count from 1, `last` included; `body` is the first line that a call executes.
+    """A function with a body. Lines count from 1, including `last`; `body` is the first line that a call executes.
 
-    `name` includes the enclosing classes, but no namespace. `requirements` are the ids of all tags that own it, the nearest first.
+    `name` includes the enclosing classes, but no namespace. `requirements` are the ids of all tags that own the function, nearest first.
     """
 
     file: str
@@ -53,7 +53,7 @@ class Function(NamedTuple):
 
 
 class Scope(NamedTuple):
-    """The scope of a tag: the lines of a declaration, also for a separate definition, or (without a name) the complete file."""
+    """The scope of a tag: the lines of a declaration (also for a separate definition), or, without a name, the complete file."""
 
     file: str
     name: str
@@ -64,7 +64,7 @@ class Scope(NamedTuple):
 
 @dataclass(slots=True)
 class CodeBase:
-    """Filled by the readers. `classes` are defined in a C++ file; `own_headers` names the headers that declare them."""
+    """Filled by the readers. `classes` are defined in a C++ file; `own_headers` are the headers that declare them."""
 
     functions: list[Function] = field(default_factory=list)
     scopes: list[Scope] = field(default_factory=list)
@@ -72,7 +72,7 @@ class CodeBase:
     own_headers: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def bind(self) -> list[Function]:
-        """All functions with their requirements, in order of file and line."""
+        """All functions with their requirements, ordered by file and line."""
         scopes_of: dict[str, list[Scope]] = defaultdict(list)
         for scope in self.scopes:
             scopes_of[scope.file].append(scope)
@@ -95,5 +95,5 @@ class CodeBase:
 
 
 def _declares(scope: Scope, function: Function) -> bool:
-    """Whether the declaration is that of the function, or of an enclosing class. Overloads share their tags."""
+    """Whether the declaration belongs to the function or an enclosing class. Overloads share their tags."""
     return f"::{scope.name}::" in f"::{function.name}::"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Coverage that executed tests reached: of each source file, of each function, and of the functions of a requirement.
+"""Coverage by executed tests: of each source file, each function, and the functions of a requirement.
 
 @satisfies SWR-TRC-032, SWR-TRC-033      Design: docs/design/trace.md#coverage
 """
@@ -25,8 +25,8 @@ class Condition:
 
 @dataclass(slots=True)
 class FileCoverage:
-    """Counters of one file, by line. `calls` counts entries into the function that begins there; `accepted` gives the reason why
-    that function need not be called; `branches` holds reached and all branches; the key of a condition begins with its line."""
+    """Counters of one file, by line. `calls`: entries into the function that begins there; `accepted`: why that function need not be
+    called; `branches`: reached and all branches. The key of a condition begins with its line."""
 
     lines: dict[int, int] = field(default_factory=dict)
     calls: dict[int, int] = field(default_factory=dict)
@@ -35,7 +35,7 @@ class FileCoverage:
     conditions: dict[tuple[int, ...], Condition] = field(default_factory=dict)
 
     def add(self, other: FileCoverage) -> None:
-        """Adds the coverage of another run. A reason applies if one run gives it."""
+        """Adds the coverage of another run. A reason applies if any run gives it."""
         for mine, others in ((self.lines, other.lines), (self.calls, other.calls)):
             for line, count in others.items():
                 mine[line] = mine.get(line, 0) + count
@@ -51,7 +51,7 @@ class FileCoverage:
 
 @dataclass(slots=True)
 class CoverageRun:
-    """One coverage file. `test` is the title of the single test that it covers; empty: all tests."""
+    """One coverage file. `test` is the title of the only test that it covers; empty for all tests."""
 
     place: Place
     test: str = ""
@@ -102,7 +102,7 @@ _NUMBERS = ("functions", "functions_measured", "functions_executed", "lines", "l
 
 @dataclass(slots=True)
 class _Index:
-    """One file with sorted lines of each kind, so that the part of a function is found quickly."""
+    """One file with sorted lines of each kind, so that the lines of a function are found quickly."""
 
     coverage: FileCoverage
     lines: list[int]

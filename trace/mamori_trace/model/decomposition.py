@@ -13,7 +13,7 @@ from mamori_trace.base.finding import Place
 
 @dataclass(frozen=True, slots=True)
 class Decomposition:
-    """One row of requirements/decomposition.toml. `carried_by` are ids of children of the same parent, at its SIL or above."""
+    """One row of requirements/decomposition.toml. `carried_by` are ids of children of the same parent, with its SIL or a higher one."""
 
     child: str
     parent: str

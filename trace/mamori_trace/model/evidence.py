@@ -16,7 +16,7 @@ SKIPPED = "skipped"
 NOT_SHOWN = "not shown here"
 """This host cannot produce the result: a privilege is missing, or the measurement was inconclusive."""
 UNBOUND = "unbound"
-"""Passed, but no evidence record tells what produced the result."""
+"""Passed, but no evidence record names the origin of the result."""
 
 STATUSES_WORST_FIRST = (ERRORED, FAILED, SKIPPED, UNBOUND, NOT_SHOWN, PASSED)
 
@@ -27,7 +27,7 @@ CAMPAIGN = "campaign"
 
 WHOLE_SUITE = "(whole suite)"
 ANY_SUITE = "*"
-"""Of a test whose source does not tell under which suite its result is written."""
+"""Suite of a test whose source does not determine the suite of its result."""
 
 
 class CodeTag(NamedTuple):
@@ -39,8 +39,8 @@ class CodeTag(NamedTuple):
 
 
 class SourceTest(NamedTuple):
-    """A test as its source states it; `suite` and `name` find its results. `by_comment`: the tag is a comment, so the results do not name
-    the requirement."""
+    """A test as written in its source; `suite` and `name` identify its results. `by_comment`: the tag is a comment, so the results do not
+    name the requirement."""
 
     requirement: str
     suite: str
@@ -57,8 +57,8 @@ class SourceTest(NamedTuple):
 
 @dataclass(slots=True)
 class TestResult:
-    """One executed test case. `requirement` is empty if the test names none; `flaky`: it passed, but not at the first attempt; `bound_to`: suite and
-    name of its test in the sources."""
+    """One executed test case. `requirement` is empty if the test names none; `flaky`: it passed, but not at the first attempt; `bound_to`:
+    suite and name of its test in the sources."""
 
     __test__: ClassVar[bool] = False  # pytest would treat the class as a group of tests
 
@@ -75,7 +75,7 @@ class TestResult:
     kind: str = UNIT
     flaky: bool = False
     bound_to: tuple[str, str] | None = None
-    is_first: bool = True  # False for the same case under a further requirement that it names
+    is_first: bool = True  # False for a copy of the case under a further requirement
 
     @property
     def title(self) -> str:

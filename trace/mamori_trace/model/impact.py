@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Effects of a change: from functions, items, tests and headings to requirements, hazards, tests, cases and reviews.
 
-In doubt, the report includes too much rather than too little. It names changed files that it cannot assign.
+In doubt, the report includes too much instead of too little. It lists changed files that it cannot assign.
 
 @satisfies SWR-TRC-071, SWR-TRC-072      Design: docs/design/trace.md#impact
 """
@@ -45,7 +45,7 @@ class ItemChange:
 
 @dataclass(frozen=True, slots=True, order=True)
 class Redo:
-    """A link to review again. `recorded`: the newer side already contains that review."""
+    """A link that needs a new review. `recorded`: the newer side already contains that review."""
 
     child: str
     parent: str
@@ -55,7 +55,7 @@ class Redo:
 
 @dataclass(slots=True)
 class Impact:
-    """All effects of a change. `causes` gives the reason for each affected requirement; `above` the items above them."""
+    """All effects of a change. `causes`: reason for each affected requirement; `above`: the items above them."""
 
     parts: list[Part] = field(default_factory=list)
     items: list[ItemChange] = field(default_factory=list)
@@ -80,7 +80,7 @@ class Owners:
             self._by_stem.setdefault(_get_stem(tag.place.file), set()).add(tag.place.file)
 
     def find(self, file: str, name: str) -> tuple[str, ...]:
-        """Requirements of the part, of its enclosing parts, and of the file; the tags of a header also apply to the source file of its name."""
+        """Requirements of the part, its enclosing parts, and the file. Tags of a header also apply to the source file of the same name."""
         files = {file}
         if file.endswith(_CPP):
             files |= {other for other in self._by_stem.get(_get_stem(file), ()) if other.endswith(_CPP)}

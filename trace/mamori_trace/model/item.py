@@ -34,7 +34,7 @@ class Level:
 
 @dataclass(frozen=True, slots=True)
 class Schema:
-    """Closed vocabularies; `levels` runs from the top of the V to its bottom, `sil` from the lowest up."""
+    """Closed vocabularies; `levels` is ordered from the top to the bottom of the V, `sil` from lowest to highest."""
 
     attributes: tuple[str, ...]
     sil: tuple[str, ...]
@@ -55,9 +55,9 @@ class Schema:
 
 @dataclass(slots=True)
 class Item:
-    """One item block. `lines` gives the line of each attribute; `whole` is False when the block was malformed.
+    """One item block. `lines` gives the line of each attribute; `whole` is False if the block is malformed.
 
-    An attribute that could not be read is empty, so that rules about other attributes still apply.
+    An attribute that could not be read is empty, so that rules about other attributes still work.
     """
 
     id: str
@@ -89,9 +89,9 @@ class Item:
         return Place(self.place.file, self.lines.get(attribute, self.place.line))
 
     def calc_fingerprint(self) -> str:
-        """Fingerprint of the parts that a reviewer of a link has to compare: the obligation, its level, and its verification.
+        """Fingerprint of the parts that matter to the review of a link: the obligation, its level, and its verification.
 
-        Rationale, design link and status may be corrected without a new review of the links.
+        Rationale, design link and status can be corrected without a new review of the links.
         """
         parts = (self.id, self.title, self.statement, self.sil, ",".join(self.verify), ",".join(self.polarity))
         text = "\n".join([" ".join(part.split()) for part in parts])

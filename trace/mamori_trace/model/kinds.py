@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """`levels`: levels of items.toml that are of this kind; none for things that are not items. `required`: attributes that need a value."""
+    """`levels`: levels of items.toml of this kind; none for things other than items. `required`: attributes that need a value."""
 
     key: str
     name: str
@@ -21,7 +21,7 @@ class Kind:
 
 @dataclass(frozen=True, slots=True)
 class LinkKind:
-    """A link from each kind of `sources` to each kind of `targets`; `written` names its location."""
+    """A link from each kind in `sources` to each kind in `targets`; `written` states where it is written."""
 
     key: str
     sources: tuple[str, ...]
@@ -31,7 +31,7 @@ class LinkKind:
 
 @dataclass(frozen=True, slots=True)
 class KindSchema:
-    """`requirements/schema/links.toml`. An empty one allows everything."""
+    """`requirements/schema/links.toml`. Without content, everything is permitted."""
 
     kinds: dict[str, Kind] = field(default_factory=dict)
     links: dict[str, LinkKind] = field(default_factory=dict)
@@ -41,6 +41,6 @@ class KindSchema:
         return next((kind for kind in self.kinds.values() if level in kind.levels), None)
 
     def list_targets(self, source: str, link: str) -> tuple[str, ...] | None:
-        """Kinds that `link` may lead to from the kind `source`; None if the schema does not define that."""
+        """Kinds to which `link` may lead from the kind `source`; None if the schema does not define them."""
         row = self.links.get(link)
         return row.targets if row is not None and source in row.sources else None

@@ -35,7 +35,7 @@ class ReviewLock:
     def describe_suspicion(self, child: str, parent: str, fingerprints: Mapping[str, str]) -> str:
         """Why the link is suspect, or an empty text if both ends are unchanged since the last review.
 
-        @param fingerprints current fingerprints of all items, by id: an item has many links and one fingerprint.
+        @param fingerprints current fingerprints of all items, by id, calculated once because an item has many links.
         """
         review = self.reviews.get((child, parent))
         if review is None:

@@ -21,7 +21,7 @@ _LAST = 999
 
 @dataclass(frozen=True, slots=True)
 class Wish:
-    """The request of the user; empty fields are filled in."""
+    """The request of the user; empty fields get default values."""
 
     kind: str
     area: str = ""
@@ -57,7 +57,7 @@ def find_prefix(project: Project, wish: Wish) -> tuple[Level, str]:
 
 
 def allocate(prefix: str, texts: Iterable[str]) -> str:
-    """The id above all ids in `texts`. Raises FormatError if no number is left."""
+    """The first id above all ids in `texts`. Raises FormatError if no number is left."""
     highest = find_highest(prefix, texts)
     if highest >= _LAST:
         raise FormatError(f"no number is left above {prefix}{highest}; begin another area")
@@ -65,7 +65,7 @@ def allocate(prefix: str, texts: Iterable[str]) -> str:
 
 
 def find_highest(prefix: str, texts: Iterable[str]) -> int:
-    """The maximum number after `prefix` in `texts`; 0 without one."""
+    """The maximum number after `prefix` in `texts`; 0 if there is none."""
     highest = 0
     for text in texts:
         position = text.find(prefix)

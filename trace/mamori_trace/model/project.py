@@ -38,10 +38,10 @@ _CPP_FILES = (".cpp", ".cc", ".cxx", ".hpp", ".h")
 
 @dataclass
 class Project:
-    """All inputs. `all_items` keeps every definition in file order; `items` the first one of each id.
+    """All inputs. `all_items` contains every definition in file order; `items` the first definition of each id.
 
-    `sources` is the hash of the sources if the evidence also has one. `date` is the day of the checked state (ISO 8601),
-    or empty if it is unknown or not needed. `run_checks` sets `waived`, and `told`: (rule, item) of all findings.
+    `sources` is the hash of the sources, if the evidence has one. `date` is the day of the checked state (ISO 8601), or empty if unknown or
+    not needed. `run_checks` sets `waived`, and `told`: (rule, item) of all findings.
     """
 
     root: Path
@@ -102,7 +102,7 @@ class Project:
 
     @cached_property
     def traced_functions(self) -> list[Function]:
-        """Functions of the layers that the project declares as traced."""
+        """Functions of the layers that the project marks as traced."""
         return [function for function in self.functions if self.code_schema.is_traced(function.file)]
 
     @cached_property
@@ -111,7 +111,7 @@ class Project:
         return Coverage(self.evidence.coverage_runs)
 
     def find_coverage(self, requirements: Iterable[str]) -> Coverage:
-        """The coverage of the tests that verify these requirements if the evidence has it test by test; otherwise that of all tests."""
+        """The coverage of the tests of these requirements if the evidence has coverage per test; otherwise the coverage of all tests."""
         titles = {one.title for name in requirements for one in (*self.results_of.get(name, ()), *self.tests_of.get(name, ()))}
         chosen = frozenset(titles & self._runs_by_test.keys())
         if not chosen:
@@ -154,7 +154,7 @@ class Project:
 
     @cached_property
     def results(self) -> list[TestResult]:
-        """Counted results. A campaign case that campaign.xml repeats counts once, unless the two disagree."""
+        """Counted results. A case that campaign.xml repeats counts once, unless both results differ."""
         told = {case.id: case.passed for case in self.evidence.cases}
         return [
             result
@@ -190,27 +190,27 @@ class Project:
 
     @cached_property
     def cycles(self) -> list[list[str]]:
-        """Parent cycles, each beginning with its smallest id, sorted."""
+        """Parent cycles, each starting with its smallest id, sorted."""
         return _find_cycles({item.id: item.parents for item in self.live_items})
 
     def find_level_key(self, item_id: str) -> str:
-        """The level of an item, or the level that the shape of an unknown id indicates, or an empty text."""
+        """The level of an item, or the level that the form of an unknown id indicates; otherwise empty."""
         item = self.items.get(item_id)
         level = None if item else self.schema.find_level(item_id)
         return item.level if item else level.key if level else ""
 
     def suggest(self, unknown: str, count: int = 3) -> list[str]:
-        """The nearest known ids, best first. Ids of the same area come first, so half an id is sufficient."""
+        """The nearest known ids, best first. Ids of the same area come first, so a partial id is sufficient."""
         close = difflib.get_close_matches(unknown.upper(), self.items, n=count, cutoff=0.75)
         prefixed = sorted(key for key in self.items if key.startswith(unknown.upper()))
         return list(dict.fromkeys(close + prefixed))[:count]
 
 
 def attach_sources(project: Project) -> None:
-    """Gives each result the location of its test in the sources, which also distinguishes unit tests from integration tests.
+    """Gives each result the location of its test in the sources, which also separates unit tests from integration tests.
 
-    A result that did not pass counts for each requirement that its source names, also if the test ended before it could name it. A tag in a
-    comment, which the running test does not know, applies to each result. The failure of a suite counts for each of its tests.
+    A failed result counts for each requirement that its source names, even if the test ended before it named the requirement. A tag in a
+    comment applies to each result, because the running test does not know the tag. A failed suite counts for each of its tests.
     """
     tests: dict[tuple[str, str], list[SourceTest]] = defaultdict(list)
     for test in project.tests:
@@ -228,7 +228,7 @@ def attach_sources(project: Project) -> None:
 
 
 def _narrow(result: TestResult, tests: list[SourceTest]) -> list[SourceTest]:
-    """Selects, among tests with one name in several files, those of the file that the result names, if it names one."""
+    """If tests in several files have one name, selects those in the file that the result names, if any."""
     if len({test.place.file for test in tests}) < 2:
         return tests
     own = [test for test in tests if result.source is not None and test.place.file == result.source.file]
@@ -248,7 +248,7 @@ def _holds(parts: list[str], inner: list[str]) -> bool:
 
 
 def _name_requirements(result: TestResult, tests: list[SourceTest]) -> list[TestResult]:
-    """Fills in the first requirement if there is none. @return a copy of the result for each other one."""
+    """Sets the first requirement if the result has none. @return a copy of the result for each other requirement."""
     wanted: dict[str, SourceTest] = {}
     for test in tests:
         if test.by_comment or result.status not in (PASSED, UNBOUND):
@@ -267,7 +267,7 @@ def _name_requirements(result: TestResult, tests: list[SourceTest]) -> list[Test
 
 
 def _spread_failures(results: list[TestResult]) -> list[TestResult]:
-    """A copy of each failure without a single test, for each requirement of its suite; without a suite, of its file."""
+    """Copies a failure that belongs to no single test, for each requirement of its suite; without a suite, of its file."""
     copies = []
     for bad in results:
         if bad.failing and not bad.requirement and bad.name in ("", WHOLE_SUITE):
@@ -290,10 +290,10 @@ def _get_case_id(name: str) -> str:
 
 
 def list_result_keys(result: TestResult) -> list[tuple[str, str]]:
-    """Suites and names that a source test of this result may have, the most exact first.
+    """Suites and names that a source test of this result may have, the most specific first.
 
-    GoogleTest adds instance names and numbers (`Instance/Suite/0`, `Name/3`), pytest adds packages (`a.b.test_c.TestD`) and parameters
-    (`name[value]`), JUnit 5 a list of types (`name(int)[1]`), Catch2 and doctest sections (`name/section`) and types (`name - int`,
+    GoogleTest adds instance names and numbers (`Instance/Suite/0`, `Name/3`). pytest adds packages (`a.b.test_c.TestD`) and parameters
+    (`name[value]`), JUnit 5 a list of types (`name(int)[1]`). Catch2 and doctest add sections (`name/section`) and types (`name - int`,
     `name<int>`), Boost.Test numbers below the name (`suite.name` and `_0`).
     """
     full = result.name.strip()
@@ -315,7 +315,7 @@ def list_result_keys(result: TestResult) -> list[tuple[str, str]]:
 
 
 def _find_cycles(parents_of: dict[str, tuple[str, ...]]) -> list[list[str]]:
-    """Walks up from each item once (iterative depth-first search); a parent that is still on the path closes a cycle."""
+    """Visits each ancestor once (iterative depth-first search); a parent that is still on the path closes a cycle."""
     done: set[str] = set()
     cycles: list[list[str]] = []
     for start in sorted(parents_of):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Meaning of a query: the fields of items and their values. A word that no item can have is an error, not an empty result.
+"""Meaning of a query: the fields of items and their values. A word that no item can contain is an error, not an empty result.
 
 @satisfies SWR-TRC-079, SWR-TRC-080      Design: docs/design/trace.md#query
 """
@@ -23,10 +23,10 @@ Values = tuple[str, ...]
 
 
 class Query:
-    """An expression, checked against the project. Raises FormatError."""
+    """An expression that was checked against the project. Raises FormatError."""
 
     def __init__(self, text: str, project: Project, verdicts: dict[str, Verdict], rules_of: Callable[[], dict[str, set[str]]]) -> None:
-        """@param rules_of gives the rules with a finding for each item; called only if a query needs it."""
+        """@param rules_of returns the rules with a finding for each item; called only if a query needs it."""
         self._project = project
         self._verdicts = verdicts
         self._rules_of = lru_cache(maxsize=1)(rules_of)
@@ -75,7 +75,7 @@ class Query:
         return {"<": left < right, "<=": left <= right, ">": left > right, ">=": left >= right}[step.operator]
 
     def _rank(self, field: str, value: str) -> int:
-        """Index of a SIL in the order of the schema, or the number itself; -1 for neither."""
+        """Index of a SIL in the order of the schema, or the number itself; -1 if it is neither."""
         if field == "sil":
             order = [word.casefold() for word in self._project.schema.sil]
             return order.index(value.casefold()) if value.casefold() in order else -1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The query language: tokens with their columns, and an expression in postfix order. No function is recursive, for any depth.
+"""The query language: tokens with their columns, and an expression in postfix order. No function is recursive, so any depth is possible.
 
     expression = comparison | has(NAME) | not expression | expression and expression | expression or expression | (expression)
     comparison = FIELD (= | != | ~ | !~ | < | <= | > | >=) (WORD | "TEXT")
@@ -112,7 +112,7 @@ def _push(waiting: list[Token], token: Token) -> None:
 
 
 def _take_operand(token: Token, word: str, rest: list[Token]) -> tuple[Step, int]:
-    """A comparison or has(), and how many further tokens it takes."""
+    """Parses a comparison or has(), and returns how many further tokens it uses."""
     if token.kind != "word" or word in (AND, OR):
         raise FormatError(f"'{token.text}' where a field is expected, for example level", token.column)
     if word == HAS:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Records that a person reviewed or analysed an item: the evidence for `Verify: review` and `Verify: analysis`.
+"""Records of reviews and analyses of items by a person: the evidence for `Verify: review` and `Verify: analysis`.
 
 @satisfies SWR-TRC-023      Design: docs/design/trace.md#reviews
 """
@@ -13,7 +13,7 @@ from mamori_trace.base.finding import Place
 
 @dataclass(frozen=True, slots=True)
 class ReviewRecord:
-    """One row of requirements/reviews.toml. `looked_at` names what was compared with the item, `author` its author."""
+    """One row of requirements/reviews.toml. `looked_at`: what was compared with the item; `author`: author of the item."""
 
     item: str
     method: str

@@ -24,13 +24,13 @@ class Grades:
 
 @dataclass(frozen=True, slots=True)
 class RulePack:
-    """Grades by rule id. An unlisted rule, or an unlisted SIL of a rule, keeps the severity of the rule itself."""
+    """Grades by rule id. A rule or SIL without an entry uses the severity of the rule itself."""
 
     grades: dict[str, Grades] = field(default_factory=dict)
     sil: tuple[str, ...] = ()
 
     def get_severity(self, rule: Rule, item: Item | None) -> str:
-        """Severity of a finding about `item`. Without an item or a readable SIL, the strictest severity."""
+        """Severity of a finding about `item`. The strictest severity if there is no item or its SIL is not readable."""
         grades = self.grades.get(rule.id)
         if grades is None:
             return rule.severity

@@ -12,14 +12,14 @@ from mamori_trace.base.finding import Place
 
 PHASES = ("planning", "requirements", "architecture", "design", "code", "unit test", "integration test", "system test", "validation",
           "modification")  # fmt: skip
-"""Phases of the V from its beginning to its end, in this tool's own words."""
+"""Phases of the V from start to end, in the words of this tool."""
 
 
 @dataclass(frozen=True, slots=True)
 class Technique:
     """One row of requirements/schema/techniques.toml.
 
-    `clause` names the clause of a standard. The evidence is `items` that require it, executed `tests` (words of the schema) and
+    `clause` names the clause of a standard. The evidence is `items` that require the technique, executed `tests` (words of the schema) and
     `documents` (file, or file#heading).
     """
 

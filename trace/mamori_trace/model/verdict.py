@@ -18,7 +18,7 @@ FAILED = "failed"
 INCOMPLETE = "incomplete"
 NOT_RUN = "not run"
 
-# Worst first: the verdict of an item is its worst objection.
+# Worst first: the worst objection determines the verdict of an item.
 WORST_FIRST = (FAILED, INCOMPLETE, UNBOUND, NOT_RUN, NOT_SHOWN, DRAFT, VERIFIED)
 
 _OF_STATUS = {SKIPPED: (INCOMPLETE, "was skipped"), UNBOUND: (UNBOUND, "has no evidence record"),
@@ -37,7 +37,7 @@ _Objection = tuple[str, str]  # (word, reason)
 
 
 def calc_verdicts(project: Project) -> dict[str, Verdict]:
-    """Verdict of each live item. Levels are evaluated from the bottom of the V up, so that a cycle cannot block the evaluation."""
+    """Verdict of each live item. Levels are evaluated from the bottom of the V upwards, so that a cycle cannot block the evaluation."""
     verdicts: dict[str, Verdict] = {}
     for level in reversed(project.schema.levels):
         for item in project.live_items:
@@ -70,7 +70,7 @@ def _judge(project: Project, item: Item, verdicts: dict[str, Verdict]) -> Verdic
 
 
 def _list_bad_results(project: Project, item: Item) -> Iterable[_Objection]:
-    """Results that name the item and did not pass, and tests without a result."""
+    """Results that name the item and did not pass, and tests of the item without a result."""
     absent = NOT_RUN if project.allow_missing else INCOMPLETE
     for result in project.results_of.get(item.id, []):
         if result.failing:
@@ -104,7 +104,7 @@ def judge_method(
 ) -> list[_Objection]:
     """Objections to the item by one method that it requires."""
     if method == "campaign":
-        # Unbound and inconclusive cases have an objection of their own.
+        # Unbound and inconclusive cases have a separate objection.
         passed = {case.get_polarity(item.id) for case in project.cases_of.get(item.id, []) if case.status != FAILED}
         absent = NOT_RUN if project.allow_missing else INCOMPLETE
         return [(absent, f"no passed {polarity} campaign case") for polarity in item.polarity if polarity not in passed]
@@ -134,7 +134,7 @@ def _judge_own_tests(project: Project, item: Item) -> list[_Objection]:
 def _judge_through_children(
     project: Project, item: Item, children: list[Item], verdicts: dict[str, Verdict]
 ) -> list[_Objection]:
-    """Verified children replace own tests if one of them requires each polarity that the item requires."""
+    """Verified children replace tests of the item if, for each polarity that the item requires, one of them requires it too."""
     objections = _judge_children(children, verdicts)
     for polarity in list_uncovered_polarities(project, item, children):
         objections.append((INCOMPLETE, f"no {polarity} test, neither its own nor of a child"))
@@ -142,7 +142,7 @@ def _judge_through_children(
 
 
 def list_uncovered_polarities(project: Project, item: Item, children: list[Item]) -> list[str]:
-    """Polarities that neither a test of the item shows nor a child of it requires."""
+    """Required polarities that no test of the item shows and no child requires."""
     covered = {polarity for child in children for polarity in child.polarity}
     covered |= {test.polarity for test in project.tests_of.get(item.id, [])}
     covered |= {result.polarity or "nominal" for result in project.results_of.get(item.id, [])}
@@ -150,7 +150,7 @@ def list_uncovered_polarities(project: Project, item: Item, children: list[Item]
 
 
 def is_reviewed(project: Project, item: Item) -> bool:
-    """Whether a person has reviewed each parent link of the item in its current form."""
+    """Whether a person has reviewed each parent link of the current item."""
     parents = [parent for parent in item.parents if parent in project.items]
     lock, now = project.lock, project.fingerprints
     return bool(parents) and lock is not None and not any(lock.describe_suspicion(item.id, parent, now) for parent in parents)

@@ -25,11 +25,11 @@ class Waiver:
     place: Place
 
     def is_expired(self, date: str) -> bool:
-        """Whether it has expired on `date`. On an unknown day, a waiver with an end is expired."""
+        """Whether the waiver has expired on `date`. If `date` is unknown, a waiver with an end counts as expired."""
         return bool(self.expires) and (not date or date > self.expires)
 
     def covers(self, finding: Finding) -> bool:
-        """Whether it covers the finding."""
+        """Whether the waiver covers the finding."""
         same_rule = finding.rule == self.rule
         return same_rule and self.item in ("", finding.item) and self.file in ("", finding.place.file)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Words that leave open what is required or mark an unfinished text, for projects whose schema lists none of its own.
+"""Words that leave the requirement open or mark an unfinished text; for projects whose schema has no own list.
 
 @satisfies SWR-TRC-024      Design: docs/design/trace.md#word-lists
 """

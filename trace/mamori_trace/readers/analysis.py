@@ -25,7 +25,7 @@ _REMEDY = "run the analysis again"
 _QUIET = ("note", "none", "information", "debug", "remark")
 _TIDY = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):\d+: (?:fatal )?(?P<level>warning|error): (?P<text>.*?)(?: \[(?P<rule>[\w.,\-]+)\])?$")
 _FITTING_ERRORS = (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError)
-Row = tuple[str, str, str, int]  # rule, message, file as the tool names it, line
+Row = tuple[str, str, str, int]  # rule, message, file name of the tool, line
 
 
 def read_analysis(folder: Path, names: SourceNames, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
@@ -48,7 +48,7 @@ def read_analysis(folder: Path, names: SourceNames, root: Path, evidence: Eviden
 
 
 def _make_finding(row: Row, shown: str, names: SourceNames) -> AnalysisFinding:
-    """A finding outside the project is reported at the file that contains it."""
+    """A finding outside the project is reported at the result file that contains it."""
     rule, message, file, line = row
     name = names.find_any(file)
     if name:
@@ -64,7 +64,7 @@ def _read_sarif(path: Path, shown: str, problems: list[Problem]) -> list[Row]:
 
 
 def _is_open(result: dict[str, Any]) -> bool:
-    """Whether the finding counts: it is not a note, not suppressed, and present in this run."""
+    """Whether the finding counts: not a note, not suppressed, and present in this run."""
     accepted = any(one.get("status", "accepted") == "accepted" for one in result.get("suppressions") or ())
     is_fault = result.get("kind", "fail") in ("fail", "open", "review") and result.get("level", "warning") not in _QUIET
     return is_fault and not accepted and result.get("baselineState") != "absent"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the content of a bundle, folder or archive, in bounded memory; links and special files are named and never opened.
+"""Reads the content of a bundle, folder or archive, in bounded memory; links and special files are listed but never opened.
 
 @satisfies SWR-TRC-075, SWR-TRC-076      Design: docs/design/trace.md#verify
 """
@@ -42,7 +42,7 @@ def read_bundle(path: Path) -> Content:
 def _read_folder(root: Path) -> Content:
     content = Content()
     if not os.path.lexists(root / MANIFEST):
-        return content  # not a bundle, and perhaps a complete disk
+        return content  # not a bundle; perhaps a complete disk
     for count, (name, entry) in enumerate(_walk(root)):
         if count >= MAX_MEMBERS:
             raise InputError(f"{root}: refused: more than {MAX_MEMBERS} files")
@@ -56,7 +56,7 @@ def _read_folder(root: Path) -> Content:
 
 
 def _walk(root: Path) -> Iterator[tuple[str, os.DirEntry]]:
-    """Everything except folders, which are entered; links are not followed."""
+    """Everything except folders, which are searched; links are not followed."""
     folders = [(root, "")]
     while folders:
         folder, prefix = folders.pop()

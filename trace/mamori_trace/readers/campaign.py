@@ -31,7 +31,7 @@ def read_environment(folder: Path, root: Path, evidence: Evidence, problems: lis
 
 
 def read_campaign(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the campaign cases; a missing file means that no campaign was run."""
+    """Reads the campaign cases; a missing file means that no campaign was run."""
     path = folder / "campaign" / "campaign.json"
     evidence.campaign_place = Place(get_shown_path(path, root), 1)
     if not path.exists():
@@ -56,7 +56,7 @@ def read_campaign(folder: Path, root: Path, evidence: Evidence, problems: list[P
 
 
 def _find_id_lines(text: str) -> dict[str, int]:
-    """Line of each `"id": "..."`, the first of each value."""
+    """Line of each `"id": "..."`; the first occurrence of each value."""
     lines: dict[str, int] = {}
     line, counted = 1, 0
     for match in _CASE_ID.finditer(text):

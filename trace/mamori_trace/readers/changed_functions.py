@@ -29,7 +29,7 @@ CPP_SUFFIXES = (".hpp", ".h", ".cpp", ".cc", ".ipp")
 _LANGUAGE = tree_sitter.Language(tree_sitter_cpp.language())
 _TESTS = ("TEST", "TEST_F", "TEST_P", "TYPED_TEST", "TYPED_TEST_P")
 _DECLARED = tree_sitter.Query(_LANGUAGE, "(field_declaration) @function (enum_specifier) @class")
-"""What a changed line may belong to beside the parts that have owners: only here, as each run of a check would pay for the search."""
+"""Parts without owners that a changed line may belong to. Only this module finds them, because each check would pay for the search."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ def list_spans(text: str, file: str) -> list[Span]:
 
 
 def find_touched(spans: list[Span], ranges: list[tuple[int, int]]) -> tuple[list[Span], bool]:
-    """The innermost spans that contain a line of `ranges`, and whether a line is in none."""
+    """The innermost spans that contain a line of `ranges`, and whether a line is outside all spans."""
     touched: dict[Span, None] = {}
     outside = False
     for first, last in ranges:
@@ -70,7 +70,7 @@ def _contains(outer: Span, inner: Span) -> bool:
 
 
 def _has_line_of_its_own(span: Span, inner: list[Span], first: int, last: int) -> bool:
-    """Whether a line of (first, last) inside `span` is in none of `inner`."""
+    """Whether a line of (first, last) inside `span` is outside all of `inner`."""
     line = max(first, span.first)
     for each in sorted(inner, key=lambda other: other.first):
         if each.first > line:
@@ -88,7 +88,7 @@ def _list_cpp(text: str) -> list[Span]:
     starts = [node.start_byte for node, _ in definitions]
 
     def is_inside(node: tree_sitter.Node) -> bool:
-        """Whether it is inside a function, and therefore a part of that function."""
+        """Whether the node is inside a function, and therefore part of that function."""
         index = bisect_right(starts, node.start_byte) - 1
         return index >= 0 and node.start_byte < definitions[index][0].end_byte
 
@@ -110,7 +110,7 @@ def _make_cpp_span(node: tree_sitter.Node, name: str) -> Span:
 
 
 def _find_start(node: tree_sitter.Node) -> int:
-    """First line of a definition, including its template head and the comment directly above."""
+    """First line of a definition, including its template head and the comment directly above it."""
     while node.parent is not None and node.parent.type in ("template_declaration", "declaration") and node.parent.parent is not None:
         node = node.parent
     row = node.start_point.row

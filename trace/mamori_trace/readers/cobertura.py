@@ -19,7 +19,7 @@ _SHARE = re.compile(r"\((\d+)/(\d+)\)")
 
 
 class _Collector:
-    """Collects lines while expat parses the file. A method repeats lines of its class, so the higher count is used."""
+    """Collects lines while expat parses the file. Methods repeat lines of their class, so the higher count is used."""
 
     def __init__(self, names: SourceNames, run: CoverageRun) -> None:
         self._names = names
@@ -69,7 +69,7 @@ class _Collector:
 
 
 def take_cobertura(path: Path, names: SourceNames, run: CoverageRun, problems: list[Problem]) -> bool:
-    """Fills `run`. @return whether the file is complete; if not, one more problem is reported."""
+    """Fills `run`. @return whether the file is complete; otherwise, one more problem is reported."""
     collector = _Collector(names, run)
     parser = make_parser(collector.start, collector.end, collector.text, doctype=True)
     return feed_file(parser, path, run.place.file, "measure again", problems)

@@ -29,11 +29,11 @@ _SHAPE = {
                 "time_ns": float, "needed_ns": float, "left_ns": float, "is_kept": bool}],
     "findings": [str],
 }  # fmt: skip
-"""What the page shows of the record; more may stand in it."""
+"""The parts of the record that the page shows; the record may contain more."""
 
 
 def read_cost(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the counted systems, sorted by folder. Each record that violates the format is one problem."""
+    """Reads the counted systems, sorted by folder. Each record that violates the format is one problem."""
     files = list_paths(folder, "cost/*/cost.json", root, problems)
     for path, table, place in read_records(files, SCHEMA, _SHAPE, "count again", root, problems):
         evidence.cost_runs.append(CostRun(path.parent.as_posix(), table, place))

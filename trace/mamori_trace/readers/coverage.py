@@ -31,7 +31,7 @@ _FITTING_ERRORS = (KeyError, TypeError, ValueError, IndexError, AttributeError, 
 
 
 def read_coverage(folder: Path, root: Path, names: SourceNames, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the runs, sorted by file. A file that violates its format is one problem and gives no coverage."""
+    """Reads the runs, sorted by file. A file that violates its format is one problem and gives no coverage."""
     for path in sorted(each for pattern in ("coverage/*", "coverage/by_test/*") for each in list_paths(folder, pattern, root, problems)):
         if path.suffix in SUFFIXES and path.is_file():
             test = urllib.parse.unquote(path.stem) if path.parent.name == "by_test" else ""
@@ -96,7 +96,7 @@ def _take_record(content: dict[str, Any], names: SourceNames, run: CoverageRun) 
 
 
 def _take_function(row: dict[str, Any], name: str, run: CoverageRun) -> None:
-    """Covered conditions are counted at the line of the function, because the record has locations of gaps only."""
+    """Covered conditions count at the line of the function, because the record contains only locations of gaps."""
     file = run.get_file(name)
     line = row["line"]
     file.calls[line] = file.calls.get(line, 0) + row["count"]
@@ -105,6 +105,6 @@ def _take_function(row: dict[str, Any], name: str, run: CoverageRun) -> None:
     if row["outcomes"]:
         reached, known = file.branches.get(line, (0, 0))
         file.branches[line] = (reached + row["outcomes_reached"], known + row["outcomes"])
-    unlisted = row["conditions"] if row["count"] == 0 else row["conditions_shown"]  # the conditions of a function that was never called are not listed singly
+    unlisted = row["conditions"] if row["count"] == 0 else row["conditions_shown"]  # the record lists no conditions of uncalled functions
     for number in range(unlisted):
         file.conditions[line, 0, len(file.conditions), number] = Condition("a condition of what was never called", row["count"] > 0)

@@ -34,7 +34,7 @@ _SOURCE_SUFFIXES = (".cpp", ".cc")
 _BODIES = ("compound_statement", "try_statement")
 _CLASS_TYPES = ("class_specifier", "struct_specifier", "union_specifier")
 _DEPTH_MAX = 16
-"""Deeper declarators do not occur in code that people read."""
+"""Maximum depth of a declarator; deeper ones do not occur in readable code."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Class:
 
 @dataclass(slots=True)
 class FileFunctions:
-    """Functions and classes of one file, both in order of their first lines. A function inside a function is part of the outer one."""
+    """Functions and classes of one file, ordered by first line. A function inside a function is part of the outer one."""
 
     functions: list[Function]
     classes: list[Class]
@@ -61,7 +61,7 @@ class FileFunctions:
         return function if function is not None and line <= function.last else None
 
     def qualify(self, name: str, line: int) -> str:
-        """`name` in the spelling of a separate definition: with the classes around `line`."""
+        """`name` in the spelling of a separate definition: preceded by the classes that contain `line`."""
         plain = _strip_arguments(name)
         around = [one.name for one in self.classes if one.first < line <= one.last and one.name != plain]
         return "::".join([*around, plain])
@@ -71,7 +71,7 @@ Captures = dict[str, list[tree_sitter.Node]]
 
 
 def capture(root: tree_sitter.Node) -> Captures:
-    """Comments, functions and classes of a tree, found in one traversal, because the traversal takes most of the time."""
+    """Comments, functions and classes of a tree, found in one traversal, because traversal dominates the run time."""
     return tree_sitter.QueryCursor(_QUERY).captures(root)
 
 
@@ -87,7 +87,7 @@ def list_functions(captures: Captures, shown: str) -> FileFunctions:
 
 def list_classes(captures: Captures) -> list[Class]:
     """Classes with a body, by their lines."""
-    # Declarations without a body are removed here: a query that does so takes twice as long to compile, in each run.
+    # Removes declarations without a body here, because a query that excludes them takes twice as long to compile, in each run.
     nodes = sorted(filter(has_body, captures.get("class", ())), key=lambda node: node.start_byte)
     return [Class(find_class_name(node), node.start_point.row + 1, node.end_point.row + 1) for node in nodes]
 
@@ -109,9 +109,9 @@ def find_class_name(node: tree_sitter.Node) -> str:
 
 
 def find_definitions(captures: Captures, classes: list[Class], bodies: tuple[str, ...] = ()) -> Iterator[tuple[tree_sitter.Node, str]]:
-    """Functions that are in no other function, each with its name and the classes around it.
+    """Functions outside other functions, each with its name and enclosing classes.
 
-    @param bodies kinds of body that count; without them also deleted and defaulted functions, and text that only resembles a function.
+    @param bodies kinds of body that count. Default: also deleted and defaulted functions, and text that only resembles a function.
     """
     end = -1
     for node in sorted(captures.get("function", ()), key=lambda node: node.start_byte):
@@ -125,7 +125,7 @@ def find_definitions(captures: Captures, classes: list[Class], bodies: tuple[str
 
 
 def qualify(node: tree_sitter.Node, name: str, classes: list[Class]) -> str:
-    """`name` with the classes that contain the lines of `node`."""
+    """`name`, preceded by the classes that contain the lines of `node`."""
     first, last = node.start_point.row + 1, node.end_point.row + 1
     own = (name, first, last) if node.type in _CLASS_TYPES else None
     around = [one.name for one in classes if one.name and one.first <= first and last <= one.last and (one.name, one.first, one.last) != own]
@@ -133,7 +133,7 @@ def qualify(node: tree_sitter.Node, name: str, classes: list[Class]) -> str:
 
 
 def find_function_name(node: tree_sitter.Node) -> str:
-    """Name in the declarator of a definition, with the classes in its spelling."""
+    """Name in the declarator of a definition, including the classes in its spelling."""
     inner = node.child_by_field_name("declarator")
     for _ in range(_DEPTH_MAX):
         if inner is None:
@@ -160,7 +160,7 @@ def _strip_arguments(name: str) -> str:
 
 
 def find_name(node: tree_sitter.Node) -> str:
-    """Name that a declaration declares: follows the declarator, or takes the `name` of a class, enum or namespace."""
+    """Name that a declaration declares: found along the declarator, or the `name` of a class, enum or namespace."""
     for _ in range(_DEPTH_MAX):
         if node.type in _NAME_TYPES:
             return get_text(node)
@@ -176,9 +176,9 @@ def find_name(node: tree_sitter.Node) -> str:
 
 
 def add_own_headers(texts: dict[str, str], code: CodeBase) -> None:
-    """Finds for each file the included headers that declare its definitions.
+    """Finds for each file the included headers that declare its functions.
 
-    These are the header of its name (`arm.hpp` for `arm.cpp`), and those with the class of a function that is defined outside it.
+    These are the header of the same name (`arm.hpp` for `arm.cpp`), and headers with the class of a function that is defined outside it.
     """
     by_name: dict[str, list[str]] = defaultdict(list)
     for shown in texts:
@@ -201,7 +201,7 @@ def _get_stem(shown: str) -> str:
 
 
 def _find_header(shown: str, included: str, by_name: dict[str, list[str]]) -> str:
-    """The file of the tree that the include names; of several the one nearest to the source."""
+    """The file in the tree that the include names; if there are several, the one nearest to the source."""
     tail = included.lstrip("./")
     known = [path for path in by_name.get(tail.rpartition("/")[2], ()) if f"/{path}".endswith(f"/{tail}")]
     return min(known, key=lambda path: (-len(commonprefix((path, shown))), path), default="")  # noqa: RUF071 (a likeness, no path)

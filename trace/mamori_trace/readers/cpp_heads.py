@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the tests of C++ frameworks by their macros, under the names in their results (docs/manual/trace.md, Frameworks).
+"""Finds the tests of C++ frameworks by their macros, under the names that their results use (docs/manual/trace.md, Frameworks).
 
 @satisfies SWR-TRC-104      Design: docs/design/trace.md#tests-and-results
 """
@@ -28,7 +28,7 @@ _FREE = {"TEST_CASE", "SCENARIO", "TEMPLATE_TEST_CASE", "TEMPLATE_TEST_CASE_SIG"
          "TEST_CASE_TEMPLATE", "TEST_CASE_TEMPLATE_DEFINE"}  # fmt: skip
 _FREE_FIXTURE = {"TEST_CASE_METHOD", "SCENARIO_METHOD", "TEMPLATE_TEST_CASE_METHOD", "TEMPLATE_TEST_CASE_METHOD_SIG",
                  "TEMPLATE_PRODUCT_TEST_CASE_METHOD", "TEMPLATE_LIST_TEST_CASE_METHOD", "TEST_CASE_FIXTURE"}  # fmt: skip
-"""Names in free text: Catch2, doctest; those of the second kind with the fixture before the name."""
+"""Free-text names: Catch2, doctest; for macros of the second kind, the fixture precedes the name."""
 _BOOST = re.compile(r"BOOST_(?:AUTO|FIXTURE|DATA|AUTO_PARAM)_TEST_CASE(?:_F)?(?:_TEMPLATE)?")
 _BOOST_SUITE = re.compile(r"BOOST_(?:AUTO|FIXTURE)_TEST_SUITE")
 _BOOST_END = "BOOST_AUTO_TEST_SUITE_END"
@@ -36,7 +36,7 @@ _ARGUMENTS_MAX = 3
 
 
 class Head(NamedTuple):
-    """One test: the beginning of its macro, its block in braces (empty if it has none), and its name in the results."""
+    """One test: the offset of its macro, its block in braces (empty without one), and its name in the results."""
 
     start: int
     begin: int
@@ -60,7 +60,7 @@ class CppHeads:
         return head if head is not None and (head.start <= offset < max(head.end, head.begin + 1)) else None
 
     def find_below(self, offset: int) -> Head | None:
-        """The test that the next declaration after `offset` is, for known and unknown macros; None for anything else."""
+        """The test that is the next declaration after `offset`, for known and unknown macros; None for anything else."""
         rest = _CODE.search(self.plain.shape, offset)
         if rest is None:
             return None
@@ -106,7 +106,7 @@ def _make_head(plain: Plain, macro: re.Match[str], shown: str, suites: list[str]
 
 
 def _name(word: str, plain_word: str, arguments: list[str], plain: Plain, shown: str, suites: list[str]) -> tuple[str, str]:
-    """Suite and name; a star replaces the types of a test with several types."""
+    """Suite and name; a star represents the types of a test with several types."""
     if not arguments or (plain_word in _FREE_FIXTURE and len(arguments) < 2):
         return "", ""
     if _BOOST.fullmatch(word):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""C++ text without the parts that the compiler ignores: comments and dead preprocessor branches. Offsets stay unchanged.
+"""C++ text without parts that the compiler ignores: comments and dead preprocessor branches. Offsets stay unchanged.
 
 @satisfies SWR-TRC-105      Design: docs/design/trace.md#dead-code
 """
@@ -19,12 +19,12 @@ _CONDITION_MAX = 200
 
 
 def blank(text: str) -> str:
-    """Replaces all characters by spaces; line ends stay."""
+    """Replaces all characters by spaces, except line ends."""
     return _WORD.sub(" ", text)
 
 
 class Plain:
-    """Views of one text with equal lengths: `code` without comments and dead branches, `shape` also without the content of literals."""
+    """Views of one text with equal lengths: `code` without comments and dead branches, `shape` also without the contents of literals."""
 
     def __init__(self, text: str) -> None:
         self.comments: list[re.Match[str]] = []
@@ -61,7 +61,7 @@ def find_dead_lines(text: str) -> frozenset[int]:
 
 
 def _list_dead(shape: str) -> Iterator[tuple[int, int]]:
-    """(begin, end) of each outermost dead branch. A condition that is not constant may be true, so its branches count as live."""
+    """(begin, end) of each outermost dead branch. A non-constant condition may be true, so its branches count as live."""
     stack: list[tuple[bool, bool]] = []  # of each open #if: whether its branch is dead, and whether an earlier branch is certainly true
     begin = -1
     for match in _DIRECTIVE.finditer(shape):
@@ -117,7 +117,7 @@ def _split(text: str, operator: str) -> list[str]:
 
 
 def _find_close(text: str, at: int) -> int:
-    """Offset of the bracket that closes the one at `at`; -1 if there is none."""
+    """Offset of the bracket that closes the bracket at `at`; -1 if there is none."""
     depth = 0
     for offset in range(at, len(text)):
         depth += {"(": 1, ")": -1}.get(text[offset], 0)

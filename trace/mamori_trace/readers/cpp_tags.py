@@ -27,7 +27,7 @@ _LANGUAGE = tree_sitter.Language(tree_sitter_cpp.language())
 
 @dataclass(slots=True)
 class _Block:
-    """Comments on neighbouring lines: the lines of the file (from 0) that each begins on, their texts, the first and the last node."""
+    """Comments on adjacent lines: the file line (from 0) where each begins, their texts, the first and the last node."""
 
     rows: list[int]
     texts: list[str]
@@ -54,7 +54,7 @@ _WHOLE_FILE = _Target(FILE_SYMBOL, 0, 0)
 def read_cpp_tags(
     root: Path, problems: list[Problem], code: CodeBase | None = None, id_pattern: str = ID_PATTERN
 ) -> list[CodeTag]:
-    """Tags of all C++ files below `root` that are not tests. @param code receives the functions of these files, too."""
+    """Tags of all C++ files below `root` except tests. @param code also receives the functions of these files."""
     parser = tree_sitter.Parser(_LANGUAGE)
     tags: list[CodeTag] = []
     texts: dict[str, str] = {}
@@ -97,7 +97,7 @@ def parse_cpp_tags(
 
 
 def _make_scopes(tags: list[CodeTag], target: _Target, shown: str, found: FileFunctions) -> list[Scope]:
-    """One scope for the tags of the file, and one for those of the declaration."""
+    """One scope for the file tags, and one for the tags of the declaration."""
     scopes = []
     for chosen in (_WHOLE_FILE, target) if target != _WHOLE_FILE else (_WHOLE_FILE,):
         words = tuple(tag.requirement for tag in tags if tag.symbol == chosen.symbol)
@@ -124,7 +124,7 @@ def _list_blocks(captures: Captures) -> list[_Block]:
 
 
 def _find_target(block: _Block, found: FileFunctions) -> _Target:
-    """The function around the block, or the declaration below it; the file if the block is a file comment or nothing follows."""
+    """The function that contains the block, or the declaration below it. The file for a file comment, or if nothing follows."""
     if "@file" in block.text:
         return _WHOLE_FILE
     around = found.find_around(block.rows[0] + 1)

@@ -37,7 +37,7 @@ def read_cpp_tests(root: Path, problems: list[Problem], id_pattern: str = ID_PAT
 
 
 def parse_cpp_tests(text: str, shown: str, id_pattern: str = ID_PATTERN) -> list[SourceTest]:
-    """Tests of one file. A call outside any test has an empty test name: its id is checked, no result is expected."""
+    """Tests of one file. A call outside all tests has an empty test name: its id is checked, but no result is expected."""
     plain = Plain(text)
     heads = list_cpp_heads(plain, shown)
     tests: list[SourceTest] = []
@@ -61,7 +61,7 @@ def _name(head: Head | None, shown: str) -> tuple[str, str]:
 
 
 def _find_tagged(text: str, plain: Plain, heads: CppHeads, shown: str, id_pattern: str) -> Iterator[SourceTest]:
-    """Tests for which a comment names an id: the test around the comment, or the declaration below it. Never the test above."""
+    """Tests for which a comment names an id: the test that contains the comment, or the declaration below it; never the test above."""
     for comment in plain.comments:
         if not has_mark(comment[0]) or plain.is_dead(comment.start()):
             continue
@@ -73,7 +73,7 @@ def _find_tagged(text: str, plain: Plain, heads: CppHeads, shown: str, id_patter
 
 
 def _speaks_for_file(comment: str, start: int, plain: Plain) -> bool:
-    """A comment with `@file`, or above all code."""
+    """Whether the comment contains `@file` or precedes all code."""
     return "@file" in comment or not plain.shape[:start].strip()
 
 

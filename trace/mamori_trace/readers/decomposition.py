@@ -21,6 +21,6 @@ _COLUMNS = Columns(
 
 
 def read_decomposition(root: Path, problems: list[Problem]) -> list[Decomposition]:
-    """Records in file order. An incomplete record is a problem and justifies nothing."""
+    """Records in file order. An incomplete record is a problem and has no effect."""
     rows = read_rows(root / DECOMPOSITION_PATH, "mamori.decomposition/1", "record", _COLUMNS, root, problems)
     return [Decomposition(place=place, **row) for row, place in rows]

@@ -18,11 +18,11 @@ from mamori_trace.readers.sources import calc_sources_of
 NAME = "records.json"
 SCHEMA = "mamori.records/1"
 RECORDED = ("environment.json", "junit/*.xml", "campaign/campaign.json", "coverage/*", "coverage/by_test/*", "static/*")
-"""What decides about requirements, and therefore has a record. Times hold for one machine and one run, and decide nothing."""
+"""Files that decide about requirements and therefore have a record. Times depend on the host and the run, and decide nothing."""
 
 ALTERED = "evidence-altered"
 FOLDERS = "source_folders"
-"""The folders whose files `sources` covers; without it, all files that git does not ignore."""
+"""The folders whose files `sources` covers; if empty, all files that git does not ignore."""
 _FILE = {"sha256": str, "sources": str, "tool_chain": str, "configuration": str, "binary": Maybe(str)}
 _REMEDY = "run the tests again"
 
@@ -39,7 +39,7 @@ def hash_file(path: Path) -> str:
 
 
 def read_evidence_records(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the records; if there are any, each changed, missing or unrecorded file is a problem."""
+    """Reads the records. If there are any, each changed, missing or unrecorded file is a problem."""
     path = folder / NAME
     if not path.exists():
         return

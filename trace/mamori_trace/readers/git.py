@@ -15,12 +15,12 @@ def read_head(root: Path) -> str:
 
 
 def read_commit_date(root: Path) -> str:
-    """Day of the checked-out commit as its committer wrote it (ISO 8601), or an empty text without a git repository."""
+    """Commit date of the checked-out commit (ISO 8601), in the time zone of its committer; empty without a git repository."""
     return ask(root, "show", "--no-patch", "--format=%cs", "HEAD")
 
 
 def read_title(root: Path, item_id: str) -> str:
-    """Title of an item in the checked-out commit, or an empty text if it is not there."""
+    """Title of an item in the checked-out commit, or empty if it is not there."""
     line = ask(root, "grep", "-h", "--fixed-strings", "--max-count=1", f"## {item_id} ", "HEAD", "--", "requirements")
     return line.partition("\n")[0].removeprefix(f"## {item_id}").strip() if line.startswith(f"## {item_id} ") else ""
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Changes between two revisions, by git's plumbing: files with renames, line ranges of both sides, and the old files.
+"""Changes between two revisions, from low-level git commands: files with renames, line ranges of both sides, and the old files.
 
 @satisfies SWR-TRC-070, SWR-TRC-073      Design: docs/design/trace.md#impact
 """
@@ -19,7 +19,7 @@ from mamori_trace.base.git_run import get_git_environment, make_git_command, run
 
 _HUNK = re.compile(rb"@@ -(\d+)(?:,(\d+))? \+(\d+)(?:,(\d+))? @@")
 _MAX_FILE = 16 * 1024 * 1024  # larger files are not sources
-_PATCHES = {"T": 2, "U": 0}  # a change of type is reported as a removal and a new file; an unmerged path by a separate line
+_PATCHES = {"T": 2, "U": 0}  # a change of type is reported as a removal and a new file; unmerged paths have a separate line
 _REGULAR = (b"100644", b"100755")
 
 
@@ -68,7 +68,7 @@ def list_changes(root: Path, old: str, new: str | None) -> list[FileChange]:
 
 
 def write_tree(root: Path, commit: str, folder: Path, wanted: Callable[[str], bool]) -> list[str]:
-    """Writes the regular files of `commit` whose path is wanted to `folder`. @return their paths, in order."""
+    """Writes the regular files of `commit` with wanted paths to `folder`. @return their paths, in order."""
     entries = []
     for entry in _demand(root, ["ls-tree", "-r", "-z", commit]).split(b"\0"):
         head, _, name = entry.partition(b"\t")
@@ -84,7 +84,7 @@ def write_tree(root: Path, commit: str, folder: Path, wanted: Callable[[str], bo
 
 
 def is_shallow(root: Path) -> bool:
-    """Whether git has only the latest part of the history."""
+    """Whether the repository contains only the latest part of the history."""
     return (run_git(root, ["rev-parse", "--is-shallow-repository"]) or b"").strip() == b"true"
 
 
@@ -98,7 +98,7 @@ def _count_lines(path: Path) -> int:
 
 
 def _parse_diff(data: bytes) -> list[FileChange]:
-    """Raw records come first, each ended by NUL; an empty record ends them; the patches follow in the same order."""
+    """Raw records come first, each ended by NUL, and an empty record ends them. The patches follow in the same order."""
     changes: list[FileChange] = []
     position = 0
     while data[position : position + 1] == b":":
@@ -127,7 +127,7 @@ def _make_change(status: str, names: list[str]) -> FileChange:
 
 
 def _list_hunks(patch: bytes) -> Iterator[tuple[list[tuple[int, int]], list[tuple[int, int]]]]:
-    """Line ranges of both sides for each file of the patch. Lines inside a hunk are counted, so their text is never parsed."""
+    """Line ranges of both sides for each file of the patch. Lines inside a hunk are only counted; their text is never parsed."""
     current: tuple[list[tuple[int, int]], list[tuple[int, int]]] | None = None
     inside = 0
     for line in patch.split(b"\n"):
@@ -150,7 +150,7 @@ def _list_hunks(patch: bytes) -> Iterator[tuple[list[tuple[int, int]], list[tupl
 
 
 def read_blobs(root: Path, entries: list[tuple[str, bytes]]) -> Iterator[tuple[str, bytes]]:
-    """Contents one after the other from one process, so that memory contains one file at a time."""
+    """Contents in sequence from one process, so that memory contains one file at a time."""
     if not entries:
         return
     command = make_git_command(root, ["cat-file", "--batch"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Anchors of the headings of a Markdown file, in the spelling of the common forges.
+"""Anchors of the headings of a Markdown file, as common forges create them.
 
 @satisfies SWR-TRC-001      Design: docs/design/trace.md#items
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads from the history of git every version of the texts in requirements/, and the commits that changed one item.
+"""Reads from the git history every version of the texts in requirements/, and the commits that changed one item.
 
 @satisfies SWR-TRC-078, SWR-TRC-081      Design: docs/design/trace.md#new-items
 """
@@ -81,7 +81,7 @@ def read_events(root: Path, schema: Schema, item_id: str) -> list[Event]:
 
 
 def _parse_log(data: bytes) -> list[tuple[tuple[str, str, str, str], list[tuple[str, str]]]]:
-    """For each commit its text, and (path, blob) of each Markdown file that it changed; a removed file has no blob."""
+    """For each commit its text, and (path, blob) of each changed Markdown file; a removed file has no blob."""
     steps: list[tuple[tuple[str, str, str, str], list[tuple[str, str]]]] = []
     words = iter(data.split(b"\0"))
     for word in words:

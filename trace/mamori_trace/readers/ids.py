@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads and writes requirements/ids.lock: one line per retired id, sorted, so that it merges and diffs well.
+"""Reads and writes requirements/ids.lock: one line per retired id, sorted, so that merges and diffs are simple.
 
 @satisfies SWR-TRC-025      Design: docs/design/trace.md#ids
 """
@@ -40,7 +40,7 @@ def read_ids(root: Path, problems: list[Problem]) -> dict[str, FormerId]:
 
 
 def write_ids(root: Path, former: dict[str, FormerId]) -> None:
-    """Writes the ledger atomically and follows a link at its path; writes none if no id was ever retired."""
+    """Writes the ledger atomically, following a link at its path; writes no file if no id was ever retired."""
     if former or (root / IDS_PATH).exists():
         rows = [f"{each.id} {each.fingerprint} {each.date} {each.title or _NONE}\n" for _, each in sorted(former.items())]
         write_whole(root / IDS_PATH, _HEAD + "".join(rows))

@@ -62,7 +62,7 @@ def _read_side(root: Path, name: str) -> Project:
 
 
 def _read_cases(project: Project, root: Path, evidence: Path | None) -> None:
-    """Campaign cases of the available evidence; without evidence there are none, and the report states that."""
+    """Campaign cases of the available evidence; without evidence there are none, which the report states."""
     if evidence is not None and not evidence.is_dir():
         raise InputError(f"{evidence}: no such evidence folder; run the campaign first, or leave the option out")
     try:
@@ -83,7 +83,7 @@ def _list_parts(changes: list[FileChange], old: Project, new: Project) -> tuple[
     for change in changes:
         path = change.path
         if path.startswith("requirements/") and path.endswith((".md", "trace.lock")):
-            continue  # compared item by item, link by link
+            continue  # compared separately by items and links
         if path.endswith(".md"):
             headings += _list_headings(change, old, new)
         elif is_test_file(path) and path.endswith(_SOURCES):
@@ -106,7 +106,7 @@ def _read_spans(project: Project, path: str) -> list[Span]:
 
 
 def _list_states(change: FileChange, old: Project, new: Project) -> tuple[dict[str, tuple[str, bool]], bool]:
-    """Name -> (state, whether it is a test) of the touched spans of both sides; and whether a line outside all spans changed."""
+    """Name -> (state, whether it is a test) of the touched spans on both sides; and whether a line outside all spans changed."""
     before, after = _read_spans(old, change.old_path), _read_spans(new, change.new_path)
     old_touched, old_outside = find_touched(before, change.old_ranges)
     new_touched, new_outside = find_touched(after, change.new_ranges)
@@ -134,7 +134,8 @@ def _get_file_state(change: FileChange) -> str:
 
 
 def _list_tests(change: FileChange, old: Project, new: Project) -> list[Part]:
-    """Touched tests. A line outside all tests touches all tests of the file; a helper without tests touches those of its folder."""
+    """Touched tests. A change outside all tests affects all tests of the file; a change of a helper file affects the tests of its
+    folder."""
     states, outside = _list_states(change, old, new)
     names = {name: state for name, (state, is_test) in states.items() if is_test}
     if outside or len(names) < len(states) or not names:
@@ -170,7 +171,7 @@ def _list_headings(change: FileChange, old: Project, new: Project) -> list[Part]
 
 
 def _find_headings(rows: list[tuple[str, int, int]], ranges: list[tuple[int, int]]) -> set[str]:
-    """The heading above each touched line, and the headings that contain it."""
+    """The heading above each touched line, and the headings that contain that heading."""
     touched: set[str] = set()
     for first, last in ranges:
         path: list[tuple[str, int]] = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Queries git for the commits that changed each item: one call, read as a stream, with limits of commits, bytes and time.
+"""Queries git for the commits that changed each item: one call, read as a stream, with limits for commits, bytes and time.
 
 @satisfies SWR-TRC-063      Design: docs/design/trace.md#display
 """
@@ -27,7 +27,7 @@ _HEADING = re.compile(r" {0,3}## +(\S+)")
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """One commit that touched an item's block. `commit` is abbreviated, `date` is ISO 8601."""
+    """One commit that changed the block of an item. `commit` is abbreviated, `date` is ISO 8601."""
 
     commit: str
     date: str
@@ -39,7 +39,7 @@ def read_item_history(root: Path) -> dict[str, list[Change]]:
     if not (root / "requirements").is_dir():
         return {}
     with tempfile.NamedTemporaryFile("w", suffix=".attributes") as attributes:
-        # git then names the heading above each hunk, which is the item that contains the hunk.
+        # git then names the heading above each hunk, which belongs to the item that contains the hunk.
         attributes.write("*.md diff=markdown\n")
         attributes.flush()
         command = [
@@ -56,7 +56,7 @@ def find_changes(lines: Iterable[str]) -> dict[str, list[Change]]:
     changes: dict[str, list[Change]] = defaultdict(list)
     commit = Change("", "", "")
     item = ""
-    in_hunk = is_told = False  # is_told: the item has this commit already, so only the next heading matters
+    in_hunk = is_told = False  # is_told: the item already has this commit, so only the next heading matters
     for line in islice(lines, _LINES_MAX):
         if line[:1] in ("+", "-"):
             if not in_hunk or (is_told and "##" not in line) or not line[1:].strip():

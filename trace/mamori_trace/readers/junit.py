@@ -26,11 +26,11 @@ _OUTCOMES = {"failure": FAILED, "error": ERRORED, "skipped": SKIPPED}
 _RETRIES = ("flakyFailure", "flakyError", "rerunFailure", "rerunError")
 _STATUS_WORDS = {"fail": FAILED, "failed": FAILED, "failure": FAILED, "error": ERRORED, "notrun": SKIPPED, "disabled": SKIPPED,
                  "skipped": SKIPPED, "ignored": SKIPPED, "suppressed": SKIPPED}  # fmt: skip
-"""Of the attributes `status` (CTest, GoogleTest) and `result` (GoogleTest); any other word says nothing against the case."""
+"""Permitted values of the attributes `status` (CTest, GoogleTest) and `result` (GoogleTest); other values do not count against the case."""
 _VERDICT = "verdict"
 _HOST_WORDS = ("inconclusive", "not-shown", "no-privilege")
 _OF_HOST = re.compile(rf"\bverdict=(?:{'|'.join(_HOST_WORDS)})\b|\bprivileges?\b", re.IGNORECASE)
-"""In the message of a skipped case: the host is the reason. The property `verdict` says the same."""
+"""Text in the message of a skipped case: the host is the cause. The property `verdict` has the same meaning."""
 _ROOTS = ("testsuites", "testsuite")
 _MESSAGE_CHARACTERS_MAX = 2000
 _REMEDY = "run the tests again"
@@ -58,7 +58,7 @@ def parse_junit(data: bytes, shown: str, kind: str, root: Path, problems: list[P
 
 
 class _Collector:
-    """Collects test cases while expat parses the file. Texts are truncated to the maximum length of a message."""
+    """Collects test cases while expat parses the file. Texts are truncated to the maximum message length."""
 
     def __init__(self, shown: str, kind: str, root: Path) -> None:
         self.results: list[TestResult] = []
@@ -89,7 +89,7 @@ class _Collector:
             self._case.flaky = True
 
     def _take_outcome(self, tag: str, attributes: dict[str, str]) -> None:
-        """An outcome outside any case belongs to its complete suite."""
+        """A failure outside all cases belongs to the complete suite."""
         if self._case is None and tag == "skipped":
             return
         if self._case is None:
@@ -108,7 +108,7 @@ class _Collector:
             self._suites.pop()
 
     def _close_case(self, case: TestResult) -> None:
-        """One result for each requirement that the case names; a case that failed at the end is more than flaky."""
+        """One result for each requirement that the case names. A case whose last attempt failed is a failure, not flaky."""
         case.message = case.message.strip()[:_MESSAGE_CHARACTERS_MAX]
         of_host = self._verdict in _HOST_WORDS
         if (case.status == SKIPPED and (of_host or _OF_HOST.search(case.message))) or (case.status == PASSED and of_host):
@@ -122,7 +122,7 @@ class _Collector:
         self.results.extend(replace(case, requirement=name, is_first=False) for name in named[1:])
 
     def _take_text(self, text: str) -> None:
-        """pytest puts the full failure here; it is used if there is no message attribute."""
+        """pytest writes the full failure here; used if there is no message attribute."""
         if self._takes_text and self._case is not None and len(self._case.message) < _MESSAGE_CHARACTERS_MAX:
             self._case.message += text[:_MESSAGE_CHARACTERS_MAX] if self._case.message else text.lstrip()[:_MESSAGE_CHARACTERS_MAX]
 
@@ -168,7 +168,7 @@ class _Collector:
 
 
 def _read_time(text: str) -> float:
-    """Seconds; 0 if there is no number that a sum can hold."""
+    """Seconds; 0 if there is no number that can be added up."""
     try:
         time_s = float(text)
     except ValueError:

@@ -22,7 +22,7 @@ _LINK_KEYS = ("from", "to", "written")
 
 
 def read_kinds(root: Path, schema: Schema) -> KindSchema:
-    """The kinds and links; an empty schema if the project has none. Raises InputError, because links could not be checked then."""
+    """The kinds and links; an empty schema if the project has none. Raises InputError, because links cannot be checked then."""
     path = root / KINDS_PATH
     try:
         table = load_toml(path)

@@ -57,8 +57,8 @@ def _take_file(entry: dict[str, Any], file: FileCoverage) -> None:
 
 
 def calc_line_counts(segments: Iterable[list[Any]]) -> dict[int, int]:
-    """How often each line with code was executed, as llvm-cov shows it: the maximum of all regions that begin in the line, or else
-    the count of the region that continues from above. A segment is line, column, count, whether it counts, begins a region, fills a gap."""
+    """Executions of each line with code, as llvm-cov shows them: the maximum of all regions that begin in the line, otherwise the count of
+    the region that continues from above. A segment is line, column, count, whether it counts, begins a region, fills a gap."""
     by_line: dict[int, list[list[Any]]] = defaultdict(list)
     for segment in segments:
         by_line[int(segment[0])].append(segment)

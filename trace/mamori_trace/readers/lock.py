@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads and writes requirements/trace.lock: one line per reviewed link, sorted, so that it merges and diffs well.
+"""Reads and writes requirements/trace.lock: one line per reviewed link, sorted, so that merges and diffs are simple.
 
 @satisfies SWR-TRC-008      Design: docs/design/trace.md#suspect-links
 """
@@ -40,7 +40,7 @@ def read_lock(root: Path, problems: list[Problem], path: Path | None = None) -> 
 
 
 def write_lock(root: Path, lock: ReviewLock, path: Path | None = None) -> None:
-    """Writes the lock atomically and follows a link at its path. Raises InputError."""
+    """Writes the lock atomically, following a link at its path. Raises InputError."""
     rows = [
         f"{each.child} {each.child_fingerprint} {each.parent} {each.parent_fingerprint} {each.date} {each.reviewer}\n"
         for _, each in sorted(lock.reviews.items())

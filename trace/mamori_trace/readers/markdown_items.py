@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads strict item blocks from Markdown, line by line, with the location of every part.
 
-An invalid block is reported as a problem and kept as far as it is readable, so that one mistake neither hides nor causes others.
+An invalid block is reported as a problem and kept as far as possible, so that one error neither hides nor causes others.
 
 @satisfies SWR-TRC-001      Design: docs/design/trace.md#items
 """
@@ -33,7 +33,8 @@ def read_items(root: Path, schema: Schema, problems: list[Problem]) -> list[Item
 
 
 def _list_files(base: Path, root: Path, problems: list[Problem]) -> Iterator[Path]:
-    """A link to a folder is not followed, because it could be endless. It is reported, because its items would otherwise be missing unnoticed."""
+    """Links to folders are not followed, because they could be endless. They are reported, because their items would otherwise be
+    missing."""
     for folder, folders, files in walk_folders(base, root, problems):
         for path in (Path(folder, name) for name in folders):
             if path.is_symlink():
@@ -64,7 +65,7 @@ def _finish(block: _Block | None, items: list[Item]) -> None:
 
 
 class _Block:
-    """One item that is being read: statement first, then the attributes in the order of the schema."""
+    """One item during reading: statement first, then the attributes in the order of the schema."""
 
     def __init__(self, item: Item, schema: Schema, problems: list[Problem]) -> None:
         self._item = item
@@ -182,7 +183,7 @@ class _Block:
         self._item.status = "".join(self._keep_known(number, "Status", [value], self._schema.status))
 
     def _keep_known(self, number: int, name: str, words: list[str], known: tuple[str, ...]) -> tuple[str, ...]:
-        """`words` without the unknown ones, which are reported."""
+        """`words` without unknown ones, which are reported."""
         for word in words:
             if word not in known:
                 self._refuse(number, f"{name}: '{word}' is not one of {', '.join(known)}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Accepts a draft only if the reader of items finds no problem in it, and appends it atomically.
+"""Accepts a draft only if the item reader finds no problem in it, and appends the draft atomically.
 
 @satisfies SWR-TRC-078      Design: docs/design/trace.md#new-items
 """
@@ -17,13 +17,13 @@ from mamori_trace.readers.markdown_items import parse_items
 
 
 def check_file(root: Path, file: Path) -> None:
-    """Raises InputError if items of `file` would not be read."""
+    """Raises InputError if the reader would not read items of `file`."""
     base = (root / "requirements").resolve()
     try:
         path = file.resolve()
     except RuntimeError:
         raise InputError(f"{file}: is a loop of links; mend the link") from None
-    named = file.parent.resolve() / file.name  # a link there is read, wherever it leads
+    named = file.parent.resolve() / file.name  # a link there is read, regardless of its target
     if not any(_is_item_file(each, base) for each in (named, path)):
         raise InputError(f"{file}: items are read from Markdown files below {root / 'requirements'} only; name one of these")
     if not path.parent.is_dir():

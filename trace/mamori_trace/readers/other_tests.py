@@ -19,7 +19,7 @@ _LEADERS = ("//", "/*", "*")
 
 
 def read_other_tests(root: Path, problems: list[Problem]) -> list[SourceTest]:
-    """Tests of all files of these languages below `root`. Rust unit tests are in the source files, so each file may contain some."""
+    """Tests of all files of these languages below `root`. Rust unit tests are in source files, so each file may contain tests."""
     tests: list[SourceTest] = []
     for path, shown in walk_sources(root, SUFFIXES, problems):
         text = read_text(path, shown, problems)

@@ -43,7 +43,7 @@ from mamori_trace.readers.waivers import read_waivers
 
 
 def find_evidence(root: Path) -> Path:
-    """The evidence folder of the release build, or else the only one. Raises InputError if there is no evidence folder."""
+    """The evidence folder of the release build, or otherwise the only one. Raises InputError if there is none."""
     folders = _list_evidence(root)
     preferred = root / "build" / "host-release" / "evidence"
     if preferred in folders:
@@ -79,8 +79,8 @@ def read_judgement(project: Project, rules: Sequence[str], date: str = "") -> No
     """Project data besides the items: pack, waivers, records, techniques, kinds, and the date of the check. Raises InputError.
 
     `rules` are the ids that packs and waivers may name; the caller that runs the rules knows them.
-    `date` empty: the day of the checked-out commit, or else that of the evidence; never the clock, because the
-    outcome would then change by itself.
+    `date` empty: the day of the checked-out commit, or otherwise that of the evidence. The clock is never used, because the outcome would
+    then change by itself.
     """
     project.pack = read_rule_pack(project.root, project.schema, rules)
     project.waivers = read_waivers(project.root, rules, project.problems)
@@ -97,7 +97,7 @@ def read_judgement(project: Project, rules: Sequence[str], date: str = "") -> No
 def read_project(root: Path, evidence: Path | None, rules: Sequence[str], allow_missing: bool = False, date: str = "") -> Project:
     """The complete project. `rules` are the known rule ids.
 
-    `evidence` None searches the folder; a missing folder is an InputError unless results may be missing.
+    `evidence` None: searches the folder; a missing folder raises InputError unless results may be missing.
     """
     project = read_requirements(root)
     project.allow_missing = allow_missing

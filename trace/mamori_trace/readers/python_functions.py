@@ -17,7 +17,7 @@ _NESTS = ("body", "orelse", "handlers", "finalbody", "cases")
 
 @dataclass(frozen=True, slots=True)
 class Definition:
-    """A class or function with its lines, decorators included; a module has no name and no lines. `inner`: in a function."""
+    """A class or function with its lines, decorators included; a module has no name and no lines. `inner`: inside a function."""
 
     node: ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
     name: str
@@ -32,7 +32,7 @@ def list_definitions(tree: ast.Module) -> list[Definition]:
 
 
 def _walk(node: ast.AST, around: str, inner: bool) -> Iterator[Definition]:
-    """Definitions below `node`; statements are searched, expressions contain none."""
+    """Definitions below `node`; only statements are searched, because expressions contain none."""
     for name in _NESTS:
         for child in getattr(node, name, ()):
             if not isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
@@ -45,13 +45,13 @@ def _walk(node: ast.AST, around: str, inner: bool) -> Iterator[Definition]:
 
 
 def make_functions(definitions: list[Definition], shown: str) -> list[Function]:
-    """The functions among them; a function inside another function is part of the outer one."""
+    """The functions in `definitions`; a function inside another function is part of the outer one."""
     return [Function(shown, one.name, one.first, one.last, _find_body(one.node)) for one in definitions
             if isinstance(one.node, ast.FunctionDef | ast.AsyncFunctionDef) and not one.inner]  # fmt: skip
 
 
 def _find_body(node: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
-    """Line of the first statement that a call executes: loading the module already executes the head."""
+    """Line of the first statement that a call executes. Loading the module already executes the head."""
     first, *others = node.body
     is_text = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
     return (others[0] if is_text and others else first).lineno

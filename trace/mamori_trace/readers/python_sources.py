@@ -24,7 +24,7 @@ from mamori_trace.readers.tag_text import FILE_SYMBOL, ID_PATTERN, find_verified
 def read_python(
     root: Path, problems: list[Problem], code: CodeBase | None = None, id_pattern: str = ID_PATTERN
 ) -> tuple[list[CodeTag], list[SourceTest]]:
-    """Tags of all Python files that are not tests, and markers of those that are. @param code receives the functions of the former."""
+    """Tags of all Python files except tests, and markers of the tests. @param code receives the functions of all files except tests."""
     tags: list[CodeTag] = []
     tests: list[SourceTest] = []
     for path, shown in walk_sources(root, (".py",), problems):

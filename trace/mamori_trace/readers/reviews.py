@@ -22,7 +22,7 @@ _COLUMNS = Columns(
 
 
 def read_reviews(root: Path, schema: Schema, problems: list[Problem]) -> list[ReviewRecord]:
-    """Records in file order. An invalid record is a problem and shows nothing."""
+    """Records in file order. An invalid record is a problem and has no effect."""
     records: list[ReviewRecord] = []
     for row, place in read_rows(root / REVIEWS_PATH, "mamori.reviews/1", "review", _COLUMNS, root, problems):
         record = ReviewRecord(place=place, **row)

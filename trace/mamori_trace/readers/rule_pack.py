@@ -25,7 +25,7 @@ _ALL = "all"
 
 
 def read_rule_pack(root: Path, schema: Schema, rules: Iterable[str]) -> RulePack:
-    """The shipped pack with the entries of the project. Raises InputError, because no severity is known then."""
+    """The shipped pack with the entries of the project. Raises InputError, because severities are unknown then."""
     known = tuple(rules)
     pack = read_shipped_pack(schema)
     path = root / PACK_PATH
@@ -70,7 +70,7 @@ def _check_entry(where: str, key: str, word: object, schema: Schema) -> None:
 
 
 def _make_grades(row: dict[str, str], schema: Schema, base: Grades) -> Grades:
-    """`row` over `base`; `all` applies to each SIL that the row does not name."""
+    """`row` over `base`; `all` applies to each SIL that the row does not specify."""
     whole = dict.fromkeys(schema.sil, row[_ALL]) if _ALL in row else {}
     of_sil = base.of_sil | whole | {key: word for key, word in row.items() if key in schema.sil}
     return Grades(of_sil, base.of_status | {key: word for key, word in row.items() if key in schema.status})

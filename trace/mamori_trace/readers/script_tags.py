@@ -17,7 +17,7 @@ _SUFFIXES = (".sh", ".cmake", "CMakeLists.txt")
 
 
 def read_script_tags(root: Path, problems: list[Problem]) -> list[CodeTag]:
-    """Tags of scripts: files with a script's suffix anywhere, and files in the root that begin with `#!`."""
+    """Tags of scripts: files with the suffix of a script anywhere, and files in the root that begin with `#!`."""
     scripts = [(path, path.name) for path in list_paths(root, "*", root, problems) if _is_plain_script(path, problems)]
     tags: list[CodeTag] = []
     for path, shown in [*scripts, *walk_sources(root, _SUFFIXES, problems)]:

@@ -19,7 +19,7 @@ JOINTS = 7
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """Columns of one run. `position` and `speed` hold one list per joint; all lists are equally long."""
+    """Columns of one run. `position` and `speed` contain one list per joint; all lists have equal lengths."""
 
     time_s: list[float]
     position_rad: list[list[float]]

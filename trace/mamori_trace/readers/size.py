@@ -20,11 +20,11 @@ _SHAPE = {
     "images": [{"name": str, "title": str, "text": int, "ram": int, "data": int, "text_max": int, "ram_max": int,
                 "text_aim": Maybe(int), "ram_aim": Maybe(int), "missed": bool, "parts": Each(int), "findings": [str]}],
 }  # fmt: skip
-"""What the page shows of the record; more may stand in it."""
+"""The parts of the record that the page shows; the record may contain more."""
 
 
 def read_size(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the sizes. A record that violates the format, or that has no image of its base, is one problem."""
+    """Reads the sizes. A record that violates the format, or that has no image of its base, is one problem."""
     files = list_paths(folder, "size/size.json", root, problems)
     for _, table, place in read_records(files, SCHEMA, _SHAPE, "run the size proof again", root, problems):
         if any(image["name"] == table["base"] for image in table["images"]):

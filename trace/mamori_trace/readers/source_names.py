@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the file of this project that the evidence of another host names by a different path."""
+"""Finds the project file that evidence of another host names by a different path."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from pathlib import Path, PurePosixPath
 
 
 class SourceNames:
-    """The files of the project. Evidence of another checkout has other folders, so the longest known end of a path decides."""
+    """The files of the project. Evidence of another checkout has other folders, so the longest known suffix of a path determines the
+    file."""
 
     def __init__(self, root: Path, known: Iterable[str]) -> None:
         self._root = root.resolve().as_posix()
@@ -30,7 +31,7 @@ class SourceNames:
         return next((end for end in ends if end in self._known), "")
 
     def find_any(self, path: str) -> str:
-        """Like `find`, for every existing file, also one without code: at least its folder must match."""
+        """Like `find`, for every existing file, including files without code: at least the folder must match."""
         found = self.find(path)
         if found or not path:
             return found

@@ -21,7 +21,7 @@ _MADE = ("__pycache__", "node_modules", "target")
 def calc_sources(root: Path, without: tuple[str, ...] = ()) -> str:
     """Hash over names and contents of all files below `root` that git does not ignore, committed or not; empty without git.
 
-    Contents count, not commits: git already knows the contents of unchanged files, so only changed files are read. Committing
+    The hash covers contents, not commits. git already knows the contents of unchanged files, so only changed files are read. A commit of
     tested files does not change the hash. @param without excluded paths and folders.
     """
     listed = ask(root, "ls-files", "-s", "-z")
@@ -60,7 +60,7 @@ def calc_sources_of(root: Path, folders: Sequence[str]) -> str:
 
 
 def _hash_file(path: Path, digits: int) -> str:
-    """Git's name of the content; nothing for a removed file or something other than a file."""
+    """The git name of the content; empty for a removed file or anything but a file."""
     try:
         if path.is_symlink():
             data = os.fsencode(os.readlink(path))

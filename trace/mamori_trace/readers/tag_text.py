@@ -17,17 +17,17 @@ from mamori_trace.model.evidence import CodeTag
 
 FILE_SYMBOL = "file"
 ID_PATTERN = r"[A-Z]+-[\w-]+"
-"""Ids as this project writes them. A project kept for another tool brings its own pattern."""
+"""Pattern of ids of this project. A project in the format of another tool has its own pattern."""
 ANY_ID = r"[A-Za-z_][\w.\-~/]*\w"
-"""Ids of a project of which nothing is known."""
+"""Pattern of ids of a project whose id format is unknown."""
 RESULT_PROPERTIES = {"Verifies": "requirement", "FullyVerifies": "requirement", "PartiallyVerifies": "requirement",
                      "verifies": "requirement", "lobster-tracing": "requirement"}  # fmt: skip
-"""Properties of a JUnit test case that name what it verifies, in the words of other tools."""
+"""Properties of a JUnit test case that name the verified requirement, in the words of other tools."""
 
 IMPLEMENTS = "implements"
 VERIFIES = "verifies"
 NAMES = "names"
-"""The tag does not tell; where it stands does."""
+"""The tag does not state its role; its location determines the role."""
 
 _MARKS = ("@satisfies", "@verifies", "@relation(", "@need-ids", "lobster-trace", "req-Id", "req-id", "REQ-ID")
 _ARTIFACT = re.compile(r"\[[A-Za-z]+(?:~[^\]\s]*)?[ \t]*->")
@@ -36,7 +36,7 @@ _OFT_ID = r"[A-Za-z]+~[\w.\-]+~\d+"
 
 
 def has_mark(text: str) -> bool:
-    """Whether the text contains the common beginning of all tags; a text without it contains no tag."""
+    """Whether the text contains the common beginning of all tags; otherwise it contains no tag."""
     for mark in _MARKS:
         if mark in text:
             return True
@@ -76,21 +76,21 @@ def _get_patterns(id_pattern: str) -> _Patterns:
 
 
 def _list_covered(id_pattern: str) -> str:
-    """Targets of a tag with an arrow. If any word may be an id, only one with a revision counts: `[x -> y]` is code."""
+    """Targets of a tag with an arrow. If any word may be an id, only ids with a revision count, because `[x -> y]` may be code."""
     return rf"{_OFT_ID}(?:[ \t]*,[ \t]*{_OFT_ID})*" if id_pattern == ANY_ID else rf"(?:{id_pattern})"
 
 
 def find_words(line: str, id_pattern: str = ID_PATTERN) -> Iterator[TagWord]:
-    """All ids that the tags of one line name, in the order of the kinds of tags."""
+    """All ids that the tags of one line name, ordered by kind of tag."""
     if not has_mark(line):
         return
     patterns = _get_patterns(id_pattern)
     for mark, pattern, role in (("@satisfies", patterns.satisfies, IMPLEMENTS), ("@verifies", patterns.verifies, VERIFIES), (":", patterns.named, NAMES)):
-        if mark in line:  # a search of plain characters takes a tenth of the time of a pattern
+        if mark in line:  # a plain search takes a tenth of the time of a pattern
             yield from (TagWord(word, role) for match in pattern.finditer(line) for word in _split(match[1]))
     for match in patterns.relation.finditer(line) if "@relation" in line else ():
         options = dict(re.findall(r"(\w+)[ \t]*=[ \t]*(\w+)", match[2]))
-        if options.get("scope") == "range_end":  # the beginning of the range has reported it already
+        if options.get("scope") == "range_end":  # already reported at the beginning of the range
             continue
         role = _get_role(options.get("role", ""))
         yield from (TagWord(word, role, options.get("scope") == "file") for word in _split(match[1]))
@@ -120,6 +120,6 @@ def make_tags(line: str, place: Place, symbol: str, problems: list[Problem], id_
 
 
 def find_verified(text: str, id_pattern: str = ID_PATTERN) -> Iterator[tuple[int, str]]:
-    """Ids that a comment of a test claims to verify, with the line number in `text`, from 0."""
+    """Ids that the comment of a test names as verified, with the line number in `text`, from 0."""
     for number, line in enumerate(text.splitlines()):
         yield from ((number, word.requirement) for word in find_words(line, id_pattern) if word.role != IMPLEMENTS)

@@ -81,13 +81,13 @@ def _list_jvm(text: str) -> list[Head]:
 
 
 def _list_go(text: str, shown: str) -> list[Head]:
-    """Results of Go name the package, which is the folder of the file."""
+    """Go results name the package, which is the folder of the file."""
     package = shown.rpartition("/")[0].rpartition("/")[2]
     return [(_count_line(text, match.start(1)), package, match[1]) for match in _GO_TEST.finditer(text)]
 
 
 def _list_rust(text: str) -> list[Head]:
-    """Functions with the attribute `#[test]`; their results name the enclosing modules, and the last one counts."""
+    """Functions with the attribute `#[test]`. Their results name all enclosing modules; the last one is used."""
     shape = Plain(text).shape
     heads, modules, marked = [], [], False
     for part in _RUST_PART.finditer(shape):
@@ -103,7 +103,7 @@ def _list_rust(text: str) -> list[Head]:
 
 
 def find_head(line: int, lines: list[str], heads: list[Head]) -> tuple[str, str] | None:
-    """Suite and name of the test below `line` if only comments and marks are between, or of the one above it."""
+    """Suite and name of the test below `line` if only comments and attributes are in between; otherwise of the test above."""
     starts = [each[0] for each in heads]
     above = bisect_left(starts, line)
     if above < len(heads) and all(_is_lead(each) for each in lines[line - 1 : starts[above] - 1]):
@@ -113,7 +113,7 @@ def find_head(line: int, lines: list[str], heads: list[Head]) -> tuple[str, str]
 
 
 def _is_outside(line: int, lines: list[str], start: int) -> bool:
-    """Whether the tag at `line` is not indented more than the head of the test above: it is then after that test."""
+    """Whether the tag at `line` is indented at most as far as the head of the test above: it is then outside that test."""
     return _indent(lines[line - 1]) <= _indent(lines[start - 1])
 
 

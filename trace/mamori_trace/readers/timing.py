@@ -19,7 +19,7 @@ from mamori_trace.model.evidence import Evidence, TimingRun
 
 SCHEMA = "mamori.timing/1"
 PICTURE_BYTES_MAX = 300_000
-"""Of one picture as it stands in the page. A picture of ten thousands of openings takes about 200 kB."""
+"""Maximum size of one picture in the page. A picture of ten thousands of window instances takes about 200 kB."""
 
 _TIMES = Maybe({"count": int, "min": int, "p50": int, "p99": int, "p999": int, "max": int})
 _ENVIRONMENT = {"commit": str, "dirty": bool, "date_utc": str, "command": str, "os": str, "cpu": str, "cores": Maybe(int),
@@ -48,12 +48,12 @@ _SHAPE = {
     "chain_note": str, "miss_count": int,
     "misses": [{"cycle": int, "window": str, "outcome": str, "component": Maybe(str), "late_ns": int, "reason": str, "is_host": bool}],
 }  # fmt: skip
-"""What the page shows of the record; more may stand in it."""
+"""The parts of the record that the page shows; the record may contain more."""
 
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """`address` contains the complete picture as data, which runs and fetches nothing; empty if it is omitted, and `reason` states why."""
+    """`address` contains the complete picture as passive data; empty if the picture is omitted, and `reason` states why."""
 
     address: str
     reason: str = ""
@@ -74,15 +74,15 @@ _KINDS = (
 
 
 def read_timing(folder: Path, root: Path, evidence: Evidence, problems: list[Problem]) -> None:
-    """Fills in the measured systems, sorted by folder. Each record that violates the format is one problem."""
+    """Reads the measured systems, sorted by folder. Each record that violates the format is one problem."""
     files = list_paths(folder, "timing/*/timing.json", root, problems)
     for path, table, place in read_records(files, SCHEMA, _SHAPE, "measure again", root, problems):
         evidence.timing_runs.append(TimingRun(path.parent.as_posix(), table, place))
 
 
 def read_picture(folder: Path, name: str, room_bytes: int) -> Picture | None:
-    """The smaller of SVG and PNG. @param room_bytes remaining size on the page. @return nothing without such a picture.
-    @raise FormatError for a truncated or unreadable picture."""
+    """The smaller one of SVG and PNG. @param room_bytes remaining size on the page. @return nothing if there is no such picture. @raise
+    FormatError for a truncated or unreadable picture."""
     present = [(folder / f"{name}{kind.suffix}", kind) for kind in _KINDS if (folder / f"{name}{kind.suffix}").is_file()]
     if not present:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the small TOML files that people write by hand: tables of named rows, each with its location.
+"""Reads the small handwritten TOML files: tables of named rows, each with its location.
 
 @satisfies SWR-TRC-021, SWR-TRC-022      Design: docs/design/trace.md#rule-packs
 """
@@ -25,7 +25,7 @@ _LINE = re.compile(r"\(at line (\d+)")
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """The columns of a row: texts, and lists of texts. Those in `needed` are required and must not be empty."""
+    """The columns of a row: texts, and lists of texts. Columns in `needed` are required and must not be empty."""
 
     texts: tuple[str, ...]
     lists: tuple[str, ...] = ()
@@ -35,7 +35,7 @@ class Columns:
 def read_rows(path: Path, schema: str, name: str, columns: Columns, root: Path, problems: list[Problem]) -> list[tuple[dict[str, Any], Place]]:
     """Rows `[[name]]` of an optional file. An invalid file, and each invalid row, is a problem and is omitted.
 
-    The returned rows have every column: an empty text or tuple if the row does not specify it.
+    The returned rows have every column: empty text or tuple if the row does not specify it.
     """
     if not os.path.lexists(path):  # a link without a target exists but cannot be read
         return []
@@ -59,7 +59,7 @@ def read_rows(path: Path, schema: str, name: str, columns: Columns, root: Path, 
 
 
 def suggest(word: str, known: Iterable[str]) -> str:
-    """`; nearest: a, b`, or nothing if no name is similar."""
+    """`; nearest: a, b`, or empty if no name is similar."""
     near = difflib.get_close_matches(word, list(known), n=3, cutoff=0.6)
     return f"; nearest: {', '.join(near)}" if near else ""
 
@@ -77,7 +77,7 @@ def _find_fault(table: dict[str, Any], rows: Any, schema: str, name: str) -> str
 
 
 def _list_places(text: str, shown: str, name: str, count: int) -> list[Place]:
-    """The line of each row's head; line 1 if the notation of the rows has none."""
+    """The line of the head of each row; line 1 if the rows have another notation."""
     head = re.compile(rf"\s*\[\[\s*\"?{re.escape(name)}\"?\s*\]\]")
     lines = [number for number, line in enumerate(text.splitlines(), start=1) if head.match(line)]
     return [Place(shown, line) for line in lines] if len(lines) == count else [Place(shown, 1)] * count
@@ -110,7 +110,7 @@ def _find_row_fault(row: dict[str, Any], columns: Columns, known: tuple[str, ...
 
 
 def is_date(text: str) -> bool:
-    """Whether `text` is a calendar day as ISO 8601 writes it: 2026-11-30."""
+    """Whether `text` is a calendar day in ISO 8601 format: 2026-11-30."""
     try:
         return datetime.date.fromisoformat(text).isoformat() == text
     except ValueError:

@@ -20,7 +20,7 @@ _NEVER = "waiver-"
 
 
 def read_waivers(root: Path, rules: Iterable[str], problems: list[Problem]) -> list[Waiver]:
-    """Waivers in file order. An invalid waiver is a problem and waives nothing."""
+    """Waivers in file order. An invalid waiver is a problem and has no effect."""
     known = [rule for rule in rules if rule != UNREADABLE and not rule.startswith(_NEVER)]
     waivers: list[Waiver] = []
     for row, place in read_rows(root / WAIVERS_PATH, "mamori.waivers/1", "waiver", _COLUMNS, root, problems):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The first three questions of a reader: is it safe, is it complete, what is wrong. Each answer links to the rows that it counts.
+"""The first three questions of a reader: is it safe, is it complete, what is wrong. Each answer links to the counted rows.
 
 @satisfies SWR-TRC-069      Design: docs/design/trace.md#report
 """
@@ -34,7 +34,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """`word` answers `question` in a few characters; `lines` contain the facts, the worst first."""
+    """`word` answers `question` in a few characters; `lines` contain the facts, worst first."""
 
     question: str
     word: str
@@ -54,7 +54,7 @@ def make_answers(
 
 
 def _answer_safe(project: Project, verdicts: Mapping[str, Verdict], scenarios: list[ScenarioView]) -> Answer:
-    """From the fault campaign and the items with a safety integrity level; a positive answer needs both, without exception."""
+    """From the fault campaign and the items with a safety integrity level. A positive answer requires success of all of them."""
     items = {key: verdict.word for key, verdict in verdicts.items() if project.items[key].sil.isdecimal()}
     cases = project.evidence.cases
     good = sum(case.status == PASSED for case in cases)
@@ -91,7 +91,7 @@ def _answer_complete(project: Project, verdicts: Mapping[str, Verdict]) -> Answe
 
 
 def _answer_wrong(project: Project, findings: Sequence[Finding], measured: Sequence[TimingView | CostView]) -> Answer:
-    """Failures first, then findings of the checks, the rules with the most errors first."""
+    """Failures first, then check findings, beginning with the rules with the most errors."""
     lines = []
     if count := len({result.title for result in project.results if result.failing}):
         lines.append(Line(f"{count:,} failed {_plural(count, 'test')}", "#tests?status=failed", "failed"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes an evidence bundle, folder or archive, atomically and with the same bytes for the same inputs.
+"""Writes an evidence bundle, folder or archive, atomically. Equal inputs give equal bytes.
 
 @satisfies SWR-TRC-074      Design: docs/design/trace.md#bundle
 """
@@ -21,12 +21,12 @@ from mamori_trace.base.whole_file import name_part, whole_file
 from mamori_trace.base.write import find_target
 from mamori_trace.model.bundle import MANIFEST, SIGNATURE, Entry, Manifest, describe_path, format_manifest
 
-FIXED_TIME_S = 315532800  # 1980-01-01: the earliest time that all archive formats support
+FIXED_TIME_S = 315532800  # 1980-01-01: the earliest time in all archive formats
 _CHUNK = 1 << 16
 
 
 def check_out(out: Path, sources: list[Path]) -> None:
-    """Raises InputError if `out` exists as a folder or is inside the bundled folders."""
+    """Raises InputError if `out` is an existing folder or is inside the bundled folders."""
     if out.is_dir() or (out.exists() and out.suffix != ".tar"):
         raise InputError(f"{out}: is there already; remove it, or name another")
     for source in sources:
@@ -78,7 +78,7 @@ def _place_folder(folder: Path, names: list[str], out: Path) -> None:
 
 
 def _write_tar(folder: Path, names: list[str], out: Path) -> None:
-    """USTAR: one header of fixed size for each file. The verifying reader supports no other format."""
+    """USTAR: one header of fixed size for each file. The verifying reader supports only this format."""
     with tarfile.open(out, "w", format=tarfile.USTAR_FORMAT) as archive:
         for name in names:
             head = tarfile.TarInfo(name)
@@ -94,7 +94,7 @@ def _write_tar(folder: Path, names: list[str], out: Path) -> None:
 
 
 def _list_files(source: Path) -> Iterator[tuple[Path, str]]:
-    """Regular files below `source` in order; a link or special file is rejected, because a bundle cannot contain it."""
+    """Regular files below `source` in order. Links and special files are rejected, because bundles cannot contain them."""
     if source.is_file():
         yield source, ""
         return
@@ -120,7 +120,7 @@ def _copy(source: Path, target: Path) -> Entry:
 
 
 def add_text(folder: Path, name: str, text: str, manifest: Manifest) -> None:
-    """A file that is created for the bundle."""
+    """Adds a file that is generated for the bundle."""
     data = text.encode()
     path = folder / name
     path.parent.mkdir(parents=True, exist_ok=True)

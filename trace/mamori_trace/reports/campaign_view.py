@@ -29,7 +29,7 @@ _ORIGIN = (("trace hash", "trace_hash"), ("seed", "seed"), ("motion", "motion"),
 
 @dataclass(slots=True)
 class CaseView:
-    """One row of the campaign table and its figure. Texts are ready to show; `share` is reaction time over bound."""
+    """One row of the campaign table and its figure. Texts are formatted; `share` is reaction time divided by its bound."""
 
     case: CampaignCase
     anchor: str
@@ -49,12 +49,12 @@ class CaseView:
     checks: list[tuple[str, str, str, bool]]
     drawings: list[Drawing] = field(default_factory=list)
     keys: list[tuple[str, str]] = field(default_factory=list)
-    """Of the drawings: text and colour."""
+    """Key of the drawings: text and colour."""
     plot_problem: str = ""
 
     @property
     def facts(self) -> list[tuple[str, str]]:
-        """Measured values of the run, as names and values; missing ones are omitted."""
+        """Measured values of the run: names and values; missing ones are omitted."""
         rows = (("Fault", self.fault if self.where == ABSENT else f"{self.fault}, {self.where}"), ("Fault at", self.when),
                 ("Detected as", self.detected), ("Reaction", self.reaction or ABSENT), ("Reaction time", self.reaction_time),
                 ("Standstill after", self.standstill), ("Travel until standstill", self.travel), ("Drift at standstill", self.drift),
@@ -64,7 +64,7 @@ class CaseView:
 
 @dataclass(slots=True)
 class ScenarioView:
-    """Cases of one scenario; one fold contains all their figures."""
+    """Cases of one scenario; one fold of the page contains all their figures."""
 
     name: str
     title: str
@@ -93,8 +93,8 @@ def make_scenario_views(project: Project, problems: list[Problem]) -> list[Scena
 
 
 def make_case_view(case: CampaignCase, base: Path, index: int = 0) -> CaseView:
-    """One case with its drawings. `base`: folder of the campaign; `index` makes ids unique in a page. If a series cannot be drawn,
-    `plot_problem` contains the reason."""
+    """One case with its drawings. `base`: folder of the campaign; `index` makes ids unique in a page. `plot_problem`: why the series cannot
+    be drawn."""
     from mamori_trace.reports.plots import draw_case  # loads matplotlib, which takes longer than a small report
 
     view = _describe_case(case, index)
@@ -111,7 +111,7 @@ def make_case_view(case: CampaignCase, base: Path, index: int = 0) -> CaseView:
 
 
 def list_filled(scenarios: list[ScenarioView]) -> set[str]:
-    """Names of the columns in which some case has a value."""
+    """Names of the columns that have a value in at least one case."""
     views = [view for scenario in scenarios for view in scenario.cases]
     names = ("when", "detected", "reaction_time", "standstill", "travel", "drift", "peak_speed", "final_state")
     filled = {name for name in names if any(getattr(view, name) != ABSENT for view in views)}
@@ -167,7 +167,7 @@ def _describe_case(case: CampaignCase, index: int) -> CaseView:
         reaction_time=_describe_reaction(reaction_s, bound_s, run),
         share=reaction_s / bound_s if reaction_s is not None and bound_s else None,
         standstill=ABSENT if standstill_s is None else f"{1e3 * standstill_s:.0f} ms",
-        # An arm that continued neither stopped nor held.
+        # An arm that continued neither stopped nor held its position.
         travel=_format_milli(max(_get_numbers(physics, "stop_travel_rad"), default=None)) if stopped else ABSENT,
         drift=_format_milli(_get_number(physics, "hold_drift_rad")) if stopped else ABSENT,
         peak_speed=_describe_peak_speed(physics),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes one campaign case as a separate page, with its drawings and checks of the report.
+"""Writes one campaign case as a separate page, with its drawings and checks from the report.
 
     write_case_page(make_case(CaseResult.to_json()), evidence / "campaign", Path("case.html"))
 
@@ -26,9 +26,9 @@ class _PlainIds:
 
 
 def write_case_page(case: CampaignCase, base: Path, out: Path) -> CaseView:
-    """Writes the page of `case` to `out`. `base`: folder of the campaign, which holds the folder of the case.
+    """Writes the page of `case` to `out`. `base`: folder of the campaign, which contains the folder of the case.
 
-    @return the displayed case; `plot_problem` contains the reason if the run cannot be drawn. @raise OSError if `out` cannot be written.
+    @return the displayed case; `plot_problem`: why the run cannot be drawn. @raise OSError if `out` cannot be written.
     """
     view = make_case_view(case, base)
     page = make_environment().get_template("case_page.html.j2").render(view=view, static=_PlainIds(), anchors={})

@@ -15,11 +15,11 @@ from mamori_trace.model.verdict import Verdict
 from mamori_trace.readers.history import Event
 from mamori_trace.reports.text import Paint
 
-Row = tuple[str, int, bool]  # id, depth, whether it was listed before
+Row = tuple[str, int, bool]  # id, depth, whether it is already listed
 
 
 def format_chain(project: Project, item: Item, verdicts: dict[str, Verdict], paint: Paint) -> str:
-    """The items above and below as two trees; a repeated item is only named."""
+    """The items above and below as two trees; repeated items are only named."""
     lines: list[str] = []
     for title, rows in (("chain above", _list_above(project, item)), ("chain below", _list_below(project, item))):
         if rows:
@@ -56,7 +56,7 @@ def _list_below(project: Project, item: Item) -> list[Row]:
 
 
 def _walk(start: str, follow: Callable[[str], Iterable[str]]) -> list[Row]:
-    """Depth first; a repeated item is not entered again, which also ends cycles."""
+    """Depth first; a repeated item is not entered again, which also stops cycles."""
     rows: list[Row] = []
     seen = {start}
     stack = [(key, 0) for key in reversed(list(follow(start)))]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Controls Debian's Chromium without a window, over its own pipe: no port, no driver program, no further library.
+"""Controls Debian's Chromium without a window, through its own pipe, without a port, driver program or additional library.
 
 @satisfies SWR-TRC-065      Design: docs/design/trace.md#pdf
 """
@@ -24,9 +24,9 @@ _PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
 _OPTIONS = (
     "--headless=new", "--remote-debugging-pipe", "--disable-gpu", "--disable-dev-shm-usage", "--disable-extensions", "--disable-sync",
     "--disable-background-networking", "--disable-component-update", "--disable-default-apps", "--no-first-run", "--mute-audio",
-    "--host-resolver-rules=MAP * ~NOTFOUND",  # the pages of the report name no host, and none would be found
+    "--host-resolver-rules=MAP * ~NOTFOUND",  # the report pages name no host, so name resolution is disabled
 )  # fmt: skip
-# The browser reads from descriptor 3 and writes to 4. A separate process moves them, because both may be in use before the start.
+# The browser reads from descriptor 3 and writes to 4. A separate process moves them, because both may already be in use.
 _PLACE_DESCRIPTORS = "import os, sys; os.dup2(int(sys.argv[1]), 3); os.dup2(int(sys.argv[2]), 4); os.execv(sys.argv[3], sys.argv[3:])"
 _CHUNK_BYTES = 1 << 20
 _HIGH_DESCRIPTOR = 20
@@ -35,7 +35,7 @@ _HIGH_DESCRIPTOR = 20
 class Chromium:
     """One browser with one empty page, which ends with the `with` block.
 
-    `events` stores the unrequested messages of the browser, in order.
+    `events` stores unrequested messages of the browser, in order.
     """
 
     def __init__(self, seconds_max: float = 60.0) -> None:
@@ -50,11 +50,11 @@ class Chromium:
         self._profile = tempfile.TemporaryDirectory(prefix="mamori-chromium-", ignore_cleanup_errors=True)
         to_read, self._writer = os.pipe()
         self._reader, to_write = os.pipe()
-        # Copies above both descriptors of the browser, so that moving one does not hit the other.
+        # Copies above both descriptors of the browser, so that moving one does not overwrite the other.
         high = [fcntl.fcntl(end, fcntl.F_DUPFD, _HIGH_DESCRIPTOR) for end in (to_read, to_write)]
         command = [program, *_OPTIONS, f"--user-data-dir={self._profile.name}", "about:blank"]
         if os.geteuid() == 0:
-            command.insert(1, "--no-sandbox")  # it does not start for root otherwise
+            command.insert(1, "--no-sandbox")  # required for root
         try:
             self._process = subprocess.Popen(
                 [sys.executable, "-I", "-S", "-c", _PLACE_DESCRIPTORS, *map(str, high), *command],
@@ -107,7 +107,7 @@ class Chromium:
         self.wait_for("Page.loadEventFired", seen)
 
     def wait_for(self, name: str, start: int) -> None:
-        """Waits until an event called `name` is in `events` at or after `start`."""
+        """Waits for an event `name` in `events`, at or after index `start`."""
         end_s = time.monotonic() + self._seconds_max
         while not any(event.get("method") == name for event in self.events[start:]):
             self.events.append(self._receive(end_s))

@@ -33,7 +33,7 @@ class CostView:
 
 
 def make_cost_views(project: Project) -> list[CostView]:
-    """One for each counted system."""
+    """One view for each counted system."""
     views = []
     here = project.head or str(project.evidence.environment.get("commit") or "")
     for index, run in enumerate(project.evidence.cost_runs):
@@ -104,7 +104,7 @@ def _make_steps(record: dict[str, Any]) -> Table:
             Cell(f"{100 * row['time_ns'] / budget_ns:.2f} %" if budget_ns > 0 else ABSENT),
         ]  # fmt: skip
 
-    # The classes of a component in consecutive rows; the record is ordered by class. The sort keeps the order of both.
+    # Puts the classes of a component in consecutive rows, although the record is ordered by class. The sort is stable.
     names = list(dict.fromkeys(row["component"] for row in record["steps"]))
     rows = sorted(record["steps"], key=lambda row: names.index(row["component"]))
     return make_table("Instructions of a single step", columns, rows, make, where=WHERE)

@@ -16,7 +16,7 @@ from mamori_trace.model.project import Project
 
 @dataclass(frozen=True, slots=True)
 class FunctionCoverage:
-    """One function that an item owns. `executed` None: no counter exists. Each pair is (reached, all); (0, 0): not measured.
+    """One function that an item owns. `executed` None: there is no counter. Each pair is (reached, all); (0, 0): not measured.
 
     `accepted` is the reason why the function need not be called, or empty.
     """
@@ -32,7 +32,7 @@ class FunctionCoverage:
 
 
 def make_coverage_views(project: Project) -> dict[str, list[FunctionCoverage]]:
-    """Functions by item, unexecuted ones first; empty if the evidence contains no coverage."""
+    """Functions by item, unexecuted ones first; empty without coverage in the evidence."""
     if not project.evidence.coverage_runs:
         return {}
     return {key: _list_functions(project, key, functions) for key, functions in project.functions_of.items()}

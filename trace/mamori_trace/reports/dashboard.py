@@ -32,7 +32,7 @@ class Share:
 
 @dataclass(frozen=True, slots=True)
 class Bar:
-    """One row of a card. `count` is the counted number, `note` follows it."""
+    """One row of a card. `count` is the counted number; `note` follows."""
 
     name: str
     count: int
@@ -53,7 +53,7 @@ def list_level_bars(project: Project, verdicts: Mapping[str, Verdict]) -> list[B
 
 
 def list_sil_bars(project: Project, verdicts: Mapping[str, Verdict]) -> list[Bar]:
-    """Verdicts of each safety integrity level that has items, the highest first; nothing if there is only one level."""
+    """Verdicts of each safety integrity level that has items, highest first; empty if there is only one level."""
     groups: dict[str, Counter] = {sil: Counter() for sil in (*reversed(project.schema.sil), "")}
     for key, verdict in verdicts.items():
         groups.setdefault(project.items[key].sil, Counter())[verdict.word] += 1

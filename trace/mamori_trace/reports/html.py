@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the report: one HTML file without network, the same bytes for the same inputs.
+"""Writes the report: one offline HTML file; equal inputs give equal bytes.
 
 @satisfies SWR-TRC-011, SWR-TRC-013, SWR-TRC-061, SWR-TRC-062, SWR-TRC-066, SWR-TRC-067, SWR-TRC-068, SWR-TRC-069      Design: docs/design/trace.md#report
 """
@@ -57,7 +57,7 @@ GLOSSARY = (
 def write_report(
     project: Project, out: Path, make_pdf: Callable[[str], None] | None = None
 ) -> tuple[list[Finding], dict[str, Verdict]]:
-    """Checks, evaluates, draws and writes. `make_pdf` receives the print version of the page before anything is written.
+    """Checks, evaluates, draws and writes. `make_pdf` receives the print version of the page before any file is written.
 
     @return the findings, including those about series and pictures that cannot be displayed, and the verdicts.
     """
@@ -71,12 +71,12 @@ def write_report(
 
 def _render(context: dict[str, Any]) -> bytes:
     page = make_environment().get_template("report.html.j2").render(context)
-    # JSON of other tools may contain a lone surrogate, which no file can hold.
+    # JSON of other tools may contain a lone surrogate, which files cannot store.
     return page.encode("utf-8", errors="replace")
 
 
 def _make_context(project: Project) -> dict[str, Any]:
-    """All names that the templates use."""
+    """All names for the templates."""
     scenarios = make_scenario_views(project, project.problems)
     timing, costs = make_timing_views(project, project.problems), make_cost_views(project)
     findings = run_checks(project)
@@ -142,6 +142,6 @@ def _group_by_item(findings: list[Finding]) -> dict[str, list[Finding]]:
 
 
 def _count_requirements(project: Project, verdicts: dict[str, Verdict]) -> tuple[int, int]:
-    """(verified, all) of the items with their own verification: without needs and hazards."""
+    """(verified, all) of the items with their own verification: all except needs and hazards."""
     own = [word for key, word in verdicts.items() if not project.schema.levels[project.items[key].level].from_children]
     return sum(verdict.word == VERIFIED for verdict in own), len(own)

@@ -16,11 +16,11 @@ from mamori_trace.model.impact import Impact, ItemChange, Part, Redo
 from mamori_trace.model.project import Project
 
 SCHEMA = "mamori.impact/1"
-_BATCH = 100  # names on one command line
+_BATCH = 100  # maximum number of names on one command line
 
 
 def format_text(impact: Impact, project: Project, shown: str) -> str:
-    """One section for each kind of affected part. An empty section states that it is empty if its absence could be misread."""
+    """One section for each kind of affected part. An empty section is shown if its absence could be misunderstood."""
     lines = [f"impact of {shown}"]
     lines += _section("changed items", [_describe_change(each) for each in impact.items])
     lines += _section("changed functions and files", [_describe_part(part) for part in impact.parts if not part.is_test])
@@ -67,7 +67,7 @@ def format_json(impact: Impact, project: Project, old: str, new: str) -> str:
 
 
 def list_commands(impact: Impact) -> list[str]:
-    """Command lines that repeat the tests and the cases, from the project's folder."""
+    """Command lines that repeat the tests and the cases, to run in the project folder."""
     files = [(test, test.place.file) for test in impact.tests]
     scripts = dict.fromkeys(_make_node_id(test) for test, file in files if file.endswith(".py"))
     names = dict.fromkeys(f"*{test.suite}*.{test.name}*" for test, file in files if not file.endswith(".py"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""JSON that is safe inside a script element, for any texts in it.
+"""JSON that is safe inside a script element, for any contained texts.
 
 @satisfies SWR-TRC-062      Design: docs/design/trace.md#data-in-the-page
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 
-# Characters that could end the element, begin a comment in it, or end a line of JavaScript.
+# Characters that could end the element, start a comment in it, or end a JavaScript line.
 _ESCAPES = (("<", "\\u003c"), (">", "\\u003e"), ("&", "\\u0026"), ("\u2028", "\\u2028"), ("\u2029", "\\u2029"))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All data that the script of the page displays, as columns of plain values: compact, and quick to parse.
+"""All data that the page script displays, as columns of plain values: compact, and quick to parse.
 
 @satisfies SWR-TRC-060, SWR-TRC-063, SWR-TRC-064      Design: docs/design/trace.md#data-in-the-page
 """
@@ -41,7 +41,7 @@ def make_page_data(
     anchors: Mapping[str, str],
     history: Mapping[str, list[Change]],
 ) -> dict[str, Any]:
-    """Columns of items, results, tags, cases, findings and history. Items are named by their number, unknown ones by their id."""
+    """Columns of items, results, tags, cases, findings and history. Items are referenced by number, unknown items by id."""
     ordered = order_items(project, verdicts)
     numbers = {item.id: number for number, item in enumerate(ordered)}
     files = Words()
@@ -73,7 +73,7 @@ def make_page_data(
 
 
 def order_items(project: Project, verdicts: Mapping[str, Verdict]) -> list[Item]:
-    """Live items in the order of the levels, then of the ids."""
+    """Live items ordered by level, then by id."""
     rank = {level: index for index, level in enumerate(project.schema.levels)}
     return [project.items[key] for key in sorted(verdicts, key=lambda key: (rank[project.items[key].level], key))]
 

@@ -15,7 +15,7 @@ from mamori_trace.base.write import write_whole_bytes
 from mamori_trace.reports.chromium import Chromium
 
 _SECONDS_MAX = 300.0
-# The only bytes that would differ in a second run. Their replacement has the same length, so all object offsets stay valid.
+# Only these bytes would differ in a second run. The replacement has the same length, so that all object offsets stay valid.
 _DATES = re.compile(rb"/(CreationDate|ModDate) \(D:\d{14}\+00'00'\)")
 _DATE = rb"/\1 (D:20000101000000+00'00')"
 _NODES = re.compile(rb"\bnode\d{8}\b")
@@ -33,6 +33,6 @@ def print_page(page: str, out: Path) -> None:
 
 
 def fix_bytes(pdf: bytes) -> bytes:
-    """`pdf` without its date, and with its structure marks numbered from one, in their order."""
+    """`pdf` without its date; its structure marks are numbered from one, in order."""
     numbers = {name: number for number, name in enumerate(sorted(set(_NODES.findall(pdf))), start=1)}
     return _DATES.sub(_DATE, _NODES.sub(lambda match: b"node%08d" % numbers[match[0]], pdf))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws one campaign case: states as bands, joint positions, joint speeds against their limits, fault and reaction.
 
-Each case has a drawing of the complete run and one of the 100 ms around the fault. Both have the same time base: seconds since the start
-of the run. The font is for a screen of 400 pixels; keys and instants are next to the drawings as text.
+Each case has a drawing of the complete run and one of the 100 ms around the fault. Both have the same time base: seconds since the start of
+the run. The font suits a screen of 400 pixels; keys and instants are shown as text next to the drawings.
 
 @satisfies SWR-TRC-012, SWR-TRC-111      Design: docs/design/trace.md#plots
 """
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 POINTS_MAX = 260
 NEAR_BEFORE_S = 0.02
 NEAR_AFTER_S = 0.08
-"""The view around a fault: from so long before it to so long after it [s]."""
+"""Time shown before and after a fault [s]."""
 JOINT_COLOURS = ("#3b6fb6", "#d07a2d", "#3f8f5b", "#b8474b", "#7a5fa8", "#8a6a4f", "#4a9ea8")
 _STATE_COLOURS = {
     "SelfTest": "#d5d9df", "Standby": "#c3d3ea", "Operational": "#bfe0c8", "Degraded": "#f2e2a6",
@@ -47,7 +47,7 @@ REACTION_COLOUR = "#1f5fbf"
 STANDSTILL_COLOUR = "#5b6470"
 _FONT = 12.5
 _LETTER = 0.58 * _FONT
-"""Mean width of a letter, in drawing units: which state bands have room for their names."""
+"""Mean width of a letter, in drawing units; determines whether the name of a state fits its band."""
 _WIDTH_INCHES, _HEIGHT_INCHES, _DPI = 5.2, 5.0, 72
 _LEFT, _RIGHT = 0.135, 0.975
 _STYLE: dict[RcKeyType, Any] = {
@@ -61,8 +61,8 @@ _STYLE: dict[RcKeyType, Any] = {
 
 @dataclass(frozen=True, slots=True)
 class Marks:
-    """Marks of a drawing: instants [s] (None: did not happen), the speed limit of each joint [rad/s], and the faulty joint,
-    counted from 1 (None: none), which is drawn thicker."""
+    """Marks of a drawing: instants [s] (None: did not occur), the speed limit of each joint [rad/s], and the faulty joint, drawn thicker
+    and counted from 1 (None: none)."""
 
     fault_s: float | None
     reaction_s: float | None
@@ -77,7 +77,7 @@ class Marks:
         return [(name, time_s, colour) for name, time_s, colour in marks if time_s is not None]
 
     def find_near(self, series: Series) -> tuple[float, float] | None:
-        """The 100 ms around the fault [s]; nothing without a fault inside the run."""
+        """The 100 ms around the fault [s]; None without a fault inside the run."""
         if self.fault_s is None or not series.time_s[0] <= self.fault_s <= series.time_s[-1]:
             return None
         return self.fault_s - NEAR_BEFORE_S, self.fault_s + NEAR_AFTER_S
@@ -110,7 +110,7 @@ def list_state_colours(series: Series) -> dict[str, str]:
 
 
 def pick_samples(values: list[float], count_max: int = POINTS_MAX) -> list[int]:
-    """Indices of at most `count_max` samples that keep the ends and every peak: minimum and maximum of each bucket."""
+    """Indices of at most `count_max` samples that keep the ends and all peaks: minimum and maximum of each bucket."""
     count = len(values)
     if count <= count_max:
         return list(range(count))
@@ -124,7 +124,7 @@ def pick_samples(values: list[float], count_max: int = POINTS_MAX) -> list[int]:
 
 
 def list_bands(series: Series) -> list[tuple[str, float, float]]:
-    """(state, from, to) for each interval in one state; an interval ends at the beginning of the next one."""
+    """(state, from, to) for each interval in one state; an interval ends where the next one begins."""
     bands: list[tuple[str, float, float]] = []
     start = 0
     for index in range(1, len(series.state) + 1):
@@ -151,7 +151,7 @@ def _draw(series: Series, marks: Marks, span: tuple[float, float] | None, shaded
         figure = Figure(figsize=(_WIDTH_INCHES, _HEIGHT_INCHES), dpi=_DPI)
         states, positions, speeds = figure.subplots(3, 1, sharex=True, height_ratios=(0.34, 2.0, 2.0))
         for axes in (states, positions, speeds):
-            axes.set_title("", y=1.0)  # a fixed position: otherwise each drawing measures all labels to place the title
+            axes.set_title("", y=1.0)  # a fixed position; otherwise each drawing would measure all labels to place the title
         figure.subplots_adjust(left=_LEFT, right=_RIGHT, top=0.885, bottom=0.105, hspace=0.24)
         _draw_states(states, series, (first, last))
         _draw_positions(positions, series, marks, span is not None)
@@ -186,7 +186,7 @@ def _draw_states(axes: Axes, series: Series, span: tuple[float, float]) -> None:
 
 
 def _draw_positions(axes: Axes, series: Series, marks: Marks, is_near: bool) -> None:
-    """Near the fault, the change since then, because it is far smaller than the distance between the joints."""
+    """Near the fault: the change since the fault, because it is much smaller than the distance between the joints."""
     start = next((index for index, time_s in enumerate(series.time_s) if marks.fault_s is not None and time_s >= marks.fault_s), 0)
     for index in range(JOINTS):
         values = series.position_rad[index]
@@ -199,7 +199,7 @@ def _draw_positions(axes: Axes, series: Series, marks: Marks, is_near: bool) -> 
 
 
 def _draw_speeds(axes: Axes, series: Series, marks: Marks) -> None:
-    """Speeds relative to the limit of each joint, so that one line is the limit of all."""
+    """Speeds relative to the limit of each joint, so that one line shows the limit of all joints."""
     largest = 1.0
     for index in range(JOINTS):
         shares = [speed / marks.speed_limit_rad_s[index] for speed in series.speed_rad_s[index]]
@@ -221,8 +221,8 @@ def _draw_line(axes: Axes, series: Series, values: list[float], joint: int, is_t
 
 
 def _mark_instants(states: Axes, panels: tuple[Axes, Axes], marks: Marks, span: tuple[float, float]) -> None:
-    """Vertical lines through all panels. Labels: the fault to the left of its line, later marks to the right, stacked; on the other
-    side near an edge."""
+    """Vertical lines through all panels. The label of the fault is left of its line, later labels are right of theirs, stacked. Near an
+    edge, labels change sides."""
     sides = {"fault": ("right", 1.12), "reaction": ("left", 1.12), "standstill": ("left", 1.95)}
     for name, time_s, colour in marks.list_instants():
         if not span[0] <= time_s <= span[1]:

@@ -24,7 +24,7 @@ def format_table(items: list[Item], verdicts: dict[str, Verdict], paint: Paint) 
 
 
 def format_markdown(items: list[Item]) -> str:
-    """Without verdicts, which change with each run. A vertical bar would end the cell, so it is escaped."""
+    """Without verdicts, because they change with each run. A vertical bar would end the cell, so it is escaped."""
     rows = [f"| {item.id} | {_escape(item.title)} | {_escape(item.statement)} | {', '.join(item.parents)} |\n" for item in items]
     return "| id | title | statement | parents |\n|---|---|---|---|\n" + "".join(rows)
 

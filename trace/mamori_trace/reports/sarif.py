@@ -87,19 +87,19 @@ def _make_result(finding: Finding, rule_index: int, fingerprint: str, waiver: Wa
 
 
 def _make_location(place: Place) -> dict[str, Any]:
-    """Relative to the folder of the project, so that the file is valid on every host; a file outside keeps its complete path."""
+    """Relative to the project folder, so that the file is valid on every host; files outside keep their complete path."""
     path = PurePosixPath(place.file)
     artifact = {"uri": path.as_uri()} if path.is_absolute() else {"uri": quote(place.file), "uriBaseId": _BASE}
     return {"physicalLocation": {"artifactLocation": artifact, "region": {"startLine": max(place.line, 1)}}}
 
 
 def _make_level(severity: str) -> str:
-    """SARIF's level: a rule that is off by default is `none`."""
+    """Level in SARIF: a rule that is off by default is `none`."""
     return "none" if severity == "off" else severity
 
 
 def _calc_fingerprints(findings: list[Finding]) -> list[str]:
-    """Recognises a finding after lines moved: rule, file, item and message without line numbers; equal ones are counted."""
+    """Identifies a finding after lines moved: rule, file, item and message without line numbers; equal ones are numbered."""
     seen: Counter[str] = Counter()
     prints = []
     for finding in findings:
@@ -110,7 +110,7 @@ def _calc_fingerprints(findings: list[Finding]) -> list[str]:
 
 
 def _read_version() -> str:
-    """Version of the tool; a source tree that is not installed has none."""
+    """Version of the tool; empty for a source tree that is not installed."""
     try:
         return metadata.version("mamori")
     except metadata.PackageNotFoundError:

@@ -24,7 +24,7 @@ class SizeView:
 
 
 def make_size_views(project: Project) -> list[SizeView]:
-    """At most one: there is one record."""
+    """At most one view, because there is one record."""
     return [SizeView(run, [f"{image['name']}: {finding}" for image in run.record["images"] for finding in image["findings"]],
                      _make_images(run.record)) for run in project.evidence.size_runs]  # fmt: skip
 

@@ -17,7 +17,7 @@ from mamori_trace.reports.static_view import format_badge
 from mamori_trace.reports.view import SuiteView
 
 Link = Callable[[str], str]
-"""From the id of an item to its link."""
+"""Mapping from item id to its link."""
 
 
 def format_suites(suites: Iterable[SuiteView], link: Link) -> Markup:

@@ -36,7 +36,7 @@ class StaticView:
     anchors: Mapping[str, str]
     history: Mapping[str, list[Change]]
     links: dict[str, str] = field(default_factory=dict)
-    """Of items, once they were asked for: each stands in several rows."""
+    """Links of items, cached because each occurs in several rows."""
 
     def format_matrix(self, items: Iterable[Item]) -> Markup:
         """One table row for each item."""
@@ -128,7 +128,7 @@ def _format_change(change: Change) -> str:
 
 @cache
 def _name_sil(sil: str) -> str:
-    """QM is not a safety integrity level."""
+    """Without the prefix SIL for QM, which is not a safety integrity level."""
     return f"SIL {sil}" if sil.isdecimal() else sil
 
 

@@ -16,7 +16,7 @@ from mamori_trace.model.verdict import FAILED, NOT_RUN, VERIFIED, WORST_FIRST, V
 
 @dataclass(frozen=True, slots=True)
 class TechniqueRow:
-    """One technique. `demand` names what requires it, `items` and `shown_by` the evidence, `word` is a word of the badges."""
+    """One technique. `demand` names what requires it, `items` and `shown_by` name the evidence, `word` is the badge."""
 
     name: str
     demand: str
@@ -26,7 +26,7 @@ class TechniqueRow:
 
 
 def list_techniques(project: Project) -> list[TechniqueRow]:
-    """Rows of the project under `techniques`, or else the techniques of the schema with the tests that used them."""
+    """Rows of the techniques of the project; without them, the techniques of the schema with the tests that used them."""
     if project.techniques is not None:
         verdicts = calc_verdicts(project) if any(each.items for each in project.techniques) else {}
         return [_make_row(project, each, verdicts) for each in project.techniques]
@@ -42,7 +42,7 @@ def list_techniques(project: Project) -> list[TechniqueRow]:
 
 
 def _make_row(project: Project, technique: Technique, verdicts: dict[str, Verdict]) -> TechniqueRow:
-    """The state is the worst of its items and tests; a technique that only documents show is "described"."""
+    """The state is the worst of its items and tests. A technique with only documents as evidence is "described"."""
     words = [verdicts[name].word for name in technique.items if name in verdicts]
     parts: list[str] = []
     for name in technique.tests:

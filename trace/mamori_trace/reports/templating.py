@@ -18,7 +18,7 @@ _WORD_START = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLES = ("base.css", "frame.css", "cards.css", "matrix.css", "item.css", "campaign.css", "print.css")
 _SCRIPTS = ("data.js", "parts.js", "matrix.js", "item.js", "lists.js", "search.js", "frame.js")
-# Runs before anything is drawn: with scripts, one view is shown at a time, and the selected colours apply.
+# Runs before the page is drawn: with scripts, one view is shown at a time in the selected colours.
 _FIRST_SCRIPT = """
 document.documentElement.classList.add("js");
 try { document.documentElement.dataset.theme = localStorage.getItem("mamori-theme") || ""; } catch (error) { /* the file's own choice */ }
@@ -30,7 +30,7 @@ def make_environment() -> jinja2.Environment:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(_TEMPLATES),
         autoescape=True,
-        optimized=False,  # a page is drawn once; finding the constant parts takes longer than it saves
+        optimized=False,  # a page is drawn once, so finding constant parts takes longer than it saves
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -43,7 +43,7 @@ def make_environment() -> jinja2.Environment:
     environment.globals["style"] = Markup(_read_templates(_STYLES))
     environment.globals["first_script"] = Markup(_FIRST_SCRIPT)
     environment.globals["script"] = Markup(script)
-    # Only the two scripts of the page may run. A script in an unescaped text would therefore not run.
+    # Only the two scripts of the page may run, so a script in an unescaped text would not run.
     environment.globals["script_hashes"] = Markup(" ".join(map(_calc_script_hash, (_FIRST_SCRIPT, script))))
     return environment
 
@@ -57,6 +57,6 @@ def _calc_script_hash(script: str) -> str:
 
 
 def _make_link(target: str) -> Markup:
-    """`#view?filters` as attributes: the script joins the two; without a script the link leads to the view."""
+    """`#view?filters` as attributes that the script combines; without a script, the link leads to the view."""
     view, _, query = target.partition("?")
     return Markup(f'href="{escape(view)}"') + (Markup(f' data-query="{escape(query)}"') if query else Markup(""))

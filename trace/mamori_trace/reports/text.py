@@ -24,7 +24,7 @@ _WIDTH = 100
 
 
 class Paint:
-    """Colours text only on a terminal, and only if NO_COLOR is not set."""
+    """Colours text only on a terminal, and only without NO_COLOR."""
 
     def __init__(self, stream: TextIO) -> None:
         self._active = stream.isatty() and not os.environ.get("NO_COLOR")
@@ -93,7 +93,7 @@ def format_item(project: Project, item: Item, verdicts: dict[str, Verdict], pain
 
 
 def _describe_coverage(project: Project, item: Item) -> list[str]:
-    """Coverage shares; nothing if nothing was measured."""
+    """Coverage shares; empty if nothing was measured."""
     reached = project.measure(item.id)
     if not reached.functions_measured:
         return []

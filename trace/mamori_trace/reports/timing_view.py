@@ -29,14 +29,14 @@ PICTURES = (
     ("chain_latency", "From sample to effect along each chain, and how often longer than that"),
 )
 PICTURES_BYTES_MAX = 700_000
-"""Of all pictures in the page, so that it stays small however many systems were measured."""
+"""Maximum size of all pictures in the page, so that it stays small for any number of systems."""
 _EXIT_RESULTS = {0: ("no findings", "verified"), 1: ("findings", "failed"), 4: ("without all real-time rights", "warning"),
                  130: ("stopped", "incomplete")}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """`is_bad`: a value that a reader should see first. `is_name`: text that may wrap; `is_long`: a sentence, which may wrap too."""
+    """`is_bad`: a value that readers should see first. `is_name`: text that may wrap; `is_long`: a sentence, which may also wrap."""
 
     text: str
     is_bad: bool = False
@@ -66,7 +66,7 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """`rows` are at most ROWS_SHOWN of `count`. `notes` are below. `is_folded`: hidden until a click."""
+    """`rows` are at most ROWS_SHOWN of `count`; `notes` follow them. `is_folded`: hidden until a click."""
 
     title: str
     columns: tuple[Column, ...]
@@ -111,7 +111,7 @@ class TimingView:
 
 
 def make_timing_views(project: Project, problems: list[Problem]) -> list[TimingView]:
-    """One for each measured system. A picture that cannot be displayed becomes a problem; a picture that is too large is only named."""
+    """One view for each measured system. A picture that cannot be displayed is a problem; a picture that is too large is only named."""
     views = []
     here = project.head or str(project.evidence.environment.get("commit") or "")
     room_bytes = PICTURES_BYTES_MAX
@@ -139,7 +139,7 @@ def make_timing_views(project: Project, problems: list[Problem]) -> list[TimingV
 
 
 def format_us(ns: float | None) -> str:
-    """Microseconds with the significant digits: at least three, and no fraction from 1,000 us on."""
+    """Microseconds with significant digits: at least three, and no fraction from 1,000 us on."""
     if ns is None:
         return ABSENT
     us = ns / 1e3
@@ -149,7 +149,7 @@ def format_us(ns: float | None) -> str:
 
 
 def _clip(number: int) -> int:
-    """os.strerror() accepts the range of a C int."""
+    """Limits the number to the range of a C int, which os.strerror() accepts."""
     return number if 0 <= number < 2**31 else 0
 
 
@@ -176,7 +176,7 @@ def _list_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _describe_lost(record: dict[str, Any]) -> str:
-    """Windows that the host delayed or skipped: the first fact about a late run. Counted among the misses in the record."""
+    """Windows that the host delayed or skipped: the main fact about a late run. The record counts them as misses."""
     lost = [miss for miss in record["misses"] if miss["is_host"]]
     if not lost:
         return ""
@@ -291,7 +291,7 @@ def make_table(
     is_folded: bool = False,
     where: str = "timing.txt",
 ) -> Table:
-    """@param make the cells of one row. @param count of all rows; default: the number of given rows. Empty columns are omitted."""
+    """@param make creates the cells of one row. @param count of all rows; default: the number of given rows. Empty columns are omitted."""
     cells = [make(row) for row in rows[:shown]]
     filled = [index for index in range(len(columns)) if not cells or any(row[index].text not in ("", ABSENT) for row in cells)]
     return Table(title, tuple(columns[index] for index in filled), [[row[index] for index in filled] for row in cells],

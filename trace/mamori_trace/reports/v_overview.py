@@ -20,7 +20,7 @@ HEIGHT = 522
 _STEP_Y = 136
 _TOP = 4
 _SEGMENT_MIN = 4.0
-"""Of a bar, in drawing units: what is there is seen."""
+"""Minimum width of a segment of a bar, in drawing units, so that it is visible."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ class Box:
 def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -> list[Box]:
     """Boxes row by row; left and right box of a row are at the same height of the V."""
     results = {kind: [result.status for result in project.results if result.kind == kind] for kind in (UNIT, INTEGRATION)}
-    # A failed or remaining campaign result counts with the cases only if there are no cases to count.
+    # Failed or other remaining campaign results count with the cases only if there are no cases.
     cases = [case.status for case in project.evidence.cases]
     cases = cases or [result.status for result in project.results if result.kind == CAMPAIGN]
     files = len({tag.place.file for tag in project.tags})
@@ -96,7 +96,7 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
 
 
 def _describe(words: list[str], worst_first: Iterable[str], good: str, layout: Layout) -> str:
-    """The two worst, or only the worst if there is no space for both."""
+    """The two worst lines, or only the worst if there is no space for both."""
     counts = Counter(words)
     bad = [f"{counts[word]:,} {word}" for word in worst_first if counts[word] and word != good]
     if not bad:
@@ -108,7 +108,7 @@ def _describe(words: list[str], worst_first: Iterable[str], good: str, layout: L
 def _make_segments(words: list[str], order: Iterable[str], x: int, layout: Layout) -> tuple[Segment, ...]:
     counts = Counter(words)
     present = [word for word in order if counts[word]]
-    # One failure among thousands would be too narrow to see, so it gets a minimum width and the longer segments get less.
+    # One failure among thousands would be too narrow to see. It gets a minimum width, taken from the longer segments.
     lengths = [max(_SEGMENT_MIN, layout.bar_width * counts[word] / len(words)) for word in present]
     excess = sum(lengths) - layout.bar_width
     spare = sum(length - _SEGMENT_MIN for length in lengths)

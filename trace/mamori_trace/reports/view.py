@@ -50,7 +50,7 @@ def group_tags(tags: list[CodeTag]) -> list[tuple[str, list[CodeTag]]]:
 
 
 def describe_full_run(record: object) -> dict[str, Any]:
-    """Date, commit and failed steps of the last complete run; nothing if the environment contains none."""
+    """Date, commit and failed steps of the last complete run; empty if the environment has none."""
     if not isinstance(record, dict) or not isinstance(record.get("steps"), list):
         return {}
     steps = [step for step in record["steps"] if isinstance(step, dict)]
@@ -60,7 +60,7 @@ def describe_full_run(record: object) -> dict[str, Any]:
 
 
 def describe_environment(environment: dict[str, Any]) -> dict[str, Any]:
-    """The record with every entry present, as text or as a table of texts; empty if there is no record."""
+    """The record with every entry, as text or as a table of texts; empty if there is no record."""
     if not environment:
         return {}
     texts = ("commit", "date_utc", "command", "os", "cpu", "cores", "python")

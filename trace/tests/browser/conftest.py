@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A page in Chromium, and a small project and one of 10,000 items as pages. Without Chromium every test here fails."""
+"""Pages in Chromium: of a small project and of one with 10,000 items. Without Chromium, every test here fails."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Page:
         self._browser.open(file.as_uri() + fragment)
 
     def allow_scripts(self, is_allowed: bool) -> None:
-        """Applies to pages that are opened later."""
+        """Takes effect for pages that are opened later."""
         self._browser.call("Emulation.setScriptExecutionDisabled", {"value": not is_allowed})
 
     def ask(self, expression: str) -> Any:
@@ -68,7 +68,7 @@ class Page:
         return [json.dumps(event["params"])[:500] for event in self._browser.events[self._start :] if event.get("method") in _COMPLAINTS]
 
     def list_requests(self) -> list[str]:
-        """Requested addresses since then, without data addresses."""
+        """Addresses requested since then, without data addresses."""
         events = (event for event in self._browser.events[self._start :] if event.get("method") == "Network.requestWillBeSent")
         return [url for event in events if not (url := event["params"]["request"]["url"]).startswith("data:")]
 
@@ -81,7 +81,7 @@ def browser() -> Iterator[Chromium]:
 
 @pytest.fixture
 def page(browser: Chromium) -> Iterator[Page]:
-    """A page without console messages, requests and errors, which every test checks at its end."""
+    """A page; each test checks at its end that there were no console messages, requests and errors."""
     fresh = Page(browser)
     yield fresh
     fresh.allow_scripts(True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: filters, links, keys, colours and small widths of the page work in a browser, without a message and without a request.
+# Goal: filters, links, keys, colours and small widths of the page work in a browser, without messages and requests.
 from __future__ import annotations
 
 from pathlib import Path
@@ -10,7 +10,7 @@ import pytest
 VIEWS = ("#overview", "#matrix", "#findings", "#tests", "#campaign", "#timing", "#code", "#techniques", "#glossary", "#item/SWR-SUP-001",
          "#item/SYS-003", "#case-1-encoder_freeze-1")  # fmt: skip
 ROWS = "[...document.querySelectorAll('#matrix .rows tbody a.id')].filter(a => a.closest('td').className === 'title').map(a => a.textContent)"
-# Texts with a contrast to their background below 4.5, the WCAG 2 requirement for normal text.
+# Texts whose contrast to their background is below 4.5, the WCAG 2 requirement for normal text.
 FAINT = """(() => {
     const canvas = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
     const read = (colour) => { canvas.clearRect(0, 0, 1, 1); canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1);
@@ -56,7 +56,7 @@ def test_no_view_makes_the_page_scroll_sideways(page: Any, small_file: Path, fra
     assert small == []
 
 
-# Boxes that scroll, cells with content wider than the cell, and columns in which every cell is empty or a dash.
+# Scrolling boxes, cells whose content is wider than the cell, and columns in which every cell is empty or a dash.
 CUT = """[...document.querySelectorAll('main td, main th, main .scroll, main table')].filter(e => e.checkVisibility() && !e.querySelector('img'))
     .filter(e => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== 'inline'
         || (e.tagName === 'TD' && e.getBoundingClientRect().right > e.closest('.view').getBoundingClientRect().right))

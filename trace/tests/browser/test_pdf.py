@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: a real browser prints the page, with numbers on its pages, and the same bytes for the same inputs.
+# Goal: a real browser prints the page with page numbers; equal inputs give equal bytes.
 from __future__ import annotations
 
 from collections.abc import Callable

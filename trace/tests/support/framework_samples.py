@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small tests of each framework, and their results. The first tag is at a passing test, the second at a failing test, the third in dead code.
+"""Small tests of each framework, and their results. The first tag is at a passed test, the second at a failed test, the third in dead code.
 
 Samples with a command are shortened from real runs (GoogleTest 1.12, Catch2 2.13, doctest 2.4, Boost.Test 1.74, pytest, cargo 1.95). Tests
 run the framework again if it is installed. The others follow the descriptions of their formats.
@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 
 class Framework(NamedTuple):
-    """`command` writes results.xml; `needs` are a required program and a required header."""
+    """`command` writes results.xml; `needs` are the required program and the required header."""
 
     file: str
     source: str

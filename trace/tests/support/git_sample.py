@@ -21,7 +21,7 @@ _ENVIRONMENT = {
 
 
 def git(root: Path, *arguments: str) -> str:
-    """The output of git; an error fails the test."""
+    """The output of git; an error of git fails the test."""
     answer = subprocess.run(["git", "-C", str(root), *arguments], capture_output=True, text=True, check=True, env=_ENVIRONMENT)
     return answer.stdout.strip()
 

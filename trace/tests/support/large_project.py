@@ -22,7 +22,7 @@ _THINGS = ("a silent entity", "a late frame", "a corrupted position", "an unknow
 
 
 def make_large_project(root: Path, item_count: int = ITEM_COUNT, result_count: int = RESULT_COUNT) -> Project:
-    """`item_count` items: one in a hundred a need, nine a system requirement, ninety a software requirement."""
+    """`item_count` items: 1 % needs, 9 % system requirements, 90 % software requirements."""
     schema = _allow_long_ids(read_schema(SCHEMA.parents[2]))
     project = Project(root, schema, allow_missing=True)
     _write_designs(root, item_count)
@@ -55,7 +55,7 @@ def _write_designs(root: Path, item_count: int) -> None:
 
 
 def _allow_long_ids(schema: Schema) -> Schema:
-    """Ids of three digits end at 999."""
+    """Ids with three digits end at 999."""
     import dataclasses
     import re
 

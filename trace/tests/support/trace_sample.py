@@ -112,7 +112,7 @@ class Outcome:
 
 @dataclass
 class Sample:
-    """A project in `root`. Tests change its files in place; `review` renews the lock afterwards."""
+    """A project in `root`. Tests change its files directly; `review` then renews the lock."""
 
     root: Path
 
@@ -198,7 +198,7 @@ SAMPLE_INPUTS = {"sources": "", "tool_chain": "", "configuration": "sample"}
 
 
 def record(folder: Path, files: list[Path] | None = None) -> None:
-    """Records the current evidence folder, or `files` in it. Records that a test wrote itself stay unchanged."""
+    """Records the current evidence folder, or `files` in it. Records that the test itself wrote stay unchanged."""
     if any(row.get("configuration") != "sample" for row in read_rows(folder).values()) or ((folder / NAME).exists() and not read_rows(folder)):
         return
     write_rows(folder, make_rows(folder, list_recorded(folder) if files is None else files, SAMPLE_INPUTS, lambda _: None))

@@ -6,12 +6,12 @@
 namespace mamori::verification::bench {
 namespace {
 
-/// The first words that a reader reads are 0, 1, 0, 1 ...; a lost or stale value changes their sum.
+/// The first words that a reader reads are 0, 1, 0, 1 ... A lost or old value changes their sum.
 std::uint64_t calc_sum_of_words(std::uint64_t count, std::size_t) {
     return count / 2U;
 }
 
-/// Likewise, of the entries of `count` operations.
+/// The same sum for the entries of `count` operations.
 std::uint64_t calc_sum_of_entries(std::uint64_t count, std::size_t size) {
     return calc_sum_of_words(count * kFifoEntries, size);
 }

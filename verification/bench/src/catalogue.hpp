@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Every case that this program can measure. The reference implementations come from the file that CMake
-/// writes, which names the available ones.
+/// All cases that this program can measure. CMake generates the source file that lists the available
+/// reference implementations.
 #ifndef MAMORI_VERIFICATION_BENCH_CATALOGUE_HPP
 #define MAMORI_VERIFICATION_BENCH_CATALOGUE_HPP
 
@@ -11,7 +11,7 @@
 
 namespace mamori::verification::bench {
 
-/// The cases of the reference implementations, each in the cases that it supports.
+/// The cases of the reference implementations; each adds itself to the cases that it supports.
 struct PeerCases {
     std::vector<Case>& ports;
     std::vector<Case>& wake_ups;

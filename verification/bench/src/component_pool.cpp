@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t kClassCount = 8U;
 
-/// Base so that the name exists before the component.
+/// Base class, so that the name exists before the component.
 struct NameOfOne {
-    std::array<char, 21U> name{};  ///< digits of a number of 64 bits, and the end
+    std::array<char, 21U> name{};  ///< digits of a 64-bit number, plus the terminator
 };
 
 class Counting : private NameOfOne, public Component {
@@ -21,7 +21,7 @@ class Counting : private NameOfOne, public Component {
     Counting() noexcept : Component(name.data()) {}
     std::uint64_t run_count{0U};
 
-    /// Each component of a table has a name of its own.
+    /// Each component of a table has its own name.
     void set_name(std::size_t number) noexcept {
         static_cast<void>(std::to_chars(name.data(), name.data() + name.size() - 1U, number));
     }

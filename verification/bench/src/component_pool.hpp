@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Components with minimal work, for the scheduler cases. Their classes are known in one source file only, so
-/// that no caller's compiler can replace a virtual call by its body.
+/// Components with minimal work, for the scheduler cases. Only one source file contains their classes, so
+/// that no compiler can replace a virtual call in another file by its body.
 #ifndef MAMORI_VERIFICATION_BENCH_COMPONENT_POOL_HPP
 #define MAMORI_VERIFICATION_BENCH_COMPONENT_POOL_HPP
 

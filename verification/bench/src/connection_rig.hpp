@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A running system in which one component writes `kCount` outputs and a component of a later window reads
-/// them: the difference between two counts is the cost of connections alone.
+/// them. The difference between two counts is the instruction count of the connections alone.
 #ifndef MAMORI_VERIFICATION_BENCH_CONNECTION_RIG_HPP
 #define MAMORI_VERIFICATION_BENCH_CONNECTION_RIG_HPP
 
@@ -81,7 +81,7 @@ class ConnectionRig {
         static_cast<void>(executive_.run_window(1U, host_));
     }
 
-    /// The message that is written from now on.
+    /// The message that the component writes from now on.
     Message<kSize>& get_value() noexcept { return writer_.value; }
     /// Sum of the first words of all messages read so far.
     std::uint64_t get_sum() const noexcept { return reader_.sum; }
@@ -92,7 +92,7 @@ class ConnectionRig {
     using Table = SystemTable<2U, 2U, 2U * kCount, kCount>;
     static constexpr Duration kHalf = Duration{1'800'000'000'000};
 
-    /// Ports of an array have no member pointers, so the rows are completed here.
+    /// Arrays of ports have no member pointers, so the rows are completed here.
     static Table make_table(Writer& writer, Reader& reader) noexcept {
         const auto windows =
             system(frame(kHalf * 2), window("write", Duration{0}, kHalf, budget(kHalf), run(writer)),

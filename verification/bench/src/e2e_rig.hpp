@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A protected message from the output of one component to the input of another: profile 4, which has the
-/// checksum of the lower bound.
+/// A protected message from the output of one component to the input of another. Profile 4 has the same CRC
+/// as the lower bound.
 #ifndef MAMORI_VERIFICATION_BENCH_E2E_RIG_HPP
 #define MAMORI_VERIFICATION_BENCH_E2E_RIG_HPP
 
@@ -19,7 +19,7 @@ inline constexpr safety::SentIdChannel kE2eChannel{0x0A0B0C0DU, E2eProfile::kHea
 inline constexpr safety::E2eInLimits<safety::HardenedSequence> kE2eLimits{
     Duration{1000}, {1U}, 4U, {{1U, 0U}, {1U, 0U}, {1U, 0U}}};
 
-/// Both ports with the ends of the channel, in use: the channel is synchronised and valid.
+/// Both ports with the ends of the channel, which is synchronised and valid.
 template <std::size_t kSize>
 class E2eRig {
     using Message = safety::E2eMessage<bench::Message<kSize>, E2eProfile, kE2eChannel<kSize>>;

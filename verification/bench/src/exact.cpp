@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Executes one operation a given number of times, for callgrind to count. Only instructions inside the
-/// functions measured_... count: callgrind collects while one of them runs, and clears its counts when
-/// begin_counting() is called, after a warm-up.
+/// Executes one operation a given number of times under callgrind. Only instructions inside the functions
+/// measured_... count. callgrind collects while one of them runs, and clears its counts at begin_counting(),
+/// after a warm-up.
 ///
 ///     mamori_exact --about                     operations, compiler and C library as JSON
 ///     mamori_exact OPERATION COUNT [--sealed]  --sealed: without any system call, or the process is killed
@@ -91,7 +91,7 @@ void* volatile g_leftover;
 
 }  // namespace
 
-// callgrind gets these names as arguments; C linkage keeps them unchanged.
+// callgrind receives these names as arguments; C linkage keeps them unchanged.
 extern "C" {
 [[gnu::noinline]] void measured_port_8() {
     g_port_8.exchange();
@@ -154,7 +154,7 @@ extern "C" {
 [[gnu::noinline]] void measured_connections_64_20() {
     g_twenty_connections_64.run_frame();
 }
-// Two intentional faults: the checks of the other operations must find them.
+// Two intentional violations, which the checks of the other operations must find.
 [[gnu::noinline]] void measured_seeded_heap() {
     g_leftover = std::malloc(8U);
     std::free(g_leftover);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A running system of `kCount` components with minimal work, in one window: the remaining cost is that of
-/// the executive.
+/// A running system of `kCount` components with minimal work in one window. The remaining cost is that of the
+/// executive.
 #ifndef MAMORI_VERIFICATION_BENCH_EXECUTIVE_RIG_HPP
 #define MAMORI_VERIFICATION_BENCH_EXECUTIVE_RIG_HPP
 
@@ -49,14 +49,14 @@ class ExecutiveRig {
     std::uint64_t count_runs() const noexcept { return is_healthy_ ? pool_.count_runs() : 0U; }
 
   private:
-    /// Wide enough for a busy host: nothing may expire here.
+    /// Long enough for a busy host: nothing may expire here.
     static constexpr Duration kFrame = Duration{3'600'000'000'000};
     static constexpr safety::ComponentLimits kLimits{{1U, 2U}, {Duration{0}, kFrame}};
 
     using Table = SystemTable<1U, kCount, 0U, 0U>;
 
-    /// The rows of a window of one component, as the kernel creates them, repeated for all: a list of a
-    /// thousand arguments would exceed the capacity of a compiler.
+    /// The rows of a window of one component, as the kernel creates them, repeated for all components. A list
+    /// of a thousand arguments would exceed the limits of a compiler.
     static Table make_table(ComponentPool& pool) noexcept {
         const auto one =
             system(frame(kFrame), window("bench", Duration{0}, kFrame, budget(kFrame), run(pool.at(0U))));
@@ -64,7 +64,7 @@ class ExecutiveRig {
         table.frame = one.frame;
         table.windows[0] = one.windows[0];
         table.windows[0].component_count = kCount;
-        // The table cannot determine through the references of the pool that no component has a second pass.
+        // Through the references of the pool, the table cannot detect that no component has a second pass.
         table.windows[0].has_second_pass = false;
         table.component_rows.fill(one.component_rows[0]);
         for (std::size_t i = 0U; i < kCount; ++i) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The FIFO case: a thread on one processor writes entries as fast as a thread on another processor reads
-/// them. An operation is kFifoEntries entries, so that the shortest batch is long compared with a wake-up.
+/// The FIFO case: a thread on one processor writes entries at maximum rate, and a thread on another processor
+/// reads them. An operation is kFifoEntries entries, so that the shortest batch is long compared with a
+/// wake-up.
 ///
 /// @satisfies SWR-BUF-020      Design: docs/design/bench.md#method
 #ifndef MAMORI_VERIFICATION_BENCH_FIFO_PAIR_HPP
@@ -18,7 +19,7 @@
 
 namespace mamori::verification::bench {
 
-/// Entries that can wait in each queue of the FIFO case.
+/// Capacity of each queue of the FIFO case [entries].
 inline constexpr std::size_t kFifoCapacity{64U};
 /// Entries of one operation.
 inline constexpr std::uint64_t kFifoEntries{256U};

@@ -47,7 +47,8 @@ class Lateness final : public OpeningObserver {
 }  // namespace
 
 std::vector<std::int64_t> measure_grid(const GridRequest& request) {
-    // Page faults would add lateness of this program; a denial shows in the figures of both programs alike.
+    // Page faults would increase the lateness of this program. A denied lock affects the figures of both
+    // programs.
     static_cast<void>(ports::posix_rt::lock_memory(std::size_t{256U} * 1024U));
     const Right right = combine(ports::posix_rt::set_processor(pthread_self(), request.processor),
                                 ports::posix_rt::set_priority(pthread_self(), request.priority));

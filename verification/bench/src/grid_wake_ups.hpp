@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Wake-ups of the real-time port on a schedule of 1 kHz: the time from each planned instant to the first
-/// reading of the clock. It is a distribution, so it is measured separately from the batches of the other
-/// cases.
+/// reading of the clock. The result is a distribution, so it is measured separately from the batches of the
+/// other cases.
 ///
 /// @satisfies SWR-BEN-009      Design: docs/design/bench.md#grid
 #ifndef MAMORI_VERIFICATION_BENCH_GRID_WAKE_UPS_HPP

@@ -21,9 +21,9 @@ class RejectingFifo final {
     Fifo<kSize, FullPolicy::kDoNothing> fifo_;
 };
 
-/// An overwriting queue accepts every entry. A count of the read entries keeps the writer from overwriting
-/// one; its cost is part of the result. The reader shares it every few entries: an exchange waits for the
-/// stores before it, also for that of a word that the other processor polls.
+/// An overwriting queue accepts every entry. A counter of read entries, whose cost is part of the result,
+/// keeps the writer from overwriting unread ones. The reader publishes the counter every few entries, because
+/// an exchange waits for all earlier stores, including the store of a word that the other processor polls.
 template <std::size_t kSize>
 class OverwritingFifo final {
   public:

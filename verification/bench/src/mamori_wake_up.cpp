@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Mamori in the wake-up case: the host of the real-time port passes a message to the thread of a window as a
-/// piece of work and waits for it until a deadline. An operation is one round trip: two wake-ups.
+/// Mamori in the wake-up case: the platform host of the real-time port passes a message as work to the thread
+/// of a window and waits for its completion until a deadline. An operation is one round trip: two wake-ups.
 #include <pthread.h>
 #include <sched.h>
 
@@ -25,7 +25,7 @@ class WindowHandOver final : public Subject {
             throw std::runtime_error("no thread for a window");
         }
     }
-    /// The work is a copy: it has returned whenever run() has.
+    /// The work is a copy, so it has ended when run() returns.
     ~WindowHandOver() override { static_cast<void>(host_.close()); }
     WindowHandOver(const WindowHandOver&) = delete;
     WindowHandOver& operator=(const WindowHandOver&) = delete;

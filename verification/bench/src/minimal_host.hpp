@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The cheapest possible host, so that the executive is measured and not a port: it calls the work and reads
-/// the clock.
+/// The cheapest possible platform host, which calls the work and reads the clock. Benchmarks thus measure the
+/// executive and not a port.
 #ifndef MAMORI_VERIFICATION_BENCH_MINIMAL_HOST_HPP
 #define MAMORI_VERIFICATION_BENCH_MINIMAL_HOST_HPP
 

@@ -33,7 +33,7 @@ const dds_topic_descriptor_t& get_descriptor<65536U>() {
     return mamori_bench_Message65536_desc;
 }
 
-/// Only the loopback of this host, no multicast: a benchmark must send nothing to a network.
+/// Only the loopback interface, no multicast: a benchmark must not send data to a network.
 constexpr const char* kConfiguration =
     "<General><Interfaces><NetworkInterface name='lo' multicast='false'/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast></General>";
@@ -45,7 +45,7 @@ dds_entity_t check(dds_entity_t entity, const char* what) {
     return entity;
 }
 
-/// One domain for all sizes; it lives as long as the program.
+/// One domain for all sizes; exists until the program ends.
 dds_entity_t get_participant() {
     static const dds_entity_t participant = [] {
         check(dds_create_domain(0U, kConfiguration), "dds_create_domain");
@@ -78,7 +78,7 @@ class Topic final {
 
     dds_entity_t get_reader() const noexcept { return reader_; }
     void write(const Message<kSize>& message) { dds_write(writer_, message.data()); }
-    /// @return true if there was one.
+    /// @return true if there was a message.
     bool take(Message<kSize>& message) {
         void* samples[1] = {message.data()};
         dds_sample_info_t info;

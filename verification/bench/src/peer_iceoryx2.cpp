@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reference implementation: iceoryx2 with its process-local service. The loop is in Rust (folder iceoryx2),
-/// because a call per operation from here would add a cost that its users do not have.
+/// because one C call per operation would add a cost that users of iceoryx2 do not have.
 #include <stdexcept>
 
 #include "catalogue.hpp"
@@ -48,7 +48,7 @@ class Iceoryx2 final : public Subject {
     std::uint64_t run(std::uint64_t count) override { return kFunctions<kSize>.run(handle_, count); }
 
   private:
-    void* handle_;  ///< lives as long as the program
+    void* handle_;  ///< exists until the program ends
 };
 
 }  // namespace

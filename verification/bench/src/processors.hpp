@@ -11,7 +11,7 @@
 
 namespace mamori::verification::bench {
 
-/// Keeps `thread` on one processor.
+/// Restricts `thread` to one processor.
 inline void pin(pthread_t thread, int processor) {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -29,7 +29,7 @@ class KeptAffinity final {
     KeptAffinity(const KeptAffinity&) = delete;
     KeptAffinity& operator=(const KeptAffinity&) = delete;
 
-    /// @return first processor from `least` on that the calling thread may use; CPU_SETSIZE: there is none.
+    /// @return first processor >= `least` that the calling thread may use; CPU_SETSIZE if there is none.
     int find_processor(int least) const noexcept {
         while (least < CPU_SETSIZE && CPU_ISSET(static_cast<unsigned>(least), &own_) == 0) {
             ++least;

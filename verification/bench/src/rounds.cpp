@@ -9,7 +9,7 @@
 namespace mamori::verification::bench {
 namespace {
 
-/// A created subject, with its results so far.
+/// A created subject and its current results.
 struct Runner {
     std::unique_ptr<Subject> subject;
     std::uint64_t batch_count{1U};
@@ -35,7 +35,7 @@ void calibrate(Runner& runner, const Case& of, const std::string& name, std::uin
     double shortest = 0.0;
     while (runner.batch_count < kCountMax && shortest < static_cast<double>(batch_ns)) {
         runner.batch_count *= 2U;
-        // The minimum of several runs, because an interrupted run would make a batch too small.
+        // The minimum of several runs, because one interrupted run would make the batch too small.
         shortest = time_batch(*runner.subject, of, name, runner.batch_count);
         for (int i = 1; i < kAttempts; ++i) {
             shortest = std::min(shortest, time_batch(*runner.subject, of, name, runner.batch_count));
@@ -67,7 +67,7 @@ std::vector<Runner> prepare(const Case& of, const Effort& effort, Measured& resu
     return runners;
 }
 
-/// One visit of a case: the subjects alternate, and each batch begins with another one.
+/// One visit of a case: the subjects alternate, and the first subject changes from batch to batch.
 void visit(const Case& of, std::vector<Runner>& runners, const Effort& effort, Measured& result) {
     for (std::uint32_t batch = 0U; batch < effort.batches; ++batch) {
         for (std::size_t turn = 0U; turn < runners.size(); ++turn) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Measures cases in rounds. A round visits each case once. Within a case, the subjects alternate batch by
-/// batch, so that a disturbance of the host that lasts longer than a few batches affects all of them alike.
+/// batch. A host disturbance that lasts longer than a few batches therefore affects all subjects equally.
 ///
 /// @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
 #ifndef MAMORI_VERIFICATION_BENCH_ROUNDS_HPP
@@ -20,12 +20,12 @@ namespace mamori::verification::bench {
 struct Effort {
     std::uint32_t rounds{9U};
     std::uint32_t batches{21U};  ///< of each subject in a round
-    /// Minimum time of one batch: far below the time slice of a scheduler, so that most batches are not
-    /// interrupted.
+    /// Minimum time of one batch. It is much shorter than the time slice of a scheduler, so that most batches
+    /// are not interrupted.
     std::uint64_t batch_ns{400'000U};
 };
 
-/// Times of one subject: for each round the median of its batches, in the unit of the case.
+/// Times of one subject: for each round, the median of its batches, in the unit of the case.
 struct Series {
     std::string name;
     std::uint64_t batch_count;  ///< operations in a batch
@@ -42,7 +42,7 @@ struct Measured {
 };
 
 /// Measures `cases`. @param[in] tell receives a line of progress.
-/// @throw std::runtime_error if a subject's sum shows that it did not do its work.
+/// @throw std::runtime_error if the sum of a subject shows that it did not complete its work.
 std::vector<Measured> measure(const std::vector<Case>& cases, const Effort& effort,
                               const std::function<void(const std::string&)>& tell);
 

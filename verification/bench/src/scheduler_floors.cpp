@@ -8,7 +8,7 @@
 namespace mamori::verification::bench {
 namespace {
 
-/// The plain loop over the components; `kReadsClock`: with a recorded start time for each.
+/// The plain loop over the components; `kReadsClock`: also records a start time for each component.
 template <std::size_t kCount, bool kReadsClock, ClassOrder kOrder = ClassOrder::kInTurn>
 class BareLoop final : public Subject {
   public:

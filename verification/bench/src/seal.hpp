@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Forbids this process every system call except its exit: the operating system itself then proves that none
-/// is made.
+/// Forbids this process every system call except its exit, so that the operating system proves the absence of
+/// system calls.
 #ifndef MAMORI_VERIFICATION_BENCH_SEAL_HPP
 #define MAMORI_VERIFICATION_BENCH_SEAL_HPP
 
@@ -17,7 +17,7 @@
 namespace mamori::verification::bench {
 
 /// After this call, any system call except exit_group ends the process with SIGSYS.
-/// @return false if the system does not support it; nothing is sealed then.
+/// @return false if the system does not support it; no call is then forbidden.
 inline bool seal_process() noexcept {
     std::array<sock_filter, 4> program{{
         {BPF_LD | BPF_W | BPF_ABS, 0U, 0U, offsetof(seccomp_data, nr)},
@@ -30,7 +30,7 @@ inline bool seal_process() noexcept {
            prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
-/// Ends the process by the only permitted call. @param[in] status exit status.
+/// Ends the process with the only permitted call. @param[in] status exit status.
 [[noreturn]] inline void leave_sealed(int status) noexcept {
     for (;;) {
         syscall(SYS_exit_group, status);

@@ -11,8 +11,8 @@
 
 namespace mamori::verification::bench {
 
-/// Latest value of one writer. The copy itself is not atomic, as in common seqlocks: a torn copy is detected
-/// and discarded.
+/// Latest value of one writer. As in common seqlocks, the copy itself is not atomic: the reader detects and
+/// discards a torn copy.
 template <typename T>
 class Seqlock {
   public:
@@ -24,7 +24,7 @@ class Seqlock {
         sequence_.store(sequence + 2U, std::memory_order_release);
     }
 
-    /// @return false if a write came in between; `value` is then undefined.
+    /// @return false if a write occurred during the copy; `value` is then undefined.
     bool try_read(T& value) const noexcept {
         const std::uint32_t before = sequence_.load(std::memory_order_acquire);
         value = value_;

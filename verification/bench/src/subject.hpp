@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Subjects of a benchmark program, grouped in cases. The subjects of one case do the same work in different
-/// ways, so the ratio of their times is meaningful; for subjects of different cases it is not.
+/// ways, so the ratio of their times is meaningful. Ratios between different cases are not.
 ///
 /// @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
 #ifndef MAMORI_VERIFICATION_BENCH_SUBJECT_HPP
@@ -22,15 +22,15 @@ class Subject {
     virtual ~Subject() = default;
 
     /// Executes the operation `count` times.
-    /// @return a sum that only completed work can give: see calc_expected() of the case's kind.
+    /// @return a sum that only completed work yields: see calc_expected() of the kind of the case.
     virtual std::uint64_t run(std::uint64_t count) = 0;
 };
 
-/// Evidence of the work: the sum that a run of `count` operations returns.
+/// Evidence of completed work: the sum that a run of `count` operations returns.
 using CalcExpected = std::uint64_t (*)(std::uint64_t count, std::size_t size);
 
-/// A subject that can be created. If its creation throws, the subject is reported as absent with the text of
-/// the exception.
+/// A subject that can be created. If its creation throws, the program reports the subject as absent with the
+/// text of the exception.
 struct Candidate {
     std::string name;
     std::unique_ptr<Subject> (*make)();
@@ -41,8 +41,8 @@ struct Candidate {
 struct Case {
     std::string metric;
     std::size_t size;
-    std::string unit;          ///< of one operation's time
-    std::uint64_t operations;  ///< of that unit in one operation of a subject, > 0
+    std::string unit;          ///< of the time of one operation
+    std::uint64_t operations;  ///< units in one operation of a subject, > 0
     CalcExpected calc_expected;
     std::vector<Candidate> candidates;
 };
@@ -57,8 +57,8 @@ struct AbsentPeer {
 template <std::size_t kSize>
 using Message = std::array<std::uint64_t, kSize / sizeof(std::uint64_t)>;
 
-/// The value of operation number `i`: two alternating messages, with 0 and 1 as first word. They are created
-/// beforehand: a word stored just before a wider copy reads it would stall the processor and hide the
+/// The value of operation number `i`: two alternating messages, with 0 and 1 as first word. Both are created
+/// in advance: if a wider copy reads a word that was stored just before, the processor stalls and hides the
 /// measured effect.
 template <std::size_t kSize>
 class WrittenValues {
@@ -82,8 +82,8 @@ inline constexpr std::array<std::size_t, 3> kFifoSizes{8U, 64U, 1024U};
 /// Sizes of the scheduler cases [components].
 inline constexpr std::array<std::size_t, 3> kComponentCounts{10U, 100U, 1000U};
 
-/// Tells the compiler that `object` may be read and written here, so that it neither removes nor moves work
-/// on it.
+/// Tells the compiler that `object` may be read and written here, so that it neither removes nor moves
+/// operations on the object.
 template <typename T>
 inline void touch(T& object) noexcept {
     asm volatile("" : : "r"(&object) : "memory");
@@ -95,7 +95,7 @@ std::unique_ptr<Subject> make_subject() {
 }
 
 /// Adds `kSubject<kSize>` to the port case of each size. @param[in] cases one per element of kPortSizes, in
-/// that order.
+/// the same order.
 template <template <std::size_t> class kSubject>
 void add_to_ports(std::vector<Case>& cases, const std::string& name) {
     cases[0].candidates.push_back({name, &make_subject<kSubject<kPortSizes[0]>>});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Lower bound of the wake-up case: two seqlocks, whose reader is woken with a futex.
+/// Lower bound of the wake-up case: two seqlocks, each with a reader that a futex wakes.
 #include <linux/futex.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@
 namespace mamori::verification::bench {
 namespace {
 
-/// Seqlock with notification: the reader waits until there is a newer value.
+/// Seqlock with notification: the reader waits for a newer value.
 class RungSeqlock final {
   public:
     explicit RungSeqlock(const char* /*name*/) noexcept {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The wake-up case: two threads on one processor exchange a message, and each sleeps until the message of
-/// the other arrives. An operation is one round trip: two wake-ups.
+/// The wake-up case: two threads on one processor exchange messages. Each sleeps until the message of the
+/// other thread arrives. An operation is one round trip: two wake-ups.
 ///
 /// @satisfies SWR-BEN-001      Design: docs/design/bench.md#method
 #ifndef MAMORI_VERIFICATION_BENCH_WAKE_UP_PAIR_HPP
@@ -14,9 +14,9 @@
 
 namespace mamori::verification::bench {
 
-/// Both threads stay on the processor of the caller, so that a wake-up is a switch without a migration.
-/// @tparam Mailbox created with a unique name; post(message) from one thread, and await() in another one,
-/// which sleeps until there is a message.
+/// Both threads stay on the processor of the caller, so that a wake-up is a thread switch without migration.
+/// @tparam Mailbox created with a unique name. One thread calls post(message), another await(), which sleeps
+/// until there is a message.
 template <typename Mailbox>
 class WakeUpPair final : public Subject {
   public:
@@ -42,7 +42,7 @@ class WakeUpPair final : public Subject {
     }
 
   private:
-    static constexpr std::uint64_t kStop = 2U;  ///< a first word that no value has
+    static constexpr std::uint64_t kStop = 2U;  ///< a first word that does not occur in values
 
     void echo() {
         for (Message<64U> message = there_.await(); message[0] != kStop; message = there_.await()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: subjects take turns in every round, and a subject that did not do its work gives no time.
-// Method: subjects that write down when they were called, with batches of the smallest size.
+// Goal: subjects alternate in every round, and a subject without completed work gives no time. Method:
+// subjects that record their calls, with batches of the smallest size.
 #include "rounds.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace mamori::verification::bench {
 namespace {
 
-std::string g_calls;  ///< a letter per run, since the last line of progress
+std::string g_calls;  ///< one letter per run since the last line of progress
 
 template <char kLetter>
 class Noting final : public Subject {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tries error patterns on every profile and compares how many pass with a model of the profile's definition:
-/// all of 1 and 2 bits up to 64 bytes, all of 3 bits up to 16 bytes, all bursts up to the width of the
-/// checksum (8 bits up to 64 bytes and 16 bits up to 16 bytes one by one, 32 and 64 bits up to 64 bytes by
-/// linear algebra). Prints what passes; exit status 1 with differences.
+/// Applies error patterns to every profile and compares the number that passes with a model of the definition
+/// of the profile. Patterns: all of 1 and 2 bits up to 64 bytes, all of 3 bits up to 16 bytes, and all bursts
+/// up to the width of the CRC. Bursts of 8 bits (up to 64 bytes) and 16 bits (up to 16 bytes) are applied one
+/// by one; bursts of 32 and 64 bits (up to 64 bytes) are calculated by linear algebra. Prints the passing
+/// patterns; exit status 1 with differences.
 ///
 ///     mamori_e2e_errors
 ///

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Protects and reads messages for another process: requests on standard input, replies on standard output,
-/// binary, until the input ends. Exit status 1 for a request that is truncated or names no profile.
+/// Protects and reads messages for another process: binary requests on standard input, replies on standard
+/// output, until the input ends. Exit status 1 for a truncated request or an unknown profile.
 ///
 ///     request: profile u8, data id mode u8, operation u8 (0 protect, 1 read), 0 u8, offset u16, length u16,
 ///              data id u32, counter u32, 16 data ids u8, frame of `length` bytes; numbers least significant
@@ -31,7 +31,7 @@ struct Request {
     std::vector<std::byte> frame;
 };
 
-/// Number of `size` bytes from `first` on.
+/// Number of `size` bytes, beginning at `first`.
 std::uint32_t get_number(const std::array<std::uint8_t, kRequestSize>& bytes, std::size_t first,
                          std::size_t size) {
     std::uint32_t value = 0U;

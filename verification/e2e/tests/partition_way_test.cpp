@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a protected message passes between two processes, and what the other one makes of the shared memory
-// is refused: frames cut short, too long, overwritten, of another message, repeated. Method: both ends of a
-// partition's connection by hand over one memory; contents written there by hand.
+// Goal: a protected message passes between two processes. If the other process corrupts the shared memory,
+// its messages are rejected: truncated, too long, overwritten, repeated, or of another channel. Method: both
+// ends of the connection of a partition, called directly on one memory; some contents are written directly.
 #include <functional>
 #include <vector>
 
@@ -47,7 +47,7 @@ class PartitionWayTest : public ::testing::Test {
         ASSERT_EQ(sender_.on_execute({0, now_}), Status::kOk);
         sender_.in.mark_read();
     }
-    /// A cycle of this one.
+    /// A cycle of this process.
     void receive() {
         now_ = now_ + 10_ms;
         ASSERT_EQ(receiver_.on_execute({0, now_}), Status::kOk);
@@ -57,7 +57,8 @@ class PartitionWayTest : public ::testing::Test {
         ASSERT_EQ(drive_.on_execute({0, now_}), Status::kOk);
         drive_.in.mark_read();
     }
-    /// What the sender would write next, as it lies in the shared memory: a length of four bytes, the frame.
+    /// The next content that the sender would write to the shared memory: a length of four bytes, then the
+    /// message.
     Bytes make_content() {
         EXPECT_EQ(planner_.on_execute({0, now_}), Status::kOk);
         EXPECT_TRUE(planner_.out.publish(now_));
@@ -68,7 +69,7 @@ class PartitionWayTest : public ::testing::Test {
                   kCapacity);
         return content;
     }
-    /// Another process writes `content` in its place, and this one has its cycle.
+    /// Another process writes `content` instead of the sender, then this process runs its cycle.
     void receive(const Bytes& content) {
         ASSERT_EQ(writer_.write({content.data(), content.size()}, now_), Status::kOk);
         receive();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a protected message goes through a system table as any other does, and what becomes of it on the way
-// decides what the receiver gets.
+// Goal: a protected message passes through a system table like any other message, and events on its path
+// determine what the receiver gets.
 // Method: two components and one connection in virtual time; faults in the memory of the connection between
-// two windows, a sender that falls silent or overruns, and a transport in between that is late or loses.
+// two windows, a sender that stops or overruns, and a transport in between that delays or loses messages.
 #include "protected_speed.hpp"
 
 #include <array>
@@ -33,7 +33,7 @@ class NoDevices final : public FrameDevices {
     void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
 };
 
-/// A system that runs frame by frame.
+/// A system that runs one major frame after another.
 template <typename Table>
 class Machine {
   public:
@@ -63,14 +63,14 @@ auto make_speed_table(Planner& planner, Drive& drive) {
                   connect(planner.out, drive.in, any_age()));
 }
 
-/// The system of the page, with components of its own for each test.
+/// The system of the page, with separate components for each test.
 class ProtectedSpeedTest : public ::testing::Test {
   protected:
     void SetUp() override {
         machine_.run(10);
         ASSERT_EQ(drive_.worth, E2eWorth::kNew);
     }
-    /// One frame, in whose pause a bit of what waits in the connection turns.
+    /// Runs one major frame; before it, a bit of the waiting message flips.
     void run_with_a_turned_bit(std::size_t bit) {
         auto& waiting = const_cast<SafeSpeed::Frame&>(planner_.out.get_published());
         waiting[bit / 8U] = static_cast<std::uint8_t>(waiting[bit / 8U] ^ (1U << (bit % 8U)));
@@ -89,7 +89,7 @@ TEST(ProtectedSpeedPageTest, TheSystemOfThePageDrives) {
 
     machine.run(5);
     EXPECT_EQ(drive.worth, E2eWorth::kNew);
-    EXPECT_EQ(drive.setpoint_rad_s, 2.0);  // of the frame before
+    EXPECT_EQ(drive.setpoint_rad_s, 2.0);  // sent in the previous frame
     planner.is_silent = true;
     machine.run(2);
     EXPECT_EQ(drive.worth, E2eWorth::kHeld);
@@ -106,7 +106,7 @@ TEST_F(ProtectedSpeedTest, EachValueArrivesOnceAFrameLater) {
         ASSERT_EQ(drive_.worth, E2eWorth::kNew) << i;
         ASSERT_EQ(drive_.setpoint_rad_s, sent);
     }
-    EXPECT_EQ(get_protection().get_count(E2eOutcome::kRefused), 2U);  // with which the order was found
+    EXPECT_EQ(get_protection().get_count(E2eOutcome::kRefused), 2U);  // before the order was found
 }
 
 TEST_F(ProtectedSpeedTest, DamageInTheConnectionIsHeldOutAndThenForgotten) {
@@ -130,7 +130,7 @@ TEST_F(ProtectedSpeedTest, ConnectionThatStaysDamagedEndsInTheSubstituteUntilItI
     EXPECT_EQ(drive_.setpoint_rad_s, 0.0);
     EXPECT_EQ(get_protection().get_state(), ChannelState::kInvalid);
 
-    machine_.run(50);  // three frames are lost, and the order is found again by a reset only
+    machine_.run(50);  // three messages are lost, and only a reset restores the order
     EXPECT_EQ(drive_.worth, E2eWorth::kSubstitute);
     EXPECT_EQ(get_protection().get_checker().get_cause(), FrameCause::kOutOfOrder);
 }
@@ -139,7 +139,7 @@ TEST_F(ProtectedSpeedTest, SilentSenderIsSeenByTheReceiverAlone) {
     verifies("SWR-E2E-033", Technique::kFaultInjection, Polarity::kViolation);
     machine_.run(1);
     planner_.is_silent = true;
-    machine_.run(1);  // what was sent before
+    machine_.run(1);  // the last message sent before
     ASSERT_EQ(drive_.worth, E2eWorth::kNew);
 
     machine_.run(2);  // 15 and 25 ms old
@@ -149,7 +149,7 @@ TEST_F(ProtectedSpeedTest, SilentSenderIsSeenByTheReceiverAlone) {
     EXPECT_EQ(get_protection().get_count(E2eOutcome::kSilent), 4U);  // one before the first frame
     EXPECT_EQ(get_protection().get_state(), ChannelState::kValid);
     machine_.run(5);
-    EXPECT_EQ(get_protection().get_state(), ChannelState::kValid);  // two good ones among the last ten
+    EXPECT_EQ(get_protection().get_state(), ChannelState::kValid);  // two good messages among the last ten
     machine_.run(1);
     EXPECT_EQ(get_protection().get_state(), ChannelState::kInvalid);
 }
@@ -176,7 +176,7 @@ auto make_way_table(Planner& planner, Way& way, Drive& drive) {
                   connect(planner.out, way.in, any_age()), connect(way.out, drive.in, any_age()));
 }
 
-/// The same with a transport between the two.
+/// The same system with a transport between both components.
 class ProtectedWayTest : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -193,7 +193,7 @@ class ProtectedWayTest : public ::testing::Test {
 
 TEST_F(ProtectedWayTest, TransportThatIsLateWithinTheLimitIsForgiven) {
     verifies("SWR-E2E-034", Technique::kBoundaryValues);
-    way_.set_fault({false, 20_ms});  // each frame is 25 ms old when it is read
+    way_.set_fault({false, 20_ms});  // each message is 25 ms old when it is read
 
     machine_.run(20);
     EXPECT_EQ(drive_.worth, E2eWorth::kNew);

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The evaluator: has each injection its declared report in time, and each report an injection or a host cause?"""
+"""The evaluator checks that each injection has its declared report in time, and each report an injection or a host cause."""

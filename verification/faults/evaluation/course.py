@@ -24,9 +24,9 @@ Row = TypeVar("Row")
 
 @dataclass(frozen=True)
 class Course:
-    """One course as it was read. Each method raises WorkError: an entry is missing or has another type."""
+    """One parsed course. Each method raises WorkError if an entry is missing or has another type."""
 
-    name: str  # of the file, for messages
+    name: str  # origin of the data, for messages
     content: Mapping[str, Any]
 
     def get_number(self, key: str) -> int:
@@ -59,7 +59,7 @@ class Course:
         return [kind(*values) for values in zip(*(columns[name] for name in names), strict=True)]
 
     def _get_columns(self, key: str, names: Sequence[str]) -> dict[str, list[int]]:
-        """The values of a table, of which the file has the differences from row to row."""
+        """The values of a table; the file stores their differences from row to row."""
         table = self._get(key, dict)
         if sorted(table) != sorted(names):
             raise self._complain(key, f"has the columns {', '.join(sorted(table))}, expected {', '.join(names)}")
@@ -80,7 +80,7 @@ class Course:
 
 
 def read_course(path: Path) -> Course:
-    """@raise WorkError: the file is not a complete course."""
+    """@raise WorkError if the file is not a complete course."""
     try:
         content = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError) as error:

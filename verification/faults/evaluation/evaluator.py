@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the evaluation of all campaigns has in common: outcomes of injections, unexpected reports, and the evidence that they give.
+"""Common parts of all evaluations: outcomes of injections, unexpected reports, and the resulting evidence.
 
 Design: docs/design/test_strength.md#courses
 """
@@ -19,25 +19,25 @@ ROWS_SHOWN = 100
 
 
 class Outcome(StrEnum):
-    """What became of one injection."""
+    """Outcome of one injection."""
 
     IN_TIME = "in_time"
     LATE = "late"
-    LATE_SUSPECTED = "late_suspected"  # a short stall explains a part of it
+    LATE_SUSPECTED = "late_suspected"  # a short stall explains a part of the delay
     LATE_BY_HOST = "late_by_host"
     EARLY = "early"  # before its bound began
     NOT_DETECTED = "not_detected"
     WRONGLY_NAMED = "wrongly_named"
     NOT_INJECTED = "not_injected"
-    ENDED_BY_HOST = "ended_by_host"  # the run ended before a report was due
+    ENDED_BY_HOST = "ended_by_host"  # the run ended before the report was due
     MASKED = "masked"  # an earlier report was still latched
 
 
 class Unexpected(StrEnum):
-    """Why a report without an injection came."""
+    """The cause of a report without an injection."""
 
     FALSE = "false"
-    SUSPECTED = "suspected"  # the host explains it in part
+    SUSPECTED = "suspected"  # the host explains the report in part
     BY_HOST = "by_host"
 
 
@@ -47,12 +47,12 @@ NOT_SHOWN = (Outcome.NOT_INJECTED, Outcome.ENDED_BY_HOST, Outcome.MASKED)
 
 @dataclass
 class Evaluation:
-    """Injections and unexpected reports of one run, as they are found."""
+    """Injections and unexpected reports of one run, added as they are found."""
 
     outcomes: list[tuple[str, Outcome]] = field(default_factory=list)  # kind and outcome of each injection
     unexpected: Counter[Unexpected] = field(default_factory=Counter)
     times_ns: dict[str, list[int]] = field(default_factory=dict)  # from the due time to the report
-    deviations: list[Mapping[str, Any]] = field(default_factory=list)  # rows of the course that nothing explains
+    deviations: list[Mapping[str, Any]] = field(default_factory=list)  # rows of the course that have no explanation
 
     def add_outcome(self, kind: str, outcome: Outcome) -> None:
         self.outcomes.append((kind, outcome))
@@ -92,7 +92,7 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class Result:
-    """The verdict on one course. `parts` are the findings on which single requirements depend."""
+    """The verdict on one course. `parts` are the findings for single requirements."""
 
     finding: Finding
     facts: Mapping[str, Any]
@@ -106,7 +106,7 @@ class Result:
 
 
 def add_evidence(evidence: Evidence, other: Evidence) -> Evidence:
-    """@return the deviations of both; the other figures of the first."""
+    """@return the deviations of both, and the other figures of the first."""
     return replace(
         evidence,
         violations=evidence.violations + other.violations,
@@ -117,7 +117,7 @@ def add_evidence(evidence: Evidence, other: Evidence) -> Evidence:
 
 
 def expect(is_met: bool, text: str) -> Finding:
-    """A finding that no host causes."""
+    """A finding that has no host cause."""
     return Finding("passed") if is_met else Finding("failed", text)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the host did during a run: time that it took from the processor of the windows."""
+"""Host causes of a run: processor time that the host took from the windows."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class HostFigures:
-    """Sums of one run, by `StallWatch`."""
+    """Sums over one run, measured by `StallWatch`."""
 
     stalls: int = 0
     longest_stall_ns: int = 0
@@ -28,7 +28,7 @@ class HostFigures:
 
 
 class Spans:
-    """Intervals of time in the order of their ends [ns]."""
+    """Intervals in the order of their ends [ns]."""
 
     def __init__(self, begins: Sequence[int] = (), ends: Sequence[int] = ()) -> None:
         self.begins = begins
@@ -38,21 +38,21 @@ class Spans:
         return len(self.ends)
 
     def merge(self, other: Spans) -> Spans:
-        """@return the intervals of both."""
+        """@return the intervals of both objects."""
         pairs = sorted(zip((*self.ends, *other.ends), (*self.begins, *other.begins), strict=True), key=lambda pair: pair[0])
         return Spans([begin for _, begin in pairs], [end for end, _ in pairs])
 
     def overlaps(self, begin: int, end: int) -> bool:
-        """Whether one interval has an instant in common with `begin` to `end`, both included."""
+        """Whether an interval has an instant in common with `begin` to `end` (both included)."""
         first = bisect_left(self.ends, begin)
         return first < len(self.ends) and self.begins[first] <= end
 
     def calc_loss(self, begin: int, end: int) -> int:
-        """Sum of the parts between `begin` and `end` [ns]."""
+        """Total length of the intervals between `begin` and `end` [ns]."""
         return sum(self._list_parts(begin, end))
 
     def calc_longest_loss(self, begin: int, end: int) -> int:
-        """The longest of these parts [ns]."""
+        """Length of the longest of these intervals [ns]."""
         return max(self._list_parts(begin, end), default=0)
 
     def _list_parts(self, begin: int, end: int) -> Iterator[int]:

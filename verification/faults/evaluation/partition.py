@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Faults of a partition: windows in the order of virtual time, and the declared reaction in time, to each fault and to nothing else.
+"""Faults of a partition. Windows must run in the order of virtual time. Each fault must have its declared reaction in time; no other
+reaction may occur.
 
 Design: docs/design/posix_rt.md#faults-of-partitions
 """
@@ -17,27 +18,28 @@ from verification.faults.evaluation.host_causes import Spans
 from verification.faults.evaluation.run_verdict import Evidence, assess_run
 
 LOSS_MIN_NS = 115_000
-"""The host must take so much from a window to be the cause why it moved: half of its budget. At once it sets the window aside, in pieces it makes the
-run inconclusive."""
+"""Half of the budget. If the host takes this time from a window, it counts as the cause of the shift. If it takes the time at once,
+the window is set aside; in pieces, the run is inconclusive."""
 
 SLOW_LOSS_MIN_NS = 230_000
-"""The same from the frame before on: a complete budget. A window has two to four polls, too few to show alone how slow the host is; time between polls
-is lost as well. Measured: less than a tenth of the windows follow such a frame, and 98 of 100 that moved."""
+"""A complete budget: the same limit for the time since the previous frame. A window has only two to four polls, too few to show how slow
+the host is, and time between polls is also lost. Measured: less than a tenth of the windows follow such a frame, but 98 of 100 shifted
+windows."""
 
 FOREIGN_MIN_NS = 25_000
-"""Another program must have had the processor for so long of a window to be the reason why it moved: as much as a poll is late by."""
+"""Another program must have used the processor for this part of a window to be the cause of its shift; a poll is late by as much."""
 
 REACTION_FRAMES = 2
-"""From what the receiver found to the drive that reacts to it: within a frame, and late by another at most."""
+"""From the reception to the reaction of the drive: within a frame, and at most one frame late."""
 
 CAN_BE = {"kill": ("silent",), "stop": ("silent",), "flood": ("flooding", "silent"), "corrupt": ("silent", "flooding", "corrupt")}
-"""The faults that a kind can cause. A process that is dead or stopped writes nothing; flooding has two writers in one memory."""
+"""The faults that a kind can cause. A dead or stopped process writes nothing; flooding has two writers in one memory."""
 
 
 class Reception(NamedTuple):
-    """What the receiver found in one frame [ns]."""
+    """Data of the receiver in one frame [ns]."""
 
-    at_ns: int  # start of its window, by the table
+    at_ns: int  # planned start of its window
     is_answer: int = 0
     is_check_right: int = 0
     is_malformed: int = 0
@@ -45,11 +47,11 @@ class Reception(NamedTuple):
 
 
 class Reaction(NamedTuple):
-    """A reaction began at the drive [ns]."""
+    """Start of a reaction at the drive [ns]."""
 
     at_ns: int
     fault: str
-    is_declared: int = 1  # it is the one of the table for that fault
+    is_declared: int = 1  # the table declares it for that fault
 
 
 class Injection(NamedTuple):
@@ -58,12 +60,12 @@ class Injection(NamedTuple):
     kind: str
     is_injected: int
     begin_ns: int
-    injected_ns: int  # from here on nothing is well
+    injected_ns: int  # from here on no valid reply is expected
     end_ns: int  # the partition has ended
 
 
 class Start(NamedTuple):
-    """A window that started at its planned instant in virtual time, or in which a component ran."""
+    """A window that started at its planned instant in virtual time, or a window in which a component ran."""
 
     window: int
     release_ns: int
@@ -76,7 +78,7 @@ class Window(NamedTuple):
     release_ns: int
     woke_ns: int
     end_ns: int
-    is_missed: int = 0  # started after its end: nothing ran
+    is_missed: int = 0  # started after its end: no component ran
     is_overrun: int = 0  # was aborted
 
     @property
@@ -86,7 +88,7 @@ class Window(NamedTuple):
 
 @dataclass(frozen=True)
 class Limits:
-    """Of the safety system [ns]."""
+    """Limits of the safety system [ns]."""
 
     frame_ns: int
     silent_frames: int
@@ -99,7 +101,7 @@ class Limits:
 
     @property
     def bound_ns(self) -> int:
-        """From the last valid reply to the reaction: the gap, two frames until the drive has it, and the time of the reaction."""
+        """From the last valid reply to the reaction: the gap, two frames until the drive receives the fault, and the reaction time."""
         return self.silence_ns + 2 * self.frame_ns + self.reaction_time_ns
 
     def is_good(self, reception: Reception) -> bool:
@@ -119,17 +121,17 @@ class Record:
     expected: Sequence[Start] = ()
     stalls: Spans = field(default_factory=Spans)
     late_polls: Spans = field(default_factory=Spans)
-    foreign: Spans | None = None  # while another program had the processor; None: not known
+    foreign: Spans | None = None  # while another program used the processor; None: unknown
 
 
 def evaluate(course: Course) -> Result:
-    """@raise WorkError: the course is not complete."""
+    """@raise WorkError if the course is not complete."""
     record = read_record(course)
     reactions, windows = evaluate_reactions(record), evaluate_windows(record)
     disordered = count_disordered(record)
     has_run, is_too_slow = course.get_flag("has_run"), course.get_flag("is_too_slow")
     evidence = reactions.make_evidence(course.get_host(), len(record.windows), course.get_number("requested"))
-    # What arrived at the receiver is exact: no disturbance of the host explains a false reaction.
+    # The data of the receiver are exact: no disturbance of the host explains a false reaction.
     false = reactions.unexpected[Unexpected.FALSE]
     exact = Evidence(violations=false + disordered + int(not has_run and not is_too_slow))
     moved = windows.make_evidence(evidence.host, 0, 0)
@@ -196,8 +198,8 @@ class _Reactions:
             self.evaluation.deviations.append(reaction._asdict())
 
     def _find_outcome(self, injection: Injection, reaction: Reaction) -> Outcome:
-        """A reaction is late only when nothing good came meanwhile: a partition that corrupts or floods, and gets no time for it, may send one more
-        valid reply."""
+        """A reaction is late only if no valid reply arrived in time. A partition that corrupts or floods, and gets no processor time for
+        it, may send one more valid reply."""
         if not reaction.is_declared or reaction.fault not in CAN_BE[injection.kind]:
             return Outcome.WRONGLY_NAMED
         limits = self.record.limits
@@ -214,7 +216,7 @@ class _Reactions:
         return None
 
     def _is_explained(self, reaction: Reaction) -> bool:
-        """Whether what arrived is what the reaction states."""
+        """Whether the received messages agree with the reaction."""
         limits = self.record.limits
 
         def is_flood(reception: Reception) -> bool:
@@ -232,7 +234,7 @@ class _Reactions:
         return last is not None and reaction.at_ns - last.at_ns <= REACTION_FRAMES * limits.frame_ns
 
     def _is_by_host(self, reaction: Reaction) -> bool:
-        """A process without priority occasionally gets no time, and is silent; a safety side that stalled has missed many messages."""
+        """A process without priority may get no time and thus send no reply. A stalled safety side has missed many messages."""
         if not reaction.is_declared or not self._is_explained(reaction):
             return False
         limits = self.record.limits
@@ -242,13 +244,13 @@ class _Reactions:
 
 
 def evaluate_windows(record: Record) -> Evaluation:
-    """Windows that were missed or aborted. `deviations` has those that no stall explains."""
+    """Windows that were missed or aborted. `deviations` contains windows that no stall explains."""
     evaluation = Evaluation()
     has_cause = set()
     for window in record.windows:
         if not window.is_missed and not window.is_overrun:
             continue
-        # After an aborted window, the next one does not start until its work has returned: one reason for both.
+        # After an aborted window, the next one does not start until the aborted work has returned: both have one cause.
         is_aftermath = Start(window.window, window.release_ns - record.limits.frame_ns) in has_cause
         is_alone = _is_alone(record, window)
         if is_aftermath or record.late_polls.calc_longest_loss(window.release_ns, window.end_ns) >= LOSS_MIN_NS:
@@ -265,7 +267,7 @@ def evaluate_windows(record: Record) -> Evaluation:
 
 
 def _is_suspected(record: Record, window: Window) -> bool:
-    """A shorter stall, or polls that were late repeatedly."""
+    """A shorter stall, or several late polls."""
     return (
         record.stalls.overlaps(window.release_ns, window.end_ns)
         or record.late_polls.calc_loss(window.release_ns, window.end_ns) >= LOSS_MIN_NS
@@ -274,12 +276,13 @@ def _is_suspected(record: Record, window: Window) -> bool:
 
 
 def _is_alone(record: Record, window: Window) -> bool:
-    """A partition does not keep a window from its processor while neither it nor any other program runs there."""
+    """A partition does not keep a window from its processor while neither the partition nor another program runs there."""
     return record.foreign is not None and record.foreign.calc_loss(window.release_ns, window.end_ns) < FOREIGN_MIN_NS
 
 
 def count_disordered(record: Record) -> int:
-    """Every expected window must have run, in its place. A missed one has not, and the work of an aborted one may run at any time, or never."""
+    """Counts expected windows that did not run in order. Missed windows do not run; the work of aborted windows may run at any time, or
+    never."""
     moved = {window.start for window in record.windows if window.is_missed or window.is_overrun}
     ran = [start for start in record.ran if start not in moved]
     place = disordered = 0
@@ -294,7 +297,7 @@ def count_disordered(record: Record) -> int:
 
 
 def measure_lateness(record: Record) -> dict[str, Any]:
-    """Lateness of the windows: from the planned instant to the first reading of the clock after it, and how long the partition was in each state."""
+    """Lateness of the windows (from the planned instant to the next reading of the clock), and the time of the partition in each state."""
     ends = [injection.end_ns for injection in record.injections]
 
     def get_state(at_ns: int) -> str:

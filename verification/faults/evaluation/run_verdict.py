@@ -14,19 +14,20 @@ from verification.faults.evaluation.host_causes import HostFigures
 Verdict = Literal["passed", "failed", "inconclusive"]
 
 SEEN_PER_UNSEEN = 100
-"""Disturbances seen, at least, for each deviation that an unseen one can explain. The design document has the measurement."""
+"""Minimum number of recorded disturbances per deviation that an unrecorded disturbance can explain. The design document has the
+measurement."""
 
 INSTANCES_PER_SET_ASIDE = 100
-"""Window instances, at least, for each one that is set aside: a run that sets aside more shows too little."""
+"""Minimum number of window instances per instance set aside. A run that sets aside more proves too little."""
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """Counts of one run. A deviation is anything that differs from what was expected; it belongs to exactly one of the first four."""
+    """Counts of one run. A deviation is a difference from the expected result; it belongs to exactly one of the first four counts."""
 
     violations: int = 0  # deviations that no host causes, for example a wrong name
-    unexplained: int = 0  # deviations while the observed clock was continuous
-    suspected: int = 0  # deviations that the host explains in part: short losses, switches
+    unexplained: int = 0  # deviations while the monitored clock ran without a gap
+    suspected: int = 0  # deviations that the host explains in part: short stalls, switches
     set_aside: int = 0  # deviations that one stall explains alone: not assessed
     instances: int = 0  # window instances or trials of the run
     shown: int = 0  # injected faults that took effect; each had its reaction or is counted above
@@ -36,7 +37,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Finding:
-    """The verdict on one run; `reason` is one line with the figures, empty when passed."""
+    """The verdict on one run; `reason` is one line with the figures, empty if the run passed."""
 
     verdict: Verdict
     reason: str = ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lost watchdog service: outputs closed in time after each loss, and left alone while the watchdog is serviced in time.
+"""Lost watchdog service: the outputs must close in time after each loss, and stay open while the watchdog is serviced in time.
 
 Design: docs/design/posix_rt.md#lost-watchdog-service
 """
@@ -14,11 +14,12 @@ from verification.faults.evaluation.host_causes import Spans
 from verification.faults.evaluation.run_verdict import assess_run
 
 LONG_STALL_NS = 500_000
-"""A stall at least as long can keep a service from its window; a shorter one makes the trial suspected only."""
+"""A stall of at least this length can keep a service from its window. For a shorter stall, the closing is only suspected to be a host
+effect."""
 
 
 class Trial(NamedTuple):
-    """A watchdog from its first service on, and at most one loss [ns]. The watchdog time begins within the last service."""
+    """A watchdog from its first service on, and at most one loss [ns]. The watchdog time starts during the last service."""
 
     loss: int
     is_injected: int
@@ -32,7 +33,7 @@ class Trial(NamedTuple):
 
 
 def evaluate(course: Course) -> Result:
-    """@raise WorkError: the course is not complete."""
+    """@raise WorkError if the course is not complete."""
     losses = course.get_names("losses")
     trials = course.get_rows("trials", Trial)
     evaluation = evaluate_trials(trials, losses, course.get_spans("stalls"), course.get_number("timeout_ns"), course.get_number("frame_ns"))
@@ -51,7 +52,7 @@ def evaluate_trials(trials: list[Trial], losses: list[str], stalls: Spans, timeo
             evaluation.unexpected[reason] += 1
             is_explained = reason != Unexpected.FALSE
         elif trial.is_injected:
-            # A service that comes too early is wrong at once. Otherwise the watchdog time has ended here at the latest.
+            # A service that comes too early is an immediate error. Otherwise this is the latest end of the watchdog time.
             due_ns = trial.injected_ns if kind == "runaway" else trial.service_end_ns + timeout_ns
             outcome = _find_outcome(trial, due_ns, kind == "runaway", stalls, timeout_ns, frame_ns)
             evaluation.add_outcome(kind, outcome)
@@ -66,7 +67,7 @@ def evaluate_trials(trials: list[Trial], losses: list[str], stalls: Spans, timeo
 
 
 def _explain_closing(trial: Trial, stalls: Spans) -> Unexpected:
-    """Outputs that were closed without a loss."""
+    """Outputs that closed without a loss."""
     if stalls.calc_longest_loss(trial.service_begin_ns, trial.closed_ns) >= LONG_STALL_NS:
         return Unexpected.BY_HOST
     return Unexpected.SUSPECTED if stalls.overlaps(trial.service_begin_ns, trial.closed_ns) else Unexpected.FALSE

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Faults of time: each is reported in time and under its name, and each report has its reason.
+"""Faults of time: each fault must be reported in time and under its name, and each report must have a cause.
 
 Design: docs/design/posix_rt.md#faults-of-time
 """
@@ -18,7 +18,8 @@ from verification.faults.evaluation.run_verdict import Evidence, assess_run
 from verification.faults.evaluation.time_watch import CLOCK, HOLD, Bounds, ClockFault, Hold, WatchFinding, evaluate_watch
 
 MINOR_FAULTS_MAX = 16
-"""Page faults without a disk, of all window threads together, in a run with locked memory: the kernel occasionally moves a page."""
+"""Maximum page faults without disk access, of all window threads together, in a run with locked memory. The kernel occasionally moves a
+page."""
 
 
 class Report(NamedTuple):
@@ -30,8 +31,8 @@ class Report(NamedTuple):
     release_ns: int  # planned
     woke_ns: int  # actual
     at_ns: int  # of the report
-    runner_delay_ns: int = 0  # the runner was ready and did not run, since the window before
-    component_delay_ns: int = 0  # the component was ready and did not run in this window
+    runner_delay_ns: int = 0  # the runner was ready but did not run, since the previous window
+    component_delay_ns: int = 0  # the component was ready but did not run in this window
 
 
 class Overrun(NamedTuple):
@@ -53,7 +54,7 @@ class Delay(NamedTuple):
 
 @dataclass(frozen=True)
 class System:
-    """What decides of the system table [ns]. `loss_min_ns`: the host must take so much from a window to be a cause, half of the budget."""
+    """Data of the system table [ns]. `loss_min_ns`: time that the host must take from a window to count as a cause, half of the budget."""
 
     frame_ns: int
     budget_ns: int
@@ -71,7 +72,7 @@ class _Window(NamedTuple):
 
 
 def evaluate(course: Course) -> Result:
-    """@raise WorkError: the course is not complete."""
+    """@raise WorkError if the course is not complete."""
     system = System(
         frame_ns=course.get_number("frame_ns"), budget_ns=course.get_number("budget_ns"), loss_min_ns=course.get_number("loss_min_ns"),
         window_of=[row.window for row in course.get_rows("components", _Component)],
@@ -102,7 +103,7 @@ def evaluate_reports(
 
 
 def make_evidence(course: Course, reports: Evaluation, watch: Evaluation) -> tuple[Evidence, Evidence, Evidence]:
-    """@return evidence of the reports, of the watch, and of the complete run."""
+    """@return evidence of the reports, of the monitor, and of the complete run."""
     host, frames = course.get_host(), course.get_number("frames")
     windows = len(course.get_rows("windows", _Window))
     own = reports.make_evidence(host, frames * windows, course.get_number("requested"))
@@ -137,13 +138,13 @@ def _conclude(course: Course, reports: Evaluation, watch: Evaluation) -> Result:
 
 
 def _are_pages_well(course: Course) -> bool:
-    """Without locked memory nothing is required."""
+    """True if there are no critical page faults. Without locked memory, nothing is required."""
     is_within = course.get_number("major_faults") == 0 and course.get_number("minor_faults") <= MINOR_FAULTS_MAX
     return is_within or not course.get_flag("has_locked_memory")
 
 
 class _Reports:
-    """Reports in the order of their instants, each of which must have its reason."""
+    """Reports in the order of their instants; each must have a cause."""
 
     def __init__(self, system: System, reports: Sequence[Report], stalls: Spans, late_polls: Spans) -> None:
         self.evaluation = Evaluation()
@@ -155,8 +156,8 @@ class _Reports:
         self.explained = [False] * len(reports)
 
     def evaluate_overrun(self, overrun: Overrun) -> None:
-        """Every report about its window, from its begin to a frame after its end, belongs to the injection; time that the host took does not count.
-        A guard that hangs with it reports later, and the windows after it start late."""
+        """Reports about the window of the injection, from its begin to a frame after its end, belong to the injection. The frame excludes
+        time that the host took. If the guard hangs too, it reports later, and the following windows start late."""
         last_ns = self._calc_last(overrun.end_ns)
         is_stuck = overrun.cause == "stuck_guard"
         first, is_wrongly_named = None, False
@@ -178,11 +179,11 @@ class _Reports:
     def _find_outcome(self, overrun: Overrun, first: Report | None, is_wrongly_named: bool) -> Outcome:
         if first is None:
             if overrun.cause == "lock" and overrun.end_ns - overrun.begin_ns <= self.system.budget_ns:
-                return Outcome.NOT_INJECTED  # the host stalled until the mutex was free again
+                return Outcome.NOT_INJECTED  # the host stalled until the mutex was released
             self.evaluation.deviations.append(overrun._asdict())
             return Outcome.WRONGLY_NAMED if is_wrongly_named else Outcome.NOT_DETECTED
         if overrun.cause == "stuck_guard":
-            return Outcome.IN_TIME  # its time is that of the watch
+            return Outcome.IN_TIME  # the monitor checks the time
         deadline_ns = first.woke_ns + self.system.budget_ns
         self.evaluation.add_time("detection", first.at_ns - deadline_ns)
         if first.at_ns - deadline_ns <= self.system.frame_ns:
@@ -190,8 +191,8 @@ class _Reports:
         return Outcome.LATE_BY_HOST if self.stalls.overlaps(deadline_ns, first.at_ns) else Outcome.LATE
 
     def evaluate_delay(self, delay: Delay) -> None:
-        """The window that was held back is reported as late; those after it, until the schedule is met again, too. One of them may start just before
-        its end, and then the rest of its budget is too short for anything."""
+        """The delayed window must be reported as late. Later windows may be late until the schedule is met again. If one starts just before
+        its end, the rest of its budget is too short."""
         is_detected = False
         for index in range(bisect_left(self.instants, delay.release_ns), len(self.reports)):
             report = self.reports[index]
@@ -204,8 +205,8 @@ class _Reports:
         self.evaluation.add_outcome("delay", Outcome.IN_TIME if is_detected else Outcome.NOT_DETECTED)
 
     def evaluate_rest(self) -> Evaluation:
-        """Reports without an injection. False reports that one delay causes count once. Their rows are all kept."""
-        false_until = covered_until = -1  # what was due before a report that the host caused has the same cause
+        """Reports without an injection. False reports with the same cause count once, but all their rows are kept."""
+        false_until = covered_until = -1  # windows that were due before a report with a host cause have the same cause
         is_aside = False
         for index, report in enumerate(self.reports):
             if self.explained[index] or self._is_aftermath(index):
@@ -229,7 +230,7 @@ class _Reports:
         return self.evaluation
 
     def _calc_last(self, end_ns: int) -> int:
-        """A frame of the time that the host left, after the end of an injection."""
+        """One frame after the end of an injection, without the time that the host took."""
         last_ns, before_ns = end_ns + self.system.frame_ns, end_ns
         while last_ns > before_ns:
             before_ns = last_ns
@@ -240,12 +241,13 @@ class _Reports:
         return report.release_ns + self.system.window_lengths_ns[report.window]
 
     def _is_cut_short(self, report: Report) -> bool:
-        """The window started so late that less than its budget was left to its end."""
+        """The window started so late that less than its budget was left."""
         return report.woke_ns + self.system.budget_ns > self._get_end(report)
 
     def _is_suspected(self, report: Report) -> bool:
-        """The host took half of the budget in pieces, kept the ready runner off for as long, or took a complete budget since the frame before; or the
-        component was ready for half of its budget and did not run, and the report did not come too early for that."""
+        """True if the host took half of the budget in pieces, delayed the ready runner by as much, or took a complete budget since the
+        previous frame. Also true if the component was ready but did not run for half of its budget, and the report did not come too early
+        for that."""
         loss_min = self.system.loss_min_ns
         is_runner_delayed = report.runner_delay_ns >= loss_min and 2 * report.runner_delay_ns >= report.woke_ns - report.release_ns
         if (
@@ -258,7 +260,7 @@ class _Reports:
         return bool(report.is_overrun) and is_possible and report.component_delay_ns >= loss_min
 
     def _is_aftermath(self, index: int) -> bool:
-        """A window that is reported in two frames in a row is reported for one reason: its work had not returned."""
+        """Two reports of a window in consecutive frames have one cause: its work had not returned."""
         report = self.reports[index]
         for before_index in range(index - 1, -1, -1):
             before = self.reports[before_index]

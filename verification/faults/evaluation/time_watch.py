@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Findings of the schedule monitor: each hang and each wrong clock rate is found in time, and each finding has its reason.
+"""Findings of the schedule monitor: it must find each hang and each wrong clock rate in time, and each finding must have a cause.
 
 Design: docs/design/posix_rt.md#faults-of-time
 """
@@ -17,7 +17,7 @@ CLOCK = "clock"
 
 
 class Hold(NamedTuple):
-    """The runner did not do what was due [ns]."""
+    """The runner did not do its due work [ns]."""
 
     due_ns: int
     end_ns: int
@@ -32,7 +32,7 @@ class ClockFault(NamedTuple):
 
 
 class WatchFinding(NamedTuple):
-    """A finding, latched until it was cleared."""
+    """A finding, latched until the program cleared it."""
 
     fault: str
     due_ns: int
@@ -41,7 +41,7 @@ class WatchFinding(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """Declared limits, from what was due, or from the first wrong rate, to the finding [ns]."""
+    """Declared limits, from the due time or the first wrong rate to the finding [ns]."""
 
     overdue_ns: int
     rate_ns: int
@@ -50,10 +50,10 @@ class Bounds(NamedTuple):
 def evaluate_watch(
     bounds: Bounds, holds: Sequence[Hold], clock_faults: Sequence[ClockFault], findings: Sequence[WatchFinding], stalls: Spans
 ) -> Evaluation:
-    """All lists in the order of their instants. `stalls`: those of the host and those of the runner."""
+    """All lists are in the order of their instants. `stalls`: stalls of the host and of the runner."""
     watch = _Watch(findings, stalls)
     for hold in holds:
-        # After its end the runner catches up, and what it still owes counts as the same.
+        # After the hold, the runner catches up; late work of this time belongs to the same finding.
         watch.evaluate(HOLD, hold.due_ns, hold.end_ns, "overdue", bounds.overdue_ns)
     for fault in clock_faults:
         watch.evaluate(CLOCK, fault.begin_ns, fault.end_ns, "fast_clock" if fault.ppm > 0 else "slow_clock", bounds.rate_ns)
@@ -68,7 +68,8 @@ class _Watch:
         self.explained = [False] * len(findings)
 
     def evaluate(self, kind: str, begin_ns: int, end_ns: int, name: str, bound_ns: int) -> None:
-        """The first finding from `begin_ns` to `bound_ns` after the end. A latched overdue finding caused by the host hides a wrong clock."""
+        """Finds the first finding from `begin_ns` to `bound_ns` after the end. A latched overdue finding with a host cause masks a wrong
+        clock."""
         is_masked = False
         outcome = None
         for index, finding in enumerate(self.findings):
@@ -83,7 +84,7 @@ class _Watch:
         self.evaluation.add_outcome(kind, outcome or (Outcome.MASKED if is_masked else Outcome.NOT_DETECTED))
 
     def evaluate_rest(self) -> Evaluation:
-        """A stall of the host makes no clock wrong."""
+        """Findings without an injection. A host stall explains an overdue finding, but never a wrong clock."""
         for finding, is_explained in zip(self.findings, self.explained, strict=True):
             if not is_explained:
                 reason = Unexpected.BY_HOST if self._is_by_host(finding) else Unexpected.FALSE

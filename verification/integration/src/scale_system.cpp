@@ -105,7 +105,7 @@ constexpr std::array<Stage, sizeof...(kSeeds)> make_stages(std::index_sequence<k
     return {{Stage(kStageName<kSeeds>.data(), kSeeds)...}};
 }
 
-// Stages 0 .. 47 run on core 0, 48 .. 95 on core 1, each half in four windows.
+// Core 0 runs stages 0 .. 47, core 1 runs 48 .. 95, each half in four windows.
 constexpr std::size_t kHalf = 48U;
 constexpr std::size_t kFastCount = 10U;
 constexpr std::size_t kControlCount = 11U;
@@ -135,7 +135,7 @@ constexpr auto run_stages(Others&... others) noexcept {
     return run_stages<kFirst>(std::make_index_sequence<kCount>{}, others...);
 }
 
-/// Each stage supplies the next one of its core.
+/// Each stage feeds the next one of its core.
 template <std::size_t... kLinks>
 constexpr auto make_system(std::index_sequence<kLinks...>) noexcept {
     return system(frame(10_ms), trace_hash(),
@@ -181,7 +181,7 @@ MAMORI_CONSTINIT ExecutiveFor<Table> g_core_0{kSystem, 0U};
 MAMORI_CONSTINIT ExecutiveFor<Table> g_core_1{kSystem, 1U};
 MAMORI_CONSTINIT IntrospectionFor<Table> g_introspection{kSystem};
 
-/// Not a device; on request reads the complete introspection `kCyclesPerFrame` times in a major frame of as
+/// Not a device; on request, reads the complete introspection `kCyclesPerFrame` times in a major frame of as
 /// many milliseconds.
 class Watcher final : public FrameDevices {
   public:

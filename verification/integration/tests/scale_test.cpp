@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a system of 100 components, 4 rates and 2 cores moves the same values in every build.
-// Method: 20,000 cycles of its fastest rate against a pinned hash; no window may overrun, and the queues of
-// the slow readers must have lost something, or the run would not show what it claims to.
+// Method: 20,000 cycles of its fastest rate are compared with a pinned hash. No window may overrun. The
+// queues of slow readers must have lost values, because otherwise the run would not test them.
 #include <gtest/gtest.h>
 
 #include "mamori/trace/verifies.hpp"

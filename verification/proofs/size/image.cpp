@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A system that is linked to see what it takes: two components, and with a macro SIZE_... one feature more.
-// With SIZE_EIGHT it is a chain of eight supervised components, the last of which checks protected frames.
+// A system that is linked to measure its size: two components, plus one feature for each macro SIZE_...
+// SIZE_EIGHT selects a chain of eight supervised components; the last one checks protected messages.
 #include <array>
 
 #include "board.hpp"
@@ -16,7 +16,7 @@
 #define SIZE_EVENT_LOG
 #endif
 
-// Headers of a feature that an image lacks would only take time of the compiler.
+// Headers of features that an image lacks would only increase compile time.
 #if defined(SIZE_FSM)
 #include "mamori/kernel/component/fsm_check.hpp"
 #include "mamori/kernel/component/fsm_component.hpp"
@@ -51,7 +51,7 @@ MAMORI_CONSTINIT mamori::FlightRecorder recorder;
 #endif
 
 #if defined(SIZE_E2E)
-using Profile = mamori::safety::E2eProfile04<0U>;  // the smallest table of its checksum
+using Profile = mamori::safety::E2eProfile04<0U>;  // the smallest CRC table
 constexpr std::size_t kFrameLength = Profile::kHeaderSize + sizeof(std::int32_t);
 constexpr mamori::safety::SentIdChannel kChannel{0x0A0B0C0DU, kFrameLength, kFrameLength};
 constexpr mamori::safety::E2eInLimits<mamori::safety::HardenedSequence> kLimits{
@@ -154,7 +154,7 @@ class Monitor final : public mamori::Component {
 #endif
 };
 
-/// Writes what it reads.
+/// Writes its input to its output.
 class Stage final : public mamori::Component {
   public:
     constexpr explicit Stage(const char* name) noexcept : Component(name) {}
@@ -242,7 +242,7 @@ MAMORI_CONSTINIT mamori::ExecutiveFor second{mamori::kChecked<kSystem>, 1U};
 MAMORI_CONSTINIT mamori::IntrospectionFor introspection{kSystem};
 #endif
 
-/// The cheapest possible host, so that the kernel is measured and not a port.
+/// The cheapest possible platform host, so that the image measures the kernel and not a port.
 class Host final : public mamori::WindowHost {
   public:
     mamori::Instant now{};
@@ -257,7 +257,7 @@ class Host final : public mamori::WindowHost {
 };
 Host host;
 
-/// What the feature needs before the start.
+/// Setup of the feature before the start.
 Status prepare() noexcept {
     Status result = Status::kOk;
 #if defined(SIZE_SUPERVISION)
@@ -281,7 +281,7 @@ Status prepare() noexcept {
     return result;
 }
 
-/// What the feature does while the system runs.
+/// Work of the feature while the system runs.
 Status use_feature() noexcept {
 #if defined(SIZE_RATES)
     return executive.get_context(0U).set_rate(50.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The static table of the target image, laid out like a drawing.
+// The static table of the target image, in the layout of a drawing.
 #include "arm_system.hpp"
 
 #include "arm_assumptions.hpp"
@@ -27,7 +27,7 @@ namespace virtual_time = mamori::ports::virtual_time;
 
 constexpr double kCountsPerRad = 100000.0;
 
-// The sequence of the run: start, an encoder that jumps, reset and start, a controller that hangs.
+// The sequence of the run: start, encoder jump, reset and start, hang of the controller.
 constexpr Instant kFirstStart{100000000};
 constexpr Instant kEncoderJumps{300000000};
 constexpr Instant kReset{900000000};
@@ -128,7 +128,7 @@ void ObedientDevices::begin_frame(std::uint64_t, Instant now) noexcept {
     inputs.start_button = is_pushed(kFirstStart, now) || is_pushed(kSecondStart, now);
     inputs.reset_button = is_pushed(kReset, now);
     const Duration controller_time = now < kControllerHangs ? kControllerTime : virtual_time::kNever;
-    // The controller is in the table, so this cannot be rejected.
+    // The table contains the controller, so this call always succeeds.
     static_cast<void>(host_.set_duration(controller, controller_time));
 }
 

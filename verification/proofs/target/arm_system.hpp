@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A small but complete system: the protecting components of the safe arm, a controller that holds the arm,
-/// the channel between them, and devices that follow it. No plant and no heap, so it runs on a bare
+/// A small but complete system: the protective components of the safe arm, a controller that holds the arm,
+/// the channel between them, and simple devices. It needs no plant and no heap, and thus runs on a bare
 /// controller.
 ///
 /// @satisfies SWR-PRF-024      Design: docs/design/proofs.md#watermark
@@ -24,8 +24,8 @@ extern mamori::ports::virtual_time::VirtualHost& virtual_host;
 /// @return kOk; otherwise the status of the component or the supervision that rejected its setup.
 mamori::Status prepare() noexcept;
 
-/// Devices that follow immediately, an operator who starts and resets, and one fault after the other: an
-/// encoder that jumps, then a controller that hangs.
+/// Devices that follow immediately, an operator who starts and resets, and two faults in sequence: an encoder
+/// jump, then a hang of the controller.
 class ObedientDevices final : public mamori::ports::virtual_time::FrameDevices {
   public:
     explicit ObedientDevices(mamori::ports::virtual_time::VirtualHost& host) noexcept : host_(host) {}

@@ -11,7 +11,7 @@ void write_text(const char* text) noexcept {
     while (text[size] != '\0') {
         ++size;
     }
-    // The reader detects a text that does not arrive.
+    // The reader of the output detects missing text.
     static_cast<void>(!::write(STDERR_FILENO, text, size));
 }
 

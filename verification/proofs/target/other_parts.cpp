@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of the kernel that the arm does not use: a parameter of each kind of request, a state machine with a
-// guard. They are linked so that the proofs look at them too.
+// guard. They are linked so that the proofs also cover them.
 #include "other_parts.hpp"
 
 #include "mamori/kernel/base/constant_init.hpp"

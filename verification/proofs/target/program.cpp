@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the system through its complete life and writes its results as one line of JSON.
+// Runs the system from start to end and writes its results as one line of JSON.
 #include <array>
 
 #include "arm_system.hpp"
@@ -15,9 +15,9 @@ namespace virtual_time = mamori::ports::virtual_time;
 constexpr std::uint64_t kFrameCount = 2000U;
 
 void write_number(const char* name, std::uint64_t value) noexcept {
-    std::array<char, 21U> digits{};  // 20 for the largest number, and the end
+    std::array<char, 21U> digits{};  // 20 for the largest number, plus the terminator
     std::size_t first = digits.size() - 1U;
-    // At most 20 rounds: the number loses a digit in each.
+    // At most 20 rounds, because each round removes a digit.
     do {
         --first;
         digits[first] = static_cast<char>('0' + value % 10U);

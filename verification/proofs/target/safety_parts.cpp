@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clock, a platform property and a watchdog with queries, as a platform would provide them: the safety
-// layer calls them through interfaces. And the test of the processor that runs the image.
+// Clock, platform property and watchdog with queries, as a platform would provide them, because the safety
+// layer calls them through interfaces; and the self test of the processor that runs the image.
 #include "safety_parts.hpp"
 
 #include "mamori/safety/assumptions/assumption_checks.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From reset to run_program() on a bare Cortex-M4: paints the stack, fills the variables, calls.
+// From reset to run_program() on a bare Cortex-M4: paints the stack, initialises the variables, calls.
 // Source: Armv7-M Architecture Reference Manual, B1.5 (exception model).
 #include <array>
 #include <cstdint>

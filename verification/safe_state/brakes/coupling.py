@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Machine and brake sequence in one cycle, as the contract of the sequence says: confirm() gets the state before the step and gives
-the standstill that the step sees, apply() gets the state after it. Both halves are the compiled ones.
+"""Machine and brake sequence in one cycle, in the order of the contract of the sequence. confirm() gets the state before the step and
+returns the standstill that the step uses. apply() gets the state after the step. Both parts are compiled code.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#brakes-in-the-models
 """
@@ -35,7 +35,7 @@ class Node:
 
 @dataclass(frozen=True)
 class Cycle:
-    """`letter`: inputs of the machine, its standstill the confirmed one; empty where a bit flips, and then `call` is None."""
+    """`letter`: inputs of the machine, with the confirmed standstill. For a bit flip, it is empty and `call` is None."""
 
     letter: Letter
     call: Call | None
@@ -50,7 +50,7 @@ class Pair:
 
     @cached_property
     def roads(self) -> Mapping[Node, tuple[Node, Cycle] | None]:
-        """For each node the one before it on a shortest way from power-up, and the cycle in between."""
+        """For each node, the previous one on a shortest path from power-up, and the cycle in between."""
         return walk([Node(self.machine.first, first, Memory()) for first in self.brakes.firsts], self._list_cycles)
 
     def step(self, node: Node, letter: Letter, standing: bool, contacts: bool, time: int) -> tuple[Node, Call, Answer]:

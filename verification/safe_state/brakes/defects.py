@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One seeded defect for each property of the brakes: a sequence that has all properties but that one.
+"""One seeded defect for each property of the brakes: a sequence that violates only that property.
 
 @satisfies SWR-FSM-024      Design: docs/design/safe_state.md#properties-of-the-brakes
 """
@@ -18,13 +18,13 @@ from verification.safe_state.defects import Defect
 
 @dataclass(frozen=True)
 class Kind:
-    """A situation with and without contacts: one in which the brakes were left by `last`, with that torque."""
+    """A situation with and without contacts, after a cycle in which apply() was given `last` and returned `torque`."""
 
     last: str
     torque: bool
 
     def find(self, brakes: Brakes, is_fitted: bool) -> int:
-        """@raise StopIteration when there is none."""
+        """@raise StopIteration if there is no such situation."""
         return next(number for number, memory in brakes.roads
                     if (memory.last, memory.torque, brakes.fitted[number]) == (self.last, self.torque, is_fitted))  # fmt: skip
 
@@ -38,7 +38,7 @@ ANY: Sequence[int] = (0, 1)
 
 @dataclass(frozen=True)
 class Where:
-    """The cycles that a defect bends. None: all."""
+    """The cycles that a defect changes. None: all."""
 
     kinds: Sequence[Kind]
     after: str
@@ -49,7 +49,7 @@ class Where:
 
 
 def bend(where: Where, answers: Mapping[str, int], leads_to: Kind | None = None) -> Callable[[Brakes], Brakes]:
-    """A sequence that gives these `answers` in these cycles, and is then in the situation of `leads_to`."""
+    """A sequence that returns `answers` in these cycles and then enters the situation of `leads_to`."""
 
     def seed(brakes: Brakes) -> Brakes:
         cycle = {name: array.copy() for name, array in brakes.cycle.items()}
@@ -68,7 +68,7 @@ def bend(where: Where, answers: Mapping[str, int], leads_to: Kind | None = None)
 
 
 def confirm(level: int, is_fitted: Sequence[bool], standing: Sequence[int], contacts: Sequence[int]) -> Callable[[Brakes], Brakes]:
-    """A sequence that confirms an SS1, or does not, whatever the time."""
+    """A sequence whose confirmation of an SS1 is `level` for these inputs, at any time."""
 
     def seed(brakes: Brakes) -> Brakes:
         confirmed = brakes.confirmed.copy()

@@ -21,7 +21,7 @@ from verification.safe_state.properties import Property
 from verification.safe_state.relation import VALUES
 
 CLOSES_WITHIN = 2
-"""In cycles; shorter than the bound of an SS1, as an application must have it."""
+"""In cycles; shorter than the bound of an SS1, as applications must configure it."""
 STO = VALUES["demand"].index("Sto")
 START, BY_BRAKES, KEEPS_AGE, KEEPS_COMMAND, FLIPS = 1, 2, 4, 8, 16
 
@@ -91,7 +91,7 @@ active proctype machine() {{
 
 @dataclass(frozen=True, order=True)
 class View:
-    """What spin tells apart between two cycles."""
+    """What spin distinguishes between two cycles."""
 
     machine: int
     brakes: int
@@ -102,8 +102,8 @@ class View:
 
 @dataclass(frozen=True)
 class Move:
-    """A branch of the model: one of the cycles that lead from `source` to `target` and look the same. `call`: None where a bit
-    flips. `guards`: when the two times can be what they are."""
+    """A branch of the model: represents all cycles from `source` to `target` that look the same. `call`: None for a bit flip. `guards`:
+    conditions under which both times are possible."""
 
     source: View
     target: View
@@ -114,18 +114,18 @@ class Move:
 
 
 Half = tuple[Letter, bool, str]
-"""A letter of the machine, whether it takes neither STO nor the bound, and the guard of its time."""
+"""A letter of the machine, whether it is within the bound without STO, and the guard of its time."""
 
 
 class Model:
-    """The branches of a pair, numbered, and the text made from them. A run begins with contacts or without."""
+    """The numbered branches of a pair, and the Promela text made from them. A run begins with or without contacts."""
 
     def __init__(self, pair: Pair) -> None:
         self.pair = pair
 
     @cached_property
     def views(self) -> Mapping[View, Node]:
-        """Each with one node behind it: what comes after depends on the two situations alone."""
+        """One node for each view: the cycles that follow depend only on the two situations."""
         views: dict[View, Node] = {}
         for node in sorted(self.pair.roads):
             views.setdefault(look_at(node), node)
@@ -149,7 +149,7 @@ class Model:
                 letter, call = by_time[max(times)]
                 yield Move(view, target, sees, tuple(word for word in (guard, closing_guard) if word), letter, call)
         if node.machine != self.pair.machine.corrupted:
-            # The outputs stay what they are until the next cycle.
+            # The outputs keep their values until the next cycle.
             flipped = View(self.pair.machine.corrupted, view.brakes, view.state, view.torque, view.open)
             yield Move(view, flipped, 0, (), (), None)
 
@@ -161,7 +161,7 @@ class Model:
 
     @cached_property
     def _halves(self) -> Mapping[tuple[int, bool], tuple[Half, ...]]:
-        """One letter for each way of the machine's step, by situation and standstill."""
+        """One letter for each possible step of the machine, by situation and standstill."""
         levels = product(range(len(self.pair.machine.labels)), (False, True))
         return {(number, level): tuple(self._list_halves(number, level)) for number, level in levels}
 
@@ -185,7 +185,7 @@ class Model:
         branches: dict[View, list[str]] = {view: [] for view in self.views}
         for number, move in enumerate(self.moves):
             guard = " && ".join(move.guards) or "true"
-            # A flipped bit changes neither button nor times.
+            # A bit flip changes neither buttons nor times.
             sees = str(move.sees) if move.call else f"(start -> {START} : 0) + {FLIPS}"
             branches[move.source].append(
                 f"      :: d_step {{ ({guard}) -> to = {numbers[move.target]}; sees = {sees}; printf(\"MOVE {number}\\n\") }}")  # fmt: skip

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The properties that brakes are proved to have: alone, for any calls, and under the safe-state machine.
+"""The proved properties of the brakes: alone, for any calls, and under the safe-state machine.
 
-Names in the properties for z3 (smt.py): `q` is the state given to confirm(), `r` that given to apply(), `standing` and `contacts` what is
-measured, `confirmed`, `torque_out`, `open_out` and `overdue_out` what is answered; `last`, `was_torque`, `was_closed` and `stood` are
-the past. `closing` is the time from the command to this cycle on the clock of an external observer, `exact` that the sequence sees that time
-and no jump of its clock. Coupled ones also know the words of the machine.
+Names in the properties for z3 (smt.py): confirm() gets the state `q`, apply() the state `r`. `standing` and `contacts` are measured.
+`confirmed`, `torque_out`, `open_out` and `overdue_out` are results. `last`, `was_torque`, `was_closed` and `stood` are the past. `closing`
+is the time since the command, on the clock of an external observer. `exact`: the sequence uses that time, without a jump of its clock.
+Properties under the machine also use the names of the machine.
 Names in the properties for spin (promela.py): the values that an external observer sees between two cycles.
 
 @satisfies SWR-FSM-023      Design: docs/design/safe_state.md#properties-of-the-brakes
@@ -18,7 +18,7 @@ HAVE_BITTEN = "(ite fitted contacts (>= closing closes_within))"
 
 
 def remember_command(condition: str) -> str:
-    """While the condition holds, the sequence remembers the time of the command that an external observer saw: what claims about time rest on."""
+    """While this condition holds, the sequence remembers the command time that an external observer saw. Claims about time rely on it."""
     return f"(=> {condition} (and was_closed (<= 0 closed_age) (= told_age closed_age)))"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what `mamori_brake_sequence_relation` prints: all that the compiled brake sequence answers to its calls.
+"""Reads the output of `mamori_brake_sequence_relation`: all results of the compiled brake sequence.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#brakes-in-the-models
 """
@@ -16,7 +16,7 @@ from verification.safe_state.relation import OUTPUTS, Array, read_node
 
 SCHEMA = "mamori.brake_sequence/1"
 TIMES = ("BeforeCommand", "Within", "AtBound", "Beyond")
-"""Where the time since the command to close lies; the closing time is the bound."""
+"""Classes of the time since the command to close; the bound is the closing time."""
 BEFORE_COMMAND, WITHIN, AT_BOUND, BEYOND = range(4)
 INVALID = "Invalid"
 CONFIRM_LETTER = ("state", "standstill", "closed", "time")
@@ -27,9 +27,9 @@ APPLY_ANSWER = (*OUTPUTS, "told_now", "next")
 
 @dataclass(frozen=True)
 class BrakeRelation:
-    """`confirm` has the shape (situations, states, 2, 2, 4, 3), `apply` (situations, states, 4, 6), `overdue` (situations, 4). The
-    last axis of the first two are the answers above; the last state stands for each number that is none. `firsts`: the
-    situations after power-up, with contacts and without. `fitted`: of each situation, whether its brakes have contacts."""
+    """`confirm` has the shape (situations, states, 2, 2, 4, 3), `apply` (situations, states, 4, 6), `overdue` (situations, 4). The last
+    axis of the first two holds the answers above. The last state represents all invalid numbers. `firsts`: the situations after power-up,
+    with and without contacts. `fitted`: whether the brakes of each situation have contacts."""
 
     states: tuple[str, ...]
     confirm: Array
@@ -41,7 +41,7 @@ class BrakeRelation:
 
 
 def read_brakes(text: str, path: Path) -> BrakeRelation:
-    """@param path where the text comes from, for messages. @raise InputError for a text that is no whole relation."""
+    """@param path origin of the text, for messages. @raise InputError for a text that is not a complete relation."""
     node = read_node(text, path, SCHEMA, "mamori_brake_sequence_relation")
     for name, wanted in (("times", TIMES), ("confirm_letter", CONFIRM_LETTER), ("confirm_answer", CONFIRM_ANSWER),
                          ("apply_letter", APPLY_LETTER), ("apply_answer", APPLY_ANSWER)):  # fmt: skip
@@ -63,7 +63,7 @@ def read_brakes(text: str, path: Path) -> BrakeRelation:
 
 
 def _read_calls(node: JsonNode, count: int, shape: tuple[int, ...], width: int) -> Array:
-    """Answers of one call in one situation: levels, and the number of the situation after it."""
+    """Results of one call in one situation: levels, and the number of the next situation."""
     answers = node.items()
     if len(answers) != np.prod(shape):
         raise node.complain(f"has {len(answers)} answers for {np.prod(shape)} calls")
@@ -84,7 +84,7 @@ def _read_overdue(node: JsonNode) -> Array:
 
 
 def _find_fitted(confirm: Array, apply: Array, first: int) -> tuple[bool, ...]:
-    """Of each situation, whether calls lead to it from power-up with contacts."""
+    """For each situation, whether it is reachable from power-up with contacts."""
     reached = {first}
     while True:
         places = sorted(reached)

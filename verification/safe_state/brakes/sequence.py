@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The brake sequence as one cycle: confirm(), the step of any machine, apply(). Situations are merged that no calls distinguish; each keeps
-what an external observer knows of the past.
+"""The brake sequence as one cycle: confirm(), the step of any machine, apply(). Situations that no calls distinguish are merged. Each
+situation keeps what an external observer knows of the past.
 
 @satisfies SWR-FSM-022      Design: docs/design/safe_state.md#brakes-in-the-models
 """
@@ -25,8 +25,8 @@ LOCKED_OUT = "LockedOut"
 
 @dataclass(frozen=True, order=True)
 class Memory:
-    """What an external observer remembers of the cycles before: the state that apply() was given last, torque and closed brakes as it
-    answered, and whether the machine was measured standing in this visit of an SS1. Before the first cycle nothing was told."""
+    """What an external observer remembers of the previous cycles: the last state given to apply(), its results for torque and closed
+    brakes, and whether standstill was measured since the entry into the current SS1. Before the first cycle no command was given."""
 
     last: str = "SelfTest"
     torque: bool = False
@@ -36,7 +36,7 @@ class Memory:
 
 @dataclass(frozen=True)
 class Call:
-    """What the two calls of a cycle are given. `before`: the state given to confirm(), `after`: that given to apply()."""
+    """Inputs of the two calls of a cycle. `before`: the state given to confirm(), `after`: the state given to apply()."""
 
     before: str
     standing: bool
@@ -47,7 +47,7 @@ class Call:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a cycle answers. `told_now`: the command to close counts from this cycle on."""
+    """Results of a cycle. `told_now`: the time of the command to close starts in this cycle."""
 
     confirmed: bool
     torque: bool
@@ -59,8 +59,8 @@ class Answer:
 
 @dataclass(frozen=True)
 class Brakes:
-    """`confirmed` has the shape (situations, states, 2, 2, 4): state before, standing, contacts, time. The arrays of `cycle`,
-    by the names of Answer, have (situations, states, 2, 2, states, 4), the state after before the time."""
+    """`confirmed` has the shape (situations, states, 2, 2, 4): state before, standing, contacts, time. The arrays of `cycle`, named as in
+    Answer, have the shape (situations, states, 2, 2, states, 4); the state after precedes the time."""
 
     states: tuple[str, ...]
     fitted: tuple[bool, ...]
@@ -77,7 +77,7 @@ class Brakes:
 
     @cached_property
     def roads(self) -> Mapping[tuple[int, Memory], tuple[tuple[int, Memory], Call] | None]:
-        """For each situation with a past, the one before it on a shortest way from power-up, and the calls in between."""
+        """For each situation with a past, the previous one on a shortest path from power-up, and the calls in between."""
         return walk([(first, Memory()) for first in self.firsts], lambda here: self._list_moves(*here))
 
     def _list_moves(self, number: int, memory: Memory) -> Iterator[tuple[Call, tuple[int, Memory]]]:
@@ -86,15 +86,15 @@ class Brakes:
             yield call, (answer.next, advance(memory, call, answer))
 
     def list_calls(self, memory: Memory) -> Iterator[Call]:
-        """All that a caller who keeps to the contract can call: confirm() is given the state that apply() was given last, or
-        both are given the locked-out one, when a corrupted machine reads so."""
+        """All calls that the contract permits: confirm() gets the state that apply() got last. Or both get LockedOut, because the machine
+        is corrupted."""
         ways = [(memory.last, after) for after in self.states] + [(LOCKED_OUT, LOCKED_OUT)]
         for (before, after), standing, contacts, time in product(ways, (False, True), (False, True), range(4)):
             yield Call(before, standing, contacts, after, time)
 
 
 def advance(memory: Memory, call: Call, answer: Answer) -> Memory:
-    """@return what is remembered after the cycle."""
+    """@return what an external observer remembers after the cycle."""
     return Memory(call.after, answer.torque, not answer.open, call.after == SS1 and has_stood(memory, call))
 
 
@@ -103,13 +103,13 @@ def has_stood(memory: Memory, call: Call) -> bool:
 
 
 def make_cycles(relation: BrakeRelation) -> Brakes:
-    """Puts the calls of a cycle one behind the other, and merges situations between cycles that answer all cycles alike."""
+    """Joins the calls of a cycle, and merges the situations between cycles that give equal results in all cycles."""
     confirm, apply = relation.confirm, relation.apply
     middle, told_first = confirm[..., 2], confirm[..., 1]
-    # At the moment of a command no time has passed since it, whatever was before.
+    # At the moment of a command, the time since that command is zero, regardless of earlier calls.
     time = np.where(told_first == 1, WITHIN, np.arange(4))
     states = np.arange(len(relation.states))
-    answers = np.moveaxis(apply[middle[..., None], states, time[..., None]], -2, -3)  # the time stands last again
+    answers = np.moveaxis(apply[middle[..., None], states, time[..., None]], -2, -3)  # time is the last axis again
     told = answers[..., 4] | told_first[..., None, :]
     final = np.where(told == 1, WITHIN, np.arange(4))
     cycle = {"torque": answers[..., 0], "open": answers[..., 1], "told_now": told, "overdue": relation.overdue[answers[..., 5], final],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The brake sequence as SMT-LIB for z3, beside the machine: one cycle as decision diagrams, closing time and clock any whole numbers.
+"""The brake sequence as SMT-LIB for z3, with the machine. One cycle is a set of decision diagrams; closing time and clock are any integers.
 
 @satisfies SWR-FSM-022, SWR-FSM-023      Design: docs/design/safe_state.md#brakes-in-the-models
 """
@@ -19,7 +19,7 @@ CALL = ("q", "standing", "contacts", "r", "brake_time")
 
 
 def write_model(pair: Pair) -> str:
-    """The definitions: those of the machine, one cycle of the brakes, and which pasts can be."""
+    """The definitions: the machine, one cycle of the brakes, and the possible pasts."""
     machine, brakes = pair.machine, pair.brakes
     own = [f"(= a {state})" for state in dict.fromkeys(label.state for label in machine.labels if label.get("torque_enable"))]
     fitted = [f"(= b {number})" for number, is_fitted in enumerate(brakes.fitted) if is_fitted]
@@ -47,7 +47,7 @@ def write_model(pair: Pair) -> str:
 
 
 def _write_known(pair: Pair) -> list[str]:
-    """Which situations with which pasts calls lead to, alone and under the machine."""
+    """The reachable situations with their pasts, alone and under the machine."""
     alone = [f"(and (= b {number}) {_write_memory(memory)})" for number, memory in sorted(pair.brakes.roads)]
     both = [f"(and (= s {node.machine}) (= b {node.brakes}) {_write_memory(node.memory)})" for node in sorted(pair.roads)]
     words = "(b Int) (last Int) (was_torque Bool) (was_closed Bool) (stood Bool)"
@@ -72,7 +72,7 @@ COUPLED = f"(and (known_both s {NOW}) {smt.KNOWN} (= q (state s)) (= r (state t)
 
 
 def list_history_queries(pair: Pair) -> list[str]:
-    """What the pasts rest on: each cycle, and each flipped bit of the machine, leads from known ones to known ones."""
+    """Base of the pasts: each cycle, and each bit flip of the machine, leads from known pasts to known pasts."""
     powered = [f"(and (= b {first}) {_write_memory(Memory())})" for first in pair.brakes.firsts]
     powered_up = f"(assert (or {' '.join(powered)}))"
     flipped = f"(known_both {pair.machine.corrupted} {NOW})"
@@ -85,7 +85,7 @@ def list_history_queries(pair: Pair) -> list[str]:
 
 
 def list_queries(wanted: Property) -> list[str]:
-    """What must be impossible for the property to hold."""
+    """Queries that must be unsatisfiable if the property holds."""
     situation = COUPLED if wanted.is_coupled else ALONE
     if wanted.induction is not None:
         return _write_induction(wanted.induction, situation)
@@ -93,8 +93,8 @@ def list_queries(wanted: Property) -> list[str]:
 
 
 def _write_induction(induction: Induction, situation: str) -> list[str]:
-    """Base, step, and what each step of the invariant's situations must do. A cycle takes 1 to `cycle`; the clock of the sequence
-    may also jump to either side of its closing time. Where no brakes were told, the time does not count."""
+    """Base, step and use of the invariant. A cycle takes 1 to `cycle`. The clock of the sequence may also jump to either side of its
+    closing time. Before a command to close, this time has no effect."""
     elapsed = "(+ told_age tick)"
     head = [f"(declare-const {name} Int)" for name in ("closed_age", "told_age", "closes_within", "cycle", "tick")]
     head += [
@@ -108,4 +108,4 @@ def _write_induction(induction: Induction, situation: str) -> list[str]:
         f"(define-fun told_age_t () Int (ite told_now 0 {elapsed}))",
     ]
     after = {name: f"{name}_t" for name in ("last", "was_closed", "closed_age", "told_age")}
-    return smt.write_induction(induction, head, (), "(not was_closed)", situation, after)  # at power-up nothing was told
+    return smt.write_induction(induction, head, (), "(not was_closed)", situation, after)  # no command at power-up

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The brake sequence as a part to prove, alone and under the machine, and its counterexamples as cycles that a person can follow.
+"""The brake sequence as a subject of proofs, alone and under the machine, and its counterexamples as readable cycles.
 
 @satisfies SWR-FSM-023      Design: docs/design/safe_state.md#brakes-in-the-models
 """
@@ -28,7 +28,7 @@ from verification.safe_state.smt import Query
 
 @dataclass(frozen=True)
 class BrakeSubject(Subject):
-    """The properties of the brakes, of which some are about machine and brakes together."""
+    """The properties of the brakes; some of them are about machine and brakes together."""
 
     pair: Pair
     name = "brakes"
@@ -54,7 +54,7 @@ class BrakeSubject(Subject):
     def describe_values(self, query: Query, values: Mapping[str, int]) -> list[str]:
         states = dict(enumerate(self.pair.brakes.states, start=1))
         memory = Memory(states[values["last"]], *(bool(values[name]) for name in smt.MEMORY))
-        # What the query leaves open may be any number.
+        # Values that the query does not constrain may be any number.
         call = Call(states[values["q"]], bool(values["standing"]), bool(values["contacts"]), states[values["r"]], values["brake_time"])
         node = Node(values["s"], values["b"], memory)
         if next(one for one in BRAKE_PROPERTIES if one.name == query.owner).is_coupled:
@@ -76,7 +76,7 @@ class BrakeSubject(Subject):
         return lines
 
     def _describe_cycles(self, cycles: Sequence[tuple[Node, Letter, Call | None]]) -> list[str]:
-        """@raise WorkError when a cycle does not lead where it says."""
+        """@raise WorkError if a cycle does not lead to the state that it names."""
         machine = self.pair.machine
         past = Past()
         lines = []
@@ -95,7 +95,7 @@ class BrakeSubject(Subject):
 
 
 def describe_answer(call: Call, answer: Answer, is_fitted: bool) -> str:
-    """One cycle of the brakes in words. `is_fitted`: they have contacts."""
+    """One cycle of the brakes in words. `is_fitted`: the brakes have contacts."""
     contacts = f"contacts {'closed' if call.contacts else 'silent'}" if is_fitted else "no contacts"
     confirmed = f"standstill {'confirmed' if answer.confirmed else 'not confirmed'}"
     words = ["stands" if call.standing else "moves", contacts, f"closing time {TIMES[call.time]}", confirmed]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: relation, merged cycles, z3's diagrams and spin's branches of the brakes say the same, and what is incomplete is refused.
-# Method: random runs in all of them side by side; texts with one fault each; a run that nobody takes.
+# Goal: relation, merged cycles, z3's diagrams and spin's branches of the brakes agree, and incomplete data is rejected. Method: random runs
+# in all of them in parallel; texts with one fault each; a run that is impossible.
 from __future__ import annotations
 
 import json

@@ -30,7 +30,7 @@ using safety::StopOutputs;
 enum class ClosingTime : std::uint8_t { kBeforeCommand, kWithin, kAtBound, kBeyond };
 inline constexpr std::size_t kClosingTimeCount = 4U;
 
-/// The states, and one invalid number.
+/// The states, and one that represents invalid numbers.
 inline constexpr std::size_t kCallStateCount = safety::kSafeStateCount + 1U;
 
 /// Letters of the calls; the time is the last digit, preceded by state, standstill and contacts.
@@ -88,8 +88,8 @@ class BrakeExplorer final {
     }
 
     /// @return all situations that are reachable from power-up by calls.
-    /// @throw std::runtime_error for a sequence that depends on time in another way than by its closing time,
-    /// and for one with more than kSituationsMax situations.
+    /// @throw std::runtime_error if the sequence depends on time in another way than by its closing time, or
+    /// has more than kSituationsMax situations.
     const BrakeRelation& explore() {
         static_cast<void>(find_or_add(copy(sequences_[0])));
         explore_from(0U);
@@ -234,8 +234,8 @@ class BrakeExplorer final {
         return answer;
     }
 
-    /// @param[in] is_at_command the call came at the time of the previous command, where a new command is
-    /// indistinguishable from the old one. It comes after other calls of its class.
+    /// @param[in] is_at_command the call comes at the time of the previous command, where a new command is
+    /// indistinguishable from the old one. Used after the other calls of its class.
     static void note(ClosingTime time, CallAnswer answer, bool is_at_command, Answers& answers) {
         std::optional<CallAnswer>& known = answers[static_cast<std::size_t>(time)];
         if (is_at_command && known.has_value()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Prints, as JSON, all that the compiled brake sequence answers to its calls. Exit status 1 when the
-/// sequence has no such description.
+/// Prints all results of the compiled brake sequence as JSON. Exit status 1 if the sequence has no such
+/// description.
 ///
 ///     mamori_brake_sequence_relation
 ///

@@ -41,7 +41,7 @@ struct InputKind {
 enum class TimeClass : std::uint8_t { kBeforeEntry, kWithin, kAtBound, kBeyond };
 inline constexpr std::size_t kTimeClassCount = 4U;
 
-/// The bound that the reaction of a situation depends on.
+/// The time bound that affects the reaction of a situation.
 enum class Limit : std::uint8_t { kNone, kSs2, kSs1 };
 
 /// A situation of the machine: its complete memory, except the entry time of the state.
@@ -60,7 +60,7 @@ inline bool operator==(const Situation& a, const Situation& b) {
 struct Relation {
     std::vector<Situation> situations;
     std::uint64_t steps{0U};              ///< calls of the compiled step
-    std::uint64_t corrupted_objects{0U};  ///< tried ones; they stand at the end of `situations`
+    std::uint64_t corrupted_objects{0U};  ///< tried; their situations are last in `situations`
 };
 
 /// The inputs except time; `Invalid` represents each number that is not an enumerator.
@@ -108,7 +108,7 @@ class Explorer final {
     static_assert(std::is_trivially_copyable_v<Machine>, "situations are compared by their bytes");
 
   public:
-    /// @param[in] bounds both > 0; more than 1 apart, so that it is visible which of them a situation uses.
+    /// @param[in] bounds both > 0; their difference exceeds 1, to distinguish which of them a situation uses.
     explicit Explorer(StopBounds bounds, std::uint8_t invalid = 0xFFU)
         : bounds_(bounds), inputs_(make_all_inputs(invalid)), machine_(bounds) {
         find_entry_time();
@@ -118,8 +118,8 @@ class Explorer final {
     }
 
     /// @return all situations that are reachable from power-up by inputs.
-    /// @throw std::runtime_error for a machine that depends on time in another way than by one bound per
-    /// situation, and for one with more than kSituationsMax situations.
+    /// @throw std::runtime_error if the machine depends on time in another way than by one bound per
+    /// situation, or has more than kSituationsMax situations.
     const Relation& explore() {
         static_cast<void>(find_or_add(store()));
         for (std::size_t i = 0U; i < images_.size(); ++i) {
@@ -139,7 +139,7 @@ class Explorer final {
                 Image image = images_[i];
                 image[bit / 8U] = static_cast<unsigned char>(image[bit / 8U] ^ (1U << (bit % 8U)));
                 if (load(image).is_consistent()) {
-                    continue;  // a flip that the machine cannot detect; safe_state.md#corruption names them
+                    continue;  // a flip that the machine cannot detect; listed in safe_state.md#corruption
                 }
                 ++relation_.corrupted_objects;
                 const Situation situation = answer_corrupted(image);

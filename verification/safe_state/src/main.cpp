@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Prints, as JSON, all that the compiled safe-state machine can do: its table, its outputs, the order of its
-/// events, and its whole step relation. Exit status 1 when the machine has no such description.
+/// Prints the complete behaviour of the compiled safe-state machine as JSON: its table, its outputs, the
+/// order of its events, and its step relation. Exit status 1 if the machine has no such description.
 ///
 ///     mamori_safe_state_relation
 ///

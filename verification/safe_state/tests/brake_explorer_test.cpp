@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the explorer notes what the compiled brake sequence answers, and refuses a sequence that it could not
-// describe. Method: the shipped sequence, call by call beside its relation, on random calls and times, alone
-// and under the shipped safe-state machine; sequences with a memory, or a sense of time, that the description
-// has no place for.
+// Goal: the explorer records the results of the compiled brake sequence, and rejects a sequence that the
+// relation cannot describe. Method: the shipped sequence and its relation get the same random calls and
+// times, alone and under the shipped safe-state machine; sequences with additional memory or another
+// dependence on time.
 #include "brake_explorer.hpp"
 
 #include <random>
@@ -24,7 +24,7 @@ const BrakeRelation& get_relation() {
     return relation;
 }
 
-/// Walks through the relation as its readers do: a situation, and the time of the command.
+/// Follows the relation as its readers do: a situation, and the time of the command.
 class RelationWalk {
   public:
     explicit RelationWalk(bool has_contacts)
@@ -68,7 +68,7 @@ class RelationWalk {
     Instant told_at_{};
 };
 
-/// Goes on by a random time: often by part of the closing time, sometimes to its end, at times back.
+/// Advances by a random time: often by part of the closing time, sometimes to its end, sometimes backwards.
 Instant advance(Instant now, std::mt19937& random) {
     const auto choice = random() % 10U;
     const std::int64_t step = choice == 0U  ? -40
@@ -88,7 +88,7 @@ TEST(BrakeExplorerTest, RelationSaysWhatTheCompiledSequenceAnswersToRandomCalls)
         Instant now{static_cast<std::int64_t>(random() % 1000U)};
         for (int call = 0; call < 60; ++call) {
             now = advance(now, random);
-            const auto state = static_cast<SafeState>(random() % 12U);  // 0, 10 and 11 are none
+            const auto state = static_cast<SafeState>(random() % 12U);  // 0, 10 and 11 are invalid
             const bool is_standing = random() % 2U == 0U;
             const bool are_closed = random() % 2U == 0U;
             if (random() % 2U == 0U) {
@@ -150,7 +150,7 @@ TEST(BrakeExplorerTest, EveryCallIsAnsweredInEverySituation) {
     }
 }
 
-/// The shipped sequence with something more. The members of a sequence of one's own stand behind its own.
+/// The shipped sequence with additions. A derived class appends its members to those of the shipped sequence.
 class Extended {
   public:
     explicit constexpr Extended(BrakeLimits limits) noexcept : sequence_(limits) {}
@@ -177,7 +177,7 @@ class CountingSequence final : public Extended {
     std::uint64_t count_{0U};
 };
 
-/// Does not see standstill at each other tick.
+/// Ignores standstill at every other tick.
 class MoodySequence final : public Extended {
   public:
     using Extended::Extended;
@@ -186,7 +186,7 @@ class MoodySequence final : public Extended {
     }
 };
 
-/// Is told at half of the time.
+/// Receives half of the time.
 class SlowSequence final : public Extended {
   public:
     using Extended::Extended;
@@ -195,7 +195,7 @@ class SlowSequence final : public Extended {
     }
 };
 
-/// Takes one number that is no state for a moving one.
+/// Treats one invalid state number as Operational.
 class TellingSequence final : public Extended {
   public:
     using Extended::Extended;
@@ -205,7 +205,7 @@ class TellingSequence final : public Extended {
     }
 };
 
-/// Keeps the time of each call as well.
+/// Also stores the time of each call.
 class TimedSequence final : public Extended {
   public:
     using Extended::Extended;
@@ -218,7 +218,7 @@ class TimedSequence final : public Extended {
     Instant applied_at_{};
 };
 
-/// Brakes that are two ticks late are not late.
+/// Reports overdue brakes two ticks late.
 class PatientSequence final : public Extended {
   public:
     using Extended::Extended;
@@ -227,7 +227,7 @@ class PatientSequence final : public Extended {
     }
 };
 
-/// @return why the explorer refuses the sequence; nothing when it does not.
+/// @return why the explorer rejects the sequence; empty if it accepts the sequence.
 template <typename Sequence>
 std::string refuse() {
     try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the explorer notes what the compiled machine does, and refuses a machine that it could not describe.
-// Method: the shipped machine, step by step beside its relation, on random inputs and times; machines with a
-// memory, or a sense of time, that the description has no place for.
+// Goal: the explorer records the behaviour of the compiled machine, and rejects a machine that the relation
+// cannot describe. Method: the shipped machine and its relation get the same random inputs and times;
+// machines with additional memory or another dependence on time.
 #include "explorer.hpp"
 
 #include <random>
@@ -20,7 +20,7 @@ const Relation& get_relation() {
     return relation;
 }
 
-/// The inputs but time as digits of a letter; see make_input_kinds().
+/// The inputs except time as digits of a letter; see make_input_kinds().
 std::size_t get_letter(std::size_t inputs, TimeClass time) {
     return inputs * kTimeClassCount + static_cast<std::size_t>(time);
 }
@@ -72,7 +72,7 @@ TEST(ExplorerTest, EveryCombinationOfInputsIsAnsweredInEverySituation) {
     EXPECT_EQ(relation.corrupted_objects, 73U * 16U) << "each bit of the state and of its complement";
 }
 
-/// The shipped machine with something more. The members of a machine of one's own stand behind its own.
+/// The shipped machine with additions. A derived class appends its members to those of the shipped machine.
 class Extended {
   public:
     explicit constexpr Extended(StopBounds bounds) noexcept : machine_(bounds) {}
@@ -97,7 +97,7 @@ class CountingMachine final : public Extended {
     std::uint64_t count_{0U};
 };
 
-/// Does not see standstill at each other tick.
+/// Ignores standstill at every other tick.
 class MoodyMachine final : public Extended {
   public:
     using Extended::Extended;
@@ -108,7 +108,7 @@ class MoodyMachine final : public Extended {
     }
 };
 
-/// Enters each state at half of the time.
+/// Stores half of the entry time of each state.
 class SlowMachine final : public Extended {
   public:
     using Extended::Extended;
@@ -119,7 +119,7 @@ class SlowMachine final : public Extended {
     }
 };
 
-/// Takes one number that is no demand for none.
+/// Treats one invalid demand number as no demand.
 class TellingMachine final : public Extended {
   public:
     using Extended::Extended;
@@ -132,7 +132,7 @@ class TellingMachine final : public Extended {
     }
 };
 
-/// Keeps the time of each step as well.
+/// Also stores the time of each step.
 class TimedMachine final : public Extended {
   public:
     using Extended::Extended;
@@ -145,7 +145,7 @@ class TimedMachine final : public Extended {
     Instant stepped_at_{};
 };
 
-/// @return why the explorer refuses the machine; nothing when it does not.
+/// @return why the explorer rejects the machine; empty if it accepts the machine.
 template <typename Machine>
 std::string refuse() {
     try {

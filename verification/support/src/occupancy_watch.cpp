@@ -15,10 +15,10 @@
 namespace mamori::verification {
 namespace {
 
-/// [bytes] Two records of 32 bytes for each exchange: room for 65,536, a second's worth of a busy processor.
-/// It is emptied every few milliseconds.
+/// [bytes] Two records of 32 bytes for each context switch: capacity for 65,536 switches, one second of a
+/// busy processor. The ring is emptied every few milliseconds.
 constexpr std::size_t kRingSize = std::size_t{4U} << 20U;
-/// Capacity for intervals: more than a busy processor has in half an hour.
+/// Capacity for intervals: more than a busy processor produces in half an hour.
 constexpr std::size_t kStretchMax = 4'000'000U;
 constexpr std::chrono::milliseconds kPause{5};
 
@@ -26,7 +26,7 @@ std::size_t get_page_size() noexcept {
     return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// @return a descriptor; -1: denied.
+/// @return a descriptor; -1 if denied.
 int open_exchanges(int processor) noexcept {
     perf_event_attr what{};
     what.size = sizeof(what);
@@ -41,15 +41,15 @@ int open_exchanges(int processor) noexcept {
     return static_cast<int>(::syscall(SYS_perf_event_open, &what, -1, processor, -1, PERF_FLAG_FD_CLOEXEC));
 }
 
-/// In another space of names for processes than the first, the kernel calls all that are not in it 0, as it
-/// calls a processor at rest.
+/// In a PID namespace other than the first, the kernel reports all outside processes as 0, like an idle
+/// processor.
 bool is_in_first_name_space() noexcept {
     std::array<char, 32U> name{};
     return ::readlink("/proc/self/ns/pid", name.data(), name.size() - 1U) > 0 &&
            std::strcmp(name.data(), "pid:[4026531836]") == 0;
 }
 
-/// @return true: the kernel lost no record.
+/// @return true if the kernel lost no record.
 bool has_lost_nothing(int descriptor) noexcept {
     std::array<std::uint64_t, 2U> value_and_lost{};
     return ::read(descriptor, value_and_lost.data(), sizeof(value_and_lost)) == sizeof(value_and_lost) &&
@@ -58,7 +58,8 @@ bool has_lost_nothing(int descriptor) noexcept {
 
 }  // namespace
 
-/// As the kernel writes an exchange of threads of a whole processor, with the samples asked for.
+/// Record of a context switch on a complete processor, in the format of the kernel, with the requested
+/// samples.
 struct OccupancyWatch::Record {
     perf_event_header header;
     std::uint32_t other_process;
@@ -125,7 +126,7 @@ void OccupancyWatch::take_what_came() {
     std::uint64_t tail = page.data_tail;
     while (tail < head) {
         Record record{};
-        // A record may begin at the end of the ring and continue at its beginning, in pieces of 8 bytes.
+        // A record may continue from the end of the ring to its beginning, in pieces of 8 bytes.
         for (std::size_t at = 0U; at < sizeof(record); at += sizeof(std::uint64_t)) {
             std::memcpy(reinterpret_cast<std::byte*>(&record) + at, records + (tail + at) % kRingSize,
                         sizeof(std::uint64_t));
@@ -142,7 +143,7 @@ void OccupancyWatch::take(const Record& record) {
     const Instant at{static_cast<std::int64_t>(record.time_ns) - clock_.get_epoch_ns()};
     end_stretch(at);
     const bool is_coming = (record.header.misc & PERF_RECORD_MISC_SWITCH_OUT) == 0U;
-    // 0 is the processor at rest.
+    // 0 is the idle processor.
     is_foreign_ = is_coming && record.process != 0U && record.process != static_cast<std::uint32_t>(own_);
     since_ = at;
 }

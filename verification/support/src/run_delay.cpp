@@ -10,7 +10,7 @@
 namespace mamori::verification {
 namespace {
 
-/// The second of the numbers in the file; -1: none.
+/// The second number in the file; -1 if there is none.
 std::int64_t read_delay_ns(int descriptor) noexcept {
     std::array<char, 96U> text{};
     const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);

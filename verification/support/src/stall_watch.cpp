@@ -12,7 +12,7 @@
 namespace mamori::verification {
 namespace {
 
-/// Capacity for stalls of one run; later ones are not kept.
+/// Capacity for stalls of one run; later ones are not recorded.
 constexpr std::size_t kRoom = 1'000'000U;
 
 /// The first stall that ends at `begin` or later.
@@ -21,7 +21,7 @@ auto find_first(const std::vector<Stall>& stalls, Instant begin) {
                             [](const Stall& stall, Instant at) { return stall.end < at; });
 }
 
-/// Time that the calling thread was ready and did not run; 0 where the kernel does not count it.
+/// Time that the calling thread was ready but did not run; 0 if the kernel does not count it.
 Duration read_run_delay() {
     std::ifstream file{"/proc/thread-self/schedstat"};
     std::int64_t ran = 0;
@@ -30,7 +30,7 @@ Duration read_run_delay() {
     return Duration{file ? waited : 0};
 }
 
-/// Time that the hypervisor took from all processors [ms]; 0 where the kernel does not count it.
+/// Time that the hypervisor took from all processors [ms]; 0 if the kernel does not count it.
 std::uint64_t read_steal_ms() {
     constexpr int kStealColumn = 8;  // the label of the row is column 0
     constexpr std::uint64_t kMilliseconds = 1000U;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a death test passes for the stated check only.
-// Method: death tests of programs that end in another way are run, and their failures are expected.
+// Goal: a death test passes only for the stated check. Method: death tests run programs that end in another
+// way; the test expects their failures.
 #include "mamori/verification/failed_check.hpp"
 
 #include <gtest/gtest-spi.h>
@@ -22,7 +22,7 @@ void fail_check_12() {
     MAMORI_REQUIRE(12, false);
 }
 
-/// The line of check 12, and the program goes on to `signal`, or to its end when that is 0.
+/// Prints the line of check 12; the program then raises `signal`, or continues to its end if `signal` is 0.
 void print_check_12(int signal) {
     std::fprintf(stderr, "failed_check_test.cpp: check 12 failed\n");
     static_cast<void>(std::raise(signal));

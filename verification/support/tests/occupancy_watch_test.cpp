@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: other processes on a processor are recorded, and threads of this process are not. Method: a child
-// computes on the processor of the test; then the test itself does, above all ordinary programs.
+// Goal: other processes on a processor are recorded, threads of this process are not. Method: first a child
+// computes on the processor of the test, then the test itself, above all ordinary programs.
 #include "mamori/verification/occupancy_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST(OccupancyWatchTest, AnotherProcessOnTheProcessorIsSeenAndOurOwnThreadsAreNo
                         "one that must be alone";
     }
     if (calc_loss(foreign, alone, end) > Duration{kWork.ns / 4}) {
-        // A program of a higher priority was there in truth when this thread was ready and did not run.
+        // If this thread was ready but did not run, a program of higher priority was running.
         ASSERT_GE(delayed, Duration{kWork.ns / 4}) << "another program was seen, and no delay";
         GTEST_SKIP() << "verdict=inconclusive: run delay " << delayed.ns << " ns";
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a thread that is ready and does not run has its delay, one that sleeps has none. Method: a thread of
-// higher priority on the same processor.
+// Goal: a ready thread that does not run has a delay, a sleeping thread has none. Method: a thread of higher
+// priority on the same processor.
 #include "mamori/verification/run_delay.hpp"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ from verification.mutation.sources import Sources, Unit
 from verification.mutation.trial import Result, judge_together, screen
 from verification.mutation.workbench import Bench
 
-# For a test of a few milliseconds. A mutant lets the loop run in the wrong direction; it counts in 64 bits, so it never ends in time.
+# For a test of a few milliseconds. A mutant runs the loop in the wrong direction; its 64-bit counter never reaches the end in time.
 TIMEOUT_S = 2.0
 
 HEADER = "kernel/include/limit.hpp"
@@ -64,7 +64,7 @@ def make_sources(root: Path) -> Sources:
 
 
 def run_all(sources: Sources, *rows: Row, file: str = SOURCE, line: int | None = None) -> Report:
-    """@param line try the mutants of this line only."""
+    """@param line try only the mutants of this line."""
     plan = make_plan(sources.root, Selection((file,)), rows)
     if line is not None:
         plan = replace(plan, mutants=tuple(each for each in plan.mutants if each.get_line(plan.sources[file]) == line))

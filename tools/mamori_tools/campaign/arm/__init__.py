@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The example arm as subject of campaigns: its fault plan, its runs and their verdict by physics."""
+"""The example arm as subject of campaigns: its fault plan, its runs, and their evaluation by physics."""

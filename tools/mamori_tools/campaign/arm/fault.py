@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A fault as data: as the plan states it, and as it is given to the program."""
+"""A fault as data, in the form of the plan and in the form of the program argument."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ FASTEST = "fastest"
 CHANNELS = ("a", "b", "both")
 
 _AGREE_S = 0.0005
-"""A time in run.json is the asked one when it differs by at most half a millisecond frame [s]."""
+"""A time in run.json agrees with the requested time if they differ by at most half of a frame of 1 ms [s]."""
 
 
 @dataclass(frozen=True)
 class Uses:
-    """Which parts a kind of fault has."""
+    """The parameters of a kind of fault."""
 
     joint: bool = False
     channel: bool = False
@@ -47,7 +47,7 @@ _KEYS = frozenset({"kind", "joint", "channel", "magnitude", "duration_s", "min_s
 class FaultSpec:
     """A fault of the plan. `joint` is 1 .. n or FASTEST: the joint whose reference moves fastest at the injection.
 
-    `min_speed_rad_s`: the injection waits until that joint moves at least so fast; None: it does not wait.
+    `min_speed_rad_s`: the injection waits until that joint reaches this speed; None: no waiting.
     `duration_s`: None means until the end of the run.
     """
 
@@ -61,7 +61,7 @@ class FaultSpec:
 
 @dataclass(frozen=True)
 class Fault:
-    """A fault that is ready to be injected: joint and time are known. `at_s` counts from the start of the motion [s]."""
+    """A fault that is ready for injection: joint and time are known. `at_s` counts from the start of the motion [s]."""
 
     kind: str
     at_s: float
@@ -71,14 +71,14 @@ class Fault:
     duration_s: float | None = None
 
     def to_text(self) -> str:
-        """The argument of the program's `--fault`."""
+        """The argument `--fault` of the program."""
         parts = {"kind": self.kind, "joint": self.joint, "channel": self.channel, "at": self.at_s,
                  "duration": self.duration_s, "magnitude": self.magnitude}  # fmt: skip
         return ",".join(f"{key}={value}" for key, value in parts.items() if value is not None)
 
     def find_difference(self, written: Mapping[str, Any] | None) -> str:
-        """What the fault in run.json has otherwise than this one; empty where they agree. What was not asked must not be there:
-        a fault that should last to the end and was over after a while is another fault."""
+        """The difference between the fault in run.json and this one; empty if they agree. Values that were not requested must be absent: a
+        fault that should last until the end but ended early is a different fault."""
         if written is None:
             return "no fault was injected"
         wanted = {"kind": self.kind, "joint": self.joint, "channel": self.channel, "motion_at_s": self.at_s,

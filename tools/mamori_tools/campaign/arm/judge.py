@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The verdict on one run. Pure: record and expectation in, checks out. What is missing fails; nothing is skipped."""
+"""The verdict on one run: a pure function from record and expectation to checks. Missing data fails; nothing is skipped."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from mamori_tools.campaign.case import Check
 from mamori_trace.base.errors import WorkError
 
 ROUNDING_S = 1e-9
-"""Excess over a bound in time that is rounding: times are frames of 1 ms written as decimals [s]."""
+"""Permitted rounding excess over a time limit [s], because times are frames of 1 ms written as decimals."""
 
 
 def judge(case: ArmCase, run: Mapping[str, Any] | None, problem: str = "") -> list[Check]:
-    """All checks of a case. `problem` says why there is no run, or why it cannot count; the case fails then."""
+    """All checks of a case. `problem` states why there is no valid run; the case then fails."""
     if problem or run is None:
         return [Check("run", "a whole run", problem or "no run", False)]
     try:
@@ -34,7 +34,7 @@ def judge(case: ArmCase, run: Mapping[str, Any] | None, problem: str = "") -> li
 
 
 def _judge_setting(case: ArmCase, record: RunRecord) -> list[Check]:
-    """The run is the one that was asked for: the right fault, at work when it came, watched long enough."""
+    """Checks that the run is the requested one: the right fault, in operation at the injection, observed long enough."""
     if case.fault is None:
         wanted = "no fault"
         difference = "" if record.fault is None else f"{record.fault.get('kind')}"
@@ -55,7 +55,7 @@ def _judge_setting(case: ArmCase, record: RunRecord) -> list[Check]:
 
 
 def _judge_false_trip(case: ArmCase, record: RunRecord) -> Check:
-    """Nothing is detected and nothing reacts before there is something to react to."""
+    """Checks that nothing is detected and nothing reacts before the fault."""
     happened = [("detected", record.detected_fault, record.detected_at_s), ("reacted", record.reaction, record.reacted_at_s)]
     events = [(verb, name, at_s) for verb, name, at_s in happened if name not in (None, NOTHING)]
     begin = record.injected_at_s
@@ -89,7 +89,7 @@ def _judge_outcome(case: ArmCase, record: RunRecord) -> list[Check]:
 
 
 def _judge_speed(record: RunRecord) -> Check:
-    """Each joint against its mechanical limit; the one that is nearest to it, or farthest over it, is shown."""
+    """Compares each joint with its mechanical limit, and shows the joint that is nearest to or farthest above its limit."""
     pairs = list(zip(record.max_speed_rad_s, record.speed_limit_rad_s, strict=True))
     worst = max(range(len(pairs)), key=lambda joint: pairs[joint][0] - pairs[joint][1])
     over = [joint for joint, (speed, limit) in enumerate(pairs) if speed > limit]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The plan of the arm: which faults, when, and what must come of them. Data in a YAML file, checked as a whole."""
+"""The plan of the arm: faults, times, and expected results. Data in a YAML file, checked as a whole."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ _EXPECTED_KEYS = frozenset({"state", "reaction", "detected_fault", "within_s", "
 
 @dataclass(frozen=True)
 class Bounds:
-    """Physical bounds that hold for every case.
+    """Physical bounds for every case.
 
-    `hold_drift_rad`: largest movement after standstill [rad]; `hold_observed_s`: how long standstill must have been watched
-    for that to mean anything [s]; `tracking_error_rad`: the tracking error of an undisturbed motion stays below it [rad].
+    `hold_drift_rad`: maximum movement after standstill [rad]; `hold_observed_s`: minimum observation time of standstill [s];
+    `tracking_error_rad`: upper bound of the tracking error of an undisturbed motion [rad].
     """
 
     hold_drift_rad: float
@@ -36,7 +36,7 @@ class Bounds:
 
 @dataclass(frozen=True)
 class Expected:
-    """What must come of a case. `within_s` is None exactly when no reaction is wanted."""
+    """The expected result of a case. `within_s` is None exactly if no reaction is expected."""
 
     state: str
     reactions: tuple[str, ...]
@@ -55,7 +55,7 @@ class Expected:
 
 @dataclass(frozen=True)
 class ArmScenario(Scenario):
-    """One row of the plan. `instants` are fractions of the motion, or seconds of it where `in_seconds`."""
+    """One row of the plan. `instants` are fractions of the motion, or seconds if `in_seconds`."""
 
     fault: FaultSpec
     instants: tuple[float, ...]
@@ -78,7 +78,7 @@ class ArmPlan(Plan):
 
 
 def read_plan(root: Node, path: Path) -> ArmPlan:
-    """Raises InputError, one line with file and line, for the first fault found."""
+    """Raises InputError with one line, including file and line number, for the first error."""
     root.as_mapping(_TOP_KEYS)
     bounds = root.get("bounds")
     bounds.as_mapping(_BOUND_KEYS)
@@ -142,7 +142,7 @@ def _read_fractions(node: Node) -> tuple[float, ...]:
 
 
 def _read_instants(node: Node, end: float | None) -> tuple[float, ...]:
-    """Rising numbers from 0, below `end` where there is one."""
+    """Increasing numbers from 0, below `end` if it is given."""
     instants: list[float] = []
     for item in node.as_list():
         instant = _read_not_negative(item)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The part of run.json that a verdict needs, checked field by field (docs/design/trace.md#evidence-files)."""
+"""The part of run.json that the evaluation needs, checked field by field (docs/design/trace.md#evidence-files)."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ SCHEMA = "mamori.run/1"
 MAX_BYTES = 10_000_000
 
 _DIGITS_MAX = 20
-"""Length of the largest whole number in a record, a 64-bit seed."""
+"""Length of the largest integer in a record, a 64-bit seed."""
 
 
 @dataclass(frozen=True)
 class RunRecord:
-    """One simulated run. Times [s] since its start; positions [rad], speeds [rad/s]; None where a thing did not happen."""
+    """One simulated run. Times [s] since its start; positions [rad], speeds [rad/s]; None if an event did not occur."""
 
     commit: str
     seed: int
@@ -45,7 +45,7 @@ class RunRecord:
 
 
 def load_run(path: Path) -> dict[str, Any]:
-    """Reads run.json as it is. Raises WorkError: missing, no whole JSON, no object, a number that is not finite."""
+    """Reads run.json unchanged. Raises WorkError if it is missing, incomplete, not a JSON object, or has a non-finite number."""
     try:
         text = read_text(path, "run record", MAX_BYTES).text
         content = json.loads(text, parse_constant=_refuse_number, parse_float=_parse_float, parse_int=_parse_int)
@@ -61,7 +61,7 @@ def load_run(path: Path) -> dict[str, Any]:
 
 
 def read_record(run: Mapping[str, Any]) -> RunRecord:
-    """Checks and takes over a run. Raises WorkError naming the first field that is missing or of the wrong kind."""
+    """Checks and converts a run. Raises WorkError with the first field that is missing or of the wrong kind."""
     if run.get("schema") != SCHEMA:
         raise WorkError(f"schema is {run.get('schema')!r}, {SCHEMA} is wanted")
     physics = _take(run, "physics", dict)

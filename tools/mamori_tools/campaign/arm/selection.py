@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From a selection to the cases of the arm: what the instants and joints of a plan mean for one motion."""
+"""Converts a selection to cases of the arm: instants and joints of a plan are resolved for one motion."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ FRAME_S = 0.001
 """Major frame of the program under test [s]."""
 
 SPEED_WINDOW_S = 0.1
-"""The speed of a joint at an instant is its mean over this time from the instant on [s]."""
+"""The speed of a joint at an instant is its mean over this time from that instant on [s]."""
 
 SEARCH_STEP_S = 0.01
-"""Step of the search for an instant at which a joint moves [s]; also the least distance of two instants."""
+"""Step of the search for an instant at which a joint moves [s]; also the minimum distance between two instants."""
 
 
 @dataclass(frozen=True)
 class ArmCase(Case):
-    """One run: everything that decides it, and everything that it is judged by.
+    """One run: all its inputs, and all criteria for its evaluation.
 
-    `fault` is None for a fault-free run. `frames` is None where the program itself ends with the motion.
-    `watch_s` is how long the run must go on after the injection; where there is none, how long it must be [s].
+    `fault` is None for a fault-free run. `frames` is None if the program itself ends with the motion. `watch_s`: minimum duration of the
+    run after the injection, or, without an injection, its minimum total duration [s].
     """
 
     fault: Fault | None
@@ -39,7 +39,7 @@ class ArmCase(Case):
 
 
 def resolve(selection: Selection, motion: Motion) -> tuple[ArmCase, ...]:
-    """The cases for one motion. Raises InputError where an instant or a joint of the plan does not exist in it."""
+    """The cases for one motion. Raises InputError if the motion lacks an instant or a joint of the plan."""
     cases: list[ArmCase] = []
     plan = selection.plan
     assert isinstance(plan, ArmPlan)
@@ -75,7 +75,7 @@ def _make_case(plan: ArmPlan, scenario: ArmScenario, number: int, fault: Fault |
 
 
 def _place_fault(scenario: ArmScenario, motion: Motion, asked_s: float) -> Fault:
-    """Fixes time and joint of a fault; the time falls on a frame."""
+    """Determines time and joint of a fault; the time is that of a frame."""
     spec = scenario.fault
     place_s, joint = asked_s, None
     if asked_s >= motion.duration_s:
@@ -90,7 +90,7 @@ def _place_fault(scenario: ArmScenario, motion: Motion, asked_s: float) -> Fault
 
 
 def _find_moving_joint(scenario: ArmScenario, motion: Motion, asked_s: float) -> tuple[float, int]:
-    """The first instant from `asked_s` on at which the joint moves fast enough, and the joint's number from 1."""
+    """The first instant from `asked_s` on at which the joint moves fast enough, and the number of the joint from 1."""
     spec = scenario.fault
     least = spec.min_speed_rad_s or 0.0
     steps = max(1, math.ceil((motion.duration_s - asked_s) / SEARCH_STEP_S))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The names that the program under test writes into run.json. A plan may use no others."""
+"""The names that the program under test writes to run.json. A plan may use no other names."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ STATES = ("SelfTest", "Standby", "Operational", "Degraded", "ProtectiveStopSs2",
           "LockedOut")  # fmt: skip
 
 NOTHING = "None"
-"""Spelling of "no reaction" and "no fault detected" in plans and verdicts; run.json has null there."""
+"""Spelling of "no reaction" and "no fault detected" in plans and verdicts; run.json contains null."""
 
 REACTIONS = (NOTHING, "Degrade", "Ss2", "Ss1", "Sto")
 STOPS = frozenset({"Ss2", "Ss1", "Sto"})

@@ -33,7 +33,7 @@ std::string describe_worst_cases(const SystemView& view, const WindowRow& row) {
     return text;
 }
 
-/// The window rules, without the name of the window in front.
+/// The window rules, without the preceding name of the window.
 std::string describe_window(const Finding& finding, const SystemView& view) {
     const WindowRow row = get_row(view.windows, finding.element);
     switch (finding.rule) {
@@ -76,7 +76,7 @@ std::string describe_namesake(const Finding& finding) {
                                             : row + " has the name of row " + std::to_string(finding.other);
 }
 
-/// The rules of names and of the lists of ports and parameters.
+/// The rules for names and for the lists of ports and parameters.
 std::string describe_names(const Finding& finding, const SystemView& view) {
     const std::string component = "component " + quote(get_component_name(view, finding.element));
     const std::string port = "port " + quote(get_input_name(view, finding.element));
@@ -103,7 +103,7 @@ std::string describe_names(const Finding& finding, const SystemView& view) {
     }
 }
 
-/// The rules over inputs and connections.
+/// The rules for inputs and connections.
 std::string describe_wiring(const Finding& finding, const SystemView& view) {
     const std::string connection = "connection " + quote(get_connection_name(view, finding.element));
     const ConnectionRow row = get_row(view.connections, finding.element);

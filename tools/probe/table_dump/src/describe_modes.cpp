@@ -31,7 +31,7 @@ std::string describe_set(const Finding& finding, const SystemView& view) {
            " is not one that its parameter may have";
 }
 
-/// `'idle' -> 'work'`, as the transition spells them.
+/// `'idle' -> 'work'`, in the spelling of the transition.
 std::string get_transition_name(const SystemView& view, std::size_t index) {
     const ModeTransitionRow row = get_row(view.modes.transitions, index);
     return quote(to_text(row.source_name)) + " -> " + quote(to_text(row.target_name));

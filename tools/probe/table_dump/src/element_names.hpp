@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Names of a table's elements for people, whatever the rows hold.
+/// Readable names of the elements of a table, for any row contents.
 #ifndef MAMORI_TABLE_DUMP_SRC_ELEMENT_NAMES_HPP
 #define MAMORI_TABLE_DUMP_SRC_ELEMENT_NAMES_HPP
 
@@ -16,13 +16,13 @@ inline std::string to_text(const char* name) {
     return name == nullptr ? "?" : name;
 }
 
-/// Element `index` of `rows`, or `otherwise` where the table has no such row.
+/// Element `index` of `rows`, or `otherwise` if the table has no such row.
 template <typename Row>
 Row get_row(Span<const Row> rows, std::size_t index, Row otherwise = {}) {
     return index < rows.size() ? rows[index] : otherwise;
 }
 
-/// Do these rows exist?
+/// Whether these rows exist.
 template <typename Row>
 bool has_range(Span<const Row> rows, std::size_t first, std::size_t count) {
     return first <= rows.size() && count <= rows.size() - first;
@@ -48,7 +48,7 @@ inline std::string get_input_name(const SystemView& view, std::size_t port) {
     return (row.owner == nullptr ? "?" : to_text(row.owner->get_name())) + "." + get_port_name(row);
 }
 
-/// Member of component `finding.element` after which `finding.other` others are constructed.
+/// Member of component `finding.element` that follows `finding.other` other members in construction order.
 inline std::string get_unlisted_name(const SystemView& view, const Finding& finding, MemberKind kind) {
     const Component* component =
         finding.element < view.components.size() ? view.components[finding.element] : nullptr;
@@ -79,7 +79,7 @@ inline std::string get_mode_name(const SystemView& view, std::size_t index) {
     return to_text(get_row(view.modes.modes, index).name);
 }
 
-/// In the largest unit that needs no fraction, for example `300 us`.
+/// In the largest unit without a fraction, for example `300 us`.
 inline std::string format(Duration time) {
     if (time.ns % 1'000'000'000 == 0 && time.ns != 0) {
         return std::to_string(time.ns / 1'000'000'000) + " s";

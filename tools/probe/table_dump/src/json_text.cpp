@@ -29,7 +29,7 @@ std::string format_number(double value) {
     if (!std::isfinite(value)) {
         return "null";
     }
-    std::array<char, 32U> text{};  // no double needs more than 24
+    std::array<char, 32U> text{};  // a double needs at most 24
     const std::to_chars_result end = std::to_chars(text.data(), text.data() + text.size(), value);
     return {text.data(), end.ptr};
 }

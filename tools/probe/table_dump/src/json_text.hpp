@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Pieces of JSON text, for any letters, numbers and indices.
+/// Pieces of JSON text, for any characters, numbers and indices.
 #ifndef MAMORI_TABLE_DUMP_SRC_JSON_TEXT_HPP
 #define MAMORI_TABLE_DUMP_SRC_JSON_TEXT_HPP
 
@@ -15,24 +15,24 @@ namespace mamori::table_dump::json {
 
 std::string quote(std::string_view text);
 
-/// The shortest text that reads back as the same number; null for an infinite one or none.
+/// The shortest text that converts back to the same number; null for infinity and not-a-number.
 std::string format_number(double value);
 
 inline const char* format_truth(bool value) {
     return value ? "true" : "false";
 }
 
-/// An index of the table, or null where the table has no such row.
+/// An index of the table; null if the table has no such row.
 inline std::string format_index(std::size_t index, std::size_t count) {
     return index < count ? std::to_string(index) : "null";
 }
 
-/// Spelling of an enumerator, quoted; its number where it has none.
+/// Spelling of an enumerator in quotes; its number without a spelling.
 inline std::string quote_enumerator(const std::vector<std::string>& names, std::uint32_t number) {
     return quote(number < names.size() ? names[number] : std::to_string(number));
 }
 
-/// `[a, b]` on one line; `make_item(i)` may be empty: no item.
+/// `[a, b]` on one line; if `make_item(i)` is empty, the item is omitted.
 template <typename MakeItem>
 std::string make_list(std::size_t count, const MakeItem& make_item) {
     std::string items;

@@ -68,12 +68,12 @@ std::string make_component(const SystemView& view, std::size_t index) {
            ", \"ports\": [" + ports + "]}";
 }
 
-/// Exact up to 2^53 ns; sums of absurd rows do not overflow.
+/// Exact up to 2^53 ns; sums for invalid rows do not overflow.
 double to_number(Duration time) {
     return static_cast<double>(time.ns);
 }
 
-/// When the sink sees what its source wrote in the first opening of a frame.
+/// When the sink reads the value that its source wrote in the first window instance of a major frame.
 const char* get_way(const SystemView& view, const ConnectionRow& row) {
     if (row.operations.is_set && !row.operations.is_latest) {
         return "queue";

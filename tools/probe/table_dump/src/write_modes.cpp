@@ -19,12 +19,12 @@ bool is_in(ModeMask modes, std::size_t mode) {
     return mode < kSystemModeMax && (modes & to_mask(mode)) != 0U;
 }
 
-/// A row and how it was called, of which either may be missing.
+/// A row and its name; either may be missing.
 std::string make_reference(const std::string& name, std::size_t index, std::size_t count) {
     return "{\"index\": " + format_index(index, count) + ", \"name\": " + quote(name) + "}";
 }
 
-/// By its own name where the row that points at it has none.
+/// Uses the own name of the row if the referring row has none.
 template <typename Row>
 std::string make_named_reference(const char* name, std::size_t index, Span<const Row> rows) {
     return make_reference(to_text(name != nullptr ? name : get_row(rows, index).name), index, rows.size());
@@ -32,7 +32,7 @@ std::string make_named_reference(const char* name, std::size_t index, Span<const
 
 std::string make_mode(const SystemView& view, std::size_t mode) {
     const SystemModeRow& row = view.modes.modes[mode];
-    // Who runs is what the executive goes by. A member that no window runs has no index.
+    // Lists running components as the executive sees them. A member outside all windows has no index.
     const std::size_t component_count = view.components.size();
     const std::string components =
         make_list(component_count + view.modes.members.size(), [&](std::size_t i) -> std::string {
@@ -82,7 +82,7 @@ std::string format_range(const ScalarRange& range) {
     return range.has_upper ? (range.is_upper_open ? "x<" : "x<=") + upper : "";
 }
 
-/// The constraint of one element, or of each, from its first range on. @return and the range after it.
+/// The constraint of one element, or of each, starting at its first range. @return also the range after it.
 std::pair<std::string, std::size_t> format_element(const ParameterBase& parameter, std::size_t first) {
     const ScalarRange range = parameter.get_range(first).get_value();
     std::string choices = format_scalar(range.lower);
@@ -101,8 +101,8 @@ std::pair<std::string, std::size_t> format_element(const ParameterBase& paramete
     return {is_one_value ? choices : format_range(range), next};
 }
 
-/// A constraint in the canonical form of the notation of the RTC Profile. An invalid one gets a text that the
-/// reader rejects.
+/// A constraint in the canonical form of the notation of the RTC Profile. An invalid constraint gets a text
+/// that the reader rejects.
 std::string format_constraint(const ParameterBase& parameter) {
     if (!parameter.is_valid()) {
         return "invalid";
@@ -130,7 +130,7 @@ std::string make_parameter(const SystemView& view, std::size_t index) {
                ", \"name\": \"?\", \"type\": null, \"constraint\": \"\", \"values\": null}";
     }
     std::vector<Scalar> values(row.parameter->get_element_count());
-    // There is one place for each element, which is all that reading asks for.
+    // There is storage for each element, which is the only precondition of reading.
     static_cast<void>(row.parameter->read({values.data(), values.size()}));
     const bool is_real = !values.empty() && values[0].is_real;
     return "{\"owner\": " + reference + ", \"name\": " + quote(to_text(row.parameter->get_name())) +

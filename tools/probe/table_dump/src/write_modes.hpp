@@ -11,14 +11,14 @@
 
 namespace mamori::table_dump {
 
-/// The keys `modes`, `transitions`, `parameters` and `configuration_sets`, each with a comma in front.
+/// The keys `modes`, `transitions`, `parameters` and `configuration_sets`, each preceded by a comma.
 void write_modes(std::ostream& out, const SystemView& view, const Names& names);
 
 /// Modes in which a connection works, as a list of their indices.
 std::string make_modes_of(const SystemView& view, ModeMask modes);
 
-/// Modes that a connection was declared for, as a list of their indices, null for one that does not exist;
-/// null when it was declared for none.
+/// Modes for which a connection was declared, as a list of their indices, with null for a mode that does not
+/// exist. Null if it was declared without modes.
 std::string make_only_in(const SystemView& view, std::size_t connection);
 
 }  // namespace mamori::table_dump

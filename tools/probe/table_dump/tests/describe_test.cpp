@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: each finding becomes a sentence with the names and numbers that disagree, and no rows make it stop.
-// Method: tables as a tool makes them at run time, each of which breaks one rule; rows that point nowhere.
+// Goal: each finding becomes a sentence with the contradicting names and numbers, and no row contents crash
+// the function. Method: tables made at run time, as tools do, each of which violates one rule; rows with
+// invalid indices.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ Filter g_monitor{"monitor"};
 Filter g_planner{"planner"};
 Crossing<double> g_crossing;
 
-/// Keeps every rule; each test breaks one in a copy.
+/// Complies with every rule; each test violates one rule in a copy.
 constexpr auto kSound =
     system(frame(10_ms),
            window("sense", 0_us, 200_us, every(1_ms), rate(1000_hz, 500_hz), budget(150_us),
@@ -77,7 +78,8 @@ TEST_F(DescribeTest, AConnectionIsNamedWithTheAgeLimitOrDelayThatItDoesNotState)
               Sentences{"connection 'encoder.out -> monitor.in': no value is fresh within -1 ns"});
 }
 
-/// Its second port has the name of the first, is listed, and belongs to `owner`; a third one is not listed.
+/// Its second port has the name of the first, is listed, and belongs to `owner`; its third port is not
+/// listed.
 class Faulty final : public Component {
   public:
     Faulty(const char* name, Component* owner) noexcept

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Components for tables that are dumped and described.
+/// Components of the tables in these tests.
 #ifndef MAMORI_TABLE_DUMP_TESTS_PARTS_HPP
 #define MAMORI_TABLE_DUMP_TESTS_PARTS_HPP
 

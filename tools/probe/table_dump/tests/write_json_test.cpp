@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the JSON of a table holds what the table says, for any rows, and a file of it is whole or not there.
-// Method: the text is read back by a JSON library and compared value by value.
+// Goal: the JSON of a table has the content of the table, for any rows, and its file is written atomically.
+// Method: a JSON library reads the text, and the test compares each value.
 #include <gtest/gtest.h>
 
 #include <filesystem>

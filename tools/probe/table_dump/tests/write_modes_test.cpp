@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the JSON of a table holds its modes, transitions, parameters and sets, for any rows. Method: the text
-// is read back by a JSON library; the table of the manual is compared with the file that the tests of the
-// command read; rows that point nowhere are written and described.
+// Goal: the JSON of a table contains its modes, transitions, parameters and sets, for any rows. Method: a
+// JSON library reads the text; the table of the manual is compared with the file that the tests of the
+// command use; rows with invalid indices are written and described.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -261,7 +261,7 @@ TEST(WriteModesTest, RowsThatAreInvalidInThemselvesAreToldFirstAndAllAtOnce) {
     auto table = kSystem;
     table.configuration.sets[0].name = nullptr;
     table.modes.modes[0].name = nullptr;
-    table.modes.modes[3].is_safe = false;  // no rule of the modes is judged before their rows are valid
+    table.modes.modes[3].is_safe = false;  // rules of modes are checked only if their rows are valid
 
     const std::vector<std::string> sentences = describe_all(make_view(table));
     ASSERT_EQ(sentences.size(), 2U);

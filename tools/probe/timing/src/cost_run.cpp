@@ -25,10 +25,10 @@ using ports::virtual_time::SimulatedCore;
 
 /// From the first call of the clock to the first major frame.
 constexpr Duration kLead{10'000'000};
-/// Steps of mode switches and late stops are not part of a cycle.
+/// Steps of mode switches and late stops do not belong to a cycle.
 constexpr std::size_t kSpareSteps = 4096U;
 constexpr std::size_t kStackSize = 256U * 1024U;
-/// Far above any realistic count; keeps the sums below in range.
+/// Far above realistic counts; keeps the sums below in range.
 constexpr std::uint64_t kCyclesMax = 100'000'000U;
 
 void do_nothing(void*, std::size_t, std::size_t) noexcept {}
@@ -39,7 +39,7 @@ void do_reference(void* argument, std::size_t, std::size_t) noexcept {
 
 using Times = std::array<std::int64_t, kReferenceCount>;
 
-/// Times of a counted piece of work that is not a step, by the same two readings as for a step.
+/// Times of a counted piece of work other than a step, by the same two readings.
 /// @param[in] count 1 .. kReferenceCount times; the others stay 0.
 Times calibrate(const FrameClock& clock, void (*work)(void*, std::size_t, std::size_t) noexcept,
                 void* argument, std::size_t count) noexcept {
@@ -96,12 +96,12 @@ class CostSession final {
         facts_.counted = options.counted;
         facts_.is_paced = options.is_paced;
         facts_.frame = get_view(cores).frame;
-        // Under callgrind, each calibration call takes milliseconds; one call is sufficient.
+        // Under callgrind, each calibration call takes milliseconds, so one call is used.
         facts_.calibration_count = options.is_paced ? kReferenceCount : 1U;
     }
 
-    /// In real time on a separate thread, so that the real-time privileges end with the run.
-    /// @throw std::system_error no thread is available.
+    /// In real time on a separate thread, so that its real-time privileges end with the run.
+    /// @throw std::system_error if no thread is available.
     void run() {
         if (options_.is_paced) {
             facts_.memory = ports::posix_rt::lock_memory(kStackSize);

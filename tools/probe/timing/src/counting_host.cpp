@@ -5,7 +5,7 @@
                                                        std::size_t end) noexcept,
                                            void* argument, std::size_t step) noexcept {
     run(argument, step, step + 1U);
-    // Otherwise the call becomes a jump, and this function ends before the step begins.
+    // Without this, the call becomes a jump, and the function ends before the step begins.
     asm volatile("" : : : "memory");
 }
 

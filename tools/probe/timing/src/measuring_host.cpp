@@ -9,7 +9,7 @@ void MeasuringHost::measure(void* argument, std::size_t begin, std::size_t end) 
         StepRow& row = piece.rows[step - piece.work.first];
         row.start_ns.store(piece.clock->get_now().ns, std::memory_order_relaxed);
         piece.work.run(piece.work.argument, step, step + 1U);
-        // A reader that sees an end also sees its begin, also in a row that is still open when the run is
+        // A reader that sees an end also sees its start, even in a row that is incomplete when the run is
         // written.
         row.end_ns.store(piece.clock->get_now().ns, std::memory_order_release);
     }
@@ -34,7 +34,7 @@ void MeasuringHost::before_opening(const FrameSchedule::Opening& opening, Instan
     }
     current_ = {};
     current_.release = opening.release;
-    // The executive reads the clock after the devices, and the budget begins there.
+    // The executive reads the clock after the devices; the budget begins then.
     current_.woke = next_ == nullptr ? woke : inner_.get_now();
     current_.window = opening.window;
 }

@@ -22,9 +22,9 @@ class NpyTable final {
 
     explicit NpyTable(std::vector<Field> fields) : fields_(std::move(fields)) {}
 
-    /// The next cell of the row, in the order of the fields.
+    /// Adds the next cell of the row, in the order of the fields.
     void add(std::int64_t value);
-    /// @return the complete file. @pre every row is complete.
+    /// @return the complete file. @pre all rows are complete.
     std::string make() const;
 
   private:

@@ -33,14 +33,14 @@ using ports::posix_rt::OpeningObserver;
 using ports::posix_rt::Right;
 using ports::posix_rt::ThreadPlace;
 
-/// From the first thread to the first major frame: longer than a busy host takes to start them.
+/// From the first thread to the first major frame: longer than a busy host needs to start all threads.
 constexpr Duration kLead{500'000'000};
-/// Time in which work that was aborted at the end of the run can return.
+/// Time limit for the return of work that was aborted at the end of the run.
 constexpr Duration kPatience{1'000'000'000};
 constexpr Duration kPoll{5'000'000};
 /// Windows run below the priority of the thread that guards them.
 constexpr int kPriorityGap = 10;
-/// Steps of mode switches and late stops are not part of a cycle.
+/// Steps of mode switches and late stops do not belong to a cycle.
 constexpr std::size_t kSpareSteps = 4096U;
 /// Length of a block of major frames with one pace of requests.
 constexpr Duration kBlock{500'000'000};
@@ -52,8 +52,8 @@ extern "C" void note_signal(int) {
     is_interrupted.store(true, std::memory_order_relaxed);
 }
 
-/// The first block has no requests: pages and caches settle. Each round of three blocks has each pace once
-/// and begins with another pace than the round before.
+/// The first block has no requests, while pages and caches settle. Each round of three blocks has each pace
+/// once; the first pace changes from round to round.
 Pace calc_pace(std::uint64_t block) noexcept {
     return block == 0U ? Pace::kNone : static_cast<Pace>((block - 1U + (block - 1U) / 3U) % 3U);
 }
@@ -61,7 +61,7 @@ Pace calc_pace(std::uint64_t block) noexcept {
 /// Sets the pace of the requests, and ends the run of a core after a signal.
 class RunControl final : public OpeningObserver {
   public:
-    /// @param[in] load nullptr: none. @param[in] block length of the blocks.
+    /// @param[in] load nullptr: none. @param[in] block length of a block.
     RunControl(OpeningObserver& next, CoreRunner& runner, IntrospectionLoad* load, Duration block) noexcept
         : next_(next), runner_(runner), load_(load), block_(block) {}
     void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override {
@@ -113,7 +113,7 @@ struct Session {
     std::vector<std::unique_ptr<CoreSession>> cores;
 };
 
-/// SIGINT and SIGTERM only set a flag during its lifetime.
+/// While this object exists, SIGINT and SIGTERM only set a flag.
 class SignalGuard final {
   public:
     SignalGuard() noexcept {
@@ -155,7 +155,7 @@ struct Room {
     std::size_t steps{kSpareSteps};
 };
 
-/// @return nothing if so many cycles cannot be counted.
+/// @return nothing if that many cycles cannot be counted.
 std::optional<Room> calc_room(const Executive& executive, std::uint64_t cycles) {
     const SystemView& view = executive.get_view();
     const auto cycles_max =
@@ -176,7 +176,7 @@ std::optional<Room> calc_room(const Executive& executive, std::uint64_t cycles) 
     return room;
 }
 
-/// Memory of the rows of all cores [byte], while they are collected and written.
+/// Memory of the rows of all cores [byte], during collection and writing.
 double calc_memory(const std::vector<TimedCore>& cores, std::uint64_t cycles) {
     double bytes = 0.0;
     for (const TimedCore& core : cores) {
@@ -228,7 +228,7 @@ void run_core(CoreSession& core, std::uint64_t cycles, ThreadPlace place) {
     core.runner.run(cycles);
 }
 
-/// @return false if no threads are available for the windows: the started ones have ended.
+/// @return false if no threads are available for the windows; threads that were started have ended.
 bool open_guards(Session& session, int runner_priority) {
     for (std::size_t i = 0U; i < session.cores.size(); ++i) {
         if (session.cores[i]->guard.open(runner_priority) != Status::kOk) {
@@ -241,7 +241,7 @@ bool open_guards(Session& session, int runner_priority) {
     return true;
 }
 
-/// Waits for work that is merely late. @return false if work of a window still hangs.
+/// Waits for late work. @return false if work of a window still hangs.
 bool close_guards(Session& session) {
     const Instant last = session.clock->get_now() + kPatience;
     bool is_closed = false;
@@ -261,7 +261,7 @@ bool close_guards(Session& session) {
     return true;
 }
 
-/// @throw std::system_error no thread available: the started ones have ended.
+/// @throw std::system_error if no thread is available; threads that were started have ended.
 void run_all(Session& session, const TimingOptions& options, const std::vector<int>& processors) {
     std::vector<std::thread> threads;
     const auto join = [&threads] {
@@ -317,7 +317,7 @@ RunFacts collect(const Session& session, const TimingOptions& options, Duration 
     return facts;
 }
 
-/// All data of the threads of the run, before the first of them begins.
+/// All data of the threads of the run, created before the first thread.
 std::unique_ptr<Session> make_session(const std::vector<TimedCore>& cores, const TimingOptions& options,
                                       const std::vector<int>& processors) {
     auto session = std::make_unique<Session>();
@@ -349,7 +349,7 @@ std::string write_all(const Session& session, const TimingOptions& options, cons
     return write_run(options.out, logs, facts);
 }
 
-/// Hanging work uses it for the lifetime of the process: nothing may destroy it, not even at the exit.
+/// Hanging work uses it until the process ends: it must never be destroyed, not even at exit.
 void keep_for_ever(std::unique_ptr<Session> session) {
     static auto* const kept = new std::vector<std::unique_ptr<Session>>;
     kept->push_back(std::move(session));
@@ -377,7 +377,7 @@ TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& o
     run_all(*session, options, processors);
     const bool is_closed = close_guards(*session);
     RunFacts facts = collect(*session, options, view.frame);
-    session->load.reset();  // it would outlive this function with the work that hangs
+    session->load.reset();  // it would outlive this function together with the hanging work
     facts.reference = reference;
     facts.memory = memory;
     if (options.tell_notes) {

@@ -14,8 +14,8 @@ namespace {
 
 using ports::posix_rt::Right;
 
-/// Pointers to the rows of all cores, earlier instants first; of equal ones the lower core. The rows of one
-/// core are already sorted.
+/// Pointers to the rows of all cores, ordered by instant, then by core. The rows of each core are already
+/// sorted.
 template <typename Row, typename GetRows>
 std::vector<const Row*> merge(const std::vector<const RunLog*>& logs, const GetRows& get_rows) {
     std::vector<const Row*> merged;
@@ -45,11 +45,11 @@ std::string make_openings(const std::vector<const RunLog*>& logs) {
     return table.make();
 }
 
-/// Steps that never began are not included.
+/// Excludes steps that never began.
 std::string make_steps(const std::vector<const RunLog*>& logs) {
     NpyTable table{{{"release_ns", 8U}, {"start_ns", 8U}, {"end_ns", 8U}, {"component", 4U}, {"pass", 4U}}};
     for (const StepRow* row : merge<StepRow>(logs, [](const RunLog& log) { return log.get_steps(); })) {
-        // In this order: outstanding work may end in between, and an end needs a start.
+        // In this order, because outstanding work may end in between, and an end requires a start.
         const std::int64_t end = row->end_ns.load(std::memory_order_acquire);
         const std::int64_t start = row->start_ns.load(std::memory_order_relaxed);
         if (start != kNoInstant.ns) {
@@ -73,7 +73,7 @@ std::string make_rights(const Right& priority, const Right& processor, const Rig
            ", \"memory\": " + make_right(memory) + "}";
 }
 
-/// A note is plain text: characters that JSON would have to escape become blanks.
+/// Makes a note plain text: characters that JSON would escape become blanks.
 std::string make_plain(std::string text) {
     std::replace_if(
         text.begin(), text.end(),

@@ -15,7 +15,7 @@
 
 namespace mamori::timing {
 
-/// Content of run.json besides the rows.
+/// Content of run.json except the rows.
 struct RunFacts {
     std::uint64_t asked_cycles{0U};
     std::uint64_t run_cycles{0U};
@@ -32,7 +32,7 @@ struct RunFacts {
     std::vector<std::string> findings{};  ///< likewise
 };
 
-/// Content of run.json of a cost run besides the rows.
+/// Content of run.json of a cost run except the rows.
 struct CostFacts {
     std::uint64_t cycles{0U};
     CountedCycles counted{};
@@ -50,17 +50,17 @@ struct CostFacts {
     std::vector<std::string> notes{};  ///< of the application
 };
 
-/// Removes the files of an earlier run, so that none counts for this run.
+/// Removes the files of an earlier run, so that none of them counts for this run.
 /// @return empty on success, otherwise one sentence with the path and the cause.
 std::string remove_files(const std::string& folder);
 
-/// Atomically writes openings.npy, steps.npy and run.json; run.json is last and marks a complete folder. Rows
-/// of all cores, in the order of their planned instants.
+/// Atomically writes openings.npy, steps.npy and run.json; run.json is last and marks a complete folder.
+/// Contains the rows of all cores, ordered by planned instant.
 /// @return empty on success, otherwise one sentence with the path and the cause.
 std::string write_run(const std::string& folder, const std::vector<const RunLog*>& logs,
                       const RunFacts& facts);
 
-/// Writes steps.npy and run.json of a cost run, likewise. Rows in execution order.
+/// Atomically writes steps.npy and run.json of a cost run. Rows are in execution order.
 /// @return empty on success, otherwise one sentence with the path and the cause.
 std::string write_cost(const std::string& folder, const RunLog& log, const CostFacts& facts);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a cost run leaves whole files that say what was run, and refuses what it cannot run. Method: a small
-// system; the files are read back. What the counts are worth is shown under callgrind
-// (verification/proofs/test_cost.py).
+// Goal: a cost run leaves complete files that state what was run, and rejects invalid options. Method: a
+// small system whose files are read. The proof under callgrind (verification/proofs/test_cost.py) checks the
+// counts.
 #include "mamori/timing/cost_run.hpp"
 
 #include <gtest/gtest.h>

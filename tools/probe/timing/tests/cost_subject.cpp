@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A system whose work is known to the instruction, to be counted by `mamori cost` and its proof.
+/// A system with an exactly known number of instructions, for `mamori cost` and its proof.
 ///
 ///     cost_subject cost --by count|clock --cycles N --first A --every K --out DIR [unsteady]
 ///
-/// Component `linear` goes round a loop once per number of its cycle, from 1 on; `constant` does the same
-/// each time; `heavy` goes round 20,000 times in its cycle 7, else once. With `unsteady` a step is left out
-/// by the clock.
+/// In cycle n (from 1 on), component `linear` repeats a loop n times; `constant` always repeats it equally
+/// often; `heavy` repeats it 20,000 times in its cycle 7, otherwise once. With `unsteady`, a step is omitted
+/// in real time.
 ///
 /// Design: docs/design/cost.md#proof
 #include <cstdio>
@@ -21,7 +21,7 @@ namespace {
 
 using literals::operator""_us;
 
-/// The same few instructions per round, whatever the optimiser thinks of it.
+/// The same few instructions per iteration, with any optimisation.
 void go_round(std::uint64_t count) noexcept {
     for (std::uint64_t i = 0U; i < count; ++i) {
         asm volatile("" : : : "memory");

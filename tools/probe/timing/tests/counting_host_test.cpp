@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: each step of a chosen cycle is a call of its own, with a row; the windows are none the wiser. Method:
-// a real executive in virtual time, with steps that look whether they are called alone, and a log that is too
+// Goal: each step of a selected cycle is a separate call with a row; the windows are not affected. Method: a
+// real executive in virtual time, with steps that check that they are called alone, and a log that is too
 // small.
 #include "mamori/timing/counting_host.hpp"
 
@@ -42,7 +42,7 @@ class NoDevices final : public FrameDevices {
     void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
 };
 
-/// Two windows: one opens twice in a frame, the other one has two components.
+/// Two windows: one starts twice in a major frame, the other one has two components.
 class CountingHostTest : public ::testing::Test {
   protected:
     void SetUp() override {

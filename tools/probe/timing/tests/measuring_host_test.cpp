@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: every step of every component is noted with its instants, and the windows are none the wiser. Method:
-// a real executive on virtual time, whose steps are modelled, and a log that is too small.
+// Goal: every step of every component is recorded with its instants; the windows are not affected. Method: a
+// real executive in virtual time, with steps of modelled duration, and a log that is too small.
 #include "mamori/timing/measuring_host.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using namespace verification;
 using Opening = FrameSchedule::Opening;
 using literals::operator""_ms;
 
-/// A clock that moves on by 10 ns whenever it is read.
+/// A clock that advances by 10 ns at each reading.
 class TickingHost final : public WindowHost {
   public:
     Instant get_now() const noexcept override {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: what is written is a NumPy array of format 1.0. Method: the bytes, counted by hand from the format's
-// description; the tests of the host tool read the same files with NumPy itself.
+// Goal: the output is a NumPy array of format 1.0. Method: bytes derived from the description of the format;
+// the tests of the host tool read such files with NumPy itself.
 #include "npy.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a run by the clock leaves whole files that say what happened, also when it is interrupted or work of
-// it hangs. Method: a system of two cores and long budgets; the files are read back. Nothing is asked of the
-// speed of the machine.
+// Goal: a real-time run leaves complete files that describe it, also if it is interrupted or its work hangs.
+// Method: a system of two cores with long budgets, whose files are read. No test depends on the speed of the
+// host.
 #include "mamori/timing/timing_run.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ using ports::posix_rt::WindowThread;
 using namespace verification;
 using literals::operator""_ms;
 
-/// Sends the process a signal, or hangs, in a cycle that the test names.
+/// Sends a signal to the process, or hangs, in a cycle that the test selects.
 class Worker final : public Component {
   public:
     explicit Worker(const char* name) noexcept : Component(name) {}
@@ -55,7 +55,7 @@ std::string read_file(const std::string& path) {
     return {std::istreambuf_iterator<char>{in}, {}};
 }
 
-/// Number of rows that the header of an .npy file tells.
+/// Number of rows in the header of an .npy file.
 std::size_t read_row_count(const std::string& path) {
     const std::string file = read_file(path);
     const std::size_t place = file.find("'shape': (");
@@ -149,7 +149,7 @@ TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
     }
     EXPECT_EQ(read_row_count(folder_ + "/openings.npy"), 10U);
     EXPECT_EQ(Json::parse(read_file(folder_ + "/table.json"))["components"].size(), 2U);
-    // A machine that is stopped for longer than a window misses openings: their steps are not there.
+    // If the host stalls for longer than a window, windows are skipped and their steps are missing.
     const auto run_count = static_cast<std::size_t>(first_.run_count + second_.run_count);
     EXPECT_GE(read_row_count(folder_ + "/steps.npy"), run_count);
     EXPECT_LE(read_row_count(folder_ + "/steps.npy"), 2U * run_count);
@@ -205,7 +205,7 @@ TEST_F(TimingRunTest, EachCoreOpensItsWindowsInAllFramesThatWereAskedFor) {
               TimingOutcome::kWhole);
 
     EXPECT_EQ(get_exit_status(TimingOutcome::kWhole), 0);
-    // A machine that stands still for a whole window costs an opening its run.
+    // If the host stalls for a complete window, the window is skipped.
     EXPECT_GE(first_.run_count, 1);
     EXPECT_LE(first_.run_count, 5);
     EXPECT_GE(second_.run_count, 1);
@@ -228,7 +228,7 @@ TEST_F(TimingRunTest, AnInterruptedRunKeepsWhatItHasAndSaysSo) {
     EXPECT_GE(read_row_count(folder_ + "/openings.npy"), 3U);
 }
 
-/// Everything that work may touch which never comes back while the process lives.
+/// All data of work that never returns; exists until the process ends.
 struct HangingSystem {
     Worker worker{"hanging"};
     SystemTable<1U, 1U, 0U, 0U> table =
@@ -244,7 +244,7 @@ TEST_F(TimingRunTest, WorkThatHangsIsAStepWithoutEndAndTheRunGoesOn) {
     ASSERT_EQ(hanging.executive.initialize(), Status::kOk);
     ASSERT_EQ(hanging.executive.start(), Status::kOk);
 
-    options_.cycles = 50U;  // in which even a busy machine runs it twice
+    options_.cycles = 50U;  // enough for two runs, even on a busy host
     const TimingResult result = run_timing({{hanging.executive, hanging.threads}}, options_);
 
     EXPECT_EQ(result.outcome, TimingOutcome::kWhole);

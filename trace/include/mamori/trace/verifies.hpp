@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Writes into a GoogleTest result which requirement the running test verifies, and how.
+/// Records in a GoogleTest result which requirement the running test verifies, and how.
 /// Technique and polarity are enumerators, so a misspelt one does not compile. One requirement per test.
 ///
 /// @satisfies SWR-VER-032      Design: docs/design/test_strength.md#requirement-of-a-test
@@ -13,7 +13,7 @@
 
 namespace mamori::verification {
 
-/// How the test case was derived (names as in IEC 61508-3 Annex B, where it has one).
+/// How the test case was derived. Names follow IEC 61508-3 Annex B where it defines one.
 enum class Technique {
     kRequirementsBased,
     kBoundaryValues,
@@ -25,8 +25,7 @@ enum class Technique {
     kBackToBack,
 };
 
-/// kNominal shows that the required behaviour happens; kViolation shows that the protection prevents the
-/// unwanted one.
+/// kNominal: the required behaviour occurs. kViolation: the protection prevents the unwanted behaviour.
 enum class Polarity { kNominal, kViolation };
 
 constexpr const char* get_name(Technique technique) noexcept {
@@ -55,7 +54,7 @@ constexpr const char* get_name(Polarity polarity) noexcept {
     return polarity == Polarity::kNominal ? "nominal" : "violation";
 }
 
-/// The requirement that the running test has named; nullptr: none yet, or no test is running.
+/// The requirement of the running test; nullptr if none was named yet, or no test is running.
 inline const char* find_requirement() {
     const ::testing::TestInfo* const test = ::testing::UnitTest::GetInstance()->current_test_info();
     const int count = test == nullptr ? 0 : test->result()->test_property_count();
@@ -67,7 +66,7 @@ inline const char* find_requirement() {
     return nullptr;
 }
 
-/// Call first in a test, once: a second call fails the test and records nothing.
+/// Call once, first in a test: a second call fails the test and records nothing.
 /// @param[in] requirement id of one requirement, for example "SWR-KRN-001".
 inline void verifies(const char* requirement, Technique technique = Technique::kRequirementsBased,
                      Polarity polarity = Polarity::kNominal) {

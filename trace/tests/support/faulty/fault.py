@@ -10,12 +10,12 @@ from dataclasses import dataclass, field
 from faulty.plan import BOTTOM, Plan, Requirement
 
 Seed = tuple[str, str, tuple[str, ...]]
-"""(word that the finding must name, key of the place, parts of which the first that is written is the place)."""
+"""(word that the finding must name, key of the place, candidate parts: the first one that the format writes is the place)."""
 
 
 @dataclass(frozen=True)
 class Fault:
-    """`unstated`: formats that cannot represent the fault, with the reason. `reviewed`: the links are reviewed before the fault."""
+    """`unstated`: formats that cannot represent the fault, and why. `reviewed`: the links are reviewed before the fault."""
 
     rule: str
     spoil: Callable[[Plan, random.Random], list[Seed]]

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The fault classes: each is one small function that seeds a fault into a plan and returns the expected finding.
 
-To add a class: write the function, and add a row to FAULTS with the reporting rule and, for each format that cannot hold the fault, the reason.
+To add a class: write the function, and add a row to FAULTS with the reporting rule and, for each format that cannot represent the fault,
+why.
 """
 
 from __future__ import annotations
@@ -172,7 +173,7 @@ def no_campaign(plan: Plan, chance: random.Random) -> list[Seed]:
 
 
 def suspect_link(plan: Plan, chance: random.Random) -> list[Seed]:
-    """A text that changed after its review. In OpenFastTrace the revision in the id shows it, and tests and code name the old one."""
+    """A text that changed after its review. In OpenFastTrace, the revision in the id changes, and tests and code name the old revision."""
     chosen = pick(plan, chance)
     for each in chosen:
         if "~" in each.id:

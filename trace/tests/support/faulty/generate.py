@@ -41,7 +41,7 @@ class Generated:
 
 
 def generate(format_name: str, fault: str, root: Path, count: int = 100, seed: int = 1) -> Generated:
-    """Writes below `root`, which is empty. An empty `fault` gives the clean project."""
+    """Writes the project to `root`, which is empty. An empty `fault` gives the clean project."""
     writer = WRITERS[format_name]
     plan = make_plan(writer.make_id, count)
     row = FAULTS[fault] if fault else None
@@ -51,7 +51,7 @@ def generate(format_name: str, fault: str, root: Path, count: int = 100, seed: i
     if row and row.reviewed and format_name != "oft":
         _write(plan, writer, root)
         _review(format_name, root)
-        shutil.rmtree(root / "docs")  # a later entry may be a file of that name
+        shutil.rmtree(root / "docs")  # a later entry may be a file named docs
     seeds = row.spoil(plan, random.Random(seed)) if row else []
     pages = _write(plan, writer, root)
     if native and not (row and row.reviewed):

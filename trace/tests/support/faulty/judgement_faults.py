@@ -100,7 +100,7 @@ def review_missing(plan: Plan, chance: random.Random) -> list[Seed]:
 
 
 def _add_review(plan: Plan, requirement: Requirement) -> None:
-    """An analysis of the current requirement by its author."""
+    """Adds an analysis of the current requirement by its author."""
     item = Item(requirement.id, requirement.title, "SWR", Place("", 1), statement=requirement.statement, sil=requirement.sil,
                 verify=tuple(requirement.verify.split(", ")), polarity=tuple(requirement.polarity.split(", ")))  # fmt: skip
     _add_row(plan, _REVIEWS, requirement.id, item=requirement.id, method="analysis", fingerprint=item.calc_fingerprint(),

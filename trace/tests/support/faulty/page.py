@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files that are being written, with the line of each part of each requirement."""
+"""Files during writing, with the line of each part of each requirement."""
 
 from __future__ import annotations
 

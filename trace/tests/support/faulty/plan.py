@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The content of a generated project, before it is written in a format."""
+"""The content of a generated project, independent of its format."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Code:
 
 @dataclass
 class Test:
-    """A test, the requirement it names, and its outcome: passed, flaky, failed, error, skipped, disabled, or empty if it was not run."""
+    """A test, its requirement, and its outcome: passed, flaky, failed, error, skipped, disabled, or empty if it was not run."""
 
     __test__ = False
 
@@ -77,7 +77,8 @@ class Plan:
 
 
 def make_plan(make_id: Callable[[int, int], str], count: int) -> Plan:
-    """A clean project: a tenth of the requirements on top, three tenths in the middle, the others below with code and a passed test."""
+    """A clean project: a tenth of the requirements on top, three tenths in the middle, the rest at the bottom with code and a passed
+    test."""
     plan = Plan(make_id)
     tops, middles = max(count // 10, 1), max(count * 3 // 10, 1)
     bottoms = count - tops - middles

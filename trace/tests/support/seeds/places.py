@@ -12,7 +12,7 @@ EVIDENCE = "build/host-release/evidence"
 GTEST = f"{EVIDENCE}/junit/safety.xml"
 
 Seed = tuple[str, str, int]
-"""What the finding names, its file, its line."""
+"""Text that the finding must name, its file, its line."""
 
 
 def find_line(s: Sample, file: str, text: str, after: str = "") -> int:

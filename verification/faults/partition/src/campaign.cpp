@@ -31,18 +31,18 @@ constexpr int kWindowPriority = 96;
 constexpr std::uint32_t kWellFrames{20U};
 constexpr Duration kStep = 1_ms;
 constexpr Duration kPatience = 20_s;
-/// A partition that has not injected its fault by then does not do so.
+/// A partition that has not injected its fault within this time never will.
 constexpr Duration kInjectionPatience = 2_s;
 constexpr int kStartTries{20};
-/// Major frames for which the logs have capacity: about five times the need of a fault, and a slow start.
+/// Capacity of the logs [major frames]: about five times the need of a fault, plus a slow start.
 constexpr std::size_t kFramesPerFault{1000U};
 constexpr std::size_t kFramesBeside{60'000U};
 
-/// Reasons to end that the host causes.
+/// Reasons to end with a host cause.
 constexpr const char* kTooSlow = "the machine is too slow: what is written down has no room";
 constexpr const char* kNoTime = "the machine gives the partition no time";
 
-/// The memory between the processes, all of it created by this one.
+/// The memory between the processes; this process creates all of it.
 struct Link {
     SharedMemory requests{};
     SharedMemory answers{};
@@ -60,7 +60,7 @@ struct Link {
                answer_reader.open(answers.get_region(), kAnswerCapacity) == Status::kOk &&
                diary.open(notes.get_region(), kNoteCapacity) == Status::kOk;
     }
-    /// The last note of the partition since the previous call. @return false: no note.
+    /// Returns the last note of the partition since the previous call. @return false if there is none.
     bool take_note(Note& note, Instant& at) {
         std::array<std::byte, kNoteCapacity> content{};
         FrameFacts facts{};
@@ -108,14 +108,14 @@ class OpeningLog final : public OpeningObserver {
     Instant woke_{};
 };
 
-/// Executes the plan on an ordinary thread next to the windows, which never wait for it.
+/// Executes the plan on an ordinary thread in parallel to the windows, which never wait for it.
 class Director final {
   public:
     /// @param[in] last instant up to which the logs have capacity.
     Director(const CampaignRequest& request, const FrameClock& clock, Link& link, Instant last)
         : request_(request), clock_(clock), link_(link), last_(last) {}
 
-    /// @return what went wrong; empty: nothing.
+    /// @return the error; empty if there is none.
     const char* carry_out(const std::vector<Fault>& plan) {
         const char* trouble = "";
         for (std::size_t i = 0U; i < plan.size() && *trouble == '\0'; ++i) {
@@ -153,7 +153,7 @@ class Director final {
                 return "the partition did not become well";
             }
             clock_.wait_until(clock_.get_now() + fault.wait);
-            // A partition that got no processor time meanwhile has had its reaction: no fault is injected.
+            // A partition without processor time has already had its reaction: no fault is injected.
             is_well = !is_stopped.load(std::memory_order_acquire) &&
                       good_count.load(std::memory_order_relaxed) > 0U;
         }
@@ -180,7 +180,7 @@ class Director final {
         const std::array<int, 3U> descriptors{link_.requests.get_descriptor(), link_.answers.get_descriptor(),
                                               link_.notes.get_descriptor()};
         PartitionOrder order{request_.worker, arguments, descriptors, &clock_, {}};
-        order.limits.niceness = 0;  // the highest without a privilege
+        order.limits.niceness = 0;  // the highest priority without a privilege
         if (partition_.start(order) != Status::kOk) {
             return false;
         }
@@ -285,7 +285,7 @@ std::vector<Fault> make_plan(const CampaignRequest& request) {
     std::array<Kind, kKindCount> kinds{Kind::kKill, Kind::kStop, Kind::kFlood, Kind::kCorrupt};
     for (std::uint64_t i = 0U; i < request.fault_count; ++i) {
         if (i % kKindCount == 0U) {
-            // std::shuffle does not give the same order with each library.
+            // std::shuffle gives a different order with each library.
             for (std::size_t k = kKindCount - 1U; k > 0U; --k) {
                 std::swap(kinds[k], kinds[random() % (k + 1U)]);
             }
@@ -299,7 +299,7 @@ std::vector<Fault> make_plan(const CampaignRequest& request) {
 }
 
 Course run(const CampaignRequest& request) {
-    // Work that hangs longer than the run may still use these.
+    // Work that hangs beyond the end of the run may still use these.
     static const FrameClock clock = FrameClock::starting_in(200_ms);
     static const int processor = find_processor();
     static GuardedHost host{window_threads, clock, {kWindowPriority, processor}};
@@ -327,14 +327,14 @@ Course run(const CampaignRequest& request) {
     StallWatch stalls{clock,
                       Duration{kFrame.ns / std::int64_t{kPollsPerFrame}},
                       {kWatchPriority, processor},
-                      frames * kPollsPerFrame};  // none may be missing: they are host causes
+                      frames * kPollsPerFrame};  // all must be recorded: they are host causes
     Right right{};
     std::thread thread{[&runner, &right] {
         right =
             combine(set_priority(pthread_self(), kRunnerPriority), set_processor(pthread_self(), processor));
         runner.run_until_stopped();
     }};
-    // The longest fault, with its starts, must still fit into the logs after this instant.
+    // After this instant, the longest fault and its starts must still fit into the logs.
     const Instant last{static_cast<std::int64_t>(frames) * kFrame.ns - 2 * kPatience.ns};
     Director director{request, clock, link, last};
     const char* const trouble = director.carry_out(make_plan(request));

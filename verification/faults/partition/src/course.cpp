@@ -12,7 +12,7 @@ std::int64_t to_number(std::uint64_t count) noexcept {
     return static_cast<std::int64_t>(count);
 }
 
-/// Highest number of skipped messages that is recorded: corrupted memory may show any number.
+/// Maximum number of recorded skipped messages, because corrupted memory may show any number.
 constexpr std::uint64_t kSkippedShown = 1'000'000U;
 
 void add(verification::CourseFile& file, const char* key, const std::vector<Opening>& openings) {
@@ -21,7 +21,7 @@ void add(verification::CourseFile& file, const char* key, const std::vector<Open
                        {"release_ns", [](const Opening& row) { return row.release.ns; }}});
 }
 
-/// The intervals that can explain why a window moved: the others are many and not needed.
+/// The intervals that can explain why a window was late. The many other intervals are not needed.
 std::vector<Stall> select_foreign(const Course& course) {
     std::vector<Stall> selected;
     auto span = course.foreign.begin();

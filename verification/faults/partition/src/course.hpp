@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Everything that is recorded of a safety system next to a failing partition: windows, messages, reactions,
-/// injections and host causes. `verification/faults/evaluation` decides.
+/// All records of a safety system in parallel to a failing partition: windows, messages, reactions,
+/// injections and host causes. `verification/faults/evaluation` evaluates them.
 #ifndef MAMORI_PARTITION_FAULTS_COURSE_HPP
 #define MAMORI_PARTITION_FAULTS_COURSE_HPP
 
@@ -16,22 +16,23 @@ namespace mamori::partition_faults {
 using verification::Stall;
 using namespace literals;  // NOLINT: units of the constants below
 
-/// What is done to the partition, or by it.
+/// What is done to the partition, or what the partition does.
 enum class Kind : std::uint8_t { kKill, kStop, kFlood, kCorrupt };
 inline constexpr std::size_t kKindCount{4U};
 
-/// What the safety system calls it; in the order of its reaction table.
+/// Name of the fault in the safety system; in the order of its reaction table.
 enum class PartitionFault : std::uint16_t { kSilent, kFlooding, kCorrupt, kCount };
 
 inline constexpr Duration kFrame = 1_ms;
-/// Major frames in a row without a valid reply that are the end of the partition.
+/// After this number of consecutive major frames without a valid reply, the partition counts as ended.
 inline constexpr std::uint32_t kSilentFrames{50U};
-/// More messages than this between two polls are a flood. The safety side may stall for so many itself.
+/// More messages than this between two polls are a flood. The safety side itself may stall for as many
+/// messages.
 inline constexpr std::uint64_t kSkippedMax{64U};
 /// From the confirmed fault to its reaction.
 inline constexpr Duration kReactionTime = 2_ms;
 
-/// A window instance.
+/// A planned or executed window instance.
 struct Opening {
     std::size_t window{0U};
     Instant release{};
@@ -42,16 +43,16 @@ struct TimedOpening {
     Opening opening{};
     Instant woke{};
     Instant end{};
-    bool is_missed{false};   ///< started after its end: nothing ran
+    bool is_missed{false};   ///< started after its end: no component ran
     bool is_overrun{false};  ///< was aborted
 };
 
 /// What the receiver found in one major frame.
 struct Reception {
     Instant at{};                ///< planned start of its window
-    bool is_answer{false};       ///< a message that is an answer
-    bool is_check_right{false};  ///< and has the right check
-    bool is_malformed{false};    ///< a message that is not intact
+    bool is_answer{false};       ///< the message is a reply
+    bool is_check_right{false};  ///< the check of the reply is correct
+    bool is_malformed{false};    ///< the message is not intact
     std::uint64_t skipped{0U};
 };
 
@@ -59,14 +60,14 @@ struct Reception {
 struct ReactionBegin {
     Instant at{};
     PartitionFault fault{PartitionFault::kCount};
-    bool is_declared{false};  ///< it is the one of the table for that fault
+    bool is_declared{false};  ///< the table declares it for that fault
 };
 
 /// A fault of the partition.
 struct Injected {
     Kind kind{Kind::kKill};
     Instant begin{};
-    Instant done{};       ///< from here on nothing is well
+    Instant done{};       ///< from here on no valid reply is expected
     Instant over{};       ///< the partition has ended
     bool is_done{false};  ///< false: the partition did not do it
 };
@@ -82,11 +83,11 @@ struct Course {
     std::vector<Stall> stalls{};
     std::vector<Stall> late_polls{};
     bool knows_foreign{false};
-    std::vector<Stall> foreign{};  ///< while another program had the processor; with knows_foreign only
+    std::vector<Stall> foreign{};  ///< another program used the processor; only with knows_foreign
     verification::HostFigures host{};
     bool has_priority{false};
-    bool is_too_slow{false};  ///< the host is the reason of `trouble`
-    const char* trouble{""};  ///< why the campaign could not continue; empty: it is complete
+    bool is_too_slow{false};  ///< the host is the cause of `trouble`
+    const char* trouble{""};  ///< why the campaign could not continue; empty if it is complete
 };
 
 }  // namespace mamori::partition_faults

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Messages between the safety system and the process next to it, and notes of that process about its own
+/// Messages between the safety system and the parallel process, and notes of that process about its own
 /// faults.
 #ifndef MAMORI_PARTITION_FAULTS_MESSAGES_HPP
 #define MAMORI_PARTITION_FAULTS_MESSAGES_HPP
@@ -19,14 +19,14 @@ struct Request {
     std::uint64_t sequence{0U};
 };
 
-/// From the partition, in each frame. `check` stands for the end-to-end protection of a real message.
+/// From the partition, in each frame. `check` represents the end-to-end protection of a real message.
 struct Answer {
     std::uint64_t sequence{0U};
-    std::uint64_t request{0U};  ///< that it answers
+    std::uint64_t request{0U};  ///< that this message answers
     std::uint32_t check{0U};
 };
 
-/// Of everything but itself.
+/// CRC of all members except the CRC itself.
 constexpr std::uint32_t calc_check(const Answer& answer) noexcept {
     Crc32 crc;
     for (const std::uint64_t value : {answer.sequence, answer.request}) {
@@ -42,11 +42,11 @@ inline constexpr int kRequestPlace{0};
 inline constexpr int kAnswerPlace{1};
 inline constexpr int kDiaryPlace{2};
 
-/// A note of the partition about itself: one byte, under the instant at which it was true.
+/// A note of the partition about itself: one byte, stored under its instant.
 enum class Note : std::uint8_t {
     kRuns,  ///< listens to the signals below
     kBegun,
-    kDone,  ///< of a flood: kFloodBurst frames; of a corruption: each word once; it continues
+    kDone,  ///< flood: kFloodBurst messages sent; corruption: each word written once; the fault continues
 };
 inline constexpr std::size_t kNoteCapacity{1U};
 inline constexpr int kFloodSignal{SIGUSR1};

@@ -14,7 +14,7 @@ std::atomic<bool> is_reset_wanted{false};
 ports::posix_rt::FrameReader answer_reader;
 ports::posix_rt::FrameWriter request_writer;
 
-/// To the drive.
+/// Message to the drive.
 struct StopOrder {
     std::uint32_t reaction{0U};  ///< safety::Reaction
     std::uint16_t fault{safety::kNoFault};
@@ -31,7 +31,8 @@ using ports::posix_rt::FrameOutcome;
 using ports::posix_rt::PartitionNews;
 using safety::Reaction;
 
-/// Major frames without a valid reply that a busy host may cause; earlier valid replies no longer count then.
+/// Number of major frames without a valid reply that a busy host may cause. Earlier valid replies then no
+/// longer count.
 constexpr std::uint32_t kPauseFrames{10U};
 
 template <typename Row>
@@ -96,7 +97,7 @@ class Guard final : public Component {
         follow_reset();
         const bool is_good = is_right && !is_flood;
         if (is_good) {
-            // The slot is watched from the start.
+            // Supervision of the slot begins at the start.
             static_cast<void>(alive_.report_alive(0U));
         }
         const safety::AliveVerdict verdict = alive_.step();
@@ -115,7 +116,7 @@ class Guard final : public Component {
     void report(PartitionFault fault, bool is_present, Instant now) noexcept {
         faults_.report(static_cast<safety::FaultIndex>(fault), is_present, now);
     }
-    /// Present faults remain latched; the drive shows them.
+    /// Faults that are still present remain latched, as the drive shows.
     void follow_reset() noexcept {
         if (is_reset_wanted.exchange(false, std::memory_order_relaxed)) {
             static_cast<void>(alive_.acknowledge(0U));
@@ -130,7 +131,7 @@ class Guard final : public Component {
     safety::FaultRegister faults_{records_};
 };
 
-/// Where the reaction has its effect.
+/// The drive, on which the reaction acts.
 class Drive final : public Component {
   public:
     constexpr Drive() noexcept : Component("drive") {}
@@ -177,14 +178,14 @@ class Drive final : public Component {
 Witness ask_witness{"ask_witness", 0U};
 Asker asker;
 Witness protect_witness{"protect_witness", 1U};
-/// Its window may start late by its length; it then finds a reply of this major frame.
+/// Its window may start late by its length and still find a reply of this major frame.
 ports::posix_rt::PartitionReceiver<Answer> receiver{"receiver", answer_reader, 240_us};
 Guard guard;
 Witness act_witness{"act_witness", 2U};
 Drive drive;
 Witness tell_witness{"tell_witness", 3U};
 ports::posix_rt::PartitionSender<Request> sender{"sender", request_writer};
-/// Budgets have slack for the longest stall of the host that is not recorded.
+/// Budgets have slack for the longest host stall that is not recorded.
 constexpr auto kSystem =
     system(frame(kFrame), window("ask", 0_us, 240_us, budget(230_us), mamori::run(ask_witness, asker)),
            window("protect", 240_us, 240_us, budget(230_us), mamori::run(protect_witness, receiver, guard)),

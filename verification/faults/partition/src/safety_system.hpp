@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The safety system next to the partition: it sends requests, supervises the replies, and stops its drive if
-/// they are missing, too many or wrong. It records what it does.
+/// The safety system in parallel to the partition: it sends requests, supervises the replies, and stops its
+/// drive if replies are missing, too many or wrong. It records its actions.
 #ifndef MAMORI_PARTITION_FAULTS_SAFETY_SYSTEM_HPP
 #define MAMORI_PARTITION_FAULTS_SAFETY_SYSTEM_HPP
 
@@ -27,14 +27,15 @@ inline constexpr std::size_t kWindowCount{4U};
 inline constexpr std::size_t kRequestCapacity = ports::posix_rt::PartitionSender<Request>::kCapacity;
 inline constexpr std::size_t kAnswerCapacity = ports::posix_rt::PartitionReceiver<Answer>::kCapacity;
 
-/// After silence and a flood the drive stops along its path; after corruption it stops immediately.
+/// After missing replies or a flood, the drive stops along its path. After corruption, it stops immediately.
 inline constexpr std::array<safety::ReactionRow, static_cast<std::size_t>(PartitionFault::kCount)> kReactions{
     safety::react(PartitionFault::kSilent, safety::Reaction::kSs1, kReactionTime),
     safety::react(PartitionFault::kFlooding, safety::Reaction::kSs1, kReactionTime),
     safety::react(PartitionFault::kCorrupt, safety::Reaction::kSto, kReactionTime)};
 static_assert(safety::covers_all<kReactions, PartitionFault::kCount>());
 
-/// Records of the components, in memory that was taken before the run; rows beyond the capacity are dropped.
+/// Records of the components, in memory that was allocated before the run; rows beyond the capacity are
+/// dropped.
 struct SystemLog {
     /// By index, because aborted work may return while another window runs.
     std::vector<Opening> ran{};
@@ -48,16 +49,16 @@ struct SystemLog {
     }
 
     const ports::posix_rt::FrameClock* clock{nullptr};         ///< nullptr: virtual time
-    verification::Defect defect{verification::Defect::kNone};  ///< in real time only
+    verification::Defect defect{verification::Defect::kNone};  ///< only in real time
 };
 
-/// Where the components write; set while none of them runs.
+/// Destination of the component records; set while no component runs.
 extern SystemLog* system_log;
 
 /// @name State and requests for other threads
 /// @{
-extern std::atomic<bool> is_stopped;           ///< a reaction holds at the drive
-extern std::atomic<std::uint32_t> good_count;  ///< good answers since the last pause
+extern std::atomic<bool> is_stopped;           ///< a reaction is active at the drive
+extern std::atomic<std::uint32_t> good_count;  ///< valid replies since the last pause
 extern std::atomic<bool> is_reset_wanted;      ///< a deliberate reset; false after the attempt
 /// @}
 

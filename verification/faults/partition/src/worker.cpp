@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// partition_worker SEED: the process next to the safety system. It has its own system table and answers each
-// request. On a signal it floods or corrupts until it is killed. Only the campaign starts it.
+// partition_worker SEED: the process in parallel to the safety system. It has its own system table and
+// answers each request. On a signal, it floods or corrupts until it is killed. Only the campaign starts it.
 #include <pthread.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 using namespace ports::posix_rt;  // NOLINT: this program is made of them
 
-/// The program no longer does its work.
+/// The program has stopped its normal work.
 std::atomic<bool> is_wild{false};
 
 class Worker final : public Component {
@@ -79,7 +79,7 @@ class Diary final {
     const FrameClock& clock_;
 };
 
-/// Valid replies, as fast as they can be written, and processes that compute.
+/// Writes valid replies as fast as possible, and starts processes that compute.
 [[noreturn]] void flood(Span<std::byte> region, const FrameClock& clock, Diary& diary) {
     diary.write(Note::kBegun);
     for (int i = 0; i < kHogs; ++i) {
@@ -103,7 +103,7 @@ class Diary final {
     }
 }
 
-/// Repeatedly writes random words to all memory of the replies.
+/// Repeatedly writes random words to the complete memory of the replies.
 [[noreturn]] void corrupt(Span<std::byte> region, std::uint64_t seed, Diary& diary) {
     std::mt19937_64 random{seed};
     auto* const words = reinterpret_cast<std::uint64_t*>(region.data());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a request gives the same faults each time, inside their limits. Method: plans without a run.
-// `verification.faults` makes the runs.
+// Goal: a request always gives the same faults, within their limits. Method: plans without a run;
+// `verification.faults` executes the runs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

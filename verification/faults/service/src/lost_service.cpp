@@ -36,16 +36,16 @@ constexpr int kWatchdogPriority = 97;
 constexpr int kRunnerPriority = 96;
 constexpr int kWindowPriority = 95;
 constexpr safety::WatchdogWindow kWatchdogWindow{200_us, kServiceTimeout};
-/// Narrower, by the jitter of the window.
+/// Narrower than the watchdog time, by the jitter of the window.
 constexpr safety::WatchdogWindow kGateWindow{300_us, 4_ms};
-/// Frames before a loss, and those that are given to the reaction.
+/// Frames before a loss, and frames that are reserved for the reaction.
 constexpr std::uint64_t kFramesBefore = 5U;
 constexpr std::uint64_t kFramesSpread = 40U;
 constexpr std::uint64_t kFramesAfter = 12U;
-/// A watchdog that has not acted by then never does; work that hangs for the loss continues.
+/// A watchdog that has not acted within this time never will; work that hangs for the loss then continues.
 constexpr Duration kPatience = 100_ms;
 
-/// State of one trial. The watchdog thread writes the closing, the other threads the rest.
+/// State of one trial. The watchdog thread writes the closing, the other threads write the rest.
 struct Stage {
     const FrameClock* clock{nullptr};
     SoftwareWatchdog* watchdog{nullptr};
@@ -80,7 +80,7 @@ class Supervisor final : public Component {
   public:
     constexpr Supervisor() noexcept : Component("supervisor") {}
 
-    /// Before the frames of a trial.
+    /// Called before the frames of a trial.
     void begin() noexcept { frame_ = 0U; }
 
     Status on_execute(ContextHandle) noexcept override {
@@ -120,7 +120,7 @@ class Supervisor final : public Component {
             stage.trial.asked_at = now;
         }
     }
-    /// Where the gate held the regular service back, the first of these may still be in the window.
+    /// If the gate delayed the regular service, the first of these services may still be within the window.
     void run_wild() noexcept {
         stage.inject();
         static_cast<void>(stage.watchdog->service(stage.clock->get_now()));
@@ -184,7 +184,7 @@ std::uint64_t run_trial(Rig& rig, Loss loss, std::uint64_t loss_frame) {
     rig.right = combine(rig.right, watchdog.get_priority_right());
     const std::uint64_t frames = loss_frame + kFramesAfter;
     rig.runner.run(frames);
-    // A trial without a loss ends while it is still serviced; work that hung has returned or soon does.
+    // A trial without a loss ends while it is still serviced. Hanging work has returned or returns soon.
     stage.trial.ended_at = rig.clock.get_now();
     MAMORI_ENSURE(1, watchdog.close() == Status::kOk);
     while (!rig.host.has_returned(0U)) {

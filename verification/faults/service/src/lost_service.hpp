@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Takes the service away from the watchdog of a system that runs in real time, in each way and at random
-/// instants, and records when the outputs were closed. `verification/faults/evaluation` decides.
+/// Takes the service away from the watchdog of a system in real time, in each way and at random instants, and
+/// records when the outputs closed. `verification/faults/evaluation` evaluates the records.
 #ifndef MAMORI_LOST_SERVICE_LOST_SERVICE_HPP
 #define MAMORI_LOST_SERVICE_LOST_SERVICE_HPP
 
@@ -18,17 +18,17 @@ namespace mamori::lost_service {
 /// Major frame of the system.
 inline constexpr Duration kTick{1'000'000};
 
-/// Longest time without a service in these runs: that of the example arm.
+/// Longest time without a service in these runs: the value of the example arm.
 inline constexpr Duration kServiceTimeout{5'000'000};
 
 /// How the watchdog loses its service.
 enum class Loss : std::uint8_t {
-    kNone,          ///< it keeps its service
+    kNone,          ///< the service continues
     kHang,          ///< the supervisor computes until the outputs are closed
-    kWait,          ///< it waits until the outputs are closed
-    kUnhealthy,     ///< a component of the safety partition has expired, so the gate rejects
-    kInconsistent,  ///< the safe-state machine contradicts itself, so the gate rejects
-    kRunaway,       ///< an endless loop services again at once
+    kWait,          ///< the supervisor waits until the outputs are closed
+    kUnhealthy,     ///< a component of the safety partition has expired, so the drive gate rejects
+    kInconsistent,  ///< the safe-state machine is inconsistent, so the drive gate rejects
+    kRunaway,       ///< an endless loop immediately services again
     kNoWindow,      ///< the thread that starts the windows hangs, so no window starts
 };
 inline constexpr std::size_t kLossCount = 7U;
@@ -38,16 +38,16 @@ struct LossTrial {
     Loss loss{Loss::kNone};
     bool is_injected{false};
     Instant injected_at{};
-    Instant asked_at{};  ///< reading of the clock before the last service that was taken
-    Instant taken_at{};  ///< and after it: the watchdog time began in between
+    Instant asked_at{};  ///< reading of the clock before the last accepted service
+    Instant taken_at{};  ///< reading after it: the watchdog time started in between
     bool is_closed{false};
-    Instant closed_at{};  ///< of the outputs
+    Instant closed_at{};  ///< when the outputs closed
     ports::posix_rt::WatchdogCause cause{ports::posix_rt::WatchdogCause::kNone};
     Instant ended_at{};  ///< reading of the clock before the watchdog was closed
 };
 
-/// Trials run through the ways one after another, kNone among them, each with a new watchdog; the seed gives
-/// the instants.
+/// Trials cycle through all losses including kNone, each with a new watchdog; the seed determines the
+/// instants.
 struct LossRequest {
     std::uint64_t trial_count{0U};
     std::uint64_t seed{1U};
@@ -56,14 +56,14 @@ struct LossRequest {
 
 /// The course of a run.
 struct LossRun {
-    std::vector<LossTrial> trials{};  ///< empty: the system did not start
+    std::vector<LossTrial> trials{};  ///< empty if the system did not start
     std::vector<verification::Stall> stalls{};
     std::uint64_t frames{0U};  ///< of all trials, most of them serviced
     verification::HostFigures host{};
     bool has_priority{false};
 };
 
-/// Some 40 frames of 1 ms for each trial. Call once per process.
+/// About 40 frames of 1 ms for each trial. Call once per process.
 LossRun run_losses(const LossRequest& request);
 
 /// @return false: the file cannot be written.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lost_service TRIALS SEED [--defect NAME] --out FILE: writes the course of the run. Status 0 complete, 1 no
-// course, 2 wrong arguments.
+// lost_service TRIALS SEED [--defect NAME] --out FILE: writes the course of the run. Status 0: complete
+// course, 1: no course, 2: wrong arguments.
 #include <iostream>
 
 #include "lost_service.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Everything that is recorded of a run with faults of time: injections, reports and host causes.
-/// `verification/faults/evaluation` decides.
+/// All records of a run with faults of time: injections, reports and host causes.
+/// `verification/faults/evaluation` evaluates them.
 #ifndef MAMORI_TIME_FAULTS_COURSE_HPP
 #define MAMORI_TIME_FAULTS_COURSE_HPP
 
@@ -20,7 +20,7 @@ using verification::Stall;
 /// Major frame of the system.
 inline constexpr Duration kTick{1'000'000};
 
-/// Time that the host must take from a window to be the cause of a report about it: half of the budget.
+/// Time that the host must take from a window to count as the cause of a report: half of the budget.
 inline constexpr Duration kLossMin{100'000};
 
 /// A report of the executive.
@@ -31,12 +31,12 @@ struct Report {
     Instant release{};                ///< planned window start
     Instant woke{};                   ///< actual window start
     Instant at{};
-    Duration runner_delay{};     ///< the runner was ready and did not run, since the window before
-    Duration component_delay{};  ///< the component was ready and did not run in this window
+    Duration runner_delay{};     ///< the runner was ready but did not run, since the previous window
+    Duration component_delay{};  ///< the component was ready but did not run in this window
 };
 
-/// The runner was ready and did not run for half of the time that it is late, and for kLossMin. The threads
-/// that watch it take a little of its time themselves.
+/// The runner was ready but did not run for half of its lateness, and for kLossMin. The threads that monitor
+/// the runner take some of its time themselves.
 constexpr bool is_runner_delayed(Duration delay, Duration lateness) noexcept {
     return delay >= kLossMin && delay + delay >= lateness;
 }
@@ -45,7 +45,7 @@ constexpr bool is_runner_delayed(Duration delay, Duration lateness) noexcept {
 enum class Cause : std::uint8_t {
     kWork,        ///< it computed or waited
     kLock,        ///< it waited for a mutex that a thread without priority held
-    kStuckGuard,  ///< it computed, and the guard did not return in time either
+    kStuckGuard,  ///< it computed, and the guard also did not return in time
 };
 
 /// An injection: a component that took too long.
@@ -56,14 +56,14 @@ struct Overrun {
     Cause cause{Cause::kWork};
 };
 
-/// An injection: a window that was held back.
+/// An injection: a delayed window.
 struct Delay {
     std::size_t window{0U};
     Instant release{};
     Instant end{};
 };
 
-/// An injection: the runner did not do what was due.
+/// An injection: the runner did not do its due work.
 struct Hold {
     Instant due{};
     Instant end{};
@@ -76,14 +76,14 @@ struct ClockFault {
     std::int64_t ppm{0};
 };
 
-/// A finding of the watch, latched until it was reset.
+/// A finding of the monitor, latched until its reset.
 struct Found {
     ports::posix_rt::GridFinding finding{};
     Instant cleared{ports::posix_rt::GridBeat::kNever};
 };
 
-/// For how long each component was ready and did not run, in each of its cycles; 0 when it computed or waited
-/// too long itself.
+/// How long each component was ready but did not run, in each of its cycles; 0 for a component that itself
+/// computed or waited too long.
 class ComponentDelays final {
   public:
     /// @param[in] frame_count later frames are not recorded.
@@ -123,15 +123,15 @@ struct Course {
     std::vector<Found> found{};
     std::vector<Stall> stalls{};
     std::vector<Stall> late_polls{};
-    /// The runner was ready and did not run, for kLossMin or more: from the planned window start to the
-    /// actual one.
+    /// The runner was ready but did not run for at least kLossMin: from the planned to the actual window
+    /// start.
     std::vector<Stall> runner_delays{};
     verification::HostFigures host{};
-    std::uint64_t reads_under_way{0U};  ///< window starts at which a reader was stopped within a request
+    std::uint64_t reads_under_way{0U};  ///< window starts at which a reader was preempted during a request
     std::uint64_t requests{0U};         ///< of introspection
     std::int64_t major_faults{0};       ///< page faults in the threads of the windows
     std::int64_t minor_faults{0};
-    bool has_storm{false};  ///< another process faulted pages from begin to end
+    bool has_storm{false};  ///< another process caused page faults during the complete run
     bool has_locked_memory{false};
     bool has_priority{false};
     bool has_run{false};

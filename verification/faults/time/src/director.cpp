@@ -7,7 +7,7 @@ namespace mamori::time_faults {
 namespace {
 
 constexpr std::size_t kReportRoom = 1'000'000U;
-/// Until the runner has caught up and all work has returned.
+/// Time until the runner has caught up and all work has returned.
 constexpr Duration kAftermath{10'000'000};
 
 std::uint64_t calc_frame(const FrameSchedule::Opening& opening) noexcept {
@@ -66,7 +66,7 @@ void Director::after_opening(const FrameSchedule::Opening& opening, WindowOutcom
     }
 }
 
-/// The next injection, when its major frame has come and nothing hides it.
+/// The next injection, once its major frame has started and no latched finding masks it.
 const Injection* Director::find_due(const FrameSchedule::Opening& opening) noexcept {
     const std::uint64_t frame = calc_frame(opening);
     if (next_ == injections_.size() || frame < injections_[next_].frame || opening.release < quiet_until_ ||
@@ -128,7 +128,7 @@ void Director::begin(const Injection& injection, const FrameSchedule::Opening& o
     finish(kAftermath);
 }
 
-/// The window of the fault starts next.
+/// The window of the fault is the next to start.
 void Director::begin_after(const Injection& injection, const FrameSchedule::Opening& opening) noexcept {
     const FrameSchedule schedule{get_executive().get_view(), 0U, opening.release + Duration{1}};
     const FrameSchedule::Opening& next = schedule.get_next();
@@ -151,7 +151,7 @@ void Director::begin_after(const Injection& injection, const FrameSchedule::Open
 void Director::record_held_sleep(const FrameSchedule::Opening& opening) noexcept {
     is_sleep_held_ = false;
     if (stage_.time.is_sleep_to_be_held()) {
-        stage_.time.hold_sleep(Duration{0});  // it was late and did not sleep: try again
+        stage_.time.hold_sleep(Duration{0});  // the thread was late and did not sleep: try again
         return;
     }
     course_.delays.push_back({opening.window, opening.release, woke_});
@@ -168,7 +168,7 @@ void Director::end_clock_fault() noexcept {
     }
 }
 
-/// Records a finding and clears it as soon as the watch permits it.
+/// Records a finding and clears it as soon as the monitor permits.
 void Director::look_after_watch() noexcept {
     if (watch_ == nullptr || !watch_->is_latched()) {
         return;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Injects the faults of a plan into a running system, each at its frame, and records what it did and what
-/// was reported.
+/// Injects the faults of a plan into a running system, each at its frame, and records injections and reports.
 #ifndef MAMORI_TIME_FAULTS_DIRECTOR_HPP
 #define MAMORI_TIME_FAULTS_DIRECTOR_HPP
 
@@ -19,7 +18,7 @@
 
 namespace mamori::time_faults {
 
-/// What faults are injected into. All must outlive the director.
+/// Targets of the faults. All must outlive the director.
 struct Stage {
     const ports::posix_rt::FrameClock& clock;
     FaultyTime& time;
@@ -28,8 +27,8 @@ struct Stage {
     const std::atomic<bool>& is_reading;  ///< a reader of lower priority on the same processor
 };
 
-/// Calling context: the thread that runs the windows. A fault waits until those before it have ended: all
-/// work has returned, and the watch was reset.
+/// Calling context: the thread that runs the windows. A fault waits until earlier faults have ended: all work
+/// has returned, and the monitor was reset.
 class Director final : public ports::posix_rt::OpeningObserver, public ExecutionObserver {
   public:
     Director(const Stage& stage, std::vector<Injection> injections);
@@ -42,7 +41,7 @@ class Director final : public ports::posix_rt::OpeningObserver, public Execution
     void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override;
     void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override;
 
-    /// What was recorded, without overruns and stalls. Call after the run.
+    /// The records, without overruns and stalls. Call after the run.
     const Course& get_course() const noexcept { return course_; }
 
   private:

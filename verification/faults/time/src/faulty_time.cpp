@@ -26,7 +26,7 @@ std::int64_t FaultyTime::to_real(std::int64_t ns) const noexcept {
 
 void FaultyTime::wait_until(std::int64_t ns) const noexcept {
     const std::int64_t hold = is_victim() ? sleep_hold_ns_.exchange(0, std::memory_order_relaxed) : 0;
-    // Again when the rate changed meanwhile.
+    // Repeats the wait if the rate changed meanwhile.
     while (read_ns() < ns + hold) {
         ports::posix_rt::get_monotonic_clock().wait_until(to_real(ns + hold));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// An attempt at priority inversion: a thread without priority holds a plain mutex, and one of middle
-/// priority keeps it from running while a component of high priority waits for that mutex.
+/// An attempt at priority inversion: a thread without priority holds a plain mutex. A thread of middle
+/// priority keeps it from running while a component of high priority waits for the mutex.
 #ifndef MAMORI_TIME_FAULTS_INVERSION_HPP
 #define MAMORI_TIME_FAULTS_INVERSION_HPP
 
@@ -27,13 +27,13 @@ class Inversion final {
     Inversion& operator=(const Inversion&) = delete;
     ~Inversion();
 
-    /// The mutex shall be taken, as soon as the low thread runs. Nothing happens the second time.
+    /// The low thread takes the mutex as soon as it runs. Repeated calls have no effect.
     void prepare() noexcept;
     bool is_prepared() const noexcept { return is_held_.load(std::memory_order_acquire); }
-    /// The low thread may give the mutex back, but the middle one computes until `end`.
+    /// The low thread may release the mutex, but the middle thread computes until `end`.
     void attempt(Instant end) noexcept;
 
-    /// Plain: without priority inheritance. That is the fault.
+    /// A plain mutex, without priority inheritance. This is the fault.
     std::mutex& get_mutex() noexcept { return mutex_; }
 
   private:

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kSize = 64U << 20U;
 constexpr std::size_t kPage = 4096U;
 
-/// Only what may be called between fork and exec.
+/// Uses only functions that are permitted between fork and exec.
 [[noreturn]] void blow(unsigned seconds) noexcept {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     alarm(seconds);
@@ -26,7 +26,7 @@ constexpr std::size_t kPage = 4096U;
         if (memory == MAP_FAILED) {
             _exit(1);
         }
-        madvise(memory, kSize, MADV_NOHUGEPAGE);  // a huge page would be one fault for 512
+        madvise(memory, kSize, MADV_NOHUGEPAGE);  // a huge page would cause one fault instead of 512
         auto* const bytes = static_cast<volatile char*>(memory);
         for (std::size_t i = 0U; i < kSize; i += kPage) {
             bytes[i] = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A process that faults pages as fast as it can, and a meter of what that does to a thread.
+/// A process that causes page faults as fast as possible, and a meter of their effect on a thread.
 #ifndef MAMORI_TIME_FAULTS_PAGE_STORM_HPP
 #define MAMORI_TIME_FAULTS_PAGE_STORM_HPP
 
@@ -11,31 +11,31 @@
 
 namespace mamori::time_faults {
 
-/// Repeatedly maps, touches and unmaps 64 MiB, in its own process without a priority.
+/// Repeatedly maps, touches and unmaps 64 MiB, in its own process without priority.
 class PageStorm final {
   public:
-    /// Starts the process, which ends with its parent or after `seconds` at the latest; 0: none. Create
-    /// it while the caller has one thread.
+    /// Starts the process. It ends with its parent, or after `seconds` (0: no process) at the latest. Create
+    /// this object while the caller has one thread.
     explicit PageStorm(unsigned seconds) noexcept;
     PageStorm(const PageStorm&) = delete;
     PageStorm& operator=(const PageStorm&) = delete;
-    /// Ends it.
+    /// Ends the process.
     ~PageStorm() { stop(); }
 
     bool is_under_way() const noexcept { return process_ > 0; }
-    /// @return whether it faulted pages until now.
+    /// @return whether the process has caused page faults until now.
     bool stop() noexcept;
 
   private:
     pid_t process_{-1};
 };
 
-/// @return whether memory of this process is locked: with the sanitizers mlockall() does nothing.
+/// @return whether the memory of this process is locked: with sanitizers, mlockall() has no effect.
 bool has_locked_pages();
 
 /// Page faults of the thread that calls look(), since its first call.
 ///
-/// Thread safety: look() by one thread, the rest from any.
+/// Thread safety: look() from one thread, other functions from any thread.
 class PageMeter final {
   public:
     void look() noexcept;

@@ -42,10 +42,10 @@ bool is_about_component(Kind kind) noexcept {
            kind == Kind::kStuckGuard;
 }
 
-/// What happens to the outputs is not recorded, only whether and when it does.
+/// Only whether and when the outputs are closed is recorded.
 void keep_outputs(void*) noexcept {}
 
-/// Runs the frames while the watch and the thread that records stalls poll.
+/// Runs the frames while the monitor and the thread that records stalls poll.
 Course run_frames(const Request& request, Director& director, CoreRunner& runner, const FrameClock& clock) {
     const int processor = find_processor();
     static std::array<GridBeat, 1U> beats{GridBeat{get_executive().get_view(), 0U, &director}};
@@ -60,7 +60,7 @@ Course run_frames(const Request& request, Director& director, CoreRunner& runner
     StallWatch stalls{clock,
                       Duration{kTick.ns / std::int64_t{kPollsPerFrame}},
                       {kStallPriority, processor},
-                      request.frame_count * kPollsPerFrame};  // none may be missing: they are host causes
+                      request.frame_count * kPollsPerFrame};  // all must be recorded: they are host causes
     if (watch.open() == Status::kOk) {
         beats[0].expect(Instant{0});
         runner.run(request.frame_count);
@@ -94,7 +94,7 @@ void add_component_delays(const ComponentDelays& delays, Course& course) {
 }
 
 void add_page_faults(Course& course) {
-    // Components of one window run on one thread: the first one has the count of all.
+    // Components of one window run on one thread: the first component has the count of all.
     for (const std::size_t component : {std::size_t{0U}, std::size_t{1U}, std::size_t{3U}}) {
         course.major_faults += get_victim(component).get_meter().get_major();
         course.minor_faults += get_victim(component).get_meter().get_minor();
@@ -128,13 +128,13 @@ Course run(const Request& request) {
     const auto seconds = static_cast<unsigned>(request.frame_count / 1000U + 10U);
     PageStorm storm{request.with_storm ? seconds : 0U};
     static IntrospectionLoad load{get_introspection()};
-    // Work that hangs longer than the run may still use these.
+    // Work that hangs beyond the end of the run may still use these.
     static FaultyTime time{2U * request.injection_count};
     static const FrameClock clock = FrameClock::starting_in(kLead, time);
     static std::vector<OpenOverrun> overruns(request.injection_count + 1U);
     static ComponentDelays delays{kComponentCount, request.frame_count};
     const Right memory = ports::posix_rt::lock_memory(std::size_t{256U} * 1024U);
-    // All on one processor: stalls of another one would say nothing about the windows.
+    // All on one processor, because stalls of other processors are not relevant for the windows.
     const int processor = find_processor();
     static Inversion inversion{clock, kMiddlePriority, processor};
     load.bind(processor);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Faults of time, injected into a system that runs in real time: work that takes too long, windows that
-/// start too late, a guard, a runner and a timer that hang, a clock that is fast or slow, a component that
-/// waits for a thread without priority; at random instants and of random size. Records what was injected and
-/// reported.
+/// Injects faults of time into a system in real time, at random instants and of random size, and records
+/// injections and reports. The faults: work that takes too long; windows that start too late; a guard, a
+/// runner or a timer that hangs; a fast or slow clock; a component that waits for a thread without priority.
 ///
 /// @satisfies SWR-PRT-036
 /// Design: docs/design/posix_rt.md#faults-of-time
@@ -23,10 +22,11 @@ namespace mamori::time_faults {
 using verification::Defect;
 using verification::kDefectEvery;
 
-/// Frames between two faults, at least: the longest fault, its aftermath, and the reset of the watch.
+/// Minimum number of frames between two faults: the longest fault, its aftermath, and the reset of the
+/// monitor.
 inline constexpr std::uint64_t kDistance = 80U;
 
-/// Limits of the watch: it finds what is overdue within a tick, and a clock that is off by 0.5 % or more.
+/// Limits of the monitor: it finds overdue work within a tick, and a clock deviation of 0.5 % or more.
 inline constexpr ports::posix_rt::GridLimits kWatchLimits{
     Duration{300'000}, Duration{200'000}, {Duration{10'000'000}, 5000}};
 
@@ -34,7 +34,7 @@ enum class Kind : std::uint8_t {
     kLoop,         ///< a component computes for too long
     kSleep,        ///< a component waits for too long
     kLockedOut,    ///< a component waits for a mutex of a thread that does not run
-    kLateRelease,  ///< the thread that starts the windows is too late
+    kLateRelease,  ///< the thread that starts the windows is late
     kStuckGuard,   ///< a component computes for too long, and the deadline of the guard does not come
     kStuckRunner,  ///< the thread that starts the windows hangs after a window
     kStuckTick,    ///< the sleep until a window does not end
@@ -46,24 +46,24 @@ inline constexpr std::uint64_t kKindCount = 9U;
 struct Injection {
     std::uint64_t frame{0U};
     Kind kind{Kind::kLoop};
-    std::size_t place{0U};  ///< component, or window of a release, runner or tick
+    std::size_t place{0U};  ///< component; or window of a release, runner or tick
     Duration size{};        ///< 1.1 to 4 ticks; of a clock 25 ticks
-    std::int64_t ppm{0};    ///< of a clock: 1 to 10 % in its direction
+    std::int64_t ppm{0};    ///< of a clock: 1 to 10 %, with sign
 };
 
-/// Frames and faults of a run. `frame_count` must hold kDistance frames for each fault.
+/// Frames and faults of a run. `frame_count` must contain kDistance frames for each fault.
 struct Request {
     std::uint64_t frame_count{0U};
     std::size_t injection_count{0U};
     std::uint64_t seed{1U};
-    bool with_storm{false};  ///< another process faults pages all the time
+    bool with_storm{false};  ///< another process permanently causes page faults
     Defect defect{Defect::kNone};
 };
 
 /// The same request gives the same faults, in the order of their frames.
 std::vector<Injection> make_injections(const Request& request);
 
-/// Runs it: `frame_count` ticks. Call once per process, while it has one thread.
+/// Executes the plan: `frame_count` ticks. Call once per process, while it has one thread.
 Course run(const Request& request);
 
 /// @return false: the file cannot be written.

@@ -67,7 +67,7 @@ Status Victim::on_execute(ContextHandle handle) noexcept {
     do_as_told();
     const Instant end = around.clock->get_now();
     const ThreadTimes after = read_thread_times();
-    // A component that waits or computes takes the time itself; a guard that demotes it delays it later.
+    // A component that waits or computes itself causes the delay; a guard that demotes it delays it later.
     const Duration delay = delay_meter_.take();
     const Duration used = after.processor - before.processor;
     const bool is_own = after.voluntary_switches != before.voluntary_switches || used >= kLossMin;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The system that faults of time are injected into: three windows in a major frame of 1 ms, four components
-/// that take too long when they are armed.
+/// The system that receives faults of time: three windows in a major frame of 1 ms, and four components that
+/// take too long if they are armed.
 #ifndef MAMORI_TIME_FAULTS_VICTIMS_HPP
 #define MAMORI_TIME_FAULTS_VICTIMS_HPP
 
@@ -26,7 +26,7 @@ namespace mamori::time_faults {
 /// What a component does for too long.
 enum class Way : std::uint8_t { kCompute, kSleep, kLock };
 
-/// An injected overrun that has begun. Its thread may be released meanwhile; it returns nevertheless.
+/// An injected overrun that has begun. Its thread may be released meanwhile, but still returns.
 struct OpenOverrun {
     std::size_t component{0U};
     Instant begin{};
@@ -37,7 +37,7 @@ struct OpenOverrun {
 /// Objects that the components use; set before the run.
 struct Surroundings {
     const ports::posix_rt::FrameClock* clock{nullptr};
-    std::vector<OpenOverrun>* overruns{nullptr};  ///< room for all of the run
+    std::vector<OpenOverrun>* overruns{nullptr};  ///< capacity for the complete run
     std::mutex* mutex{nullptr};
     ComponentDelays* delays{nullptr};
     std::atomic<std::size_t> overrun_count{0U};
@@ -50,7 +50,7 @@ class Victim final : public Component {
     constexpr explicit Victim(const char* name, std::size_t place) noexcept
         : Component(name), place_(place) {}
 
-    /// The next cycle takes `size`, or with kLock as long as the mutex is held.
+    /// The next cycle takes `size`, or, with kLock, as long as the mutex is held.
     void arm(Way way, Cause cause, Duration size) noexcept {
         way_ = way;
         cause_ = cause;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the faults that the runs rely on are real: a wrong rate, a sleep and a deadline that come late, a
-// mutex that is held, page faults. Method: each is held against Linux's own clock and counters; nothing is
-// asked of the speed of the machine.
+// Goal: the faults that the runs rely on are real: a wrong rate, a late sleep, a late deadline, a held mutex,
+// page faults. Method: each fault is compared with the clock and the counters of Linux; no test depends on
+// the speed of the host.
 #include "faulty_time.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using ports::posix_rt::get_monotonic_clock;
 using verification::Technique;
 using verification::verifies;
 
-/// Shown time that passes while `sut` is read between two readings of the true clock.
+/// Shown time that elapses while `sut` is read between two readings of the true clock.
 void expect_rate(const FaultyTime& sut, std::int64_t ppm) {
     const std::int64_t before = get_monotonic_clock().read_ns();
     const std::int64_t first = sut.read_ns();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a request gives the same faults each time, and the delay of a component is recorded for its cycle.
-// Method: plans and records without a run. `verification.faults` makes the runs.
+// Goal: a request always gives the same faults, and the delay of a component is recorded for its cycle.
+// Method: plans and records without a run; `verification.faults` executes the runs.
 #include "time_faults.hpp"
 
 #include <gtest/gtest.h>

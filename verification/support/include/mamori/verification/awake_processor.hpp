@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Keeps a processor awake while a run is measured. A virtual machine releases a sleeping processor to its
-/// host. Each wake-up then waits for it, and these host causes would dominate the run.
+/// Keeps a processor awake during a measurement. A virtual machine releases a sleeping processor to its host.
+/// Each wake-up would then wait for the processor, and these host causes would dominate the run.
 #ifndef MAMORI_VERIFICATION_AWAKE_PROCESSOR_HPP
 #define MAMORI_VERIFICATION_AWAKE_PROCESSOR_HPP
 
@@ -10,8 +10,9 @@
 
 namespace mamori::verification {
 
-/// A thread that computes on the processor, below all others there (SCHED_IDLE, which needs no privilege). If
-/// Linux denies priority or processor, the thread ends: the host is then noisier. Uses one processor.
+/// A thread that computes on the processor, below all other threads there (SCHED_IDLE, which needs no
+/// privilege). If Linux denies priority or processor, the thread ends, and the host stays noisier. Uses one
+/// processor.
 class AwakeProcessor final {
   public:
     /// @param[in] processor its number, 0, 1, ...

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Writes the course of a fault campaign: everything that a run recorded, as one JSON object of the schema
-/// mamori.fault_course/1. `verification/faults/evaluation` reads it and decides.
+/// Writes the course of a fault campaign: all records of a run, as one JSON object of the schema
+/// mamori.fault_course/1. `verification/faults/evaluation` reads and evaluates it.
 ///
 /// Design: docs/design/test_strength.md#courses
 #ifndef MAMORI_VERIFICATION_COURSE_FILE_HPP
@@ -24,7 +24,7 @@ struct Column {
     std::int64_t (*get)(const Row& row);
 };
 
-/// Thread safety: none. Memory: heap; the complete text is kept until write().
+/// Thread safety: none. Memory: heap; the complete text is stored until write().
 class CourseFile final {
   public:
     /// @param[in] subject name of the campaign, for example "service".
@@ -38,7 +38,8 @@ class CourseFile final {
     void add(const char* key, std::initializer_list<const char*> names);
     void add(const char* key, const HostFigures& host);
     void add(const char* key, const std::vector<Stall>& spans);
-    /// A table by columns. Each value is the difference to the row before, the first one to 0.
+    /// A table by columns. Each value is the difference from the previous row; the first row is the
+    /// difference from 0.
     template <typename Row>
     void add(const char* key, const std::vector<Row>& rows, std::initializer_list<Column<Row>> columns) {
         begin_table(key);
@@ -55,8 +56,8 @@ class CourseFile final {
         text_ += '}';
     }
 
-    /// Replaces the file by the complete text. @return false, with one line on stderr: the old file, if any,
-    /// is unchanged.
+    /// Replaces the file by the complete text. @return false after one line on stderr; an old file is then
+    /// unchanged.
     bool write(const char* path) const;
 
   private:
@@ -68,11 +69,11 @@ class CourseFile final {
     std::string text_;
 };
 
-/// Takes `NAME VALUE` off the end of the arguments. @param[in,out] count of the arguments.
-/// @return the value; nullptr: the arguments do not end in this option.
+/// Removes `NAME VALUE` from the end of the arguments. @param[in,out] count of the arguments.
+/// @return the value; nullptr if the arguments do not end in this option.
 const char* take_option(int& count, char** arguments, const char* name) noexcept;
 
-/// @return false: `text` is not an integer from 0 to 2^64 - 1.
+/// @return false if `text` is not an integer from 0 to 2^64 - 1.
 bool read_number(const char* text, std::uint64_t& number) noexcept;
 
 }  // namespace mamori::verification

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Death tests that pass only when the stated check ends the program: a crash, another check or another exit
-/// is a failure of the test.
+/// Death tests that pass only if the stated check ends the program. A crash, another check or another exit
+/// fails the test.
 ///
 /// @satisfies SWR-VER-024      Design: docs/design/test_strength.md#death-tests
 #ifndef MAMORI_VERIFICATION_FAILED_CHECK_HPP
@@ -26,7 +26,7 @@ inline void print_failed_check(const AssertionRecord& record) noexcept {
     std::abort();
 }
 
-/// @param[in] file name of the file, with as many folders above it as are needed to identify it.
+/// @param[in] file name of the file, preceded by as many folders as are needed to identify it.
 /// @return regular expression (POSIX, extended) for the line of check `Id` of `file`.
 template <std::uint32_t Id, std::size_t N>
 std::string make_check_pattern(const char (&file)[N]) {
@@ -42,7 +42,7 @@ std::string make_check_pattern(const char (&file)[N]) {
 }  // namespace mamori::verification
 
 /// Expects that `statement` ends in check `id` (a constant) of `file` (a literal). A child process runs the
-/// statement. Named like the macros of GoogleTest, because it is used like them.
+/// statement. The name follows the macros of GoogleTest, because usage is the same.
 #define EXPECT_CHECK_FAILS(statement, file, id)                                           \
     EXPECT_EXIT(                                                                          \
         {                                                                                 \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Time that a thread was ready and did not run, as the kernel counts it (/proc/thread-self/schedstat).
+/// Time that a thread was ready but did not run, as the kernel counts it (/proc/thread-self/schedstat).
 #ifndef MAMORI_VERIFICATION_RUN_DELAY_HPP
 #define MAMORI_VERIFICATION_RUN_DELAY_HPP
 
@@ -10,11 +10,11 @@
 
 namespace mamori::verification {
 
-/// Thread safety: for one thread, the first that calls take(). Memory: none. The file stays open to the end
-/// of the process, since a released thread may still read it.
+/// Thread safety: for one thread, the first that calls take(). Memory: none. The file stays open until the
+/// process ends, because a released thread may still read it.
 class RunDelayMeter final {
   public:
-    /// @return the delay since the call before; 0 at the first call and where the kernel does not count it.
+    /// @return the delay since the previous call; 0 at the first call, or if the kernel does not count it.
     Duration take() noexcept;
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Defects that a campaign program seeds in the software under test, to show that its run fails for them.
+/// Defects that a campaign program seeds in the software under test, to show that its run then fails.
 #ifndef MAMORI_VERIFICATION_SEEDED_DEFECT_HPP
 #define MAMORI_VERIFICATION_SEEDED_DEFECT_HPP
 
@@ -10,7 +10,7 @@ namespace mamori::verification {
 
 enum class Defect : std::uint8_t {
     kNone,
-    kLateRelease,  ///< a window starts too late, or outputs are closed too late
+    kLateRelease,  ///< a window starts too late, or outputs close too late
     kOverrun,      ///< a component computes for longer than its budget
     kWrongName     ///< a report names another component or fault
 };
@@ -19,8 +19,8 @@ inline constexpr std::size_t kDefectCount{4U};
 inline constexpr std::uint64_t kDefectEvery{41U};
 
 const char* get_name(Defect defect) noexcept;
-/// Takes `--defect NAME` off the end of the arguments. @param[in,out] count of the arguments. @return false:
-/// no such name.
+/// Removes `--defect NAME` from the end of the arguments. @param[in,out] count of the arguments. @return
+/// false for an unknown name.
 bool take_defect(int& count, char** arguments, Defect& defect) noexcept;
 
 }  // namespace mamori::verification

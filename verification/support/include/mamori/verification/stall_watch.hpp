@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Records when no thread ran on a processor: a thread above all others there polls the clock. Host causes
-/// are thus distinguished from the software under test.
+/// Records when no thread ran on a processor: a thread above all other threads there polls the clock. This
+/// distinguishes host causes from the software under test.
 #ifndef MAMORI_VERIFICATION_STALL_WATCH_HPP
 #define MAMORI_VERIFICATION_STALL_WATCH_HPP
 
@@ -16,39 +16,38 @@
 
 namespace mamori::verification {
 
-/// From one poll of the clock to the next, much later one; for a late poll, from its planned instant to its
-/// actual one.
+/// A stall: from one poll of the clock to the next, much later one. A late poll: from its planned to its
+/// actual instant.
 struct Stall {
     Instant begin{};
     Instant end{};
 };
 
-/// What the host did during a run.
+/// Host activity during a run.
 struct HostFigures {
-    std::uint64_t stalls{0U};  ///< the watch was away for longer than two of its steps
+    std::uint64_t stalls{0U};  ///< intervals between two polls longer than two steps
     Duration longest_stall{};
-    Duration lost{};  ///< sum of what the polls of the watch were late by
+    Duration lost{};  ///< sum of the lateness of all polls
     std::uint64_t late_polls{0U};
-    Duration run_delay{};        ///< the watch was ready and did not run (/proc/thread-self/schedstat)
+    Duration run_delay{};        ///< the thread was ready but did not run (/proc/thread-self/schedstat)
     std::uint64_t steal_ms{0U};  ///< time that the hypervisor took (/proc/stat)
     std::uint64_t involuntary_switches{0U};  ///< of all threads of the process (getrusage)
 };
 
-/// Time lost between two instants: the sum of the parts of late polls within.
+/// Time lost between two instants: total length of the late polls in between.
 /// @param[in] late_polls in the order of their instants.
 Duration calc_loss(const std::vector<Stall>& late_polls, Instant begin, Instant end);
 
-/// The first processor that this process may use: threads whose stalls are watched must be on that of the
-/// watch.
+/// The first processor that this process may use. Threads whose stalls are recorded must run on the processor
+/// of the polling thread.
 int find_processor() noexcept;
 
-/// Thread safety: every get_ function after stop(). Memory: heap, taken in the constructor.
+/// Thread safety: every get_ function after stop(). Memory: heap, allocated in the constructor.
 class StallWatch final {
   public:
     /// Polls every `step`; a gap longer than two steps is a stall.
-    /// @param[in] late_poll_max capacity for polls that are late by half a step or more: several in a row
-    /// delay
-    ///                          a window like a stall, and none of them is one.
+    /// @param[in] late_poll_max capacity for polls that are late by half a step or more. Several in a row
+    /// delay a window like a stall, although none of them is a stall.
     StallWatch(const ports::posix_rt::FrameClock& clock, Duration step, ports::posix_rt::ThreadPlace place,
                std::size_t late_poll_max = 0U);
     StallWatch(const StallWatch&) = delete;
@@ -58,7 +57,7 @@ class StallWatch final {
     void stop();
     const std::vector<Stall>& get_stalls() const noexcept { return stalls_; }
     const std::vector<Stall>& get_late_polls() const noexcept { return late_polls_; }
-    /// Of the time from the constructor to stop().
+    /// Figures of the time from the constructor to stop().
     const HostFigures& get_figures() const noexcept { return figures_; }
 
   private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Writes a system table as JSON for `mamori table`, which makes text and pictures of it, and says in words
-/// which rules a table breaks. For hosts: link mamori::table_dump into your program and offer `--table-json
-/// FILE`.
+/// Writes a system table as JSON for `mamori table`, which converts it to text and pictures, and describes in
+/// words which rules a table violates. For hosts: link mamori::table_dump into your program and offer
+/// `--table-json FILE`.
 ///
 /// @satisfies SWR-TAB-001, SWR-TAB-002, SWR-TAB-003, SWR-TAB-010, SWR-TAB-013
 ///           Design: docs/design/cost.md#table-dump
@@ -18,32 +18,33 @@
 
 namespace mamori::table_dump {
 
-/// Spelling of the application's enumerators, by their numbers; a number without one is written as it is.
+/// Spelling of the enumerators of the application, by their numbers; a number without a name is written as a
+/// number.
 struct Names {
     std::vector<std::string> faults{};
     std::vector<std::string> reactions{};
     std::vector<std::string> events{};  ///< those of mode transitions
 };
 
-// Every function takes any rows, also such as break every rule: what has no name is written as `?`.
+// Every function accepts any rows, including rows that violate rules: an element without a name is written as
+// `?`.
 //
-// Thread safety: none needed, nothing is kept. The components of the table must exist; of their state only
-// the active values of parameters are read, by write_json() and save_json(): call these while no executive
+// Thread safety: none needed, because no state is kept. The components of the table must exist. Only
+// write_json() and save_json() read their state (active parameter values): call these while no executive
 // runs. Time:          O(rows squared). Memory: heap.
 
-/// One sentence that says which rule is broken, names the guilty elements and gives the numbers that
-/// disagree.
+/// One sentence that states the violated rule, the faulty elements and the contradicting numbers.
 std::string describe(const Finding& finding, const SystemView& view);
 
-/// Every finding of check_all(), in words; empty: the table keeps every rule.
+/// Every finding of check_all(), in words; empty if the table complies with every rule.
 std::vector<std::string> describe_all(const SystemView& view);
 
-/// Writes one JSON document of schema `mamori.table/2` (docs/design/cost.md#schema): ASCII and UTF-8 as
-/// the names are, times as whole nanoseconds, rates in Hz.
+/// Writes one JSON document of schema `mamori.table/2` (docs/design/cost.md#schema): ASCII, names in UTF-8,
+/// times as integer nanoseconds, rates in Hz.
 void write_json(std::ostream& out, const SystemView& view, const Names& names = {});
 
-/// The same into a file, which is whole or not there: written beside `path` and renamed.
-/// @return empty when done, else one sentence with the path and the cause.
+/// Writes the same document to a file atomically: to a temporary file next to `path`, which is then renamed.
+/// @return empty on success, otherwise one sentence with the path and the cause.
 [[nodiscard]] std::string save_json(const std::string& path, const SystemView& view, const Names& names = {});
 
 }  // namespace mamori::table_dump

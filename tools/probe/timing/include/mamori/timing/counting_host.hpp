@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Runs each step of selected cycles inside one function with a fixed name, so that a tool that counts per
-/// function (callgrind) can distinguish the steps. Reads the clock before and after each step for a run
+/// function (callgrind) can separate the steps. Also reads the clock before and after each step, for a run
 /// without the tool.
 ///
 /// @satisfies SWR-TIM-030      Design: docs/design/cost.md#counting
@@ -17,8 +17,8 @@
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/timing/run_log.hpp"
 
-/// The function that the tool counts; C linkage keeps its name unchanged. Runs step `step`, and adds the same
-/// few instructions each time.
+/// The function that the tool counts; C linkage keeps its name. Runs step `step`, and always adds the same
+/// few instructions.
 extern "C" void mamori_counted_step(void (*run)(void* argument, std::size_t begin, std::size_t end) noexcept,
                                     void* argument, std::size_t step) noexcept;
 
@@ -34,7 +34,7 @@ struct CountedCycles {
     }
 };
 
-/// Host of one core in virtual time; forwards everything to the inner host.
+/// Platform host of one core in virtual time; forwards all calls to the inner host.
 ///
 /// Calling context: that of the inner host, whose work runs and returns on the calling thread. Memory: heap,
 /// in the constructor.
@@ -43,8 +43,8 @@ class CountingHost final : public WindowHost {
     /// @param[in] inner, log, clock, view must outlive it. The time line of `inner` begins with frame 0.
     /// @param[in] log receives a row for each counted step, in execution order.
     /// @param[in] clock reads the instants of the rows.
-    /// @param[in] is_paced work waits until the clock reaches the time of `inner`: the run is in real time,
-    /// and its inputs are still those of virtual time.
+    /// @param[in] is_paced work waits until the clock reaches the time of `inner`: the run is then in real
+    /// time, with the inputs of virtual time.
     CountingHost(WindowHost& inner, RunLog& log, const SystemView& view, CountedCycles cycles,
                  const ports::posix_rt::FrameClock& clock, bool is_paced)
         : inner_(inner),

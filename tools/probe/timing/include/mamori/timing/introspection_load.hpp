@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A thread that requests introspection of a running system, as a tool outside the system does.
+/// A thread that requests introspection of a running system, like a tool outside the system.
 ///
 /// @satisfies SWR-TIM-041      Design: docs/design/timing.md#requests
 #ifndef MAMORI_TIMING_INTROSPECTION_LOAD_HPP
@@ -18,29 +18,29 @@ enum class Pace : std::uint8_t {
     kNone,
     kSteady,       ///< one request per millisecond
     kBurst,        ///< a hundred requests in a row every 100 ms
-    kWithoutPause  ///< one request after the other
+    kWithoutPause  ///< requests in immediate sequence
 };
 
-/// Each request reads every row. The thread has no fixed priority and can use any processor.
+/// Each request reads all rows. The thread has no fixed priority and may use any processor.
 ///
 /// Thread safety: set_pace() and get_request_count() from any thread.
 class IntrospectionLoad final {
   public:
-    /// @param[in] shown must outlive this object. Create this object before its thread binds itself to a
-    /// processor.
+    /// @param[in] shown must outlive this object. Create this object before the calling thread binds itself
+    /// to a processor.
     explicit IntrospectionLoad(const Introspection& shown);
     IntrospectionLoad(const IntrospectionLoad&) = delete;
     IntrospectionLoad& operator=(const IntrospectionLoad&) = delete;
     ~IntrospectionLoad();
 
-    /// Binds its thread to this processor.
+    /// Binds the thread to this processor.
     void bind(int processor) noexcept;
 
-    /// True during a request. For a caller that keeps the thread from running.
+    /// True during a request. For callers that preempt the thread.
     const std::atomic<bool>& is_requesting() const noexcept { return is_requesting_; }
 
     void set_pace(Pace pace) noexcept { pace_.store(pace, std::memory_order_relaxed); }
-    /// Number of requests that could read a row.
+    /// Number of requests that read at least one row.
     std::uint64_t get_request_count() const noexcept {
         return request_count_.load(std::memory_order_relaxed);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads the clock before and after each step of a host, and changes nothing else: the windows, budgets and
+/// Reads the clock before and after each step of a platform host. Otherwise, windows, budgets and
 /// consequences are those of the inner host.
 ///
 /// @satisfies SWR-TIM-001      Design: docs/design/timing.md#log
@@ -16,12 +16,12 @@
 
 namespace mamori::timing {
 
-/// Host and listener of one core. A step takes two additional readings of the clock.
+/// Host and listener of one core. Each step needs two additional readings of the clock.
 ///
 /// Calling context: that of the inner host. Memory: heap, in the constructor.
 class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningObserver {
   public:
-    /// @param[in] inner, log must outlive it, and permanently if work hangs; so must this object.
+    /// @param[in] inner, log must outlive this object; if work hangs, all three must exist permanently.
     /// @param[in] window_count of the system table.
     /// @param[in] next also called before and after every window; nullptr: none. Its time before a window
     /// counts as lateness of the window.
@@ -41,7 +41,7 @@ class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningOb
     void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override;
 
   private:
-    /// Work of one measured window; it is not passed again before it has returned.
+    /// Work of one measured window; it is passed again only after it has returned.
     struct Piece {
         const WindowHost* clock{nullptr};
         Work work{};

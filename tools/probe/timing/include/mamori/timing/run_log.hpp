@@ -17,7 +17,7 @@
 
 namespace mamori::timing {
 
-/// Represents an instant that never came.
+/// Represents an instant that did not occur.
 inline constexpr Instant kNoInstant{-1};
 
 /// One window instance.
@@ -35,14 +35,14 @@ struct StepRow {
     Instant release{};  ///< of its window instance
     std::size_t component{0U};
     WindowHost::Pass pass{WindowHost::Pass::kExecute};
-    std::atomic<std::int64_t> start_ns{kNoInstant.ns};  ///< kNoInstant: it never began
-    std::atomic<std::int64_t> end_ns{kNoInstant.ns};    ///< kNoInstant: it has not returned
+    std::atomic<std::int64_t> start_ns{kNoInstant.ns};  ///< kNoInstant: the step did not begin
+    std::atomic<std::int64_t> end_ns{kNoInstant.ns};    ///< kNoInstant: the step has not returned
 };
 
 /// Rows of one core.
 ///
-/// Thread safety: add_opening() and take_steps() from the thread that runs the windows, the other fields of a
-/// step's row from the thread that does the step; reading after the run. Memory: heap, all of it allocated
+/// Thread safety: the thread that runs the windows calls add_opening() and take_steps(); the thread that does
+/// a step writes the other fields of its row; reading is permitted after the run. Memory: heap, all allocated
 /// and touched in the constructor.
 class RunLog final {
   public:
@@ -51,7 +51,7 @@ class RunLog final {
         : openings_(opening_count), steps_(step_count) {}
 
     void add_opening(const OpeningRow& row) noexcept;
-    /// Rows for the steps of one piece of work, for `component` and the following components, one each.
+    /// Allocates rows for one piece of work: one row for `component` and for each following component.
     /// @return the first of `count` rows; nullptr if the capacity is exhausted.
     StepRow* take_steps(Instant release, std::size_t component, std::size_t count,
                         WindowHost::Pass pass) noexcept;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Runs a system in real time for a number of major frames and writes the measurements, for `mamori timing`.
-/// For hosts: link mamori::timing into your program and offer
-/// `timing --cycles N --out DIR [--requests]`.
+/// Runs a system in real time for a number of major frames and writes the measurements for `mamori timing`.
+/// For hosts: link mamori::timing into your program and offer `timing --cycles N --out DIR [--requests]`.
 ///
 /// @satisfies SWR-TIM-002, SWR-TIM-003, SWR-TIM-005, SWR-TIM-041      Design:
 /// docs/design/timing.md#measured-run
@@ -24,7 +23,7 @@ namespace mamori::timing {
 /// One core of the system. The caller initialises, starts and stops the executive.
 struct TimedCore {
     Executive& executive;
-    /// One per window of the system table, static storage: see WindowThread.
+    /// One per window of the system table, with static storage: see WindowThread.
     Span<ports::posix_rt::WindowThread> threads;
     /// Devices before and after the windows of this core; nullptr: none.
     ports::posix_rt::OpeningObserver* devices{nullptr};
@@ -33,45 +32,45 @@ struct TimedCore {
 struct TimingOptions {
     std::uint64_t cycles{60000U};  ///< major frames, > 0
     std::string out;               ///< folder of the results; is created
-    int priority{80};              ///< of SCHED_FIFO for the runner threads; window threads get 10 less
+    int priority{80};              ///< of SCHED_FIFO for runner threads; window threads get 10 less
     /// Writes table.json to the given path; empty: the table without names. @return the error, or empty.
     std::function<std::string(const std::string&)> save_table{};
-    /// Called after the run: notes for the readers of the times. Empty: none.
+    /// Called after the run; returns notes for the readers of the times. Empty: none.
     std::function<std::vector<std::string>()> tell_notes{};
-    /// Called after the run: errors of the system itself, for example that it left its operating state. Each
-    /// text is a finding of `mamori timing`. Empty: none.
+    /// Called after the run; returns errors of the system itself, for example that it left its operating
+    /// state. Each text is a finding of `mamori timing`. Empty: none.
     std::function<std::vector<std::string>()> tell_findings{};
-    /// Blocks of major frames without requests from outside, with 1,000 per second and with as many in bursts
-    /// of a hundred alternate. Rejected without `introspection`.
+    /// Alternates blocks of major frames: without requests from outside, with 1,000 requests per second, and
+    /// with as many in bursts of a hundred. Rejected without `introspection`.
     bool with_requests{false};
-    /// That of the executives; nullptr: none. Must outlive the run.
+    /// Introspection of the executives; nullptr: none. Must outlive the run.
     const Introspection* introspection{nullptr};
 };
 
 /// Outcome of a run.
 enum class TimingOutcome : std::uint8_t {
     kWhole,        ///< all frames, all files written
-    kInterrupted,  ///< by SIGINT or SIGTERM: the existing data is written and marked as partial
+    kInterrupted,  ///< ended by SIGINT or SIGTERM: existing data is written and marked as partial
     kRefused,      ///< invalid options, fewer processors than cores, or not enough memory; nothing ran
     kFailed,       ///< no threads available, or a file could not be written or removed
 };
 
 struct TimingResult {
     TimingOutcome outcome{TimingOutcome::kRefused};
-    std::string message;  ///< what is wrong, where, and how to fix it; empty without an error
+    std::string message;  ///< what is wrong, where, and how to fix it; empty on success
 };
 
 /// Exit status of the program for `mamori timing`: 0, 130, 2, 1 in the order of TimingOutcome.
 int get_exit_status(TimingOutcome outcome) noexcept;
 
 /// Runs all cores in parallel, each on its own processor, and writes table.json, openings.npy, steps.npy and
-/// run.json (docs/design/timing.md#files) to the folder. SIGINT and SIGTERM end the run early and are ignored
-/// while it writes. After the last window, outstanding work has at most one second to return.
+/// run.json (docs/design/timing.md#files) to the folder. SIGINT and SIGTERM end the run early; during writing
+/// they are ignored. After the last window, outstanding work has at most one second to return.
 ///
-/// Calling context: the main thread of a program, once per process; work that hangs permanently keeps its
+/// Calling context: the main thread of a program, once per process. Work that hangs permanently keeps its
 /// memory. Memory: heap, locked if the process has the privilege; about 30 bytes per window instance and 40
 /// per step.
-/// @param[in] cores one per core of the table, in their order.
+/// @param[in] cores one per core of the table, in the same order.
 TimingResult run_timing(const std::vector<TimedCore>& cores, const TimingOptions& options);
 
 }  // namespace mamori::timing
