@@ -48,7 +48,8 @@ void IntrospectionLoad::request(std::uint64_t count) noexcept {
     is_requesting_.store(true, std::memory_order_relaxed);
     for (std::uint64_t i = 0U; i < count; ++i) {
         CoreSnapshot row{};
-        for (std::size_t core = 0U; core < shown_.get_window_count(); ++core) {  // at most one core per window
+        // There is at most one core per window.
+        for (std::size_t core = 0U; core < shown_.get_window_count(); ++core) {
             row_count += shown_.read_core(core, row) == Status::kOk ? 1U : 0U;
         }
         shown_.for_each_window(count_row);
