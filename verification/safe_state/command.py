@@ -126,7 +126,7 @@ def _get_folder(project: Project, defect: AnyDefect | None) -> Path:
 
 
 def _prove(text: str, brake_text: str, defect: AnyDefect | None) -> list[Proof]:
-    """A defect is checked with the properties of the part that contains it."""
+    """For each seeded defect, the command checks the properties of the part that contains the defect."""
     relation, brake_relation = read_relation(text, Path(TARGET)), read_brakes(brake_text, Path(BRAKE_TARGET))
     machine, brakes = merge(relation), make_cycles(brake_relation)
     facts = {"situations": len(relation.labels), "merged_situations": len(machine.labels), "steps": relation.steps,

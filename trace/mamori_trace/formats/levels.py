@@ -107,7 +107,7 @@ def _list_refined(groups: list[str], parents: list[list[int]]) -> list[bool]:
 
 
 def _choose_edges(up: dict[str, Counter], sizes: Counter, share: float) -> dict[str, set[str]]:
-    """Order of the groups: the most frequent links come first; a link that would close a cycle is ignored."""
+    """Orders the groups by the links between them. Takes the most frequent links first, and ignores a link that would close a cycle."""
     counted = sorted((-count, low, high) for low, row in up.items() for high, count in row.items() if low != high)
     edges: dict[str, set[str]] = defaultdict(set)
     for count, low, high in counted:

@@ -106,7 +106,8 @@ def _read_spans(project: Project, path: str) -> list[Span]:
 
 
 def _list_states(change: FileChange, old: Project, new: Project) -> tuple[dict[str, tuple[str, bool]], bool]:
-    """Name -> (state, whether it is a test) of the touched spans on both sides; and whether a line outside all spans changed."""
+    """The name of each touched span, before and after the change, mapped to (state, whether it is a test); and whether a line
+    outside all spans changed."""
     before, after = _read_spans(old, change.old_path), _read_spans(new, change.new_path)
     old_touched, old_outside = find_touched(before, change.old_ranges)
     new_touched, new_outside = find_touched(after, change.new_ranges)

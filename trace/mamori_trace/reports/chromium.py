@@ -50,7 +50,8 @@ class Chromium:
         self._profile = tempfile.TemporaryDirectory(prefix="mamori-chromium-", ignore_cleanup_errors=True)
         to_read, self._writer = os.pipe()
         self._reader, to_write = os.pipe()
-        # Copies above both descriptors of the browser, so that moving one does not overwrite the other.
+        # Duplicates both descriptors to numbers above those that the browser uses, so that moving one to its final number does not
+        # overwrite the other.
         high = [fcntl.fcntl(end, fcntl.F_DUPFD, _HIGH_DESCRIPTOR) for end in (to_read, to_write)]
         command = [program, *_OPTIONS, f"--user-data-dir={self._profile.name}", "about:blank"]
         if os.geteuid() == 0:
