@@ -38,8 +38,10 @@ struct Answers {
     std::uint64_t wrong{0U};
 };
 
-Answers send_until(const std::atomic<bool>& is_done, Lamp& lamp, std::int32_t id) {
+Answers send_until(const std::atomic<bool>& is_done, std::atomic<int>& sender_count, Lamp& lamp,
+                   std::int32_t id) {
     Answers answers;
+    ++sender_count;
     while (!is_done.load(std::memory_order_acquire)) {
         switch (lamp.send_stimulus(0U, ContextHandle{id, {}})) {
             case Status::kOk:
@@ -71,13 +73,17 @@ TEST(StimulusStressTest, SendersOnOtherThreadsDoNotDisturbTheLifeOfAMachine) {
     plan.kind = ExecutionKind::kEventDriven;
     plan.events_per_cycle = 4U;
     std::atomic<bool> is_done{false};
+    std::atomic<int> sender_count{0};
     std::array<Answers, 2U> answers{};
     std::vector<std::thread> senders;
-    senders.emplace_back([&] { answers[0] = send_until(is_done, lamp, -1); });
-    senders.emplace_back([&] { answers[1] = send_until(is_done, lamp, kId); });
+    senders.emplace_back([&] { answers[0] = send_until(is_done, sender_count, lamp, -1); });
+    senders.emplace_back([&] { answers[1] = send_until(is_done, sender_count, lamp, kId); });
     std::uint64_t bad_calls = 0U;
     const auto expect_ok = [&](Status status) { bad_calls += status == Status::kOk ? 0U : 1U; };
 
+    while (sender_count < 2) {
+        std::this_thread::yield();  // a busy host may start them after the last life
+    }
     for (int life = 0; life < 2000; ++life) {
         expect_ok(lamp.initialize());
         expect_ok(context.attach(kId, participants, plan));
