@@ -28,6 +28,7 @@ Director::Director(const Stage& stage, std::vector<Injection> injections)
     course_.clock_faults.reserve(injections_.size());
     course_.found.reserve(kReportRoom);
     course_.runner_delays.reserve(kReportRoom);
+    static_cast<void>(meter_.take());  // opens its file before the first window
 }
 
 void Director::before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept {

@@ -56,6 +56,8 @@ class Victim final : public Component {
         cause_ = cause;
         size_ns_.store(size.ns, std::memory_order_release);
     }
+    /// On its thread, before the first window: opening the file of the meter can take longer than the budget.
+    void open_meter() noexcept { static_cast<void>(delay_meter_.take()); }
     Status on_execute(ContextHandle handle) noexcept override;
     const PageMeter& get_meter() const noexcept { return meter_; }
 
