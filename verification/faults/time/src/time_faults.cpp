@@ -49,15 +49,13 @@ void open_meter(void* victim, std::size_t, std::size_t) noexcept {
     static_cast<Victim*>(victim)->open_meter();
 }
 
-/// @return false if a thread of a window did not run.
-bool open_meters(GuardedHost& host, const FrameClock& clock) {
-    std::size_t open_count = 0U;
+/// A meter that the host leaves closed opens in the first window.
+void open_meters(GuardedHost& host, const FrameClock& clock) {
     for (std::size_t place = 0U; place < kComponentCount; ++place) {
         const WindowHost::Work work{&open_meter, &get_victim(place),         kWindowOf[place], place, 0U,
                                     1U,          WindowHost::Pass::kModeStep};
-        open_count += host.run_within(work, clock.get_now() + kLead);
+        static_cast<void>(host.run_within(work, clock.get_now() + kLead));
     }
-    return open_count == kComponentCount;
 }
 
 /// Runs the frames while the monitor and the thread that records stalls poll.
@@ -164,10 +162,11 @@ Course run(const Request& request) {
     static Director director{{clock, time, inversion, host, load.is_requesting()}, make_injections(request)};
     CoreRunner runner{get_executive(), host, clock};
     get_executive().set_introspection(&get_introspection());
-    if (host.open() != Status::kOk || !open_meters(host, clock) ||
-        get_executive().initialize() != Status::kOk || get_executive().start() != Status::kOk) {
+    if (host.open() != Status::kOk || get_executive().initialize() != Status::kOk ||
+        get_executive().start() != Status::kOk) {
         return {};
     }
+    open_meters(host, clock);
     get_executive().set_observer(&director);
     load.set_pace(Pace::kWithoutPause);
     Course course = run_frames(request, director, runner, clock);
