@@ -49,7 +49,7 @@ _FONT = 12.5
 _LETTER = 0.58 * _FONT
 """Mean width of a letter, in drawing units; determines whether the name of a state fits its band."""
 _WIDTH_INCHES, _HEIGHT_INCHES, _DPI = 5.2, 5.0, 72
-_LEFT, _RIGHT = 0.135, 0.975
+_LEFT, _RIGHT = 0.135, 0.955
 _STYLE: dict[RcKeyType, Any] = {
     "svg.fonttype": "none", "svg.hashsalt": "mamori", "path.simplify": True, "path.simplify_threshold": 0.15,
     "font.family": "sans-serif", "font.size": _FONT, "axes.edgecolor": "#b9c0ca", "axes.labelcolor": _INK, "axes.titlesize": _FONT,
