@@ -250,6 +250,13 @@ TEST_F(ExecutiveLifeTest, AnObserverFromWithinAnActionEndsInTheAssertion) {
     EXPECT_CHECK_FAILS(static_cast<void>(sut_.run_window(0U, host_)), "executive.cpp", 5);
 }
 
+TEST_F(ExecutiveLifeTest, AnObserverFromWithinInitializeEndsInTheAssertion) {
+    verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
+    a_.inside = [this](const std::string&) { sut_.set_observer(nullptr); };
+
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.initialize()), "executive.cpp", 5);
+}
+
 TEST_F(ExecutiveLifeTest, OperationsFromWithinAnActionAreRefused) {
     verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
     std::size_t refusals = 0U;

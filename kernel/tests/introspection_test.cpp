@@ -129,6 +129,8 @@ TEST_F(IntrospectionTest, AWindowShowsWhatItsLastAndItsWorstCycleUsed) {
     EXPECT_EQ(window.last_outcome, WindowOutcome::kCompleted);
     EXPECT_EQ(window.hanging_component, kNoIndex);
     EXPECT_EQ(read_window(1U).cycles, 0U);
+    EXPECT_EQ(run_first(2, 1), WindowOutcome::kCompleted);
+    EXPECT_EQ(read_window(0U).late_releases, 2U);
 }
 
 TEST_F(IntrospectionTest, AWindowShowsItsOverruns) {
@@ -213,6 +215,19 @@ TEST_F(IntrospectionTest, AComponentThatHandsNothingOnShowsItsTimeToo) {
     host_.durations[{2U, FakeHost::Pass::kExecute}] = 40_ns;
     run_second(0);
     host_.durations[{2U, FakeHost::Pass::kExecute}] = 30_ns;
+    run_second(1);
+
+    EXPECT_EQ(read_component(2U).worst_used, 40_ns);
+}
+
+TEST_F(IntrospectionTest, AComponentOfARunningSystemShowsItsTimeWhileAnObserverListens) {
+    verifies("SWR-INS-001", Technique::kInterface);
+    SpyObserver observer;
+    executive_.set_observer(&observer);
+    start();
+    host_.durations[{2U, FakeHost::Pass::kExecute}] = 40_ns;
+    run_second(0);
+    executive_.set_introspection(&sut_);
     run_second(1);
 
     EXPECT_EQ(read_component(2U).worst_used, 40_ns);

@@ -213,6 +213,17 @@ TEST(SystemParametersTest, ASetThatTheCompilerCouldNotJudgeIsRefusedBeforeAnythi
     EXPECT_EQ(plant.first.speed_at_birth, 2.0) << "the request for the initial set was not lost";
 }
 
+TEST(SystemParametersTest, EachSetIsCheckedBeforeTheStart) {
+    verifies("SWR-MOD-002", Technique::kBoundaryValues, Polarity::kViolation);
+    Plant plant;
+    plant.table.configuration.values[3] = to_scalar(99.0);  // of the last set
+    plant.core_0.set_observer(&plant.observers[0]);
+
+    EXPECT_EQ(plant.core_0.initialize(), Status::kBadParameter);
+    ASSERT_EQ(plant.observers[0].refused_sets.size(), 1U);
+    EXPECT_EQ(plant.observers[0].refused_sets[0].set, 1U);
+}
+
 TEST(SystemParametersTest, ASetThatWasRefusedWhileTheSystemRanIsNoReasonToRefuseTheNextStart) {
     verifies("SWR-MOD-008", Technique::kFaultInjection, Polarity::kViolation);
     for (const int frames : {1, 5}) {  // agreed on, and judged

@@ -73,12 +73,11 @@ void DataFlow::publish_outputs(const WindowRow& row, ModeMask held, Instant end)
     if (core_.view.has_trace_hash) {
         hash_outputs(row, end);
     }
-    if (!row.has_deliveries) {
-        return;
-    }
-    for (const ComponentRow& owner :
-         core_.view.component_rows.subspan(row.first_component, row.component_count)) {
-        deliver_outputs(owner, held, end);
+    if (row.has_deliveries) {
+        for (const ComponentRow& owner :
+             core_.view.component_rows.subspan(row.first_component, row.component_count)) {
+            deliver_outputs(owner, held, end);
+        }
     }
 }
 

@@ -13,7 +13,6 @@ void Executive::set_introspection(Introspection* introspection) noexcept {
         life_.check_table();
     }
     core.introspection = introspection;
-    core.parts.observe = &detail::observe_pass;
     life_.get_runner().prepare_work();
     show_windows();
 }

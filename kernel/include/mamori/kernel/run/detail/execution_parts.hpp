@@ -27,7 +27,7 @@ struct ExecutionParts {
     InitialCheck check{&check_everything};  ///< never nullptr
     /// nullptr: no component overrides on_state_update.
     ExecutionContext::Pass second_pass{&ExecutionContext::run_second_pass};
-    /// nullptr: no connection is forward in a window, and the executive has no observer or introspection yet.
+    /// nullptr: no connection is forward in a window, and the executive has no observer yet.
     ObservePass observe{&observe_pass};
 };
 
