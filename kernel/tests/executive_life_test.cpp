@@ -94,6 +94,7 @@ TEST_F(ExecutiveLifeTest, OperationsOutOfOrderAreRefusedWithoutACall) {
     EXPECT_EQ(sut_.finalize(), Status::kPreconditionNotMet);
     EXPECT_TRUE(calls_.empty());
     EXPECT_EQ(get_state(1U, c_), LifecycleState::kActive) << "the running system is not disturbed";
+    EXPECT_EQ(sut_.stop(), Status::kOk);
 }
 
 TEST_F(ExecutiveLifeTest, ARefusedInitialiseNamesTheComponentAndGoesOnThereWhenRepeated) {
@@ -250,11 +251,15 @@ TEST_F(ExecutiveLifeTest, AnObserverFromWithinAnActionEndsInTheAssertion) {
     EXPECT_CHECK_FAILS(static_cast<void>(sut_.run_window(0U, host_)), "executive.cpp", 5);
 }
 
-TEST_F(ExecutiveLifeTest, AnObserverFromWithinInitializeEndsInTheAssertion) {
+TEST_F(ExecutiveLifeTest, AnObserverFromWithinInitializeOrFinalizeEndsInTheAssertion) {
     verifies("SWR-KRN-024", Technique::kErrorGuessing, Polarity::kViolation);
     a_.inside = [this](const std::string&) { sut_.set_observer(nullptr); };
 
     EXPECT_CHECK_FAILS(static_cast<void>(sut_.initialize()), "executive.cpp", 5);
+    a_.inside = nullptr;
+    ASSERT_EQ(sut_.initialize(), Status::kOk);
+    a_.inside = [this](const std::string&) { sut_.set_observer(nullptr); };
+    EXPECT_CHECK_FAILS(static_cast<void>(sut_.finalize()), "executive.cpp", 5);
 }
 
 TEST_F(ExecutiveLifeTest, OperationsFromWithinAnActionAreRefused) {

@@ -104,7 +104,7 @@ void write_line(const FailureLine& line) noexcept {
     }
 }
 
-/// Prints the line of the failure that the handler received; without one, the line of `record`. Later
+/// Prints the line of the failure that the handler received; without one, the line of `record`. Other
 /// contexts return when the first context has printed its line.
 void print_once(const AssertionRecord& record) noexcept {
     if (g_is_line_begun.exchange(true, std::memory_order_acq_rel)) {
@@ -130,9 +130,6 @@ void print_once(const AssertionRecord& record) noexcept {
         g_handled.store(&record, std::memory_order_release);
 #endif
         handler(record);
-#if defined(__unix__)
-        print_once(record);
-#endif
         g_is_handled.store(1U, std::memory_order_release);
     } else if (gate == nullptr && g_has_handler.load(std::memory_order_relaxed)) {
         wait_until_set(g_is_handled);
