@@ -204,6 +204,9 @@ TEST_F(ExecutiveLifeTest, FinalizeIsRefusedWhileAComponentIsActiveAndReportsTheF
     ASSERT_EQ(sut_.get_context(1U).activate_component(c_, Instant{}), Status::kOk);
     EXPECT_EQ(sut_.finalize(), Status::kPreconditionNotMet);
     ASSERT_EQ(sut_.stop(), Status::kOk);
+    ASSERT_EQ(sut_.get_context(0U).activate_component(b_, Instant{}), Status::kOk);
+    EXPECT_EQ(sut_.finalize(), Status::kPreconditionNotMet) << "the second component of a window";
+    ASSERT_EQ(sut_.stop(), Status::kOk);
     b_.answers["on_finalize"] = Status::kError;
 
     EXPECT_EQ(sut_.finalize(), Status::kError);

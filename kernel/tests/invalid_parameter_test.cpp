@@ -39,6 +39,15 @@ class Valve final : public Component {
     }
 };
 
+/// Its ports have the same name.
+class TwoOutputs final : public Component {
+  public:
+    TwoOutputs() noexcept : Component("two_outputs") {}
+    OutPort<int> one{*this, "out"};
+    OutPort<int> other{*this, "out"};
+    using Ports = mamori::Ports<&TwoOutputs::one, &TwoOutputs::other>;
+};
+
 auto make_table(Valve& a, Valve& b, Valve& c) {
     return system(frame(1_ms), window("a", 0_us, 300_us, budget(300_us), run(a)),
                   window("b", 300_us, 300_us, budget(300_us), run(b)),
@@ -88,6 +97,30 @@ TEST(InvalidParameterTest, ATableWithAnInvalidParameterIsRefusedOnEachCoreWithTh
         EXPECT_FALSE(plant->first.was_initialized || plant->second.was_initialized)
             << "refused before any action";
     }
+}
+
+TEST(InvalidParameterTest, AnInvalidParameterOfTheFirstComponentIsFound) {
+    verifies("SWR-PAR-011", Technique::kBoundaryValues, Polarity::kViolation);
+    Valve first{"first", 3.0, 0.0, 2.0};
+    Valve second{"second", 1.0, 0.0, 2.0};
+    Valve third{"third", 1.0, 0.0, 2.0};
+    auto table = make_table(first, second, third);
+    ExecutiveFor<decltype(table)> core{table};
+
+    EXPECT_EQ(core.initialize(), Status::kBadParameter);
+    EXPECT_EQ(core.get_failed_component(), 0U);
+}
+
+TEST(InvalidParameterTest, AFaultOfTheFirstComponentIsFoundInATableWithParameters) {
+    verifies("SWR-KRN-046", Technique::kBoundaryValues, Polarity::kViolation);
+    TwoOutputs first;
+    Valve second{"second", 1.0, 0.0, 2.0};
+    auto table = system(frame(1_ms), window("a", 0_us, 300_us, budget(300_us), run(first)),
+                        window("b", 300_us, 300_us, budget(300_us), run(second)));
+    ExecutiveFor<decltype(table)> core{table};
+
+    EXPECT_EQ(core.initialize(), Status::kBadParameter);
+    EXPECT_EQ(core.get_failed_component(), 0U);
 }
 
 TEST(InvalidParameterTest, ATableWhoseDefaultsAreAtTheirLimitsIsInitialised) {

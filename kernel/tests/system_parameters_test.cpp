@@ -90,6 +90,7 @@ TEST(SystemParametersTest, ATableMadeAtRunTimeIsRefusedWithTheGuiltySetAndAssign
     EXPECT_EQ(finding.other, 1U);
     EXPECT_STREQ(get_name(finding.rule), "ConfigurationRefused");
     EXPECT_EQ(plant.core_0.initialize(), Status::kBadParameter);
+    EXPECT_EQ(plant.core_0.get_failed_component(), kNoIndex) << "no component is faulty";
     plant.table.configuration.assignments[3].is_refused = false;
     plant.table.windows[1].parameter_count = 2U;
     EXPECT_EQ(check(make_view(plant.table)).rule, Rule::kWindowRowInvalid);
@@ -211,6 +212,15 @@ TEST(SystemParametersTest, ASetThatTheCompilerCouldNotJudgeIsRefusedBeforeAnythi
     plant.table.configuration.values[1] = to_scalar(0.5);
     ASSERT_TRUE(plant.begin());
     EXPECT_EQ(plant.first.speed_at_birth, 2.0) << "the request for the initial set was not lost";
+}
+
+TEST(SystemParametersTest, ACoreDoesNotStartBeforeTheOtherOneIsInitialised) {
+    verifies("SWR-KRN-024", Technique::kStateTransition, Polarity::kViolation);
+    Plant plant;
+    ASSERT_EQ(plant.core_1.initialize(), Status::kOk);
+
+    EXPECT_NE(plant.core_1.start(), Status::kOk);
+    EXPECT_EQ(plant.core_1.get_failed_component(), 0U) << "it has no context";
 }
 
 TEST(SystemParametersTest, EachSetIsCheckedBeforeTheStart) {

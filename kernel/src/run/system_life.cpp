@@ -122,7 +122,6 @@ Status ModeFollower::judge_absence() const noexcept {
 }
 
 Status SystemLife::initialize() noexcept {
-    failed_component_ = kNoIndex;
     check_table();
     if (!is_table_valid_) {
         return Status::kBadParameter;
