@@ -27,7 +27,7 @@ PARTS = {
     "mamori::FsmMachine::": ("state machine",),
     "mamori::Introspection::": ("introspection",),
     "mamori::ExecutionContext::run_second_pass(": (),
-    "mamori::detail::observe_pass(": ("eight", "supervision", "introspection"),
+    "mamori::detail::observe_pass(": ("eight", "supervision"),
     "mamori::FlightRecorder::open(": ("flight recorder",),
     "__aeabi_dmul": ("rates",),
 }
