@@ -94,7 +94,7 @@ TEST_F(ExecutiveLifeTest, OperationsOutOfOrderAreRefusedWithoutACall) {
     EXPECT_EQ(sut_.finalize(), Status::kPreconditionNotMet);
     EXPECT_TRUE(calls_.empty());
     EXPECT_EQ(get_state(1U, c_), LifecycleState::kActive) << "the running system is not disturbed";
-    EXPECT_EQ(sut_.stop(), Status::kOk);
+    EXPECT_EQ(sut_.stop(), Status::kOk) << "it is still running";
 }
 
 TEST_F(ExecutiveLifeTest, ARefusedInitialiseNamesTheComponentAndGoesOnThereWhenRepeated) {

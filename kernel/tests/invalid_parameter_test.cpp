@@ -111,7 +111,7 @@ TEST(InvalidParameterTest, AnInvalidParameterOfTheFirstComponentIsFound) {
     EXPECT_EQ(core.get_failed_component(), 0U);
 }
 
-TEST(InvalidParameterTest, AFaultOfTheFirstComponentIsFoundInATableWithParameters) {
+TEST(InvalidParameterTest, ADuplicatePortNameOfTheFirstComponentIsReportedBesideParameters) {
     verifies("SWR-KRN-046", Technique::kBoundaryValues, Polarity::kViolation);
     TwoOutputs first;
     Valve second{"second", 1.0, 0.0, 2.0};

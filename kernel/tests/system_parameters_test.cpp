@@ -219,11 +219,11 @@ TEST(SystemParametersTest, ACoreDoesNotStartBeforeTheOtherOneIsInitialised) {
     Plant plant;
     ASSERT_EQ(plant.core_1.initialize(), Status::kOk);
 
-    EXPECT_NE(plant.core_1.start(), Status::kOk);
+    EXPECT_EQ(plant.core_1.start(), Status::kPreconditionNotMet);
     EXPECT_EQ(plant.core_1.get_failed_component(), 0U) << "it has no context";
 }
 
-TEST(SystemParametersTest, EachSetIsCheckedBeforeTheStart) {
+TEST(SystemParametersTest, TheLastSetIsCheckedAtInitialisation) {
     verifies("SWR-MOD-002", Technique::kBoundaryValues, Polarity::kViolation);
     Plant plant;
     plant.table.configuration.values[3] = to_scalar(99.0);  // of the last set
@@ -232,6 +232,7 @@ TEST(SystemParametersTest, EachSetIsCheckedBeforeTheStart) {
     EXPECT_EQ(plant.core_0.initialize(), Status::kBadParameter);
     ASSERT_EQ(plant.observers[0].refused_sets.size(), 1U);
     EXPECT_EQ(plant.observers[0].refused_sets[0].set, 1U);
+    EXPECT_EQ(plant.observers[0].refused_sets[0].assignment, 1U);
 }
 
 TEST(SystemParametersTest, ASetThatWasRefusedWhileTheSystemRanIsNoReasonToRefuseTheNextStart) {

@@ -135,31 +135,11 @@ def tidy_step() -> Step:
     )  # fmt: skip
 
 
-# Each part of a table defines the constants that it changes. NoTypes defines the constants for parts that change nothing.
-PARTS_HIDE_CONSTANTS = "--suppress=duplInheritedMember:kernel/include/mamori/kernel/*part*.hpp"
-
-
-CPPCHECK_CACHE = "build/cppcheck"
-"""cppcheck does not analyse a file again if the file and its headers are unchanged; it repeats the findings."""
-
-
-def cppcheck_step(project: Project) -> Step:
-    sources = [name for name in project.cpp_sources(CHECKED_LAYERS) if "/src/" in name]
-    includes = [f"-I{path.relative_to(project.root)}" for layer in CHECKED_LAYERS
-                for path in sorted((project.root / layer).rglob("include")) if path.is_dir()]
-    return Step(
-        name="cppcheck",
-        commands=(
-            ("cmake", "-E", "make_directory", CPPCHECK_CACHE),
-            (
-                "cppcheck", "--quiet", f"--cppcheck-build-dir={CPPCHECK_CACHE}", "-j", "{jobs}", "--language=c++", "--std=c++17",
-                "--enable=warning,performance,portability", "--suppress=missingIncludeSystem", PARTS_HIDE_CONSTANTS,
-                "--inline-suppr", "--error-exitcode=1", "{includes}", "{files}",
-            ),
-        ),
-        lists={"{includes}": includes, "{files}": sources},
-        tier=Tier.QUICK,
-    )  # fmt: skip
+CPPCHECK = Step(
+    name="cppcheck",
+    commands=((*PYTHON, "verification.checks.check_cppcheck", "--root", "{root}", "--jobs", "{jobs}"),),
+    tier=Tier.QUICK,
+)
 
 
 def strength_steps() -> tuple[Step, ...]:
@@ -241,7 +221,7 @@ def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_min
         format_step(project),
         PYTHON_CHECKS,
         tidy_step(),
-        cppcheck_step(project),
+        CPPCHECK,
         proof_step("symbol proof", "symbols", tier=Tier.QUICK),
         proof_step("bare-metal proof", "bare_metal", needs=()),
         proof_step("stack proof", "stack", needs=()),

@@ -104,8 +104,8 @@ void write_line(const FailureLine& line) noexcept {
     }
 }
 
-/// Prints the line of the failure that the handler received; without one, the line of `record`. Other
-/// contexts return when the first context has printed its line.
+/// Prints the line of the failure that the handler received; without one, the line of `record`. One context
+/// prints; the others wait until the line is printed.
 void print_once(const AssertionRecord& record) noexcept {
     if (g_is_line_begun.exchange(true, std::memory_order_acq_rel)) {
         wait_until_set(g_is_line_printed);
