@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
@@ -59,6 +60,27 @@ TEST_F(ExecutiveCoresTest, AValueArrivesAtTheFirstOpeningThatIsNotBeforeItsPubli
     EXPECT_EQ(sink_.get_values(), (Values{10, 20}));
     EXPECT_TRUE(sink_.notes[1].is_new);
     EXPECT_EQ(sink_.notes[1].age, 0_ns) << "published at the close, 400 ns, and read there";
+}
+
+TEST_F(ExecutiveCoresTest, AnIntrospectionOfARunningCoreShowsItsNumberAndTheTimeOfAStep) {
+    verifies("SWR-INS-001", Technique::kInterface);
+    SpyObserver observer;
+    reader_.set_observer(&observer);
+    host_.durations[{1U, FakeHost::Pass::kExecute}] = 40_ns;
+    read(0);
+    IntrospectionFor<decltype(table_)> introspection{table_};
+    const Introspection& shown = introspection;
+    reader_.set_introspection(&introspection);
+    read(1);
+    WindowSnapshot window{};
+    ComponentSnapshot component{};
+
+    ASSERT_EQ(shown.read_window(1U, window), Status::kOk);
+    ASSERT_EQ(shown.read_component(1U, component), Status::kOk);
+    EXPECT_EQ(window.core, 1U);
+    EXPECT_EQ(component.worst_used, 40_ns);
+    reader_.set_introspection(nullptr);
+    reader_.set_observer(nullptr);
 }
 
 TEST_F(ExecutiveCoresTest, ALateReaderReceivesTheValueOfItsPlannedWindowStart) {

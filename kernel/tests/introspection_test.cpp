@@ -6,8 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "mamori/kernel/base/constant_init.hpp"
@@ -135,21 +133,6 @@ TEST_F(IntrospectionTest, AWindowShowsWhatItsLastAndItsWorstCycleUsed) {
     EXPECT_EQ(read_window(0U).late_releases, 2U);
 }
 
-TEST(IntrospectionOfCoresTest, AWindowShowsItsCore) {
-    verifies("SWR-INS-001", Technique::kInterface);
-    Counter first{"first"};
-    Counter second{"second"};
-    const auto table = system(frame(1000_ns), window("a", 0_ns, 400_ns, budget(300_ns), run(first)),
-                              window("b", 500_ns, 400_ns, core(1), budget(300_ns), run(second)));
-    ExecutiveFor<std::remove_const_t<decltype(table)>> executive{table, 1U};
-    IntrospectionFor<std::remove_const_t<decltype(table)>> sut{table};
-    executive.set_introspection(&sut);
-    WindowSnapshot snapshot{};
-
-    ASSERT_EQ(std::as_const(sut).read_window(1U, snapshot), Status::kOk);
-    EXPECT_EQ(snapshot.core, 1U);
-}
-
 TEST_F(IntrospectionTest, AWindowShowsItsOverruns) {
     verifies("SWR-INS-001", Technique::kFaultInjection);
     attach_and_start();
@@ -232,19 +215,6 @@ TEST_F(IntrospectionTest, AComponentThatHandsNothingOnShowsItsTimeToo) {
     host_.durations[{2U, FakeHost::Pass::kExecute}] = 40_ns;
     run_second(0);
     host_.durations[{2U, FakeHost::Pass::kExecute}] = 30_ns;
-    run_second(1);
-
-    EXPECT_EQ(read_component(2U).worst_used, 40_ns);
-}
-
-TEST_F(IntrospectionTest, AComponentOfARunningSystemShowsItsTimeWhileAnObserverListens) {
-    verifies("SWR-INS-001", Technique::kInterface);
-    SpyObserver observer;
-    executive_.set_observer(&observer);
-    start();
-    host_.durations[{2U, FakeHost::Pass::kExecute}] = 40_ns;
-    run_second(0);
-    executive_.set_introspection(&sut_);
     run_second(1);
 
     EXPECT_EQ(read_component(2U).worst_used, 40_ns);
