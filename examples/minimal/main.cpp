@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A wheel and a monitor that brakes it: two components, one table, 200 ms of virtual time.
 #include <cstdio>
-
-#include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/ports/virtual_time/frame_runner.hpp"
-
-using mamori::Status;
+#include "mamori/ports/virtual_time/machine.hpp"
 using namespace mamori::literals;  // NOLINT: units of the times below
 
 /// Speeds up by 1 rad/s in each cycle, and slows down by as much while the brake is on.
@@ -16,17 +12,11 @@ class Wheel final : public mamori::Component {
     mamori::InPort<bool, mamori::Need::kOptional> brake{*this, "brake"};
     mamori::OutPort<double> speed{*this, "speed"};  // [rad/s]
     using Ports = mamori::Ports<&Wheel::brake, &Wheel::speed>;
-
-    Status on_execute(mamori::ContextHandle) noexcept override {
-        speed_rad_s_ += brake.read() ? -1.0 : 1.0;
-        speed.write(speed_rad_s_);
-        return Status::kOk;
+    mamori::Status on_execute(mamori::ContextHandle) noexcept override {
+        speed.write(speed.get_published() + (brake.read() ? -1.0 : 1.0));
+        return mamori::Status::kOk;
     }
-
-  private:
-    double speed_rad_s_{0.0};
 };
-
 /// Brakes from 8 rad/s on, until the wheel is slower than 4 rad/s.
 class Monitor final : public mamori::Component {
   public:
@@ -34,13 +24,11 @@ class Monitor final : public mamori::Component {
     mamori::InPort<double> speed{*this, "speed"};
     mamori::OutPort<bool> brake{*this, "brake"};
     using Ports = mamori::Ports<&Monitor::speed, &Monitor::brake>;
-
-    Status on_execute(mamori::ContextHandle) noexcept override {
+    mamori::Status on_execute(mamori::ContextHandle) noexcept override {
         brake.write(speed.read() >= (brake.get_published() ? 4.0 : 8.0));
-        return Status::kOk;
+        return mamori::Status::kOk;
     }
 };
-
 static Wheel wheel;
 static Monitor monitor;
 static constexpr auto kSystem =
@@ -50,28 +38,13 @@ static constexpr auto kSystem =
                    mamori::connect(wheel.speed, monitor.speed, mamori::any_age()),
                    mamori::connect(monitor.brake, wheel.brake, mamori::any_age()),
                    mamori::modelled_time(wheel, 100_us), mamori::modelled_time(monitor, 200_us));
-MAMORI_CHECK(kSystem);
-static mamori::ExecutiveFor executive{kSystem};
-
-/// What surrounds the components: here a printer, elsewhere sensors and motors.
-class Printer final : public mamori::ports::virtual_time::FrameDevices {
-    void begin_frame(std::uint64_t, mamori::Instant) noexcept override {}
-    void end_frame(std::uint64_t frame, mamori::Instant, mamori::Duration) noexcept override {
-        if (frame % 4U == 3U) {
-            std::printf("after %3u ms: %.0f rad/s, brake %s\n", static_cast<unsigned>(frame + 1U) * 10U,
-                        wheel.speed.get_published(), monitor.brake.get_published() ? "on" : "off");
-        }
+static mamori::ports::virtual_time::Machine<kSystem> machine;  // in real time: posix_rt::Machine
+static void print(std::uint64_t frame) {
+    if (frame % 4U == 3U) {
+        std::printf("after %3u ms: %.0f rad/s, brake %s\n", static_cast<unsigned>(frame + 1U) * 10U,
+                    wheel.speed.get_published(), monitor.brake.get_published() ? "on" : "off");
     }
-};
-
+}
 int main() {
-    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
-    mamori::ports::virtual_time::SimulatedCore core{executive, host};
-    Printer printer;
-    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, printer};
-    const bool is_well = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
-    for (int frame = 0; is_well && frame < 20; ++frame) {
-        runner.run_frame();
-    }
-    return is_well && executive.stop() == Status::kOk ? 0 : 1;
+    return machine.run(20U, print) == mamori::Status::kOk ? 0 : 1;
 }

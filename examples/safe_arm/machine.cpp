@@ -19,7 +19,7 @@ bool is_start_pressed(Instant now) noexcept {
     return now >= kStartPressed && now < kStartReleased;
 }
 
-void Machine::begin_frame(std::uint64_t, Instant now) noexcept {
+void Machine::sample(std::uint64_t, Instant now) noexcept {
     mamori::sim::apply_plant_faults(fault_, now, plant_.faults());
     apply_software_faults(now);
     plant_.set_buttons(is_start_pressed(now), false);
@@ -61,7 +61,7 @@ void Machine::apply_software_faults(Instant now) noexcept {
     static_cast<void>(host_.set_duration(supervisor, supervisor_time));
 }
 
-void Machine::end_frame(std::uint64_t, Instant now, Duration length) noexcept {
+void Machine::apply(std::uint64_t, Instant now, Duration length) noexcept {
     watchdog.check(now + length);
     plant_.set_watchdog_expired(watchdog.has_expired());
     is_plant_sound_ = plant_.step(outputs, length) == mamori::Status::kOk && is_plant_sound_;

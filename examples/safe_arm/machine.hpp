@@ -16,15 +16,15 @@ namespace safe_arm {
 bool is_start_pressed(mamori::Instant now) noexcept;
 
 /// Devices of the run; calls the recorder after each frame. All references must outlive it.
-class Machine final : public mamori::ports::virtual_time::FrameDevices {
+class Machine final : public mamori::Devices {
   public:
     /// @param[in] fault with `at` in simulated time.
     Machine(mamori::sim::ArmPlant& plant, mamori::ports::virtual_time::VirtualHost& host,
             const mamori::sim::FaultPlan& fault, RunRecord& record) noexcept
         : plant_(plant), host_(host), fault_(fault), record_(record) {}
 
-    void begin_frame(std::uint64_t frame, mamori::Instant now) noexcept override;
-    void end_frame(std::uint64_t frame, mamori::Instant now, mamori::Duration length) noexcept override;
+    void sample(std::uint64_t frame, mamori::Instant now) noexcept override;
+    void apply(std::uint64_t frame, mamori::Instant now, mamori::Duration length) noexcept override;
 
     /// False once the plant's state is no longer finite.
     bool is_plant_sound() const noexcept { return is_plant_sound_; }

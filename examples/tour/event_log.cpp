@@ -6,9 +6,8 @@
 #include <cstdio>
 
 #include "mamori/kernel/record/event_log.hpp"
-#include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/ports/virtual_time/frame_runner.hpp"
+#include "mamori/ports/virtual_time/machine.hpp"
 
 using mamori::Status;
 using namespace mamori::literals;  // NOLINT: units of the times below
@@ -56,8 +55,7 @@ static Battery battery;
 static constexpr auto kSystem = mamori::system(
     mamori::frame(10_ms), mamori::window("battery", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(battery)),
     mamori::modelled_time(battery, 100_us));
-MAMORI_CHECK(kSystem);
-static mamori::ExecutiveFor executive{kSystem};
+static mamori::ports::virtual_time::Machine<kSystem> machine;
 
 static void print_log(const mamori::EventLog& log) {
     for (std::size_t i = 0U; i < log.size(); ++i) {
@@ -70,20 +68,8 @@ static void print_log(const mamori::EventLog& log) {
     std::printf("%u lost\n", log.get_lost_count());
 }
 
-class NoDevices final : public mamori::ports::virtual_time::FrameDevices {
-    void begin_frame(std::uint64_t, mamori::Instant) noexcept override {}
-    void end_frame(std::uint64_t, mamori::Instant, mamori::Duration) noexcept override {}
-};
-
 int main() {
-    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
-    mamori::ports::virtual_time::SimulatedCore core{executive, host};
-    NoDevices devices;
-    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};
-    const bool is_ok = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
-    for (int frame = 0; is_ok && frame < 6; ++frame) {
-        runner.run_frame();
-    }
+    const Status status = machine.run(6U);
     print_log(battery.get_log());
-    return is_ok && executive.stop() == Status::kOk ? 0 : 1;
+    return status == Status::kOk ? 0 : 1;
 }

@@ -7,9 +7,8 @@
 
 #include "mamori/kernel/dataflow/queue_in_port.hpp"
 #include "mamori/kernel/dataflow/queue_out_port.hpp"
-#include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/ports/virtual_time/frame_runner.hpp"
+#include "mamori/ports/virtual_time/machine.hpp"
 
 using mamori::Status;
 using namespace mamori::literals;  // NOLINT: units of the times below
@@ -71,32 +70,20 @@ static constexpr auto kSystem = mamori::system(
     mamori::connect(encoder.count, logger.newest, mamori::fresh_within(10_ms)),
     mamori::connect(encoder.count, logger.oldest, mamori::fresh_within(10_ms)),
     mamori::modelled_time(encoder, 100_us), mamori::modelled_time(logger, 200_us));
-MAMORI_CHECK(kSystem);
-static mamori::ExecutiveFor executive{kSystem};
+static mamori::ports::virtual_time::Machine<kSystem> machine;
 
-class Printer final : public mamori::ports::virtual_time::FrameDevices {
-    void begin_frame(std::uint64_t, mamori::Instant) noexcept override {}
-    void end_frame(std::uint64_t frame, mamori::Instant, mamori::Duration) noexcept override {
-        std::printf("after %u ms:", static_cast<unsigned>(frame + 1U) * 10U);
-        for (const std::int32_t count : logger.get_newest_counts()) {
-            std::printf(" %d", count);
-        }
-        std::printf(" (%u overwritten),", logger.newest.get_overwritten_count());
-        for (const std::int32_t count : logger.get_oldest_counts()) {
-            std::printf(" %d", count);
-        }
-        std::printf(" (%u rejected)\n", logger.oldest.get_rejected_count());
+static void print(std::uint64_t frame) {
+    std::printf("after %u ms:", static_cast<unsigned>(frame + 1U) * 10U);
+    for (const std::int32_t count : logger.get_newest_counts()) {
+        std::printf(" %d", count);
     }
-};
+    std::printf(" (%u overwritten),", logger.newest.get_overwritten_count());
+    for (const std::int32_t count : logger.get_oldest_counts()) {
+        std::printf(" %d", count);
+    }
+    std::printf(" (%u rejected)\n", logger.oldest.get_rejected_count());
+}
 
 int main() {
-    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
-    mamori::ports::virtual_time::SimulatedCore core{executive, host};
-    Printer printer;
-    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, printer};
-    const bool is_ok = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
-    for (int frame = 0; is_ok && frame < 3; ++frame) {
-        runner.run_frame();
-    }
-    return is_ok && executive.stop() == Status::kOk ? 0 : 1;
+    return machine.run(3U, print) == Status::kOk ? 0 : 1;
 }

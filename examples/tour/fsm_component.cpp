@@ -6,9 +6,8 @@
 
 #include "mamori/kernel/component/fsm_check.hpp"
 #include "mamori/kernel/component/fsm_component.hpp"
-#include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/ports/virtual_time/frame_runner.hpp"
+#include "mamori/ports/virtual_time/machine.hpp"
 
 using mamori::Status;
 using namespace mamori::literals;  // NOLINT: units of the times below
@@ -62,12 +61,11 @@ static constexpr auto kSystem =
                    mamori::window("grip", 0_ms, 2_ms, mamori::event_driven(2U), mamori::budget(1_ms),
                                   mamori::run(gripper, lamp)),
                    mamori::modelled_time(gripper, 100_us), mamori::modelled_time(lamp, 100_us));
-MAMORI_CHECK(kSystem);
-static mamori::ExecutiveFor executive{kSystem};
+static mamori::ports::virtual_time::Machine<kSystem> machine;
 
 /// Sends a message before each major frame, and prints.
-class Operator final : public mamori::ports::virtual_time::FrameDevices {
-    void begin_frame(std::uint64_t frame, mamori::Instant) noexcept override {
+class Operator final : public mamori::Devices {
+    void sample(std::uint64_t frame, mamori::Instant) noexcept override {
         constexpr std::array<mamori::FsmEvent, 4U> kSent{
             {{kClose, 90}, {kClose, 30}, {kClose, 30}, {kRelease}}};
         const mamori::FsmEvent& event = kSent[frame % kSent.size()];
@@ -75,20 +73,13 @@ class Operator final : public mamori::ports::virtual_time::FrameDevices {
         std::printf("%s %d: %s, ", kMessages[event.message].name, static_cast<int>(event.argument),
                     status == Status::kOk ? "queued" : "rejected");
     }
-    void end_frame(std::uint64_t, mamori::Instant, mamori::Duration) noexcept override {
+    void apply(std::uint64_t, mamori::Instant, mamori::Duration) noexcept override {
         std::printf("now %s, lamp %s, %u ignored\n", gripper.get_current_state_name(),
                     lamp.is_on() ? "on" : "off", gripper.get_ignored_count());
     }
 };
 
 int main() {
-    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
-    mamori::ports::virtual_time::SimulatedCore core{executive, host};
     Operator devices;
-    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};
-    const bool is_ok = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
-    for (int frame = 0; is_ok && frame < 4; ++frame) {
-        runner.run_frame();
-    }
-    return is_ok && executive.stop() == Status::kOk ? 0 : 1;
+    return machine.run(4U, devices) == Status::kOk ? 0 : 1;
 }

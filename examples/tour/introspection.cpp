@@ -4,10 +4,9 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/ports/virtual_time/frame_runner.hpp"
+#include "mamori/ports/virtual_time/machine.hpp"
 
 using mamori::Status;
 using namespace mamori::literals;  // NOLINT: units of the times below
@@ -43,8 +42,7 @@ static constexpr auto kSystem = mamori::system(
     mamori::window("watch", 2_ms, 2_ms, mamori::budget(1_ms), mamori::run(monitor)),
     mamori::connect(sensor.speed, monitor.speed, mamori::fresh_within(5_ms)),
     mamori::modelled_time(sensor, 100_us), mamori::modelled_time(monitor, 200_us));
-MAMORI_CHECK(kSystem);
-static mamori::ExecutiveFor executive{kSystem};
+static mamori::ports::virtual_time::Machine<kSystem> machine;
 static mamori::IntrospectionFor introspection{kSystem};
 
 /// A tool: needs only the introspection, and may run in another thread.
@@ -67,21 +65,12 @@ static void print(const mamori::Introspection& shown) {
     });
 }
 
-class NoDevices final : public mamori::ports::virtual_time::FrameDevices {
-    void begin_frame(std::uint64_t, mamori::Instant) noexcept override {}
-    void end_frame(std::uint64_t, mamori::Instant, mamori::Duration) noexcept override {}
-};
-
 int main() {
-    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
-    mamori::ports::virtual_time::SimulatedCore core{executive, host};
-    NoDevices devices;
-    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};
-    executive.set_introspection(&introspection);
-    const bool is_ok = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
-    for (int frame = 0; is_ok && frame < 4; ++frame) {
-        runner.run_frame();
-    }
-    print(introspection);
-    return is_ok && executive.stop() == Status::kOk ? 0 : 1;
+    machine.get_executives().get(0U).set_introspection(&introspection);
+    const auto print_at_end = [](std::uint64_t frame) {
+        if (frame == 3U) {
+            print(introspection);
+        }
+    };
+    return machine.run(4U, print_at_end) == Status::kOk ? 0 : 1;
 }

@@ -7,10 +7,9 @@
 
 #include "mamori/kernel/record/event_log.hpp"
 #include "mamori/kernel/record/flight_recorder.hpp"
-#include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/mapped_file.hpp"
-#include "mamori/ports/virtual_time/frame_runner.hpp"
+#include "mamori/ports/virtual_time/machine.hpp"
 
 using mamori::Status;
 using namespace mamori::literals;  // NOLINT: units of the times below
@@ -39,8 +38,7 @@ static Pump pump;
 static constexpr auto kSystem = mamori::system(
     mamori::frame(10_ms), mamori::window("pump", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(pump)),
     mamori::modelled_time(pump, 100_us));
-MAMORI_CHECK(kSystem);
-static mamori::ExecutiveFor executive{kSystem};
+static mamori::ports::virtual_time::Machine<kSystem> machine;
 static mamori::ports::posix_rt::MappedFile file;
 static mamori::FlightRecorder recorder;
 
@@ -58,26 +56,14 @@ static bool open_recorder(const char* path) {
     return pump.get_log().attach(recorder) == Status::kOk;
 }
 
-class NoDevices final : public mamori::ports::virtual_time::FrameDevices {
-    void begin_frame(std::uint64_t, mamori::Instant) noexcept override {}
-    void end_frame(std::uint64_t, mamori::Instant, mamori::Duration) noexcept override {}
-};
-
 int main(int argc, char** argv) {
     if (argc != 2 || !open_recorder(argv[1])) {
         return 2;
     }
     std::printf("session %u begins with record %u\n", recorder.get_session(),
                 static_cast<unsigned>(recorder.get_next_sequence()));
-    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
-    mamori::ports::virtual_time::SimulatedCore core{executive, host};
-    NoDevices devices;
-    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};
-    const bool is_ok = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
-    for (int frame = 0; is_ok && frame < 6; ++frame) {
-        runner.run_frame();
-    }
+    const Status status = machine.run(6U);
     std::printf("next record %u, %u overwritten\n", static_cast<unsigned>(recorder.get_next_sequence()),
                 static_cast<unsigned>(recorder.get_overwritten_count()));
-    return is_ok && executive.stop() == Status::kOk ? 0 : 1;
+    return status == Status::kOk ? 0 : 1;
 }

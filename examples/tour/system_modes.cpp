@@ -5,10 +5,9 @@
 #include <cstdio>
 
 #include "mamori/kernel/parameter/parameter.hpp"
-#include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/run/system_modes.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/ports/virtual_time/frame_runner.hpp"
+#include "mamori/ports/virtual_time/machine.hpp"
 
 using mamori::Status;
 using namespace mamori::literals;  // NOLINT: units of the times below
@@ -65,13 +64,12 @@ static constexpr auto kSystem = mamori::system(
     mamori::mode_transition("idle", Command::kStart, "work"),
     mamori::mode_transition("work", Command::kStop, "idle"), mamori::modelled_time(drive, 100_us),
     mamori::modelled_time(monitor, 100_us));
-MAMORI_CHECK(kSystem);
-static mamori::SystemModes drive_modes{mamori::make_view(kSystem)};
-static mamori::ExecutiveFor executive{kSystem, drive_modes};
+static mamori::ports::virtual_time::Machine<kSystem> machine;
+static mamori::SystemModes& drive_modes = machine.get_executives().get_modes();
 
 /// Requests the mode switches, and prints the mode when it changes.
-class Operator final : public mamori::ports::virtual_time::FrameDevices {
-    void begin_frame(std::uint64_t frame, mamori::Instant) noexcept override {
+class Operator final : public mamori::Devices {
+    void sample(std::uint64_t frame, mamori::Instant) noexcept override {
         if (frame == 1U && drive_modes.request(Command::kStart) == Status::kOk) {
             std::printf("frame %2u: start requested\n", static_cast<unsigned>(frame));
         }
@@ -80,13 +78,17 @@ class Operator final : public mamori::ports::virtual_time::FrameDevices {
             std::printf("frame %2u: safe mode requested\n", static_cast<unsigned>(frame));
         }
     }
-    void end_frame(std::uint64_t frame, mamori::Instant, mamori::Duration) noexcept override {
+    void apply(std::uint64_t frame, mamori::Instant, mamori::Duration) noexcept override {
         const Mode mode = drive_modes.get_mode<Mode>();
         if (frame == 0U || mode != mode_) {
             mode_ = mode;
             std::printf("frame %2u: mode %s, angle %.1f rad\n", static_cast<unsigned>(frame),
-                        executive.get_view().modes.modes[static_cast<std::size_t>(mode)].name,
+                        kSystem.modes.modes[static_cast<std::size_t>(mode)].name,
                         drive.angle.get_published());
+        }
+        if (frame == 29U) {
+            const bool is_refused = drive_modes.request(Command::kStart) == Status::kPreconditionNotMet;
+            std::printf("start is %s until reset\n", is_refused ? "rejected" : "accepted");
         }
     }
 
@@ -94,15 +96,7 @@ class Operator final : public mamori::ports::virtual_time::FrameDevices {
 };
 
 int main() {
-    mamori::ports::virtual_time::VirtualHostFor host{kSystem};
-    mamori::ports::virtual_time::SimulatedCore core{executive, host};
     Operator devices;
-    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, devices};
-    const bool is_ok = executive.initialize() == Status::kOk && executive.start() == Status::kOk;
-    for (int frame = 0; is_ok && frame < 30; ++frame) {
-        runner.run_frame();
-    }
-    const bool is_refused = drive_modes.request(Command::kStart) == Status::kPreconditionNotMet;
-    std::printf("start is %s until reset\n", is_refused ? "rejected" : "accepted");
-    return is_ok && executive.stop() == Status::kOk && drive_modes.reset() == Status::kOk ? 0 : 1;
+    const bool is_ok = machine.run(30U, devices) == Status::kOk;
+    return is_ok && drive_modes.reset() == Status::kOk ? 0 : 1;
 }

@@ -114,8 +114,8 @@ def build_page(project: Project, prefix: Path, folder: Path, name: str, library:
     source, lists = folder / "main.cpp", folder / "CMakeLists.txt"
     page = (project.root / "docs" / "manual" / name).read_text(encoding="utf-8")
     (block,) = [text for text in re.findall(r"^```cpp\n(.*?)^```$", page, re.DOTALL | re.MULTILINE) if "int main(" in text]
-    text = source.read_text(encoding="utf-8").replace('#include "mamori/ports/virtual_time/frame_runner.hpp"\n', "")
-    source.write_text(text[: text.index("/// What surrounds the components")] + block, encoding="utf-8")
+    text = source.read_text(encoding="utf-8").replace('#include "mamori/ports/virtual_time/machine.hpp"\n', "")
+    source.write_text(text[: text.index("static mamori::ports::virtual_time::Machine")] + block, encoding="utf-8")
     lists.write_text(lists.read_text(encoding="utf-8").replace("mamori::virtual_time", library), encoding="utf-8")
 
     built = run("cmake", "--build", folder / "build")
@@ -139,10 +139,10 @@ def test_first_system_hangs_and_is_told_as_the_manual_says(project: Project, pre
     folder = build_page(project, prefix, tmp_path / "minimal", "last_resort.md", "mamori::posix_rt")
     program = folder / "build" / "minimal"
     orderly = run("env", "-C", tmp_path, program)
-    # If the host stalls for a tenth of a second, the watchdog also expires in this run.
-    by_machine = orderly.returncode == -signal.SIGABRT and orderly.stderr == "outputs closed\n"
-    served = re.fullmatch(r"watchdog served (\d+) times\n", orderly.stdout)
-    assert by_machine or (orderly.returncode == 0 and served is not None and int(served[1]) > 0), (orderly.stdout, orderly.stderr)
+    assert orderly.stderr == "outputs closed\n"
+    # If the host stalls for a tenth of a second, the watchdog or the schedule watch also acts in this run.
+    by_host = orderly.returncode == -signal.SIGABRT or (orderly.returncode == 1 and "schedule watch" in orderly.stdout)
+    assert by_host or (orderly.returncode, orderly.stdout) == (0, "no failure\n"), (orderly.stdout, orderly.stderr)
 
     hanging = run("env", "-C", tmp_path, program, "hang")
     assert (-hanging.returncode, hanging.stderr) == (signal.SIGABRT, "outputs closed\n")

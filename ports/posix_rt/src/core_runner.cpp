@@ -18,25 +18,13 @@ constexpr Instant calc_end(Instant start, Duration frame, std::uint64_t count) n
     return start + frame * (frames > 0 ? frames : 0);
 }
 
-/// Whether the table states a publication margin, if it has a connection between two cores. A connection
-/// without windows is the business of initialize(), which rejects it.
-bool has_publication_margin(const SystemView& view) noexcept {
-    bool leaves_core = false;
-    for (const ConnectionRow& row : view.connections) {
-        const bool is_joined = row.source_window != kNoIndex && row.sink_window != kNoIndex;
-        leaves_core = leaves_core || (is_joined && view.windows[row.source_window].core !=
-                                                       view.windows[row.sink_window].core);
-    }
-    return !leaves_core || view.publication_margin > Duration{0};
-}
-
 }  // namespace
 
-void CoreRunner::run(std::uint64_t frame_count) noexcept {
+void CoreRunner::run(std::uint64_t frame_count, Instant from) noexcept {
     MAMORI_REQUIRE(1, frame_count > 0U);
     MAMORI_REQUIRE(2, has_publication_margin(executive_.get_view()));
     const std::int64_t frame = executive_.get_view().frame.ns;
-    const std::int64_t now = clock_.get_now().ns;
+    const std::int64_t now = from.ns;
     // Rounded up without the sum, which could overflow.
     const std::int64_t first = now <= 0 ? 0 : (now - 1) / frame + 1;
     if (first > std::numeric_limits<std::int64_t>::max() / frame - 1) {
@@ -45,10 +33,11 @@ void CoreRunner::run(std::uint64_t frame_count) noexcept {
     const Instant start{first * frame};
     const Instant end = calc_end(start, Duration{frame}, frame_count);
     FrameSchedule schedule{executive_.get_view(), executive_.get_core(), start};
-    while (schedule.get_next().release < end && !is_stop_wanted_.load(std::memory_order_relaxed)) {
-        clock_.wait_until(schedule.get_next().release);
-        if (!is_stop_wanted_.load(std::memory_order_relaxed)) {
-            open(schedule.get_next());
+    while (schedule.get_next().release < end && !is_stopped_before(schedule.get_next().release)) {
+        const FrameSchedule::Opening opening = schedule.get_next();
+        clock_.wait_until(opening.release);
+        if (!is_stopped_before(opening.release)) {
+            open(opening);
         }
         schedule.advance();
     }

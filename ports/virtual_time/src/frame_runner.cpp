@@ -20,7 +20,7 @@ void FrameRunner::run_frame() noexcept {
     for (SimulatedCore& core : cores_) {
         core.clock_.advance_to(start);
     }
-    devices_.begin_frame(frame_count_, start);
+    devices_.sample(frame_count_, start);
     for (SimulatedCore* core = &find_next(); core->schedule_.get_next().release < end; core = &find_next()) {
         const FrameSchedule::Opening opening = core->schedule_.get_next();
         core->schedule_.advance();
@@ -33,7 +33,7 @@ void FrameRunner::run_frame() noexcept {
     for (SimulatedCore& core : cores_) {
         core.clock_.advance_to(end);
     }
-    devices_.end_frame(frame_count_, start, length);
+    devices_.apply(frame_count_, start, length);
     ++frame_count_;
 }
 

@@ -70,12 +70,6 @@ class VirtualWatchdogRig final : public conformance::WatchdogRig {
     VirtualWatchdog watchdog_{10_ms};
 };
 
-class NoDevices final : public FrameDevices {
-  public:
-    void begin_frame(std::uint64_t, Instant) noexcept override {}
-    void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
-};
-
 class FrameRunnerRig final : public conformance::TimerRig {
   public:
     explicit FrameRunnerRig(Executive& executive) : cores_{SimulatedCore{executive, host_}} {}

@@ -48,16 +48,16 @@ class Doubler final : public Component {
 };
 
 /// Writes every call down, and moves a plant that follows the doubler's output.
-class SpyDevices final : public FrameDevices {
+class SpyDevices final : public Devices {
   public:
     SpyDevices(Sensor& sensor, const Doubler& doubler) : sensor_(sensor), doubler_(doubler) {}
     std::vector<std::string> heard;
 
-    void begin_frame(std::uint64_t frame, Instant now) noexcept override {
+    void sample(std::uint64_t frame, Instant now) noexcept override {
         heard.push_back("begin " + std::to_string(frame) + " @" + std::to_string(now.ns));
         sensor_.measured = plant_;
     }
-    void end_frame(std::uint64_t frame, Instant now, Duration length) noexcept override {
+    void apply(std::uint64_t frame, Instant now, Duration length) noexcept override {
         heard.push_back("end " + std::to_string(frame) + " @" + std::to_string(now.ns) + " for " +
                         std::to_string(length.ns));
         plant_ += 0.1 - 0.01 * doubler_.out.get_published();

@@ -49,17 +49,17 @@ std::uint64_t ask_all(const Introspection& introspection) noexcept {
 }
 
 /// Makes every seventh frame overrun, and asks once per frame when there is something to ask.
-class AskingDevices final : public FrameDevices {
+class AskingDevices final : public Devices {
   public:
     AskingDevices(VirtualHost& host, const Introspection* introspection) noexcept
         : host_(host), introspection_(introspection) {}
     std::uint64_t row_count{0U};
 
-    void begin_frame(std::uint64_t frame, Instant) noexcept override {
+    void sample(std::uint64_t frame, Instant) noexcept override {
         EXPECT_EQ(host_.set_duration(0U, frame % 7U == 0U ? 301_us : 100_us), Status::kOk);
         ask();
     }
-    void end_frame(std::uint64_t, Instant, Duration) noexcept override { ask(); }
+    void apply(std::uint64_t, Instant, Duration) noexcept override { ask(); }
 
   private:
     void ask() noexcept {

@@ -71,12 +71,6 @@ class Drive final : public Component {
     }
 };
 
-class NoDevices final : public FrameDevices {
-  public:
-    void begin_frame(std::uint64_t, Instant) noexcept override {}
-    void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
-};
-
 struct MachineParts {
     Supervisor supervisor;
     Source planner{"planner", 1};

@@ -30,7 +30,7 @@ EXAMPLE = ROOT / "examples" / "minimal"
 NAME_LENGTH_MAX = 64
 # Targets that CMake or this project already defines.
 RESERVED = frozenset("all clean help install list_install_components package package_source edit_cache rebuild_cache test mamori".split())
-LANDMARKS = ("using mamori::Status;", "static Wheel wheel;", "/// What surrounds the components", "int main() {\n")
+LANDMARKS = ("using namespace mamori::literals;", "static Wheel wheel;", "static void print(", "int main() {\n")
 
 
 def new(path: Path) -> int:
@@ -69,24 +69,20 @@ def check_target(path: Path) -> Path:
 def make_files(name: str) -> dict[str, str]:
     """@return the content of each file by its path in the project, except requirements/trace.lock."""
     head, components, table, printer, main = cut(EXAMPLE / "main.cpp")
-    includes = "".join(line for line in head.splitlines(keepends=True) if line.startswith("#include"))
     used = re.search(r"target_link_libraries\(\S+ PRIVATE ([^)]+)\)", (EXAMPLE / "CMakeLists.txt").read_text(encoding="utf-8"))
     version = re.search(r"^project\(mamori VERSION (\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
     if used is None or version is None:
         raise RuntimeError("examples/minimal/CMakeLists.txt or CMakeLists.txt has changed its form")
-    words = {"name": name, "version": version[1], "libraries": used[1], "components": used[1].replace("mamori::", ""),
-             "recorder": make_recorder(printer)}  # fmt: skip
-    standard, own = (re.findall(rf"#include {opening}.*\n", includes) for opening in "<\"")
+    words = {"name": name, "version": version[1], "libraries": used[1], "components": used[1].replace("mamori::", "")}  # fmt: skip
+    kernel, ports = (re.findall(rf'#include "mamori/{layer}/.*\n', head) for layer in ("kernel", "ports"))
     return {
         "CMakeLists.txt": fill("CMakeLists.txt.in", words),
         "README.md": fill("README.md.in", words),
         ".gitignore": "build/\nreport/\n",
-        "src/components.hpp": make_header("The two components.", name, "COMPONENTS", "".join(own), tag_monitor(components)),
-        "src/system.hpp": make_header("The system table, and its run in virtual time.", name, "SYSTEM",
-                                      "".join(line for line in standard if "cstdio" not in line) + '\n#include "components.hpp"\n',
-                                      table + make_run(main)),
-        "src/main.cpp": f'// SPDX-License-Identifier: Apache-2.0\n#include <cstdio>\n\n#include "system.hpp"\n\n{printer}'
-                        "int main() {\n    Printer printer;\n    return run_system(20, printer);\n}\n",
+        "src/components.hpp": make_header("The two components.", name, "COMPONENTS", "".join(kernel), tag_monitor(components)),
+        "src/system.hpp": make_header("The system table and the machine that runs it.", name, "SYSTEM",
+                                      "".join(ports) + '\n#include "components.hpp"\n', table),
+        "src/main.cpp": f'// SPDX-License-Identifier: Apache-2.0\n#include <cstdio>\n\n#include "system.hpp"\n\n{printer}{main}',
         "tests/system_test.cpp": fill("system_test.cpp.in", words),
         "requirements/system.md": (START / "system.md").read_text(encoding="utf-8"),
         "requirements/software.md": (START / "software.md").read_text(encoding="utf-8"),
@@ -95,7 +91,7 @@ def make_files(name: str) -> dict[str, str]:
 
 
 def cut(source: Path) -> tuple[str, str, str, str, str]:
-    """@return head, components, table, devices and main function of the example."""
+    """@return head, components, table, printing function and main function of the example."""
     text = source.read_text(encoding="utf-8")
     places = [0]
     for landmark in LANDMARKS:
@@ -110,25 +106,6 @@ def replace_once(text: str, old: str, new_text: str) -> str:
     if text.count(old) != 1:
         raise RuntimeError(f"examples/minimal/main.cpp: '{old.strip()}' must be there once")
     return text.replace(old, new_text)
-
-
-def make_run(main: str) -> str:
-    """The main function of the example, converted to a function for any devices."""
-    text = replace_once(main, "int main() {\n", "/// Runs the system for `frame_count` major frames. @return 0 when each action succeeded.\n"
-                        "inline int run_system(int frame_count, mamori::ports::virtual_time::FrameDevices& devices) {\n")  # fmt: skip
-    text = replace_once(text, "    Printer printer;\n", "")
-    text = replace_once(text, ", printer}", ", devices}")
-    return re.sub(r"frame < \d+;", "frame < frame_count;", text)
-
-
-def make_recorder(printer: str) -> str:
-    """The devices of the example, with a recording body."""
-    start = replace_once(printer[printer.index("class Printer"):], "class Printer ", "class Recorder ")
-    head = re.match(r".*?end_frame\([^)]*\)[^{]*\{\n", start, re.DOTALL)
-    if head is None:
-        raise RuntimeError("examples/minimal/main.cpp: Printer has no end_frame")
-    body = "        samples.push_back({wheel.speed.get_published(), monitor.brake.get_published()});\n    }\n};\n"
-    return "/// Records instead of printing.\n" + re.sub(r"std::uint64_t frame\b", "std::uint64_t", head[0]) + body
 
 
 def tag_monitor(components: str) -> str:

@@ -16,7 +16,6 @@
 namespace mamori::protected_speed {
 namespace {
 
-using ports::virtual_time::FrameDevices;
 using ports::virtual_time::FrameRunner;
 using ports::virtual_time::SimulatedChannel;
 using ports::virtual_time::SimulatedCore;
@@ -26,12 +25,6 @@ using safety::E2eOutcome;
 using safety::E2eWorth;
 using safety::FrameCause;
 using namespace verification;
-
-class NoDevices final : public FrameDevices {
-  public:
-    void begin_frame(std::uint64_t, Instant) noexcept override {}
-    void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
-};
 
 /// A system that runs one major frame after another.
 template <typename Table>

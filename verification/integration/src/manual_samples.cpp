@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples of the manual that belong to no program of their own: they are compiled, not run.
 // verification/checks/manual_samples.py compares each with its page.
-#include <array>
-#include <csignal>
 #include <cstdio>
 #include <string>
 
@@ -11,18 +9,14 @@
 #include "mamori/kernel/base/constant_init.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/ports/posix_rt/core_runner.hpp"
-#include "mamori/ports/posix_rt/grid_watch.hpp"
-#include "mamori/ports/posix_rt/guarded_host.hpp"
-#include "mamori/ports/posix_rt/software_watchdog.hpp"
+#include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/ports/posix_rt/watchdog_device.hpp"
-#include "mamori/ports/virtual_time/frame_runner.hpp"
+#include "mamori/ports/virtual_time/virtual_host.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 #include "mamori/timing/cost_run.hpp"
 
 namespace rt = mamori::ports::posix_rt;
-using mamori::Status;
 using namespace mamori::literals;  // NOLINT: units of the times below
 
 namespace manual {
@@ -37,50 +31,37 @@ static constexpr auto kSystem = mamori::system(
     mamori::frame(10_ms), mamori::window("idle", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(idle)));
 MAMORI_CHECK(kSystem);
 static mamori::ExecutiveFor executive{kSystem};
-static std::array<rt::WindowThread, 1U> threads;
-static const rt::FrameClock clock = rt::FrameClock::starting_in(50_ms);
-static rt::GuardedHost host{threads, clock, {70, rt::ThreadPlace::kAnyProcessor}};
-
 // clang-format off: lines as in the manual
 
 namespace real_time {
 
-static rt::CoreRunner runner{executive, host, clock};  // static: the handler uses it
+#include "mamori/ports/posix_rt/machine.hpp"
 
-extern "C" void on_signal(int) { runner.request_stop(); }
+static mamori::ports::posix_rt::Machine<kSystem> machine;
 
-static void run_until_signal() {
-    struct sigaction action {};
-    action.sa_handler = &on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    runner.run_until_stopped();  // in place of runner.run(20U)
+class Drive final : public mamori::Devices {
+    void sample(std::uint64_t, mamori::Instant) noexcept override { /* read the encoders */ }
+    void apply(std::uint64_t, mamori::Instant, mamori::Duration) noexcept override { /* send the torques */ }
+};
+
+static mamori::Status run_drive() {
+    Drive drive;
+    return machine.run(drive);  // until SIGINT, SIGTERM or machine.request_stop()
 }
-
-#include "mamori/ports/posix_rt/grid_watch.hpp"
 
 static void close_outputs(void*) noexcept { /* remove the enable signal of the drives; do not wait */ }
 
-static std::array<rt::GridBeat, 1U> beats{rt::GridBeat{executive.get_view(), 0U}};  // one per core
-// Permitted lateness, time between two polls, time over which the clocks are compared, deviation 0.5 %.
-constexpr rt::GridLimits kLimits{300_us, 200_us, {100_ms, 5000}};
-static rt::GridWatch watch{
-    beats,   clock,
-    rt::get_raw_clock(),
-    kLimits, {&close_outputs, nullptr},
-    {85, rt::ThreadPlace::kAnyProcessor}};  // above the runner
-
-static Status run_with_watch() {
-    runner.set_observer(&beats[0]);
-    beats[0].expect(mamori::Instant{0});  // from now on the first window must start in time
-    const Status status = watch.open();
-    if (status == Status::kOk) {
-        runner.run_until_stopped();
-    }
-    beats[0].rest();  // the end is intended
-    watch.close();
-    return status;
+static mamori::ports::posix_rt::MachineOptions make_options() {
+    mamori::ports::posix_rt::MachineOptions options;
+    options.outputs = {&close_outputs, nullptr};
+    options.watch.lateness = 2_ms;      // a window that starts or ends later closes the outputs
+    options.watch.period = 1_ms;        // time between two polls of the schedule watch
+    options.watchdog_timeout = 100_ms;
+    options.recorder = "run.rec";
+    return options;
 }
+
+static mamori::ports::posix_rt::Machine<kSystem> guarded{make_options()};
 
 static void init_with_priority_inheritance(pthread_mutex_t& mutex) {
     pthread_mutexattr_t attributes;
@@ -93,18 +74,17 @@ static void init_with_priority_inheritance(pthread_mutex_t& mutex) {
 
 namespace last_resort {
 
-static Status run_with_device(rt::CoreRunner& runner, rt::SoftwareWatchdog& watchdog) {
-    rt::WatchdogDevice device;
-    if (const Status opened = device.open("/dev/watchdog", 10000_ms); opened != Status::kOk) {
+static mamori::Status run_with_device() {
+    static rt::WatchdogDevice device;
+    if (const mamori::Status opened = device.open("/dev/watchdog", 10000_ms); opened != mamori::Status::kOk) {
         std::fprintf(stderr, "/dev/watchdog: %s\n", rt::describe(device.get_error()));
         return opened;
     }
-    const Status status = watchdog.open({90, rt::ThreadPlace::kAnyProcessor}, &device);
-    if (status == Status::kOk) {
-        runner.run(20U);
-    }
-    const bool is_stopped = watchdog.close() == Status::kOk && device.disarm() == Status::kOk;
-    return is_stopped ? status : Status::kError;  // an armed device resets the computer after the end of the program
+    rt::MachineOptions options;
+    options.device = &device;
+    static rt::Machine<kSystem> supervised{options};
+    const mamori::Status status = supervised.run();
+    return device.disarm() == mamori::Status::kOk ? status : mamori::Status::kError;  // an armed device resets the computer
 }
 
 }  // namespace last_resort
@@ -139,7 +119,7 @@ static_assert(mamori::safety::is_within_budget<Profile, kChannel, kUse>());
 namespace cost {
 
 static mamori::timing::TimingResult count(bool is_paced, const std::uint64_t (&numbers)[3], const char* folder,
-                                          mamori::ports::virtual_time::FrameDevices& devices) {
+                                          mamori::Devices& devices) {
     mamori::ports::virtual_time::VirtualHostFor clock{kSystem};
     mamori::timing::CostOptions options;
     options.is_paced = is_paced;                   // --by clock

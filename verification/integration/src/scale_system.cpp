@@ -27,7 +27,6 @@ MAMORI_FIELDS(mamori::verification::integration::Sample, mix, level, step)
 namespace mamori::verification::integration {
 namespace {
 
-using ports::virtual_time::FrameDevices;
 using ports::virtual_time::FrameRunner;
 using ports::virtual_time::IndexedVirtualHost;
 using ports::virtual_time::SimulatedCore;
@@ -183,13 +182,12 @@ MAMORI_CONSTINIT IntrospectionFor<Table> g_introspection{kSystem};
 
 /// Not a device; on request, reads the complete introspection `kCyclesPerFrame` times in a major frame of as
 /// many milliseconds.
-class Watcher final : public FrameDevices {
+class Watcher final : public Devices {
   public:
     explicit Watcher(bool is_watching) noexcept : is_watching_(is_watching) {}
     std::uint64_t row_count{0U};
 
-    void begin_frame(std::uint64_t, Instant) noexcept override {}
-    void end_frame(std::uint64_t, Instant, Duration) noexcept override {
+    void apply(std::uint64_t, Instant, Duration) noexcept override {
         for (std::uint64_t i = 0U; is_watching_ && i < kCyclesPerFrame; ++i) {
             const auto count = [this](std::size_t, const auto&) noexcept { ++row_count; };
             static_cast<void>(g_introspection.for_each_window(count));

@@ -119,7 +119,7 @@ Status prepare() noexcept {
     return reader.configure({safe_arm::make_uniform(kCountsPerRad), safe_arm::make_uniform(kCountsPerRad)});
 }
 
-void ObedientDevices::begin_frame(std::uint64_t, Instant now) noexcept {
+void ObedientDevices::sample(std::uint64_t, Instant now) noexcept {
     inputs.encoder_a_counts[2] = now >= kEncoderJumps && now < kReset ? 5000 : 0;
     inputs.measured_torque_nm = outputs.torque_nm;
     inputs.brake_closed.fill(!outputs.brake_release);
@@ -132,7 +132,7 @@ void ObedientDevices::begin_frame(std::uint64_t, Instant now) noexcept {
     static_cast<void>(host_.set_duration(controller, controller_time));
 }
 
-void ObedientDevices::end_frame(std::uint64_t, Instant now, Duration length) noexcept {
+void ObedientDevices::apply(std::uint64_t, Instant now, Duration length) noexcept {
     watchdog.check(now + length);
     facts.operational_frames += outputs.torque_enable ? 1U : 0U;
 }

@@ -26,12 +26,12 @@ mamori::Status prepare() noexcept;
 
 /// Devices that follow immediately, an operator who starts and resets, and two faults in sequence: an encoder
 /// jump, then a hang of the controller.
-class ObedientDevices final : public mamori::ports::virtual_time::FrameDevices {
+class ObedientDevices final : public mamori::Devices {
   public:
     explicit ObedientDevices(mamori::ports::virtual_time::VirtualHost& host) noexcept : host_(host) {}
 
-    void begin_frame(std::uint64_t frame, mamori::Instant now) noexcept override;
-    void end_frame(std::uint64_t frame, mamori::Instant now, mamori::Duration length) noexcept override;
+    void sample(std::uint64_t frame, mamori::Instant now) noexcept override;
+    void apply(std::uint64_t frame, mamori::Instant now, mamori::Duration length) noexcept override;
 
   private:
     mamori::ports::virtual_time::VirtualHost& host_;

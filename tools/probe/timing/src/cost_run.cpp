@@ -84,8 +84,7 @@ std::size_t calc_room(const SystemView& view, const CostOptions& options) {
 /// All memory of the run, allocated before it begins.
 class CostSession final {
   public:
-    CostSession(const std::vector<CostCore>& cores, ports::virtual_time::FrameDevices& devices,
-                const CostOptions& options)
+    CostSession(const std::vector<CostCore>& cores, Devices& devices, const CostOptions& options)
         : options_(options), devices_(devices), log_(0U, calc_room(get_view(cores), options)) {
         for (const CostCore& core : cores) {
             hosts_.push_back(std::make_unique<CountingHost>(core.clock, log_, core.executive.get_view(),
@@ -138,7 +137,7 @@ class CostSession final {
     }
 
     const CostOptions& options_;
-    ports::virtual_time::FrameDevices& devices_;
+    Devices& devices_;
     RunLog log_;
     FrameClock clock_ = FrameClock::starting_in(Duration{0});
     ReferenceWork reference_;
@@ -147,8 +146,7 @@ class CostSession final {
     CostFacts facts_;
 };
 
-TimingResult measure(const std::vector<CostCore>& cores, ports::virtual_time::FrameDevices& devices,
-                     const CostOptions& options) {
+TimingResult measure(const std::vector<CostCore>& cores, Devices& devices, const CostOptions& options) {
     std::string problem = remove_files(options.out);
     if (problem.empty()) {
         const std::string table = options.out + "/table.json";
@@ -173,8 +171,7 @@ TimingResult measure(const std::vector<CostCore>& cores, ports::virtual_time::Fr
 
 }  // namespace
 
-TimingResult run_cost(const std::vector<CostCore>& cores, ports::virtual_time::FrameDevices& devices,
-                      const CostOptions& options) {
+TimingResult run_cost(const std::vector<CostCore>& cores, Devices& devices, const CostOptions& options) {
     const std::string problem = check(cores, options);
     if (!problem.empty()) {
         return {TimingOutcome::kRefused, problem};

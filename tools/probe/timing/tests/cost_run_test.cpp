@@ -27,10 +27,10 @@ class Worker final : public Component {
     Status on_execute(ContextHandle) noexcept override { return Status::kOk; }
 };
 
-class CountingDevices final : public ports::virtual_time::FrameDevices {
+class CountingDevices final : public Devices {
   public:
-    void begin_frame(std::uint64_t, Instant) noexcept override { ++begun; }
-    void end_frame(std::uint64_t, Instant, Duration) noexcept override { ++ended; }
+    void sample(std::uint64_t, Instant) noexcept override { ++begun; }
+    void apply(std::uint64_t, Instant, Duration) noexcept override { ++ended; }
     std::uint64_t begun{0U};
     std::uint64_t ended{0U};
 };

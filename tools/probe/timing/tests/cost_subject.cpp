@@ -71,12 +71,6 @@ constexpr auto kSubject =
            window("heavy", 500_us, 300_us, budget(200_us), run(heavy)));
 ExecutiveFor executive{kSubject};
 
-class NoDevices final : public ports::virtual_time::FrameDevices {
-  public:
-    void begin_frame(std::uint64_t, Instant) noexcept override {}
-    void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
-};
-
 int run_subject(int argc, char** argv) {
     if (argc < 12 || argc > 13) {
         std::fprintf(stderr, "usage: cost_subject cost --by WORD --cycles N --first A --every K --out DIR\n");

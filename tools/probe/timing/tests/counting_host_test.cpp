@@ -16,7 +16,6 @@ namespace mamori::timing {
 namespace {
 
 using ports::posix_rt::FrameClock;
-using ports::virtual_time::FrameDevices;
 using ports::virtual_time::FrameRunner;
 using ports::virtual_time::IndexedVirtualHost;
 using ports::virtual_time::kNever;
@@ -34,12 +33,6 @@ class Worker final : public Component {
     }
     Status on_state_update(ContextHandle) noexcept override { return Status::kOk; }
     int run_count{0};
-};
-
-class NoDevices final : public FrameDevices {
-  public:
-    void begin_frame(std::uint64_t, Instant) noexcept override {}
-    void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
 };
 
 /// Two windows: one starts twice in a major frame, the other one has two components.

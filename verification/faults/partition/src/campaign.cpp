@@ -237,13 +237,6 @@ class Director final {
     std::vector<Injected> injections_{};
 };
 
-/// No devices.
-class NoDevices final : public ports::virtual_time::FrameDevices {
-  public:
-    void begin_frame(std::uint64_t, Instant) noexcept override {}
-    void end_frame(std::uint64_t, Instant, Duration) noexcept override {}
-};
-
 /// The same table in virtual time, up to the last window in real time.
 std::vector<Opening> run_in_virtual_time(const std::vector<TimedOpening>& openings) {
     if (openings.empty() || executive.stop() != Status::kOk || executive.finalize() != Status::kOk ||

@@ -42,6 +42,18 @@ class OpeningObserver {
     ~OpeningObserver() = default;
 };
 
+/// Whether the table states a publication margin, if it has a connection between two cores. A connection
+/// without windows is rejected by initialize().
+constexpr bool has_publication_margin(const SystemView& view) noexcept {
+    bool leaves_core = false;
+    for (const ConnectionRow& row : view.connections) {
+        const bool is_joined = row.source_window != kNoIndex && row.sink_window != kNoIndex;
+        leaves_core = leaves_core || (is_joined && view.windows[row.source_window].core !=
+                                                       view.windows[row.sink_window].core);
+    }
+    return !leaves_core || view.publication_margin > Duration{0};
+}
+
 /// Thread safety: request_stop() from any thread or signal handler; the rest from the thread that runs the
 ///                windows, whose priority must be higher than that of the host's threads.
 /// Memory:        none of its own; all references must outlive it.
@@ -62,21 +74,31 @@ class CoreRunner final {
     /// A table with a connection between two cores and without publication_margin(...) is a contract
     /// violation: in real time, execution times would decide which values the reader receives.
     /// @param[in] frame_count > 0, any. The time line ends after 292 years, and every run ends with it.
-    void run(std::uint64_t frame_count) noexcept;
+    void run(std::uint64_t frame_count) noexcept { run(frame_count, clock_.get_now()); }
+    /// The same from the first frame on that begins at `from` or later. A frame that has begun is late.
+    void run(std::uint64_t frame_count, Instant from) noexcept;
     /// The same without an end of its own: returns after request_stop().
     void run_until_stopped() noexcept { run(kAllFrames); }
 
     /// No window starts once the current one has ended, in this run and in later ones. The run returns when
     /// the start of the next window is due. One store to a lock-free word: async-signal-safe.
-    void request_stop() noexcept { is_stop_wanted_.store(true, std::memory_order_relaxed); }
+    void request_stop() noexcept { request_stop_at(Instant{std::numeric_limits<std::int64_t>::min()}); }
+    /// The same for windows whose planned start is at `instant` or later; earlier ones still start.
+    void request_stop_at(Instant instant) noexcept { stop_ns_.store(instant.ns, std::memory_order_relaxed); }
+    /// Takes back a stop that was requested. Not while run() is under way.
+    void resume() noexcept { stop_ns_.store(kNoStop, std::memory_order_relaxed); }
 
     /// Of all calls of run() so far. To be asked while none is under way.
     const OpeningCounts& get_counts() const noexcept { return counts_; }
 
   private:
     static constexpr std::uint64_t kAllFrames = std::numeric_limits<std::uint64_t>::max();
-    static_assert(std::atomic<bool>::is_always_lock_free);
+    static constexpr std::int64_t kNoStop = std::numeric_limits<std::int64_t>::max();
+    static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
+    bool is_stopped_before(Instant release) const noexcept {
+        return release.ns >= stop_ns_.load(std::memory_order_relaxed);
+    }
     void open(const FrameSchedule::Opening& opening) noexcept;
 
     Executive& executive_;
@@ -84,7 +106,7 @@ class CoreRunner final {
     const FrameClock& clock_;
     OpeningObserver* observer_{nullptr};
     OpeningCounts counts_{};
-    std::atomic<bool> is_stop_wanted_{false};
+    std::atomic<std::int64_t> stop_ns_{kNoStop};
 };
 
 }  // namespace mamori::ports::posix_rt

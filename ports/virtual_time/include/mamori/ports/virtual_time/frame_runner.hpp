@@ -9,23 +9,12 @@
 
 #include <cstdint>
 
+#include "mamori/kernel/run/devices.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/run/frame_schedule.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
 
 namespace mamori::ports::virtual_time {
-
-/// Devices and faults around the executive. Calling context: that of FrameRunner::run_frame.
-class FrameDevices {
-  public:
-    /// Before the first window of frame `frame` (0, 1, ...): sample inputs, apply faults that are due.
-    virtual void begin_frame(std::uint64_t frame, Instant now) noexcept = 0;
-    /// After the last window: take outputs, move the plant on by `length`.
-    virtual void end_frame(std::uint64_t frame, Instant now, Duration length) noexcept = 0;
-
-  protected:
-    ~FrameDevices() = default;
-};
 
 /// One core of the simulated machine: its executive and its clock, both of which must outlive it.
 class SimulatedCore final {
@@ -57,13 +46,14 @@ class SimulatedCore final {
 class FrameRunner final {
   public:
     /// @param[in] cores at least one, all of the same system table.
-    FrameRunner(Span<SimulatedCore> cores, FrameDevices& devices) noexcept
-        : cores_(cores), devices_(devices) {}
+    /// @param[in] first_frame number of the frame that is run first.
+    FrameRunner(Span<SimulatedCore> cores, Devices& devices, std::uint64_t first_frame = 0U) noexcept
+        : cores_(cores), devices_(devices), frame_count_(first_frame) {}
 
     /// Runs the next frame: each window opens at its instants, whatever happened in the one before.
     void run_frame() noexcept;
 
-    /// Frames run so far.
+    /// Number of the frame that is run next.
     std::uint64_t get_frame_count() const noexcept { return frame_count_; }
     /// Windows that ended with WindowOutcome::kOverrun so far.
     std::uint64_t get_overrun_count() const noexcept { return overrun_count_; }
@@ -73,8 +63,8 @@ class FrameRunner final {
     SimulatedCore& find_next() noexcept;
 
     Span<SimulatedCore> cores_;
-    FrameDevices& devices_;
-    std::uint64_t frame_count_{0U};
+    Devices& devices_;
+    std::uint64_t frame_count_;
     std::uint64_t overrun_count_{0U};
 };
 

@@ -47,8 +47,7 @@ struct CostOptions {
 /// @param[in] cores one per core of the table, in the same order. @param[in] devices around the major frames.
 /// @return kWhole, kRefused (invalid options) or kFailed; never kInterrupted, because a signal ends the
 /// program without results.
-TimingResult run_cost(const std::vector<CostCore>& cores, ports::virtual_time::FrameDevices& devices,
-                      const CostOptions& options);
+TimingResult run_cost(const std::vector<CostCore>& cores, Devices& devices, const CostOptions& options);
 
 }  // namespace mamori::timing
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// A complete system in real time: checks the table and owns executives, hosts, threads, schedule watch,
+/// software watchdog, crash handlers and signal handlers, and starts and stops them in the correct order.
+///
+///     static mamori::ports::posix_rt::Machine<kSystem> machine;
+///     int main() { return machine.run(20U, print) == mamori::Status::kOk ? 0 : 1; }
+///
+/// The same program runs in virtual time with mamori::ports::virtual_time::Machine.
+///
+/// @satisfies SWR-PRT-060, SWR-PRT-061, SWR-PRT-062, SWR-PRT-063, SWR-PRT-064
+///     Design: docs/design/posix_rt.md#machine
+#ifndef MAMORI_PORTS_POSIX_RT_MACHINE_HPP
+#define MAMORI_PORTS_POSIX_RT_MACHINE_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "mamori/kernel/run/devices.hpp"
+#include "mamori/kernel/run/executives.hpp"
+#include "mamori/ports/posix_rt/guarded_host.hpp"
+#include "mamori/ports/posix_rt/machine_options.hpp"
+#include "mamori/ports/posix_rt/machine_run.hpp"
+
+namespace mamori::ports::posix_rt {
+
+template <const auto& kTable, typename Cores = std::make_index_sequence<Executives<kTable>::kCoreCount>>
+class Machine;
+
+/// Must have static storage: work that hangs keeps its thread.
+///
+/// Thread safety: request_stop() from any thread or signal handler; all other functions from one thread.
+/// Time:          run() waits in real time. Memory: no heap; the stacks of its threads.
+/// @tparam kTable constexpr system table of static storage duration. A violated rule is named by the compiler
+///                as MAMORI_CHECK names it.
+template <const auto& kTable, std::size_t... kCores>
+class Machine<kTable, std::index_sequence<kCores...>> final {
+    static_assert(has_publication_margin(make_view(kTable)),
+                  "in real time, a table with a connection between cores states publication_margin(...)");
+    static constexpr std::size_t kCoreCount = sizeof...(kCores);
+    static constexpr std::size_t kFirstCore = mamori::detail::find_first_core(make_view(kTable));
+
+  public:
+    explicit Machine(const MachineOptions& options = {}) noexcept
+        : options_(options),
+          hosts_{GuardedHost{threads_[kCores], clock_, get_place(options, kCores)}...},
+          runners_{CoreRunner{executives_.get(kCores), hosts_[kCores], clock_}...} {}
+    Machine(const Machine&) = delete;
+    Machine& operator=(const Machine&) = delete;
+    ~Machine() = default;
+
+    /// Starts the system, runs the next `frames` major frames, closes the outputs and stops the system.
+    /// SIGINT, SIGTERM or request_stop() end the run earlier. A later call continues on the same time line.
+    /// @param[in] frames > 0.
+    /// @return kOk; else get_report() names the failed step: kBadParameter (options or frames are out of
+    ///         range); kOutOfResources (no thread, or no space for the recorder file); kPreconditionNotMet
+    ///         (another machine or other CrashHandlers are active in this process, or work of a window still
+    ///         hangs); kError (the schedule watch closed the outputs); or the failure of
+    ///         MappedFile::open(), FlightRecorder::open(), ExecutiveGroup::start() or stop().
+    Status run(std::uint64_t frames, Devices& devices) noexcept {
+        const SystemView view = make_view(kTable);
+        DeviceCaller caller{view, kFirstCore, devices, clock_, run_};
+        std::array<GridBeat, kCoreCount> beats{
+            GridBeat{view, kCores, kCores == kFirstCore ? &caller : nullptr}...};
+        std::array<RunnerThread, kCoreCount> threads{};
+        for (std::size_t core = 0U; core < kCoreCount; ++core) {
+            runners_[core].set_observer(&beats[core]);
+        }
+        return run_.run({executives_, clock_, hosts_, runners_, beats, threads, caller}, options_, frames);
+    }
+    /// Runs until SIGINT, SIGTERM or request_stop().
+    Status run(Devices& devices) noexcept { return run(MachineRun::kAllFrames, devices); }
+    /// The same without devices.
+    Status run(std::uint64_t frames = MachineRun::kAllFrames) noexcept {
+        NoDevices devices;
+        return run(frames, devices);
+    }
+    /// Calls `after_frame` with the number of each major frame after its last window on the first core.
+    template <typename Action, typename = std::enable_if_t<std::is_invocable_v<Action&, std::uint64_t>>>
+    Status run(std::uint64_t frames, Action after_frame) noexcept {
+        AfterFrame<Action> devices{after_frame};
+        return run(frames, devices);
+    }
+
+    /// No window starts after the current major frame. Without a run: the next run has no major frame.
+    /// Async-signal-safe.
+    void request_stop() noexcept { run_.request_stop(); }
+
+    /// Executives and modes of the system.
+    Executives<kTable>& get_executives() noexcept { return executives_; }
+    /// Time line of the system; its instant 0 is the start of major frame 0 of the first run.
+    const FrameClock& get_clock() const noexcept { return clock_; }
+    /// Result of the last run().
+    const MachineReport& get_report() const noexcept { return run_.get_report(); }
+
+  private:
+    static ThreadPlace get_place(const MachineOptions& options, std::size_t core) noexcept {
+        const bool is_placed = core < options.processors.size();
+        return {options.priority - MachineOptions::kPriorityStep,
+                is_placed ? options.processors[core] : ThreadPlace::kAnyProcessor};
+    }
+
+    MachineOptions options_;
+    Executives<kTable> executives_{};
+    FrameClock clock_{FrameClock::at_epoch(0)};
+    std::array<std::array<WindowThread, mamori::detail::TableType<kTable>::kWindowCount>, kCoreCount>
+        threads_{};
+    std::array<GuardedHost, kCoreCount> hosts_;
+    std::array<CoreRunner, kCoreCount> runners_;
+    MachineRun run_{};
+};
+
+}  // namespace mamori::ports::posix_rt
+
+#endif  // MAMORI_PORTS_POSIX_RT_MACHINE_HPP

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/ports/posix_rt/machine_run.hpp"
+
+#include "mamori/ports/posix_rt/crash_handlers.hpp"
+#include "mamori/ports/posix_rt/crash_note.hpp"
+#include "mamori/ports/posix_rt/crash_stack.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+constexpr std::size_t kLockedStack = std::size_t{64U} * 1024U;
+/// Time limit for the return of work that was aborted, at the end of a run.
+constexpr Duration kPatience{1'000'000'000};
+constexpr Duration kPoll{5'000'000};
+
+bool is_valid(const MachineOptions& options, const MachineParts& parts) noexcept {
+    const Duration frame = parts.executives.get(0U).get_view().frame;
+    const GridLimits& watch = options.watch;
+    const bool is_watch_valid = watch.lateness >= Duration{0} && watch.period > Duration{0} &&
+                                watch.rate.span > Duration{0} && watch.rate.limit_ppm > 0;
+    // Half of the timeout, because the sum of two spans can overflow.
+    return is_watch_valid && options.lead > Duration{0} && options.priority >= MachineOptions::kPriorityMin &&
+           options.priority <= MachineOptions::kPriorityMax &&
+           options.watchdog_timeout.ns / 2 - frame.ns > watch.period.ns &&
+           (options.processors.empty() || options.processors.size() >= parts.hosts.size()) &&
+           (options.recorder == nullptr || options.recorder_capacity > 0U);
+}
+
+bool has_returned(const MachineParts& parts) noexcept {
+    const std::size_t windows = parts.executives.get(0U).get_view().windows.size();
+    for (const GuardedHost& host : parts.hosts) {
+        for (std::size_t window = 0U; window < windows; ++window) {
+            if (!host.has_returned(window)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// Waits for aborted work, at most kPatience.
+void wait_for_return(const MachineParts& parts) noexcept {
+    const Instant last = parts.clock.get_now() + kPatience;
+    for (Instant now = parts.clock.get_now(); now < last && !has_returned(parts); now = now + kPoll) {
+        parts.clock.wait_until(now + kPoll);
+    }
+}
+
+Status close_hosts(Span<GuardedHost> hosts) noexcept {
+    Status result = Status::kOk;
+    for (GuardedHost& host : hosts) {
+        const Status status = host.close();
+        result = result == Status::kOk ? status : result;
+    }
+    return result;
+}
+
+Status open_hosts(Span<GuardedHost> hosts, int runner_priority) noexcept {
+    for (std::size_t core = 0U; core < hosts.size(); ++core) {
+        const Status status = hosts[core].open(runner_priority);
+        if (status != Status::kOk) {
+            static_cast<void>(close_hosts(hosts.subspan(0U, core)));
+            return status;
+        }
+    }
+    return Status::kOk;
+}
+
+}  // namespace
+
+const char* describe(MachineStep step) noexcept {
+    switch (step) {
+        case MachineStep::kNone:
+            return "no failure";
+        case MachineStep::kOptions:
+            return "an option of the machine or the number of frames is out of range";
+        case MachineStep::kRecorder:
+            return "the file of the flight recorder cannot be used";
+        case MachineStep::kSignals:
+            return "another machine runs in this process";
+        case MachineStep::kCrashHandlers:
+            return "this process has other crash handlers";
+        case MachineStep::kWindowThreads:
+            return "the threads of the windows cannot be started, or work of an earlier run still hangs";
+        case MachineStep::kStart:
+            return "a component or the table prevents the start";
+        case MachineStep::kWatch:
+            return "the thread of the schedule watch cannot be started";
+        case MachineStep::kWatchdog:
+            return "the thread of the watchdog cannot be started";
+        case MachineStep::kRunnerThreads:
+            return "the threads that run the windows cannot be started";
+        case MachineStep::kFrames:
+            return "the schedule watch closed the outputs";
+        case MachineStep::kStop:
+            return "a component failed at the stop, or its work hangs";
+    }
+    return "unknown step";  // only a corrupted value gets here
+}
+
+DeviceCaller::DeviceCaller(const SystemView& view, std::size_t core, Devices& devices,
+                           const FrameClock& clock, MachineRun& run) noexcept
+    : devices_(devices), clock_(clock), run_(run), frame_(view.frame) {
+    FrameSchedule schedule{view, core, Instant{0}};
+    first_ = schedule.get_next().release;
+    while (schedule.get_next().release.ns < frame_.ns) {
+        last_ = schedule.get_next().release;
+        schedule.advance();
+    }
+}
+
+void DeviceCaller::before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept {
+    const std::int64_t place = opening.release.ns % frame_.ns;
+    if (place == first_.ns) {
+        const Instant start{opening.release.ns - place};
+        devices_.sample(static_cast<std::uint64_t>(start.ns / frame_.ns), start);
+        const Duration time = clock_.get_now() - woke;
+        longest_sample_ = time > longest_sample_ ? time : longest_sample_;
+    }
+}
+
+void DeviceCaller::after_opening(const FrameSchedule::Opening& opening, WindowOutcome) noexcept {
+    const std::int64_t place = opening.release.ns % frame_.ns;
+    if (place == last_.ns) {
+        const Instant start{opening.release.ns - place};
+        const Instant before = clock_.get_now();
+        devices_.apply(static_cast<std::uint64_t>(start.ns / frame_.ns), start, frame_);
+        const Instant now = clock_.get_now();
+        longest_apply_ = now - before > longest_apply_ ? now - before : longest_apply_;
+        run_.end_frame(now);
+    }
+}
+
+Status MachineRun::fail(MachineStep step, Status status) noexcept {
+    if (report_.failed_step == MachineStep::kNone && status != Status::kOk) {
+        report_.failed_step = step;
+    }
+    return status;
+}
+
+void MachineRun::record(MachineEvent event, Severity severity, std::int64_t argument) noexcept {
+    if (recorder_.is_open()) {
+        recorder_.write(clock_->get_now(), severity, kMachineSource, static_cast<std::uint16_t>(event),
+                        argument);
+    }
+}
+
+void MachineRun::close_outputs(void* self) noexcept {
+    MachineRun& run = *static_cast<MachineRun*>(self);
+    if (!run.are_outputs_closed_.exchange(true)) {
+        if (run.outputs_.close != nullptr) {
+            run.outputs_.close(run.outputs_.argument);
+        }
+        run.closed_ns_.store(run.clock_->get_now().ns);
+    }
+}
+
+void MachineRun::request_stop() noexcept {
+    if (is_stop_wanted_.exchange(true) || !has_clock_.load(std::memory_order_acquire)) {
+        return;
+    }
+    const std::int64_t now = clock_->get_now().ns;
+    const Instant end{now < 0 ? 0 : (now / frame_.ns + 1) * frame_.ns};
+    for (CoreRunner& runner : runners_) {
+        runner.request_stop_at(end);
+    }
+}
+
+void MachineRun::on_stop_signal(int signal) noexcept {
+    int none = 0;
+    const std::int64_t now = clock_->get_now().ns;
+    if (signal_.compare_exchange_strong(none, signal)) {
+        signal_ns_.store(now);
+    }
+    close_outputs(this);
+    request_stop();
+}
+
+void MachineRun::end_frame(Instant now) noexcept {
+    const std::uint64_t look_count = watch_->get_look_count();
+    if (look_count != served_look_count_) {
+        served_look_count_ = look_count;
+        static_cast<void>(watchdog_->service(now));  // an expired watchdog ends the process
+    }
+}
+
+Status MachineRun::open_recorder(const MachineOptions& options) noexcept {
+    if (options.recorder == nullptr || recorder_.is_open()) {
+        return Status::kOk;
+    }
+    Status status = file_.open(options.recorder, calc_recorder_file_size(options.recorder_capacity));
+    report_.file_error = file_.get_error();
+    if (status == Status::kOk) {
+        status = recorder_.open(get_recorder_region(file_.get_region()));
+    }
+    if (status == Status::kOk && options.event_log != nullptr) {
+        status = options.event_log->attach(recorder_);
+    }
+    if (status != Status::kOk) {
+        recorder_.close();
+        file_.close();
+    }
+    return status;
+}
+
+Status MachineRun::run(const MachineParts& parts, const MachineOptions& options,
+                       std::uint64_t frames) noexcept {
+    report_ = {};
+    if (frames == 0U || !is_valid(options, parts)) {
+        return fail(MachineStep::kOptions, Status::kBadParameter);
+    }
+    if (const Status opened = open_recorder(options); opened != Status::kOk) {
+        return fail(MachineStep::kRecorder, opened);
+    }
+    report_.memory = lock_memory(kLockedStack);
+    if (!has_clock_.load(std::memory_order_relaxed)) {
+        parts.clock = FrameClock::starting_in(options.lead);
+        clock_ = &parts.clock;
+        runners_ = parts.runners;
+        frame_ = parts.executives.get(0U).get_view().frame;
+        has_clock_.store(true, std::memory_order_release);
+    }
+    outputs_ = options.outputs;
+    signal_.store(0);
+    are_outputs_closed_.store(false);
+    StopSignals signals;
+    if (const Status installed = signals.install(*this); installed != Status::kOk) {
+        return fail(MachineStep::kSignals, installed);
+    }
+    const Status status = run_protected(parts, options, frames);
+    signals.remove();
+    report_.signal = signal_.load();
+    report_.until_closed = Duration{report_.signal == 0 ? 0 : closed_ns_.load() - signal_ns_.load()};
+    if (report_.signal != 0) {
+        record(MachineEvent::kStopRequested, Severity::kInfo, report_.signal);
+    }
+    record(MachineEvent::kOutputsClosed, Severity::kInfo, report_.until_closed.ns);
+    record(MachineEvent::kStopped, status == Status::kOk ? Severity::kInfo : Severity::kFault,
+           static_cast<std::int64_t>(status));
+    if (report_.signal != 0) {
+        signals.forward(report_.signal);
+    }
+    return status;
+}
+
+Status MachineRun::run_protected(const MachineParts& parts, const MachineOptions& options,
+                                 std::uint64_t frames) noexcept {
+    CrashStack stack;
+    static_cast<void>(
+        stack.take());  // without it, an exhausted stack of this thread ends the process unrecorded
+    CrashHandlers handlers;
+    const Status installed = handlers.install(
+        {&MachineRun::close_outputs, this, file_.get_region(), recorder_.get_session(), *clock_});
+    if (installed != Status::kOk) {
+        return fail(MachineStep::kCrashHandlers, installed);
+    }
+    if (const Status opened = open_hosts(parts.hosts, options.priority); opened != Status::kOk) {
+        return fail(MachineStep::kWindowThreads, opened);
+    }
+    Status status = fail(MachineStep::kStart, parts.executives.start());
+    if (status == Status::kOk) {
+        record(MachineEvent::kStarted, Severity::kInfo, static_cast<std::int64_t>(parts.executives.size()));
+        status = run_watched(parts, options, frames);
+        close_outputs(this);
+        const Status stopped = fail(MachineStep::kStop, stop(parts));
+        status = status == Status::kOk ? stopped : status;
+    } else {
+        static_cast<void>(close_hosts(parts.hosts));
+    }
+    return status;
+}
+
+Status MachineRun::run_watched(const MachineParts& parts, const MachineOptions& options,
+                               std::uint64_t frames) noexcept {
+    const OutputGate gate{&MachineRun::close_outputs, this};
+    GridWatch watch{{parts.beats.data(), parts.beats.size()},
+                    *clock_,
+                    get_raw_clock(),
+                    options.watch,
+                    gate,
+                    {options.priority + MachineOptions::kPriorityStep, ThreadPlace::kAnyProcessor}};
+    SoftwareWatchdog watchdog{
+        *clock_, {Duration{0}, options.watchdog_timeout}, {gate.close, gate.argument, true}};
+    const Instant from = has_run_ ? clock_->get_now() + options.lead : Instant{0};
+    has_run_ = true;
+    for (std::size_t core = 0U; core < parts.threads.size(); ++core) {
+        parts.beats[core].expect(from);
+        parts.threads[core].runner = &parts.runners[core];
+        parts.threads[core].beat = &parts.beats[core];
+        parts.threads[core].from = from;
+        parts.threads[core].frames = frames;
+    }
+    if (const Status opened = watch.open(); opened != Status::kOk) {
+        return fail(MachineStep::kWatch, opened);
+    }
+    Status status =
+        fail(MachineStep::kWatchdog,
+             watchdog.open({options.priority + 2 * MachineOptions::kPriorityStep, ThreadPlace::kAnyProcessor},
+                           options.device));
+    if (status == Status::kOk) {
+        watch_ = &watch;
+        watchdog_ = &watchdog;
+        served_look_count_ = 0U;
+        status = run_threads(parts, options);
+        close_outputs(this);  // before the watches end
+        static_cast<void>(watchdog.close());
+    }
+    watch.close();
+    report_.finding = watch.get_finding();
+    report_.priority = combine(watch.get_right(), combine(watchdog.get_priority_right(), report_.priority));
+    if (watch.is_latched()) {
+        record(MachineEvent::kWatchFinding, Severity::kFault,
+               static_cast<std::int64_t>(report_.finding.fault));
+        status = status == Status::kOk ? fail(MachineStep::kFrames, Status::kError) : status;
+    }
+    return status;
+}
+
+void* MachineRun::serve(void* argument) noexcept {
+    const RunnerThread& thread = *static_cast<const RunnerThread*>(argument);
+    CrashStack stack;
+    static_cast<void>(stack.take());
+    thread.runner->run(thread.frames, thread.from);
+    thread.beat->rest();
+    return nullptr;
+}
+
+Status MachineRun::run_threads(const MachineParts& parts, const MachineOptions& options) noexcept {
+    std::size_t started = 0U;
+    Status status = Status::kOk;
+    report_.priority = {true, 0};
+    report_.processor = {true, 0};
+    while (started < parts.threads.size() && status == Status::kOk &&
+           !is_stop_wanted_.load(std::memory_order_relaxed)) {
+        RunnerThread& thread = parts.threads[started];
+        const int processor =
+            options.processors.empty() ? ThreadPlace::kAnyProcessor : options.processors[started];
+        status = start_thread(thread.thread, &MachineRun::serve, &thread, {options.priority, processor},
+                              thread.rights);
+        if (status == Status::kOk) {
+            ++started;
+        }
+    }
+    if (status != Status::kOk) {
+        request_stop();
+    }
+    for (std::size_t core = 0U; core < started; ++core) {
+        MAMORI_ENSURE(1, pthread_join(parts.threads[core].thread, nullptr) == 0);
+        report_.priority = combine(report_.priority, combine(parts.threads[core].rights.priority,
+                                                             parts.hosts[core].get_priority_right()));
+        report_.processor = combine(report_.processor, combine(parts.threads[core].rights.processor,
+                                                               parts.hosts[core].get_processor_right()));
+    }
+    for (GridBeat& beat : parts.beats) {
+        beat.rest();
+    }
+    collect(parts);
+    return fail(MachineStep::kRunnerThreads, status);
+}
+
+void MachineRun::collect(const MachineParts& parts) noexcept {
+    for (CoreRunner& runner : parts.runners) {
+        const OpeningCounts& counts = runner.get_counts();
+        OpeningCounts& sum = report_.openings;
+        sum.opened += counts.opened;
+        sum.overran += counts.overran;
+        sum.missed += counts.missed;
+        sum.worst_lateness =
+            counts.worst_lateness > sum.worst_lateness ? counts.worst_lateness : sum.worst_lateness;
+        runner.resume();
+    }
+    is_stop_wanted_.store(false, std::memory_order_relaxed);
+    report_.longest_sample = parts.devices.get_longest_sample();
+    report_.longest_apply = parts.devices.get_longest_apply();
+}
+
+Status MachineRun::stop(const MachineParts& parts) noexcept {
+    wait_for_return(parts);
+    const Status stopped = parts.executives.stop();
+    const Status closed = close_hosts(parts.hosts);
+    return stopped == Status::kOk ? closed : stopped;
+}
+
+}  // namespace mamori::ports::posix_rt

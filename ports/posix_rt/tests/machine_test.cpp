@@ -1,0 +1,492 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a machine runs a table in real time and closes the outputs before every end. Method: real threads and
+// signals; components that note their cycles, fail or hang on request. A crash, an expired watchdog and a
+// hang end a child process. Limits are long, so that a slow host changes no result; counts of windows are
+// compared only with the counts of the machine itself.
+#include "mamori/ports/posix_rt/machine.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "mamori/kernel/record/flight_reader.hpp"
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/ports/posix_rt/crash_note.hpp"
+#include "mamori/trace/verifies.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+using namespace verification;
+using literals::operator""_ms;
+using literals::operator""_s;
+
+class Counter final : public Component {
+  public:
+    constexpr Counter() noexcept : Component("counter") {}
+    OutPort<std::int64_t> out{*this, "out"};
+    using Ports = mamori::Ports<&Counter::out>;
+    Status starts{Status::kOk};
+    Status stops{Status::kOk};
+    std::atomic<bool> is_to_hang{false};
+    std::atomic<bool> is_to_crash{false};
+    std::atomic<std::int64_t> last_start_ns{-1};
+
+    Status on_activated(ContextHandle) noexcept override { return starts; }
+    Status on_deactivated(ContextHandle) noexcept override { return stops; }
+    Status on_execute(ContextHandle context) noexcept override {
+        last_start_ns.store(context.now.ns);
+        while (is_to_hang) {
+            std::this_thread::yield();
+        }
+        if (is_to_crash) {
+            std::raise(SIGSEGV);
+        }
+        out.write(out.get_published() + 1);
+        return Status::kOk;
+    }
+};
+class Adder final : public Component {
+  public:
+    constexpr Adder() noexcept : Component("adder") {}
+    InPort<std::int64_t> in{*this, "in"};
+    OutPort<std::int64_t> out{*this, "out"};
+    using Ports = mamori::Ports<&Adder::in, &Adder::out>;
+
+    Status on_execute(ContextHandle) noexcept override {
+        out.write(out.get_published() + in.read());
+        return Status::kOk;
+    }
+};
+
+// One table per test: a component belongs to one executive as long as it is alive.
+#define MAMORI_TEST_SYSTEM(name) \
+    Counter g_counter_##name;    \
+    constexpr auto name =        \
+        system(frame(10_ms), window("count", 2_ms, 4_ms, budget(4_ms), run(g_counter_##name)))
+
+MAMORI_TEST_SYSTEM(kRuns);
+MAMORI_TEST_SYSTEM(kCloses);
+MAMORI_TEST_SYSTEM(kWithoutOptions);
+MAMORI_TEST_SYSTEM(kStops);
+MAMORI_TEST_SYSTEM(kSignals);
+MAMORI_TEST_SYSTEM(kManySignals);
+MAMORI_TEST_SYSTEM(kNested);
+MAMORI_TEST_SYSTEM(kRefused);
+MAMORI_TEST_SYSTEM(kFailsAtStart);
+MAMORI_TEST_SYSTEM(kFailsAtStop);
+MAMORI_TEST_SYSTEM(kHangs);
+MAMORI_TEST_SYSTEM(kExpires);
+MAMORI_TEST_SYSTEM(kCrashes);
+MAMORI_TEST_SYSTEM(kWatched);
+MAMORI_TEST_SYSTEM(kRecorded);
+
+Counter g_near;
+Adder g_far;
+Crossing<std::int64_t> g_crossing;
+constexpr auto kTwoCores =
+    system(frame(40_ms), publication_margin(5_ms), window("near", 0_ms, 15_ms, budget(15_ms), run(g_near)),
+           window("far", 20_ms, 15_ms, core(1U), budget(15_ms), run(g_far)),
+           connect(g_near.out, g_far.in, through(g_crossing), any_age()));
+
+std::atomic<int> g_closed{0};
+void count_closing(void*) noexcept {
+    ++g_closed;
+}
+void tell_closing(void*) noexcept {
+    static_cast<void>(::write(STDERR_FILENO, "closed\n", 7));
+}
+
+/// Long limits: only what a test causes on purpose is found.
+MachineOptions make_options() {
+    MachineOptions options;
+    options.outputs = {&count_closing, nullptr};
+    options.lead = 5_ms;
+    options.watch = {60_s, 2_ms, {10_s, 200'000}};
+    options.watchdog_timeout = 100_s;
+    return options;
+}
+
+struct SpyDevices final : Devices {
+    void sample(std::uint64_t frame, Instant start) noexcept override {
+        sampled.push_back(frame);
+        starts.push_back(start.ns);
+        thread = std::this_thread::get_id();
+        std::this_thread::sleep_for(std::chrono::microseconds{200});
+    }
+    void apply(std::uint64_t frame, Instant, Duration) noexcept override {
+        applied.push_back(frame);
+        std::this_thread::sleep_for(std::chrono::microseconds{100});
+    }
+    std::vector<std::uint64_t> sampled;
+    std::vector<std::uint64_t> applied;
+    std::vector<std::int64_t> starts;
+    std::thread::id thread{};
+};
+
+TEST(MachineTest, DevicesAreCalledOncePerFrameAndMeasuredAndARunContinuesTheTimeLine) {
+    verifies("SWR-PRT-061", Technique::kRequirementsBased, Polarity::kNominal);
+    static Machine<kRuns> sut{make_options()};
+    SpyDevices devices;
+
+    ASSERT_EQ(sut.run(3U, devices), Status::kOk) << describe(sut.get_report().failed_step);
+
+    EXPECT_EQ(devices.sampled, (std::vector<std::uint64_t>{0U, 1U, 2U}));
+    EXPECT_EQ(devices.applied, devices.sampled);
+    EXPECT_EQ(devices.starts, (std::vector<std::int64_t>{0, 10'000'000, 20'000'000}));
+    EXPECT_NE(devices.thread, std::this_thread::get_id());
+    const MachineReport& report = sut.get_report();
+    EXPECT_EQ(report.openings.opened, 3U);
+    EXPECT_GE(report.longest_sample.ns, 200'000);
+    EXPECT_GE(report.longest_apply.ns, 100'000);
+    EXPECT_EQ(g_counter_kRuns.out.get_published(),
+              static_cast<std::int64_t>(3U - report.openings.overran - report.openings.missed));
+
+    ASSERT_EQ(sut.run(2U, devices), Status::kOk);
+    ASSERT_EQ(devices.sampled.size(), 5U);
+    EXPECT_GT(devices.sampled[3], 2U);
+    EXPECT_EQ(devices.sampled[4], devices.sampled[3] + 1U);
+    EXPECT_EQ(sut.get_report().openings.opened, 5U);
+}
+
+TEST(MachineTest, EndOfEachRunClosesTheOutputsOnce) {
+    verifies("SWR-PRT-063", Technique::kRequirementsBased, Polarity::kNominal);
+    static Machine<kCloses> sut{make_options()};
+    g_closed = 0;
+    int closed = -1;
+
+    ASSERT_EQ(sut.run(1U, [&closed](std::uint64_t) { closed = g_closed; }), Status::kOk);
+    EXPECT_EQ(closed, 0);
+    EXPECT_EQ(g_closed, 1);
+    ASSERT_EQ(sut.run(1U), Status::kOk);
+    EXPECT_EQ(g_closed, 2);
+}
+
+TEST(MachineTest, SystemWithoutOutputsRuns) {
+    verifies("SWR-PRT-060", Technique::kEquivalenceClasses, Polarity::kNominal);
+    static Machine<kWithoutOptions> sut;
+
+    const Status status = sut.run(1U);
+
+    // A host that stalls for longer than the default limits causes a finding.
+    EXPECT_TRUE(status == Status::kOk || sut.get_report().failed_step == MachineStep::kFrames);
+    EXPECT_EQ(sut.get_report().signal, 0);
+}
+
+TEST(MachineTest, TwoCoresExchangeTheValuesOfTheirPlannedInstants) {
+    verifies("SWR-PRT-060", Technique::kBackToBack, Polarity::kNominal);
+    static Machine<kTwoCores> sut{make_options()};
+    std::vector<std::int64_t> values;
+
+    ASSERT_EQ(sut.run(5U, [&values](std::uint64_t) { values.push_back(g_near.out.get_published()); }),
+              Status::kOk);
+
+    const OpeningCounts& counts = sut.get_report().openings;
+    EXPECT_EQ(counts.opened, 10U);
+    EXPECT_EQ(values.size(), 5U);
+    if (counts.overran + counts.missed == 0U) {
+        EXPECT_EQ(values, (std::vector<std::int64_t>{1, 2, 3, 4, 5}));
+        EXPECT_EQ(g_far.out.get_published(), 15);
+    }
+}
+
+TEST(MachineTest, RequestedStopEndsTheRunAndAnEarlierRequestPreventsIt) {
+    verifies("SWR-PRT-060", Technique::kRequirementsBased, Polarity::kNominal);
+    static Machine<kStops> sut{make_options()};
+
+    sut.request_stop();
+    ASSERT_EQ(sut.run(), Status::kOk);
+    EXPECT_EQ(sut.get_report().openings.opened, 0U);
+    std::uint64_t last = 0U;
+    ASSERT_EQ(sut.run(MachineRun::kAllFrames,
+                      [&last](std::uint64_t frame) {
+                          last = frame;
+                          if (frame % 4U == 3U) {
+                              sut.request_stop();
+                          }
+                      }),
+              Status::kOk);
+    EXPECT_EQ(last % 4U, 3U);
+    EXPECT_EQ(sut.get_report().signal, 0);
+}
+
+std::atomic<int> g_forwarded{0};
+void note_forwarded(int signal) {
+    g_forwarded = signal;
+}
+
+TEST(MachineTest, SignalClosesTheOutputsAtOnceAndTheHandlerOfTheApplicationFollows) {
+    verifies("SWR-PRT-062", Technique::kRequirementsBased, Polarity::kNominal);
+    static Machine<kSignals> sut{make_options()};
+    struct sigaction own{};
+    struct sigaction before{};
+    own.sa_handler = &note_forwarded;
+    ASSERT_EQ(sigaction(SIGTERM, &own, &before), 0);
+    g_closed = 0;
+    g_forwarded = 0;
+    int closed_in_frame = -1;
+    int forwarded_in_frame = -1;
+    std::uint64_t frames = 0U;
+
+    ASSERT_EQ(sut.run(MachineRun::kAllFrames,
+                      [&](std::uint64_t) {
+                          if (++frames == 2U) {
+                              static_cast<void>(::kill(::getpid(), SIGTERM));
+                              while (g_closed == 0) {
+                                  std::this_thread::yield();
+                              }
+                              closed_in_frame = g_closed;
+                              forwarded_in_frame = g_forwarded;
+                          }
+                      }),
+              Status::kOk);
+
+    EXPECT_EQ(frames, 2U);
+    EXPECT_EQ(closed_in_frame, 1);
+    EXPECT_EQ(forwarded_in_frame, 0);
+    EXPECT_EQ(g_forwarded, SIGTERM);
+    EXPECT_EQ(g_closed, 1);
+    EXPECT_EQ(sut.get_report().signal, SIGTERM);
+    EXPECT_GE(sut.get_report().until_closed.ns, 0);
+    struct sigaction now{};
+    ASSERT_EQ(sigaction(SIGTERM, &before, &now), 0);
+    EXPECT_EQ(now.sa_handler, &note_forwarded);
+}
+
+TEST(MachineTest, NoWindowStartsAfterTheFrameOfASignalAtAnyInstant) {
+    verifies("SWR-PRT-062", Technique::kErrorGuessing, Polarity::kViolation);
+    static Machine<kManySignals> sut{make_options()};
+    unsigned random = 1U;
+    for (int i = 0; i < 50; ++i) {
+        random = random * 1664525U + 1013904223U;
+        const auto delay = std::chrono::microseconds{random % 30'000U};
+        std::atomic<bool> is_running{false};
+        std::int64_t sent_ns = 0;
+        std::thread sender{[&] {
+            while (!is_running) {
+                std::this_thread::yield();
+            }
+            std::this_thread::sleep_for(delay);
+            static_cast<void>(::kill(::getpid(), SIGINT));
+            sent_ns = sut.get_clock().get_now().ns;
+        }};
+        g_counter_kManySignals.last_start_ns = -1;
+        ASSERT_EQ(sut.run(MachineRun::kAllFrames, [&](std::uint64_t) { is_running = true; }), Status::kOk);
+        sender.join();
+
+        EXPECT_EQ(sut.get_report().signal, SIGINT);
+        const std::int64_t frame_of_signal = sent_ns / 10'000'000;
+        EXPECT_LE(g_counter_kManySignals.last_start_ns.load() / 10'000'000, frame_of_signal) << "run " << i;
+    }
+}
+
+TEST(MachineTest, SecondMachineOfTheProcessIsRefusedWhileTheFirstRuns) {
+    verifies("SWR-PRT-060", Technique::kErrorGuessing, Polarity::kViolation);
+    static Machine<kNested> outer{make_options()};
+    static Machine<kRefused> inner{make_options()};
+    Status nested = Status::kOk;
+
+    ASSERT_EQ(outer.run(1U, [&nested](std::uint64_t) { nested = inner.run(1U); }), Status::kOk);
+
+    EXPECT_EQ(nested, Status::kPreconditionNotMet);
+    EXPECT_EQ(inner.get_report().failed_step, MachineStep::kSignals);
+    EXPECT_EQ(inner.run(1U), Status::kOk);
+}
+
+TEST(MachineTest, OptionOutsideItsRangeIsRefused) {
+    verifies("SWR-PRT-060", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto run = [](const MachineOptions& options, std::uint64_t frames = 1U) {
+        Machine<kRefused>* const sut = new Machine<kRefused>{options};  // never deleted: see Machine
+        const Status status = sut->run(frames);
+        const bool is_named = sut->get_report().failed_step == MachineStep::kOptions;
+        EXPECT_EQ(is_named, status == Status::kBadParameter);
+        return status;
+    };
+    MachineOptions options = make_options();
+    EXPECT_EQ(run(options, 0U), Status::kBadParameter);
+    options.priority = MachineOptions::kPriorityMin - 1;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options.priority = MachineOptions::kPriorityMax + 1;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.lead = Duration{0};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watch.lateness = Duration{-1};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watch.period = Duration{0};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watch.rate.span = Duration{0};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watch.rate.limit_ppm = 0;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watchdog_timeout = 24_ms;  // two frames and two polls
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.recorder = "unused.rec";
+    options.recorder_capacity = 0U;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+}
+
+TEST(MachineTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {
+    verifies("SWR-PRT-060", Technique::kFaultInjection, Polarity::kViolation);
+    MachineOptions options = make_options();
+    options.recorder = "/nowhere/run.rec";
+    static Machine<kRefused> sut{options};
+    g_closed = 0;
+
+    EXPECT_EQ(sut.run(1U), Status::kError);
+    EXPECT_EQ(sut.get_report().failed_step, MachineStep::kRecorder);
+    EXPECT_EQ(sut.get_report().file_error, MappedFileError::kCannotOpen);
+    EXPECT_EQ(g_closed, 0);
+}
+
+TEST(MachineTest, FailureOfAComponentNamesTheStep) {
+    verifies("SWR-PRT-060", Technique::kFaultInjection, Polarity::kViolation);
+    static Machine<kFailsAtStart> starts{make_options()};
+    static Machine<kFailsAtStop> stops{make_options()};
+    SpyDevices devices;
+    g_counter_kFailsAtStart.starts = Status::kUnsupported;
+    g_counter_kFailsAtStop.stops = Status::kOutOfResources;
+
+    EXPECT_EQ(starts.run(1U, devices), Status::kUnsupported);
+    EXPECT_EQ(starts.get_report().failed_step, MachineStep::kStart);
+    EXPECT_TRUE(devices.sampled.empty());
+    EXPECT_EQ(stops.run(1U, devices), Status::kOutOfResources);
+    EXPECT_EQ(stops.get_report().failed_step, MachineStep::kStop);
+    EXPECT_EQ(devices.applied.size(), 1U);
+}
+
+TEST(MachineTest, WorkThatHangsAtTheEndIsReportedAndTheNextRunIsRefusedUntilItReturns) {
+    verifies("SWR-PRT-060", Technique::kFaultInjection, Polarity::kViolation);
+    static Machine<kHangs> sut{make_options()};
+    g_counter_kHangs.is_to_hang = true;
+
+    EXPECT_EQ(sut.run(1U), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut.get_report().failed_step, MachineStep::kStop);
+    EXPECT_EQ(sut.get_report().openings.overran + sut.get_report().openings.missed, 1U);
+    EXPECT_EQ(sut.run(1U), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut.get_report().failed_step, MachineStep::kWindowThreads);
+    g_counter_kHangs.is_to_hang = false;
+}
+
+TEST(MachineTest, FindingOfTheScheduleWatchClosesTheOutputs) {
+    verifies("SWR-PRT-063", Technique::kFaultInjection, Polarity::kViolation);
+    MachineOptions options = make_options();
+    options.watch.lateness = 20_ms;
+    static Machine<kWatched> sut{options};
+    g_closed = 0;
+    int closed = 0;
+
+    EXPECT_EQ(sut.run(2U,
+                      [&closed](std::uint64_t) {
+                          std::this_thread::sleep_for(std::chrono::milliseconds{200});
+                          closed = g_closed;
+                      }),
+              Status::kError);
+
+    EXPECT_EQ(closed, 1);
+    EXPECT_EQ(g_closed, 1);
+    EXPECT_EQ(sut.get_report().failed_step, MachineStep::kFrames);
+    EXPECT_EQ(sut.get_report().finding.fault, GridFault::kOverdue);
+}
+
+MachineOptions make_guarded_options() {
+    MachineOptions options = make_options();
+    options.outputs = {&tell_closing, nullptr};
+    options.watchdog_timeout = 300_ms;
+    return options;
+}
+
+TEST(MachineDeathTest, ThreadThatHangsExpiresTheWatchdog) {
+    verifies("SWR-PRT-064", Technique::kFaultInjection, Polarity::kViolation);
+    static Machine<kExpires> sut{make_guarded_options()};
+
+    EXPECT_EXIT(static_cast<void>(sut.run(5U,
+                                          [](std::uint64_t frame) {
+                                              while (frame == 1U) {
+                                                  std::this_thread::yield();
+                                              }
+                                          })),
+                testing::KilledBySignal(SIGABRT), "^closed\n$");
+}
+
+TEST(MachineDeathTest, CrashOfAComponentClosesTheOutputs) {
+    verifies("SWR-PRT-063", Technique::kFaultInjection, Polarity::kViolation);
+    static Machine<kCrashes> sut{make_guarded_options()};
+
+    EXPECT_EXIT(
+        {
+            g_counter_kCrashes.is_to_crash = true;
+            static_cast<void>(sut.run(5U));
+        },
+        testing::KilledBySignal(SIGSEGV), "^closed\n$");
+}
+
+TEST(MachineTest, RecorderHasStartStopAndSignal) {
+    verifies("SWR-PRT-062", Technique::kRequirementsBased, Polarity::kNominal);
+    const std::string path = testing::TempDir() + "machine.rec";
+    static_cast<void>(std::remove(path.c_str()));
+    MachineOptions options = make_options();
+    options.recorder = path.c_str();
+    options.recorder_capacity = 16U;
+    static std::array<Event, 4U> storage{};
+    static EventLog log{storage};
+    options.event_log = &log;
+    static Machine<kRecorded> sut{options};
+
+    ASSERT_EQ(sut.run(3U,
+                      [](std::uint64_t frame) {
+                          log.write(Instant{7}, Severity::kWarning, 1U, 2U, static_cast<std::int64_t>(frame));
+                          if (frame == 1U) {
+                              static_cast<void>(::raise(SIGINT));
+                          }
+                      }),
+              Status::kOk);
+
+    MappedFile again;  // the machine has the file: another owner is refused
+    EXPECT_EQ(again.open(path.c_str(), calc_recorder_file_size(16U)), Status::kError);
+    std::FILE* const file = std::fopen(path.c_str(), "rb");
+    ASSERT_NE(file, nullptr);
+    std::vector<std::byte> bytes(calc_recorder_file_size(16U));
+    EXPECT_EQ(std::fread(bytes.data(), 1U, bytes.size(), file), bytes.size());
+    std::fclose(file);
+    FlightReader reader;
+    const Span<std::byte> region = get_recorder_region({bytes.data(), bytes.size()});
+    ASSERT_EQ(reader.open({region.data(), region.size()}), Status::kOk);
+    std::vector<int> codes;
+    for (std::size_t slot = 0U; slot < reader.get_capacity(); ++slot) {
+        FlightRecord record{};
+        if (reader.read(slot, record) == SlotState::kWhole && record.source == kMachineSource) {
+            codes.push_back(record.code);
+        }
+    }
+    EXPECT_EQ(codes, (std::vector<int>{1, 2, 3, 5}));
+    static_cast<void>(std::remove(path.c_str()));
+}
+
+TEST(MachineTest, EachStepHasASentence) {
+    verifies("SWR-PRT-060", Technique::kInterface, Polarity::kNominal);
+    std::vector<std::string> sentences;
+    for (int step = 0; step <= static_cast<int>(MachineStep::kStop); ++step) {
+        sentences.emplace_back(describe(static_cast<MachineStep>(step)));
+        for (std::size_t i = 0U; i + 1U < sentences.size(); ++i) {
+            EXPECT_NE(sentences[i], sentences.back());
+        }
+    }
+    EXPECT_STREQ(describe(static_cast<MachineStep>(200)), "unknown step");
+}
+
+}  // namespace
+}  // namespace mamori::ports::posix_rt

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a machine runs a system exactly as its parts do. Method: the same table on a machine and on
+// executives, hosts and runner; devices that note their calls; failures of start and stop; stops between and
+// in runs.
+#include "mamori/ports/virtual_time/machine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "mamori/kernel/base/constant_init.hpp"
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/trace/verifies.hpp"
+
+namespace mamori::ports::virtual_time {
+namespace {
+
+using namespace verification;
+
+class Counter final : public Component {
+  public:
+    constexpr Counter() noexcept : Component("counter") {}
+    OutPort<std::int64_t> out{*this, "out"};
+    using Ports = mamori::Ports<&Counter::out>;
+    Status starts{Status::kOk};
+    Status stops{Status::kOk};
+
+    Status on_activated(ContextHandle) noexcept override { return starts; }
+    Status on_deactivated(ContextHandle) noexcept override { return stops; }
+    Status on_execute(ContextHandle) noexcept override {
+        out.write(out.get_published() + 1);
+        return Status::kOk;
+    }
+};
+class Doubler final : public Component {
+  public:
+    constexpr Doubler() noexcept : Component("doubler") {}
+    InPort<std::int64_t> in{*this, "in"};
+    OutPort<std::int64_t> out{*this, "out"};
+    using Ports = mamori::Ports<&Doubler::in, &Doubler::out>;
+
+    Status on_execute(ContextHandle) noexcept override {
+        out.write(2 * in.read());
+        return Status::kOk;
+    }
+};
+
+// One table per test: a component belongs to one executive as long as it is alive.
+#define MAMORI_TEST_SYSTEM(name)                                                                            \
+    Counter g_counter_##name;                                                                               \
+    Doubler g_doubler_##name;                                                                               \
+    Crossing<std::int64_t> g_crossing_##name;                                                               \
+    constexpr auto name = system(                                                                           \
+        frame(1000_ns), trace_hash(), window("count", 0_ns, 300_ns, budget(200_ns), run(g_counter_##name)), \
+        window("double", 400_ns, 500_ns, core(1U), budget(400_ns), run(g_doubler_##name)),                  \
+        connect(g_counter_##name.out, g_doubler_##name.in, through(g_crossing_##name), any_age()),          \
+        modelled_time(g_counter_##name, 100_ns), modelled_time(g_doubler_##name, 50_ns))
+
+MAMORI_TEST_SYSTEM(kRuns);
+MAMORI_TEST_SYSTEM(kParts);
+MAMORI_TEST_SYSTEM(kStops);
+MAMORI_TEST_SYSTEM(kFailsAtStart);
+MAMORI_TEST_SYSTEM(kFailsAtStop);
+MAMORI_TEST_SYSTEM(kSlow);
+
+MAMORI_CONSTINIT Machine<kRuns> g_machine;
+
+class SpyDevices final : public Devices {
+  public:
+    void sample(std::uint64_t frame, Instant start) noexcept override { sampled.push_back({frame, start}); }
+    void apply(std::uint64_t frame, Instant start, Duration length) noexcept override {
+        applied.push_back({frame, start});
+        lengths.push_back(length);
+    }
+    struct Call {
+        std::uint64_t frame;
+        Instant start;
+    };
+    std::vector<Call> sampled;
+    std::vector<Call> applied;
+    std::vector<Duration> lengths;
+};
+
+TEST(VirtualMachineTest, RunsEqualThoseOfThePartsAndContinueTheTimeLine) {
+    verifies("SWR-VTM-006", Technique::kBackToBack, Polarity::kNominal);
+    SpyDevices devices;
+    ASSERT_EQ(g_machine.run(3U, devices), Status::kOk);
+    std::vector<std::int64_t> values;
+    ASSERT_EQ(g_machine.run(2U,
+                            [&values](std::uint64_t frame) {
+                                values.push_back(static_cast<std::int64_t>(frame));
+                                values.push_back(g_doubler_kRuns.out.get_published());
+                            }),
+              Status::kOk);
+
+    EXPECT_EQ(values, (std::vector<std::int64_t>{3, 8, 4, 10}));
+    EXPECT_EQ(g_machine.get_frame_count(), 5U);
+    EXPECT_EQ(g_machine.get_overrun_count(), 0U);
+    ASSERT_EQ(devices.sampled.size(), 3U);
+    ASSERT_EQ(devices.applied.size(), 3U);
+    EXPECT_EQ(devices.sampled[2].frame, 2U);
+    EXPECT_EQ(devices.applied[2].start, Instant{2000});
+    EXPECT_EQ(devices.lengths[2], 1000_ns);
+
+    ExecutiveFor core_0{kParts, 0U};
+    ExecutiveFor core_1{kParts, 1U};
+    VirtualHostFor host_0{kParts};
+    VirtualHostFor host_1{kParts};
+    NoDevices none;
+    ASSERT_EQ(core_0.initialize(), Status::kOk);
+    ASSERT_EQ(core_1.initialize(), Status::kOk);
+    for (const std::uint64_t first : {0U, 3U}) {
+        ASSERT_EQ(core_0.start(), Status::kOk);
+        ASSERT_EQ(core_1.start(), Status::kOk);
+        std::array<SimulatedCore, 2U> cores{SimulatedCore{core_0, host_0}, SimulatedCore{core_1, host_1}};
+        FrameRunner runner{cores, none, first};
+        while (runner.get_frame_count() < (first == 0U ? 3U : 5U)) {
+            runner.run_frame();
+        }
+        ASSERT_EQ(core_1.stop(), Status::kOk);
+        ASSERT_EQ(core_0.stop(), Status::kOk);
+    }
+    EXPECT_EQ(g_machine.get_executives().get(0U).get_trace_hash(), core_0.get_trace_hash());
+    EXPECT_EQ(g_machine.get_executives().get(1U).get_trace_hash(), core_1.get_trace_hash());
+}
+
+TEST(VirtualMachineTest, RequestedStopEndsTheRunAfterItsFrameAndTheNextRunStartsAgain) {
+    verifies("SWR-VTM-006", Technique::kRequirementsBased, Polarity::kNominal);
+    static Machine<kStops> sut;
+
+    ASSERT_EQ(sut.run(100U,
+                      [](std::uint64_t frame) {
+                          if (frame == 4U) {
+                              sut.request_stop();
+                          }
+                      }),
+              Status::kOk);
+    EXPECT_EQ(sut.get_frame_count(), 5U);
+    sut.request_stop();
+    ASSERT_EQ(sut.run(), Status::kOk);
+    EXPECT_EQ(sut.get_frame_count(), 5U);
+    ASSERT_EQ(sut.run(1U), Status::kOk);
+    EXPECT_EQ(sut.get_frame_count(), 6U);
+}
+
+TEST(VirtualMachineTest, FailureOfTheStartRunsNoFrame) {
+    verifies("SWR-VTM-006", Technique::kFaultInjection, Polarity::kViolation);
+    static Machine<kFailsAtStart> sut;
+    SpyDevices devices;
+    g_counter_kFailsAtStart.starts = Status::kUnsupported;
+
+    EXPECT_EQ(sut.run(3U, devices), Status::kUnsupported);
+    EXPECT_EQ(sut.get_executives().get_failed_core(), 0U);
+    EXPECT_TRUE(devices.sampled.empty());
+}
+
+TEST(VirtualMachineTest, FailureOfTheStopIsReturned) {
+    verifies("SWR-VTM-006", Technique::kFaultInjection, Polarity::kViolation);
+    static Machine<kFailsAtStop> sut;
+    SpyDevices devices;
+    g_counter_kFailsAtStop.stops = Status::kOutOfResources;
+
+    EXPECT_EQ(sut.run(1U, devices), Status::kOutOfResources);
+    EXPECT_EQ(devices.applied.size(), 1U);
+}
+
+TEST(VirtualMachineTest, ModelledTimeOfACoreChangesAtRunTime) {
+    verifies("SWR-VTM-006", Technique::kRequirementsBased, Polarity::kViolation);
+    static Machine<kSlow> sut;
+
+    ASSERT_EQ(sut.get_host_of<1U>().set_duration(g_doubler_kSlow, 500_ns), Status::kOk);
+    ASSERT_EQ(sut.run(2U), Status::kOk);
+    EXPECT_EQ(sut.get_overrun_count(), 2U);
+    ASSERT_EQ(sut.get_host_of<1U>().set_duration(g_doubler_kSlow, 400_ns), Status::kOk);
+    ASSERT_EQ(sut.run(1U), Status::kOk);
+    EXPECT_EQ(sut.get_overrun_count(), 2U);
+}
+
+}  // namespace
+}  // namespace mamori::ports::virtual_time
