@@ -13,6 +13,25 @@ constexpr std::size_t kLockedStack = std::size_t{64U} * 1024U;
 constexpr Duration kPatience{1'000'000'000};
 constexpr Duration kPoll{5'000'000};
 
+/// Leaves the stop signals to the threads with a fixed priority, which a busy host does not delay.
+class SignalBlock final {
+  public:
+    SignalBlock() noexcept {
+        sigset_t set{};
+        MAMORI_ENSURE(2, sigemptyset(&set) == 0);
+        for (const int signal : kStopSignals) {
+            MAMORI_ENSURE(3, sigaddset(&set, signal) == 0);
+        }
+        MAMORI_ENSURE(4, pthread_sigmask(SIG_BLOCK, &set, &before_) == 0);
+    }
+    SignalBlock(const SignalBlock&) = delete;
+    SignalBlock& operator=(const SignalBlock&) = delete;
+    ~SignalBlock() { static_cast<void>(pthread_sigmask(SIG_SETMASK, &before_, nullptr)); }
+
+  private:
+    sigset_t before_{};
+};
+
 bool is_valid(const MachineOptions& options, const MachineParts& parts) noexcept {
     const Duration frame = parts.executives.get(0U).get_view().frame;
     const GridLimits& watch = options.watch;
@@ -151,7 +170,7 @@ void MachineRun::close_outputs(void* self) noexcept {
         if (run.outputs_.close != nullptr) {
             run.outputs_.close(run.outputs_.argument);
         }
-        run.closed_ns_.store(run.clock_->get_now().ns);
+        run.closed_ns_.store(get_monotonic_clock().read_ns());
     }
 }
 
@@ -168,7 +187,7 @@ void MachineRun::request_stop() noexcept {
 
 void MachineRun::on_stop_signal(int signal) noexcept {
     int none = 0;
-    const std::int64_t now = clock_->get_now().ns;
+    const std::int64_t now = get_monotonic_clock().read_ns();
     if (signal_.compare_exchange_strong(none, signal)) {
         signal_ns_.store(now);
     }
@@ -216,9 +235,6 @@ Status MachineRun::run(const MachineParts& parts, const MachineOptions& options,
     if (!has_clock_.load(std::memory_order_relaxed)) {
         parts.clock = FrameClock::starting_in(options.lead);
         clock_ = &parts.clock;
-        runners_ = parts.runners;
-        frame_ = parts.executives.get(0U).get_view().frame;
-        has_clock_.store(true, std::memory_order_release);
     }
     outputs_ = options.outputs;
     signal_.store(0);
@@ -230,6 +246,7 @@ Status MachineRun::run(const MachineParts& parts, const MachineOptions& options,
     const Status status = run_protected(parts, options, frames);
     signals.remove();
     report_.signal = signal_.load();
+    report_.signalled = Instant{report_.signal == 0 ? 0 : signal_ns_.load() - clock_->get_epoch_ns()};
     report_.until_closed = Duration{report_.signal == 0 ? 0 : closed_ns_.load() - signal_ns_.load()};
     if (report_.signal != 0) {
         record(MachineEvent::kStopRequested, Severity::kInfo, report_.signal);
@@ -249,15 +266,26 @@ Status MachineRun::run_protected(const MachineParts& parts, const MachineOptions
     static_cast<void>(
         stack.take());  // without it, an exhausted stack of this thread ends the process unrecorded
     CrashHandlers handlers;
-    const Status installed = handlers.install(
-        {&MachineRun::close_outputs, this, file_.get_region(), recorder_.get_session(), *clock_});
-    if (installed != Status::kOk) {
+    const auto install = [this, &handlers] {
+        return handlers.install(
+            {&MachineRun::close_outputs, this, file_.get_region(), recorder_.get_session(), *clock_});
+    };
+    if (const Status installed = install(); installed != Status::kOk) {
         return fail(MachineStep::kCrashHandlers, installed);
     }
     if (const Status opened = open_hosts(parts.hosts, options.priority); opened != Status::kOk) {
         return fail(MachineStep::kWindowThreads, opened);
     }
     Status status = fail(MachineStep::kStart, parts.executives.start());
+    if (status == Status::kOk && !has_clock_.load(std::memory_order_relaxed)) {
+        // Major frame 0 begins after the start, however long it takes. Crash notes are on the same time line.
+        parts.clock = FrameClock::starting_in(options.lead);
+        runners_ = parts.runners;
+        frame_ = parts.executives.get(0U).get_view().frame;
+        has_clock_.store(true, std::memory_order_release);
+        handlers.remove();
+        MAMORI_ENSURE(5, install() == Status::kOk);
+    }
     if (status == Status::kOk) {
         record(MachineEvent::kStarted, Severity::kInfo, static_cast<std::int64_t>(parts.executives.size()));
         status = run_watched(parts, options, frames);
@@ -281,7 +309,8 @@ Status MachineRun::run_watched(const MachineParts& parts, const MachineOptions& 
                     {options.priority + MachineOptions::kPriorityStep, ThreadPlace::kAnyProcessor}};
     SoftwareWatchdog watchdog{
         *clock_, {Duration{0}, options.watchdog_timeout}, {gate.close, gate.argument, true}};
-    const Instant from = has_run_ ? clock_->get_now() + options.lead : Instant{0};
+    const Instant next = clock_->get_now() + options.lead;
+    const Instant from = has_run_ ? next : Instant{0};
     has_run_ = true;
     for (std::size_t core = 0U; core < parts.threads.size(); ++core) {
         parts.beats[core].expect(from);
@@ -344,6 +373,7 @@ Status MachineRun::run_threads(const MachineParts& parts, const MachineOptions& 
     if (status != Status::kOk) {
         request_stop();
     }
+    const SignalBlock block;
     for (std::size_t core = 0U; core < started; ++core) {
         MAMORI_ENSURE(1, pthread_join(parts.threads[core].thread, nullptr) == 0);
         report_.priority = combine(report_.priority, combine(parts.threads[core].rights.priority,

@@ -79,6 +79,7 @@ struct MachineReport {
     MachineStep failed_step{MachineStep::kNone};         ///< first failure; kNone: run() returned kOk
     MappedFileError file_error{MappedFileError::kNone};  ///< of kRecorder
     int signal{0};                                       ///< that ended the run; 0: none
+    Instant signalled{};                                 ///< its handler ran
     Duration until_closed{0};    ///< from the handler of this signal to the closed outputs
     GridFinding finding{};       ///< of the schedule watch
     OpeningCounts openings{};    ///< of all runs and cores: sums, and the worst lateness

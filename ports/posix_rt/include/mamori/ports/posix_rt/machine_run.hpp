@@ -122,11 +122,11 @@ class MachineRun final : public StopListener {
     std::uint64_t served_look_count_{0U};  ///< looks of the watch at the last service
     Duration frame_{};
     bool has_run_{false};
-    std::atomic<bool> has_clock_{false};  ///< clock_, runners_ and frame_ are set
+    std::atomic<bool> has_clock_{false};  ///< clock, runners_ and frame_ are final
     std::atomic<bool> is_stop_wanted_{false};
     std::atomic<bool> are_outputs_closed_{true};
     std::atomic<int> signal_{0};
-    std::atomic<std::int64_t> signal_ns_{0};
+    std::atomic<std::int64_t> signal_ns_{0};  ///< CLOCK_MONOTONIC, like the next one
     std::atomic<std::int64_t> closed_ns_{0};
 };
 
