@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 #include "mamori/kernel/base/assert.hpp"
@@ -15,7 +16,6 @@
 #include "mamori/kernel/base/status.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/run/system_modes.hpp"
-#include "mamori/kernel/system/system_rules.hpp"
 #include "mamori/kernel/table/checked_table.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
@@ -42,7 +42,7 @@ constexpr std::size_t find_first_core(const SystemView& view) noexcept {
 }
 
 template <const auto& kTable>
-using TableType = typename CheckedTable<kTable>::Table;
+using TableType = std::remove_const_t<std::remove_reference_t<decltype(kTable)>>;
 
 template <const auto& kTable, bool kNeedsModes>
 struct ModesSlot {
@@ -113,19 +113,18 @@ template <const auto& kTable,
           typename Cores = std::make_index_sequence<detail::count_cores(make_view(kTable))>>
 class Executives;
 
-/// Storage and executives for each core of a constexpr table, which the compiler checks here.
+/// Storage and executives for each core of a constexpr table.
 ///
+///     MAMORI_CHECK(kSystem);
 ///     static mamori::Executives<kSystem> executives;
 ///
-/// @tparam kTable constexpr system table of static storage duration. A violated rule is named by the compiler
-///                as MAMORI_CHECK names it.
+/// @tparam kTable as of CheckedTable.
 template <const auto& kTable, std::size_t... kCores>
 class Executives<kTable, std::index_sequence<kCores...>> final
     : private detail::ModesSlot<kTable, detail::TableType<kTable>::kNeedsModes>,
       private detail::ExecutiveSlot<kTable, kCores>...,
       private detail::ExecutiveArray<sizeof...(kCores)>,
       public ExecutiveGroup {
-    static_assert(detail::keeps_rules<kTable>(), "the system table violates the rule named above");
     using Modes = detail::ModesSlot<kTable, detail::TableType<kTable>::kNeedsModes>;
     using Array = detail::ExecutiveArray<sizeof...(kCores)>;
 

@@ -21,13 +21,15 @@
 
 #include "mamori/kernel/run/devices.hpp"
 #include "mamori/kernel/run/executives.hpp"
+#include "mamori/kernel/system/system_rules.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/machine_options.hpp"
 #include "mamori/ports/posix_rt/machine_run.hpp"
 
 namespace mamori::ports::posix_rt {
 
-template <const auto& kTable, typename Cores = std::make_index_sequence<Executives<kTable>::kCoreCount>>
+template <const auto& kTable,
+          typename Cores = std::make_index_sequence<mamori::detail::count_cores(make_view(kTable))>>
 class Machine;
 
 /// Must have static storage: work that hangs keeps its thread.
@@ -38,6 +40,7 @@ class Machine;
 ///                as MAMORI_CHECK names it.
 template <const auto& kTable, std::size_t... kCores>
 class Machine<kTable, std::index_sequence<kCores...>> final {
+    static_assert(mamori::detail::keeps_rules<kTable>(), "the system table violates the rule named above");
     static_assert(has_publication_margin(make_view(kTable)),
                   "in real time, a table with a connection between cores states publication_margin(...)");
     static constexpr std::size_t kCoreCount = sizeof...(kCores);

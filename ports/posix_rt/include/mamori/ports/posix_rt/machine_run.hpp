@@ -93,7 +93,7 @@ class MachineRun final : public StopListener {
     void on_stop_signal(int signal) noexcept override;
     const MachineReport& get_report() const noexcept { return report_; }
 
-    /// A major frame of the first core is over: serves the watchdog if the schedule watch works and has no
+    /// A major frame of the first core has ended: serves the watchdog if the schedule watch works and has no
     /// finding. Called by DeviceCaller.
     void end_frame(Instant now) noexcept;
 

@@ -21,6 +21,7 @@
 
 #include "mamori/kernel/run/devices.hpp"
 #include "mamori/kernel/run/executives.hpp"
+#include "mamori/kernel/system/system_rules.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
 
@@ -66,7 +67,8 @@ struct HostSlot {
 };
 }  // namespace detail
 
-template <const auto& kTable, typename Cores = std::make_index_sequence<Executives<kTable>::kCoreCount>>
+template <const auto& kTable,
+          typename Cores = std::make_index_sequence<mamori::detail::count_cores(make_view(kTable))>>
 class Machine;
 
 /// @tparam kTable constexpr system table of static storage duration. A violated rule is named by the compiler
@@ -74,6 +76,8 @@ class Machine;
 template <const auto& kTable, std::size_t... kCores>
 class Machine<kTable, std::index_sequence<kCores...>> final : public MachineBase,
                                                               private detail::HostSlot<kTable, kCores>... {
+    static_assert(mamori::detail::keeps_rules<kTable>(), "the system table violates the rule named above");
+
   public:
     constexpr Machine() noexcept = default;
 
