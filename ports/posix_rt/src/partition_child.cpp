@@ -99,7 +99,7 @@ void forget_signals() noexcept {
     static_cast<void>(pthread_sigmask(SIG_SETMASK, &none, nullptr));
 }
 
-/// Sends the descriptor of this process to the safety process, before anybody can wait for its end.
+/// Sends the descriptor of this process to the safety process, before another thread can wait for its end.
 bool introduce(const ChildPlan& plan) noexcept {
     const int self = static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0));
     if (self < 0) {

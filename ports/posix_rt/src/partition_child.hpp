@@ -33,7 +33,7 @@ struct ChildPlan {
     std::array<const char*, 512U> environment{};
 };
 
-/// The first message has kNone and the descriptor of the process, which nobody can mistake for another one. A
+/// The first message has kNone and the descriptor of the process, which is never that of another process. A
 /// second one tells why there is no program; the start of the program closes the socket.
 struct ChildReport {
     PartitionError error{PartitionError::kNone};

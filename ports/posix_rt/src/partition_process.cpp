@@ -120,14 +120,14 @@ bool wait_for(idtype_t kind, id_t child, int options, siginfo_t& end) noexcept {
     return result == 0 && end.si_pid != 0;
 }
 
-/// Whether a child, alive or not waited for yet, holds this number: nobody else can get it.
+/// Whether a child, alive or not waited for yet, holds this number: no other process can get it.
 bool is_held(idtype_t kind, id_t child) noexcept {
     siginfo_t end{};
     return ::waitid(kind, child, &end, WEXITED | WNOHANG | WNOWAIT) == 0;
 }
 
-/// Kills the process of the descriptor and its group, whoever has waited for it. Older systems know a group
-/// by its number only.
+/// Kills the process of the descriptor and its group, also after another thread has waited for it. Older
+/// systems know a group by its number only.
 void kill_group(int watch, pid_t pid) noexcept {
     if (::syscall(SYS_pidfd_send_signal, watch, SIGKILL, nullptr, kToGroup) == 0 || errno != EINVAL) {
         return;

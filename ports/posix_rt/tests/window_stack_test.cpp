@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: window threads have the stack that was asked for and lock no more, and an overflow hits the guard.
+// Goal: window threads have the stack that was asked for and lock only this, and an overflow hits the guard.
 // Method: the work of a window asks the C library for its own stack; Linux states the locked memory; a
 // process overflows on purpose, also by a frame that is larger than a page.
 #include <gtest/gtest.h>

@@ -84,11 +84,11 @@ class GuardedHost final : public WindowHost {
     ~GuardedHost() = default;
 
     /// Starts the threads; the calling thread is the one that will run the windows.
-    /// @return kOk; kPreconditionNotMet (open already); kOutOfResources (no more threads, or no memory for
-    /// their
-    ///         stacks); kBadParameter (the
-    ///         windows have a fixed priority that is not below that of the thread that runs them, so a window
-    ///         that hangs would stop its own guard). On an error none of the threads that it started is left.
+    /// @return kOk; kPreconditionNotMet (open already); kOutOfResources (no thread or no memory for its
+    /// stack);
+    ///         kBadParameter (the windows have a fixed priority that is not below that of the thread that
+    ///         runs them, so a window that hangs would stop its own guard). On an error none of the threads
+    ///         that it started is left.
     Status open() noexcept;
     /// The same when another thread will run the windows. @param[in] runner_priority fixed priority that this
     /// thread has or will have, 1 .. 99; 0: none.

@@ -21,7 +21,7 @@ namespace mamori::ports::posix_rt {
 /// Time:            no function waits for the partition. forward() waits for its targets, as their writer
 /// does;
 ///                  it takes at most kForwardMax bytes of each stream, so a flood does not hold it up. While
-///                  nobody calls forward(), the partition waits as soon as its pipe is full.
+///                  no thread calls forward(), the partition waits as soon as its pipe is full.
 /// Memory:          one line per stream; no heap.
 class PartitionOutput final {
   public:
@@ -36,7 +36,7 @@ class PartitionOutput final {
     /// A partition that still runs gets SIGPIPE when it writes afterwards.
     ~PartitionOutput();
 
-    /// @return kOk; kPreconditionNotMet (open); kOutOfResources (no more descriptors).
+    /// @return kOk; kPreconditionNotMet (open); kOutOfResources (no descriptors).
     Status open() noexcept;
 
     /// For PartitionOrder::output and PartitionOrder::errors; -1 until open().
