@@ -84,8 +84,7 @@ class GuardedHost final : public WindowHost {
     ~GuardedHost() = default;
 
     /// Starts the threads; the calling thread is the one that will run the windows.
-    /// @return kOk; kPreconditionNotMet (open already); kOutOfResources (no thread or no memory for its
-    /// stack);
+    /// @return kOk; kPreconditionNotMet (open already); kOutOfResources (no thread, or none with its stack);
     ///         kBadParameter (the windows have a fixed priority that is not below that of the thread that
     ///         runs them, so a window that hangs would stop its own guard). On an error none of the threads
     ///         that it started is left.
