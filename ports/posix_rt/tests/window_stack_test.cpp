@@ -189,7 +189,7 @@ Stack stack_of_window;
 }
 
 template <std::size_t kFrame>
-[[gnu::noinline, gnu::no_sanitize("address", "thread", "undefined")]] int use_up(volatile int depth) {
+__attribute__((noinline, no_sanitize("address"))) int use_up(volatile int depth) {
     volatile char room[kFrame];
     room[0] = static_cast<char>(depth);
     return depth < 0 ? 0 : use_up<kFrame>(depth + 1) + room[0];
