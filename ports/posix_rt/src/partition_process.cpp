@@ -137,10 +137,11 @@ void kill_group(int watch, pid_t pid) noexcept {
     }
 }
 
-/// Ends what has started without a descriptor.
+/// Ends what has started without a descriptor, whether it has a group of its own yet or not.
 void kill_unwatched(pid_t pid) noexcept {
     siginfo_t end{};
     if (is_held(P_PID, static_cast<id_t>(pid))) {
+        static_cast<void>(::kill(pid, SIGKILL));
         static_cast<void>(::kill(-pid, SIGKILL));
         static_cast<void>(wait_for(P_PID, static_cast<id_t>(pid), 0, end));
     }

@@ -87,7 +87,7 @@ class WindowStackTest : public ::testing::Test {
     void expect_stack(GuardedHost& host, std::size_t window, std::size_t size) {
         const Stack stack = read_stack_of(host, clock_, window);
         EXPECT_GE(stack.size, size) << window;
-        EXPECT_LE(stack.size, 4U * size + 512U * kKib) << window;
+        EXPECT_LE(stack.size, 4U * size + 1024U * kKib) << window;
         EXPECT_EQ(stack.guard, kThreadStackGuard) << window;
     }
 
