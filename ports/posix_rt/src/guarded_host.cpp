@@ -35,6 +35,14 @@ constexpr bool is_guarded(int window, int runner) noexcept {
 
 }  // namespace
 
+Status WindowThread::set_stack_size(std::size_t size) noexcept {
+    if (is_open_) {
+        return Status::kPreconditionNotMet;
+    }
+    stack_size_ = size;
+    return Status::kOk;
+}
+
 void* WindowThread::serve(void* argument) noexcept {
     WindowThread& self = *static_cast<WindowThread*>(argument);
     // Without it a component that uses up its stack ends the process without a note; the rest is the same.
@@ -68,8 +76,12 @@ Status GuardedHost::start(WindowThread& thread) noexcept {
     MAMORI_ENSURE(3, sem_init(&thread.wanted_, 0, 0U) == 0 && sem_init(&thread.returned_, 0, 0U) == 0);
     thread.clock_ = &clock_;
     thread.is_ending_.store(false, std::memory_order_relaxed);
+    ThreadPlace place = place_;
+    if (thread.stack_size_ != 0U) {
+        place.stack_size = thread.stack_size_;
+    }
     ThreadRights rights;
-    if (start_thread(thread.thread_, &WindowThread::serve, &thread, place_, rights) != Status::kOk) {
+    if (start_thread(thread.thread_, &WindowThread::serve, &thread, place, rights) != Status::kOk) {
         static_cast<void>(sem_destroy(&thread.wanted_));
         static_cast<void>(sem_destroy(&thread.returned_));
         return Status::kOutOfResources;

@@ -364,8 +364,8 @@ Status MachineRun::run_threads(const MachineParts& parts, const MachineOptions& 
         RunnerThread& thread = parts.threads[started];
         const int processor =
             options.processors.empty() ? ThreadPlace::kAnyProcessor : options.processors[started];
-        status = start_thread(thread.thread, &MachineRun::serve, &thread, {options.priority, processor},
-                              thread.rights);
+        status = start_thread(thread.thread, &MachineRun::serve, &thread,
+                              {options.priority, processor, options.runner_stack}, thread.rights);
         if (status == Status::kOk) {
             ++started;
         }

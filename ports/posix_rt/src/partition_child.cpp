@@ -5,10 +5,12 @@
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 
 namespace mamori::ports::posix_rt::detail {
 namespace {
@@ -97,8 +99,35 @@ void forget_signals() noexcept {
     static_cast<void>(pthread_sigmask(SIG_SETMASK, &none, nullptr));
 }
 
-/// The descriptors of the order, /dev/null and the pipe; each has a place above all of them before it gets
-/// its own, since two may change places. @return the pipe; -1: one is none.
+/// Sends the descriptor of this process to the safety process, before another thread can wait for its end.
+bool introduce(const ChildPlan& plan) noexcept {
+    const int self = static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0));
+    if (self < 0) {
+        return false;
+    }
+    ChildReport report{};
+    iovec content{&report, sizeof(report)};
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(self))> control{};
+    msghdr message{};
+    message.msg_iov = &content;
+    message.msg_iovlen = 1U;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    cmsghdr* const head = CMSG_FIRSTHDR(&message);
+    head->cmsg_level = SOL_SOCKET;
+    head->cmsg_type = SCM_RIGHTS;
+    head->cmsg_len = CMSG_LEN(sizeof(self));
+    std::memcpy(CMSG_DATA(head), &self, sizeof(self));
+    return ::sendmsg(plan.report, &message, 0) == static_cast<ssize_t>(sizeof(report));
+}
+
+/// A copy of `file` at `above` or higher, which no program inherits.
+int park(int file, int above) noexcept {
+    return ::fcntl(file, F_DUPFD_CLOEXEC, above);
+}
+
+/// The streams and descriptors of the order, /dev/null and the socket; each has a place above all of them
+/// before it gets its own, since two may change places. @return the socket; -1: one is none.
 int hand_over(const ChildPlan& plan) noexcept {
     const Span<const int> sources = plan.order.descriptors;
     const int count = static_cast<int>(sources.size());
@@ -106,14 +135,17 @@ int hand_over(const ChildPlan& plan) noexcept {
     const int above = report_place + 1;
     std::array<int, PartitionOrder::kDescriptorMax> parked{};
     for (std::size_t i = 0U; i < sources.size(); ++i) {
-        parked[i] = ::fcntl(sources[i], F_DUPFD_CLOEXEC, above);
+        parked[i] = park(sources[i], above);
         if (parked[i] < 0) {
             return -1;
         }
     }
-    const int parked_report = ::fcntl(plan.report, F_DUPFD_CLOEXEC, above);
-    const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    if (parked_report < 0 || nothing < 0 || ::dup2(nothing, 0) != 0 ||
+    const int parked_report = park(plan.report, above);
+    const int nothing = park(::open("/dev/null", O_RDWR | O_CLOEXEC), above);
+    const int output = plan.order.output == kNoStream ? nothing : park(plan.order.output, above);
+    const int errors = plan.order.errors == kNoStream ? nothing : park(plan.order.errors, above);
+    if (parked_report < 0 || nothing < 0 || output < 0 || errors < 0 || ::dup2(nothing, 0) < 0 ||
+        ::dup2(output, 1) < 0 || ::dup2(errors, 2) < 0 ||
         ::dup3(parked_report, report_place, O_CLOEXEC) < 0) {
         return -1;
     }
@@ -125,9 +157,12 @@ int hand_over(const ChildPlan& plan) noexcept {
     return ::syscall(SYS_close_range, above, ~0U, 0U) == 0 ? report_place : -1;
 }
 
-/// All before the program. @return why it cannot come to that; `report` is the pipe from then on.
+/// All before the program. @return why it cannot come to that; `report` is the socket from then on.
 PartitionError prepare(const ChildPlan& plan, int& report) noexcept {
     const PartitionLimits& limits = plan.order.limits;
+    if (!introduce(plan)) {
+        return PartitionError::kCannotWatch;
+    }
     if (::setsid() < 0 || !lower_priority(limits)) {
         return PartitionError::kCannotRestrict;
     }

@@ -3,7 +3,7 @@
 /// What a new process does to itself before it becomes the program of a partition. It may borrow the memory
 /// of the safety process, so it calls the system and changes nothing that is not its own.
 ///
-/// @satisfies SWR-PRT-016      Design: docs/design/posix_rt.md#partition-process
+/// @satisfies SWR-PRT-016, SWR-PRT-061, SWR-PRT-063      Design: docs/design/posix_rt.md#partition-process
 #ifndef MAMORI_PORTS_POSIX_RT_PARTITION_CHILD_HPP
 #define MAMORI_PORTS_POSIX_RT_PARTITION_CHILD_HPP
 
@@ -27,13 +27,14 @@ struct ChildPlan {
 
     const PartitionOrder& order;
     pid_t parent;
-    int report{-1};  ///< end of a pipe for a ChildReport
+    int report{-1};  ///< end of a socket (SOCK_SEQPACKET) for each ChildReport
     /// Both end with nullptr.
     std::array<const char*, PartitionOrder::kArgumentMax + 2U> arguments{};
     std::array<const char*, 512U> environment{};
 };
 
-/// Why there is no program.
+/// The first message has kNone and the descriptor of the process, which is never that of another process. A
+/// second one tells why there is no program; the start of the program closes the socket.
 struct ChildReport {
     PartitionError error{PartitionError::kNone};
     int system_error{0};

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,12 +25,17 @@ using detail::ChildReport;
 
 constexpr char kEpochName[] = "MAMORI_EPOCH_NS=";
 constexpr std::size_t kEpochNameLength = sizeof(kEpochName) - 1U;
+constexpr Duration kEndPatience{10'000'000'000};
+/// Of headers that are newer than the oldest ones that compile this file.
+constexpr auto kByDescriptor = static_cast<idtype_t>(3);  ///< P_PIDFD, Linux 5.4
+constexpr unsigned int kToGroup{4U};                      ///< PIDFD_SIGNAL_PROCESS_GROUP, Linux 6.9
 
 bool is_valid(const PartitionOrder& order) noexcept {
     const PartitionLimits& limits = order.limits;
     return order.program != nullptr && order.arguments.size() <= PartitionOrder::kArgumentMax &&
            order.descriptors.size() <= PartitionOrder::kDescriptorMax && limits.niceness >= 0 &&
-           limits.niceness <= 19 && limits.file_max >= 8U && limits.processor >= ThreadPlace::kAnyProcessor;
+           limits.niceness <= 19 && limits.file_max >= 8U && limits.processor >= ThreadPlace::kAnyProcessor &&
+           order.output >= kNoStream && order.errors >= kNoStream;
 }
 
 /// The strings of this process without an epoch that it may have been given itself, and then its own.
@@ -82,13 +88,63 @@ pid_t spawn(const ChildPlan& plan) noexcept {
 // NOLINTEND(clang-analyzer-unix.Vfork)
 // NOLINTEND(bugprone-unsafe-functions,cert-msc24-c,cert-msc33-c,clang-analyzer-security.insecureAPI.vfork)
 
-/// @return bytes of the report; 0 when the other end was closed without one.
-ssize_t read_all(int file, ChildReport& report) noexcept {
+/// Waits for the next message of the child. @param[in,out] watch its descriptor, when the message has it.
+/// @return false: the other end was closed without one.
+bool receive(int socket, ChildReport& report, int& watch) noexcept {
+    iovec content{&report, sizeof(report)};
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(watch))> control{};
+    msghdr message{};
+    message.msg_iov = &content;
+    message.msg_iovlen = 1U;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
     ssize_t length = -1;
     do {
-        length = ::read(file, &report, sizeof(report));
+        length = ::recvmsg(socket, &message, MSG_CMSG_CLOEXEC);
     } while (length < 0 && errno == EINTR);
-    return length;
+    const cmsghdr* const head = CMSG_FIRSTHDR(&message);
+    if (length > 0 && head != nullptr && head->cmsg_type == SCM_RIGHTS) {
+        std::memcpy(&watch, CMSG_DATA(head), sizeof(watch));
+    }
+    return length == static_cast<ssize_t>(sizeof(report));
+}
+
+/// @param[in] options as for waitid(), without WEXITED. @return false: it is no child, or not any longer; or
+///            WNOHANG is among them, and it lives.
+bool wait_for(idtype_t kind, id_t child, int options, siginfo_t& end) noexcept {
+    int result = -1;
+    do {
+        end.si_pid = 0;
+        result = ::waitid(kind, child, &end, WEXITED | options);
+    } while (result != 0 && errno == EINTR);
+    return result == 0 && end.si_pid != 0;
+}
+
+/// Whether a child, alive or not waited for yet, holds this number: no other process can get it.
+bool is_held(idtype_t kind, id_t child) noexcept {
+    siginfo_t end{};
+    return ::waitid(kind, child, &end, WEXITED | WNOHANG | WNOWAIT) == 0;
+}
+
+/// Kills the process of the descriptor and its group, also after another thread has waited for it. Older
+/// systems know a group by its number only.
+void kill_group(int watch, pid_t pid) noexcept {
+    if (::syscall(SYS_pidfd_send_signal, watch, SIGKILL, nullptr, kToGroup) == 0 || errno != EINVAL) {
+        return;
+    }
+    if (is_held(kByDescriptor, static_cast<id_t>(watch))) {
+        static_cast<void>(::kill(-pid, SIGKILL));
+    }
+}
+
+/// Ends what has started without a descriptor, whether it has a group of its own yet or not.
+void kill_unwatched(pid_t pid) noexcept {
+    siginfo_t end{};
+    if (is_held(P_PID, static_cast<id_t>(pid))) {
+        static_cast<void>(::kill(pid, SIGKILL));
+        static_cast<void>(::kill(-pid, SIGKILL));
+        static_cast<void>(wait_for(P_PID, static_cast<id_t>(pid), 0, end));
+    }
 }
 
 }  // namespace
@@ -118,8 +174,7 @@ const char* describe(PartitionError error) noexcept {
 }
 
 PartitionProcess::~PartitionProcess() {
-    static_cast<void>(end());
-    static_cast<void>(check());
+    end_and_wait();
     give_up();
 }
 
@@ -150,7 +205,8 @@ Status PartitionProcess::start(const PartitionOrder& order) noexcept {
     return Status::kError;
 }
 
-/// The program's start closes the pipe; what prevents it comes through the pipe before.
+/// The program's start closes the socket; the descriptor of the process, and what prevents the start, come
+/// through it before.
 PartitionError PartitionProcess::launch(const PartitionOrder& order) noexcept {
     ChildPlan plan{order};
     std::array<char, kEpochNameLength + std::numeric_limits<std::int64_t>::digits10 + 3U> epoch{};
@@ -162,34 +218,35 @@ PartitionError PartitionProcess::launch(const PartitionOrder& order) noexcept {
     if (!fill_environment(plan, order.clock == nullptr ? nullptr : epoch.data())) {
         return PartitionError::kTooManyStrings;
     }
-    std::array<int, 2U> pipe{};
-    if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
+    std::array<int, 2U> ends{};
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         system_error_ = errno;
         return PartitionError::kNoProcess;
     }
-    plan.report = pipe[1U];
+    plan.report = ends[1U];
     const pid_t pid = spawn(plan);
     const int spawn_error = errno;
-    static_cast<void>(::close(pipe[1U]));
+    static_cast<void>(::close(ends[1U]));
     ChildReport report{};
-    const ssize_t length = pid < 0 ? 0 : read_all(pipe[0U], report);
-    static_cast<void>(::close(pipe[0U]));
+    if (pid > 0 && receive(ends[0U], report, watch_) && report.error == PartitionError::kNone) {
+        static_cast<void>(receive(ends[0U], report, watch_));
+    }
+    static_cast<void>(::close(ends[0U]));
     if (pid < 0) {
         system_error_ = spawn_error;
         return PartitionError::kNoProcess;
     }
-    if (length == static_cast<ssize_t>(sizeof(report))) {
-        static_cast<void>(::waitpid(pid, nullptr, 0));  // it ends with its report
+    if (report.error != PartitionError::kNone) {
+        siginfo_t end{};
+        static_cast<void>(wait_for(P_PID, static_cast<id_t>(pid), 0, end));  // it ends with its report
+        give_up();
         system_error_ = report.system_error;
         return report.error;
     }
-    // Until it is waited for, nobody else can get its number.
-    watch_ = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));
-    if (watch_ < 0) {
-        system_error_ = errno;
-        static_cast<void>(::kill(-pid, SIGKILL));
-        static_cast<void>(::waitpid(pid, nullptr, 0));
-        return PartitionError::kCannotWatch;
+    if (watch_ < 0) {  // this process has no room for it
+        kill_unwatched(pid);
+        system_error_ = EMFILE;
+        return PartitionError::kNoProcess;
     }
     pid_ = pid;
     return PartitionError::kNone;
@@ -203,12 +260,13 @@ PartitionState PartitionProcess::check() noexcept {
     if (::poll(&watch, 1U, 0) != 1) {
         return state_;
     }
-    // Its number is the one of its group, and stays so until it is waited for.
-    static_cast<void>(::kill(-pid_, SIGKILL));
-    int status = 0;
-    const bool is_known = ::waitpid(pid_, &status, WNOHANG) == pid_;  // not where SIGCHLD is ignored
-    exit_status_ = is_known && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    signal_ = is_known && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    kill_group(watch_, pid_);
+    siginfo_t end{};
+    // Not where another thread has waited for it, or SIGCHLD is ignored.
+    const bool is_known = wait_for(kByDescriptor, static_cast<id_t>(watch_), WNOHANG, end);
+    const bool has_exited = end.si_code == CLD_EXITED;
+    exit_status_ = is_known && has_exited ? end.si_status : -1;
+    signal_ = is_known && !has_exited ? end.si_status : 0;
     give_up();
     state_ = PartitionState::kEnded;
     return state_;
@@ -218,8 +276,35 @@ Status PartitionProcess::end() noexcept {
     if (state_ != PartitionState::kRunning) {
         return Status::kPreconditionNotMet;
     }
-    static_cast<void>(::kill(-pid_, SIGKILL));
+    kill_group(watch_, pid_);
     return Status::kOk;
+}
+
+void PartitionProcess::end_and_wait() noexcept {
+    const FrameClock clock = FrameClock::at_epoch(0);
+    const Instant until = clock.get_now() + kEndPatience;
+    static_cast<void>(end());
+    while (check() == PartitionState::kRunning && clock.get_now() < until) {
+        pollfd watch{watch_, POLLIN, 0};
+        static_cast<void>(::poll(&watch, 1U, 100));
+    }
+}
+
+Status PartitionProcess::send_signal(int signal) noexcept {
+    if (state_ != PartitionState::kRunning) {
+        return Status::kPreconditionNotMet;
+    }
+    if (::syscall(SYS_pidfd_send_signal, watch_, signal, nullptr, 0U) == 0) {
+        return Status::kOk;
+    }
+    switch (errno) {
+        case ESRCH:
+            return Status::kPreconditionNotMet;
+        case EINVAL:
+            return Status::kBadParameter;
+        default:
+            return Status::kError;
+    }
 }
 
 void PartitionProcess::give_up() noexcept {

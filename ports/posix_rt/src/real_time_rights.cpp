@@ -64,19 +64,48 @@ int lock_all() noexcept {
     return 0;
 }
 
+/// Attributes of a thread with a stack of `size` bytes above a guard. @return 0 or an error number;
+/// `attributes` exist for 0 only.
+int make_attributes(pthread_attr_t& attributes, std::size_t size) noexcept {
+    int result = pthread_attr_init(&attributes);
+    if (result != 0) {
+        return result;
+    }
+    result = pthread_attr_setstacksize(&attributes, size < kThreadStackMin ? kThreadStackMin : size);
+    if (result == 0) {
+        result = pthread_attr_setguardsize(&attributes, kThreadStackGuard);
+    }
+    if (result != 0) {
+        static_cast<void>(pthread_attr_destroy(&attributes));
+    }
+    return result;
+}
+
 /// SCHED_OTHER, whatever the caller has. @return 0 or the error of pthread_create().
-int create_ordinary(pthread_t& thread, void* (*run)(void*), void* argument) noexcept {
+int create_ordinary(pthread_t& thread, void* (*run)(void*), void* argument, std::size_t stack_size) noexcept {
     const sched_param none{};
     pthread_attr_t attributes;
-    if (pthread_attr_init(&attributes) != 0) {
-        return ENOMEM;
+    int result = make_attributes(attributes, stack_size);
+    if (result != 0) {
+        return result;
     }
     // These cannot fail with constants that each Linux has.
     MAMORI_ENSURE(1, pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED) == 0);
     MAMORI_ENSURE(2, pthread_attr_setschedpolicy(&attributes, SCHED_OTHER) == 0);
     MAMORI_ENSURE(3, pthread_attr_setschedparam(&attributes, &none) == 0);
-    const int result = pthread_create(&thread, &attributes, run, argument);
+    result = pthread_create(&thread, &attributes, run, argument);
     static_cast<void>(pthread_attr_destroy(&attributes));
+    return result;
+}
+
+/// The scheduling of the caller. @return 0 or the error of pthread_create().
+int create_alike(pthread_t& thread, void* (*run)(void*), void* argument, std::size_t stack_size) noexcept {
+    pthread_attr_t attributes;
+    int result = make_attributes(attributes, stack_size);
+    if (result == 0) {
+        result = pthread_create(&thread, &attributes, run, argument);
+        static_cast<void>(pthread_attr_destroy(&attributes));
+    }
     return result;
 }
 
@@ -101,7 +130,7 @@ bool may_leave_idle() noexcept {
     };
     bool is_allowed = false;
     pthread_t thread{};
-    if (pthread_create(&thread, nullptr, try_both, &is_allowed) != 0) {
+    if (create_alike(thread, try_both, &is_allowed, kThreadStack) != 0) {
         return false;
     }
     return pthread_join(thread, nullptr) == 0 && is_allowed;
@@ -115,10 +144,10 @@ int get_own_priority() noexcept {
 Status start_thread(pthread_t& thread, void* (*run)(void*), void* argument, ThreadPlace place,
                     ThreadRights& rights) noexcept {
     pthread_t started{};
-    int result = create_ordinary(started, run, argument);
+    int result = create_ordinary(started, run, argument, place.stack_size);
     // Where even the ordinary policy is a privilege, the caller runs in SCHED_IDLE, and so does its thread.
     if (result == EPERM && get_own_priority() == 0) {
-        result = pthread_create(&started, nullptr, run, argument);
+        result = create_alike(started, run, argument, place.stack_size);
     }
     if (result != 0) {
         return Status::kOutOfResources;

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "support/fake_clock.hpp"
 
 namespace mamori::ports::posix_rt {
@@ -79,6 +80,11 @@ TEST(FrameClockTest, AnInstantThatHasPassedIsNotWaitedFor) {
     sut.wait_until(Instant{0} - 1_s);
     sut.wait_until(sut.get_now());
     SUCCEED() << "it came back";
+}
+
+TEST(FrameClockTest, AnEpochInThePastIsAContractViolation) {
+    verifies("SWR-PRT-001", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_CHECK_FAILS(static_cast<void>(FrameClock::starting_in(Duration{-1})), "frame_clock.cpp", 2);
 }
 
 constexpr Instant kLast{std::numeric_limits<std::int64_t>::max()};

@@ -286,6 +286,26 @@ TEST_F(GridWatchTest, AResetIsRefusedUntilNothingWasWrongForASpanAndThenWatchesA
     EXPECT_EQ(shut_count_, 2);
 }
 
+TEST_F(GridWatchTest, AResetIsRefusedBeforeTheEndOfASpanThoughNothingIsWrong) {
+    verifies("SWR-PRT-033", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr GridLimits kLongSpan{Duration{0}, 200_us, {3600_s, 500'000}};
+    GridWatch sut{beats_, clock_, get_raw_clock(), kLongSpan, {&shut, this}, {}};
+    beats_[0].expect(Instant{0});
+    ASSERT_EQ(sut.open(), Status::kOk);
+    while (!sut.is_latched()) {
+        std::this_thread::yield();
+    }
+
+    beats_[0].rest();
+    const std::uint64_t end = sut.get_look_count() + 3U;
+    while (sut.get_look_count() < end) {
+        std::this_thread::yield();
+    }
+    EXPECT_EQ(sut.reset(), Status::kPreconditionNotMet);
+    EXPECT_TRUE(sut.is_latched());
+    sut.close();
+}
+
 TEST_F(GridWatchTest, ARunInTimeIsNotReportedAndAnEndOnPurposeNeither) {
     verifies("SWR-PRT-031");
     constexpr GridLimits kHour{3600_s, 200_us, {10_ms, 500'000}};

@@ -132,7 +132,7 @@ struct SpyDevices final : Devices {
 };
 
 TEST(MachineTest, DevicesAreCalledOncePerFrameAndMeasuredAndARunContinuesTheTimeLine) {
-    verifies("SWR-PRT-061", Technique::kRequirementsBased, Polarity::kNominal);
+    verifies("SWR-PRT-071", Technique::kRequirementsBased, Polarity::kNominal);
     static Machine<kRuns> sut{make_options()};
     SpyDevices devices;
 
@@ -157,7 +157,7 @@ TEST(MachineTest, DevicesAreCalledOncePerFrameAndMeasuredAndARunContinuesTheTime
 }
 
 TEST(MachineTest, EndOfEachRunClosesTheOutputsOnce) {
-    verifies("SWR-PRT-063", Technique::kRequirementsBased, Polarity::kNominal);
+    verifies("SWR-PRT-073", Technique::kRequirementsBased, Polarity::kNominal);
     static Machine<kCloses> sut{make_options()};
     g_closed = 0;
     int closed = -1;
@@ -170,7 +170,7 @@ TEST(MachineTest, EndOfEachRunClosesTheOutputsOnce) {
 }
 
 TEST(MachineTest, SystemWithoutOutputsRuns) {
-    verifies("SWR-PRT-060", Technique::kEquivalenceClasses, Polarity::kNominal);
+    verifies("SWR-PRT-070", Technique::kEquivalenceClasses, Polarity::kNominal);
     static Machine<kWithoutOptions> sut;
 
     const Status status = sut.run(1U);
@@ -181,7 +181,7 @@ TEST(MachineTest, SystemWithoutOutputsRuns) {
 }
 
 TEST(MachineTest, TwoCoresExchangeTheValuesOfTheirPlannedInstants) {
-    verifies("SWR-PRT-060", Technique::kBackToBack, Polarity::kNominal);
+    verifies("SWR-PRT-070", Technique::kBackToBack, Polarity::kNominal);
     static Machine<kTwoCores> sut{make_options()};
     std::vector<std::int64_t> values;
 
@@ -198,7 +198,7 @@ TEST(MachineTest, TwoCoresExchangeTheValuesOfTheirPlannedInstants) {
 }
 
 TEST(MachineTest, RequestedStopEndsTheRunAndAnEarlierRequestPreventsIt) {
-    verifies("SWR-PRT-060", Technique::kRequirementsBased, Polarity::kNominal);
+    verifies("SWR-PRT-070", Technique::kRequirementsBased, Polarity::kNominal);
     static Machine<kStops> sut{make_options()};
 
     sut.request_stop();
@@ -223,7 +223,7 @@ void note_forwarded(int signal) {
 }
 
 TEST(MachineTest, SignalClosesTheOutputsAtOnceAndTheHandlerOfTheApplicationFollows) {
-    verifies("SWR-PRT-062", Technique::kRequirementsBased, Polarity::kNominal);
+    verifies("SWR-PRT-072", Technique::kRequirementsBased, Polarity::kNominal);
     static Machine<kSignals> sut{make_options()};
     struct sigaction own{};
     struct sigaction before{};
@@ -261,7 +261,7 @@ TEST(MachineTest, SignalClosesTheOutputsAtOnceAndTheHandlerOfTheApplicationFollo
 }
 
 TEST(MachineTest, NoWindowStartsAfterTheFrameOfASignalAtAnyInstant) {
-    verifies("SWR-PRT-062", Technique::kErrorGuessing, Polarity::kViolation);
+    verifies("SWR-PRT-072", Technique::kErrorGuessing, Polarity::kViolation);
     static Machine<kManySignals> sut{make_options()};
     unsigned random = 1U;
     for (int i = 0; i < 50; ++i) {
@@ -286,7 +286,7 @@ TEST(MachineTest, NoWindowStartsAfterTheFrameOfASignalAtAnyInstant) {
 }
 
 TEST(MachineTest, SecondMachineOfTheProcessIsRefusedWhileTheFirstRuns) {
-    verifies("SWR-PRT-060", Technique::kErrorGuessing, Polarity::kViolation);
+    verifies("SWR-PRT-070", Technique::kErrorGuessing, Polarity::kViolation);
     static Machine<kNested> outer{make_options()};
     static Machine<kRefused> inner{make_options()};
     Status nested = Status::kOk;
@@ -299,7 +299,7 @@ TEST(MachineTest, SecondMachineOfTheProcessIsRefusedWhileTheFirstRuns) {
 }
 
 TEST(MachineTest, OptionOutsideItsRangeIsRefused) {
-    verifies("SWR-PRT-060", Technique::kBoundaryValues, Polarity::kViolation);
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kViolation);
     const auto run = [](const MachineOptions& options, std::uint64_t frames = 1U) {
         Machine<kRefused>* const sut = new Machine<kRefused>{options};  // never deleted: see Machine
         const Status status = sut->run(frames);
@@ -338,7 +338,7 @@ TEST(MachineTest, OptionOutsideItsRangeIsRefused) {
 }
 
 TEST(MachineTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {
-    verifies("SWR-PRT-060", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
     MachineOptions options = make_options();
     options.recorder = "/nowhere/run.rec";
     static Machine<kRefused> sut{options};
@@ -351,7 +351,7 @@ TEST(MachineTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {
 }
 
 TEST(MachineTest, FailureOfAComponentNamesTheStep) {
-    verifies("SWR-PRT-060", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
     static Machine<kFailsAtStart> starts{make_options()};
     static Machine<kFailsAtStop> stops{make_options()};
     SpyDevices devices;
@@ -367,7 +367,7 @@ TEST(MachineTest, FailureOfAComponentNamesTheStep) {
 }
 
 TEST(MachineTest, WorkThatHangsAtTheEndIsReportedAndTheNextRunIsRefusedUntilItReturns) {
-    verifies("SWR-PRT-060", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
     static Machine<kHangs> sut{make_options()};
     g_counter_kHangs.is_to_hang = true;
 
@@ -380,7 +380,7 @@ TEST(MachineTest, WorkThatHangsAtTheEndIsReportedAndTheNextRunIsRefusedUntilItRe
 }
 
 TEST(MachineTest, FindingOfTheScheduleWatchClosesTheOutputs) {
-    verifies("SWR-PRT-063", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-PRT-073", Technique::kFaultInjection, Polarity::kViolation);
     MachineOptions options = make_options();
     options.watch.lateness = 20_ms;
     static Machine<kWatched> sut{options};
@@ -408,7 +408,7 @@ MachineOptions make_guarded_options() {
 }
 
 TEST(MachineDeathTest, ThreadThatHangsExpiresTheWatchdog) {
-    verifies("SWR-PRT-064", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-PRT-074", Technique::kFaultInjection, Polarity::kViolation);
     static Machine<kExpires> sut{make_guarded_options()};
 
     EXPECT_EXIT(static_cast<void>(sut.run(5U,
@@ -421,7 +421,7 @@ TEST(MachineDeathTest, ThreadThatHangsExpiresTheWatchdog) {
 }
 
 TEST(MachineDeathTest, CrashOfAComponentClosesTheOutputs) {
-    verifies("SWR-PRT-063", Technique::kFaultInjection, Polarity::kViolation);
+    verifies("SWR-PRT-073", Technique::kFaultInjection, Polarity::kViolation);
     static Machine<kCrashes> sut{make_guarded_options()};
 
     EXPECT_EXIT(
@@ -433,7 +433,7 @@ TEST(MachineDeathTest, CrashOfAComponentClosesTheOutputs) {
 }
 
 TEST(MachineTest, RecorderHasStartStopAndSignal) {
-    verifies("SWR-PRT-062", Technique::kRequirementsBased, Polarity::kNominal);
+    verifies("SWR-PRT-072", Technique::kRequirementsBased, Polarity::kNominal);
     const std::string path = testing::TempDir() + "machine.rec";
     static_cast<void>(std::remove(path.c_str()));
     MachineOptions options = make_options();
@@ -475,7 +475,7 @@ TEST(MachineTest, RecorderHasStartStopAndSignal) {
 }
 
 TEST(MachineTest, EachStepHasASentence) {
-    verifies("SWR-PRT-060", Technique::kInterface, Polarity::kNominal);
+    verifies("SWR-PRT-070", Technique::kInterface, Polarity::kNominal);
     std::vector<std::string> sentences;
     for (int step = 0; step <= static_cast<int>(MachineStep::kStop); ++step) {
         sentences.emplace_back(describe(static_cast<MachineStep>(step)));

@@ -45,6 +45,21 @@ class MappedFileTest : public ::testing::Test {
     MappedFile sut_;
 };
 
+TEST_F(MappedFileTest, ANewFileIsOpenedOnceWhateverFailedBefore) {
+    verifies("SWR-REC-010", Technique::kErrorGuessing);
+    const auto count_descriptors = [] {
+        const fs::directory_iterator all{"/proc/self/fd"};
+        return std::distance(begin(all), end(all));
+    };
+    const std::ptrdiff_t before = count_descriptors();
+    errno = EEXIST;
+    ASSERT_EQ(sut_.open(path_.c_str(), kSize), Status::kOk);
+
+    EXPECT_EQ(count_descriptors(), before + 1);
+    sut_.close();
+    EXPECT_EQ(count_descriptors(), before);
+}
+
 TEST_F(MappedFileTest, NewFileHasItsSizeAndIsFullOfZeros) {
     verifies("SWR-REC-010");
     ASSERT_EQ(sut_.open(path_.c_str(), kSize), Status::kOk);

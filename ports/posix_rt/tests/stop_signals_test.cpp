@@ -57,7 +57,7 @@ class StopSignalsTest : public ::testing::Test {
 };
 
 TEST_F(StopSignalsTest, SignalsReachTheListenerUntilTheyAreForwarded) {
-    verifies("SWR-PRT-062", Technique::kRequirementsBased, Polarity::kNominal);
+    verifies("SWR-PRT-072", Technique::kRequirementsBased, Polarity::kNominal);
     set(SIGINT, &note);
     struct sigaction with_info{};
     with_info.sa_sigaction = &note_with_info;
@@ -81,7 +81,7 @@ TEST_F(StopSignalsTest, SignalsReachTheListenerUntilTheyAreForwarded) {
 }
 
 TEST_F(StopSignalsTest, DefaultActionIsNotForwardedAndAnIgnoredSignalStaysIgnored) {
-    verifies("SWR-PRT-062", Technique::kErrorGuessing, Polarity::kViolation);
+    verifies("SWR-PRT-072", Technique::kErrorGuessing, Polarity::kViolation);
     set(SIGINT, SIG_IGN);
     set(SIGTERM, SIG_DFL);
     StopSignals sut;
@@ -99,7 +99,7 @@ TEST_F(StopSignalsTest, DefaultActionIsNotForwardedAndAnIgnoredSignalStaysIgnore
 }
 
 TEST_F(StopSignalsTest, OneObjectOfAProcessIsInstalled) {
-    verifies("SWR-PRT-062", Technique::kErrorGuessing, Polarity::kViolation);
+    verifies("SWR-PRT-072", Technique::kErrorGuessing, Polarity::kViolation);
     Ear other;
     StopSignals second;
     {

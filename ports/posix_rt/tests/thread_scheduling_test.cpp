@@ -24,6 +24,7 @@
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/refused_call.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -220,6 +221,35 @@ TEST_F(HangTest, ThreadThatWasCutOffLosesItsPriorityUntilItIsBack) {
         EXPECT_TRUE(host.get_priority_right().is_granted);
         end(host);
     });
+}
+
+TEST_F(HangTest, PriorityThatIsNotGivenBackIsReported) {
+    verifies("SWR-PRT-004", Technique::kFaultInjection, Polarity::kViolation);
+    if (!has_privilege() || geteuid() != 0U) {
+        GTEST_SKIP() << kNoPrivilege;
+    }
+    EXPECT_EQ(run_in_process([this] {
+                  run_as_runner(kRunnerPriority, [this] {
+                      GuardedHost host{threads_, clock_, {5, kAny}};
+                      ASSERT_EQ(host.open(), Status::kOk);
+                      EXPECT_EQ(hang(host), kOrdinary);
+                      is_hanging_ = false;
+                      while (!host.has_returned(kHanging)) {
+                          clock_.wait_until(clock_.get_now() + 1_ms);
+                      }
+                      ASSERT_TRUE(host.get_priority_right().is_granted);
+                      const rlimit none{0U, 0U};
+                      ASSERT_EQ(setrlimit(RLIMIT_RTPRIO, &none), 0);
+                      ASSERT_EQ(setresuid(65534, 65534, 65534), 0);
+
+                      static_cast<void>(hang(host));
+                      EXPECT_EQ(seen_, kOrdinary);
+                      EXPECT_FALSE(host.get_priority_right().is_granted);
+                      EXPECT_EQ(host.get_priority_right().system_error, EPERM);
+                      end(host);
+                  });
+              }),
+              0);
 }
 
 TEST_F(HangTest, OrdinaryThreadThatWasCutOffRunsBelowAllOthersUntilItIsBack) {

@@ -10,10 +10,8 @@ import os
 import platform
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
-CPUS = Path("/sys/devices/system/cpu")
-UNKNOWN = "unknown"
+from mamori_tools.timing.power import NOT_KNOWN, Roots, collect_power, read_text
 
 
 @dataclass(frozen=True)
@@ -24,23 +22,25 @@ class Ticks:
     steal: int
 
 
-def collect_setting() -> dict[str, object]:
+def collect_setting(roots: Roots | None = None) -> dict[str, object]:
     """Settings of the host that do not change during a run."""
+    roots = roots or Roots()
     return {
         "kernel": platform.release(),
         "kernel_version": platform.version(),
-        "preemption": find_preemption(platform.version(), _read(Path("/sys/kernel/realtime"))),
-        "governor": _read(CPUS / "cpu0/cpufreq/scaling_governor") or UNKNOWN,
-        "clock_source": _read(Path("/sys/devices/system/clocksource/clocksource0/current_clocksource")) or UNKNOWN,
-        "virtual_machine": "hypervisor" in _read(Path("/proc/cpuinfo")),
-        "isolated_cores": _read(CPUS / "isolated"),
+        "preemption": find_preemption(platform.version(), read_text(roots.sys / "kernel" / "realtime")),
+        "clock_source": read_text(roots.sys / "devices/system/clocksource/clocksource0/current_clocksource") or NOT_KNOWN,
+        "virtual_machine": "hypervisor" in read_text(roots.proc / "cpuinfo"),
+        "isolated_cores": read_text(roots.processors / "isolated"),
+        **collect_power(roots),
     }
 
 
-def collect_state() -> dict[str, object]:
+def collect_state(roots: Roots | None = None) -> dict[str, object]:
     """Current load of the host."""
-    ticks = read_ticks(_read(Path("/proc/stat")))
-    frequency = _read(CPUS / "cpu0/cpufreq/scaling_cur_freq")
+    roots = roots or Roots()
+    ticks = read_ticks(read_text(roots.proc / "stat"))
+    frequency = read_text(roots.processors / "cpu0/cpufreq/scaling_cur_freq")
     return {
         "load_1_min": round(os.getloadavg()[0], 2),
         "frequency_khz": int(frequency) if frequency.isdecimal() else None,
@@ -69,10 +69,3 @@ def read_ticks(stat: str) -> Ticks:
     words = stat.partition("\n")[0].split()
     numbers = [int(word) for word in words[1:9]] if words[:1] == ["cpu"] else []
     return Ticks(sum(numbers), numbers[7] if len(numbers) > 7 else 0)
-
-
-def _read(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8").strip()
-    except (OSError, UnicodeDecodeError):
-        return ""

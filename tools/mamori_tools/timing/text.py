@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 from mamori_tools.timing.analysis import ComponentRow, Distribution
 from mamori_tools.timing.evt import Estimate
+from mamori_tools.timing.power import describe_power
 from mamori_tools.timing.reader import MISSED, OUTCOMES, PACES
 from mamori_tools.timing.report import MISSES_STORED, Report
 
@@ -40,6 +41,7 @@ def _make_head(report: Report) -> list[str]:
         f"host: kernel {setting['kernel']} ({setting['preemption']}), governor {setting['governor']}, clock {setting['clock_source']}, "
         f"{'virtual machine, ' if setting['virtual_machine'] else ''}load {before['load_1_min']} .. {after['load_1_min']}, "
         f"steal {100 * report.steal_share:.2f} %",
+        *describe_power(setting),
     ]
 
 

@@ -67,7 +67,8 @@ def test_record_tells_figures_with_the_machine_they_come_from(program: Path) -> 
     assert record["schema"] == "mamori.timing/1"
     assert record["cycles"] == {"asked": 100, "run": 100}
     assert {"commit", "cpu", "cores"} <= set(record["environment"])
-    assert {"preemption", "governor", "clock_source"} <= set(record["host"]["setting"])
+    assert {"preemption", "governor", "clock_source", "idle_state"} <= set(record["host"]["setting"])
+    assert "\nprocessor: deepest idle state " in (program.parent / "out" / "timing.txt").read_text(encoding="utf-8")
     assert record["components"][0]["execution"]["count"] == 100
     assert record["chains"][0]["virtual"]["max_ns"] == 900_000
     assert "too few" in record["components"][0]["extreme_values"]["refusal"]
@@ -441,6 +442,7 @@ def test_steal_is_a_share_of_all_processor_time() -> None:
 
 @pytest.mark.verifies("SWR-TIM-019", technique="interface")
 def test_machine_tells_what_it_can() -> None:
-    assert set(collect_setting()) == {"kernel", "kernel_version", "preemption", "governor", "clock_source", "virtual_machine", "isolated_cores"}
+    assert set(collect_setting()) == {"kernel", "kernel_version", "preemption", "governor", "clock_source", "virtual_machine", "isolated_cores",
+                                      "turbo", "idle_state", "cpu_dma_latency_us", "rt_throttling", "advice"}  # fmt: skip
     assert set(collect_state()) == {"load_1_min", "frequency_khz", "ticks", "steal_ticks"}
     assert read_ticks("nothing").total == 0

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "campaign.hpp"
 
+#include <unistd.h>
+
 #include <array>
 #include <csignal>
 #include <random>
@@ -181,6 +183,7 @@ class Director final {
                                               link_.notes.get_descriptor()};
         PartitionOrder order{request_.worker, arguments, descriptors, &clock_, {}};
         order.limits.niceness = 0;  // the highest priority without a privilege
+        order.errors = STDERR_FILENO;
         if (partition_.start(order) != Status::kOk) {
             return false;
         }
@@ -218,7 +221,7 @@ class Director final {
                 signal = kCorruptionSignal;
                 break;
         }
-        static_cast<void>(::kill(partition_.get_pid(), signal));
+        static_cast<void>(partition_.send_signal(signal));
         injected.done = clock_.get_now();
         if (kind == Kind::kFlood || kind == Kind::kCorrupt) {
             Note note{};

@@ -4,8 +4,8 @@
 /// the thread that runs the executive only waits for it, at a higher priority and never beyond the deadline.
 /// So a budget is enforced without the help of the code that exceeds it, and a hang costs its window alone.
 ///
-/// @satisfies SWR-PRT-003, SWR-PRT-004, SWR-PRT-035, SWR-PRT-040, SWR-PRT-041, SWR-PRT-042
-///     Design: docs/design/posix_rt.md#guard
+/// @satisfies SWR-PRT-003, SWR-PRT-004, SWR-PRT-035, SWR-PRT-040, SWR-PRT-041, SWR-PRT-042, SWR-PRT-060
+///     Design: docs/design/posix_rt.md#guard, docs/design/posix_rt.md#stacks
 #ifndef MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
 #define MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
 
@@ -25,7 +25,7 @@
 
 namespace mamori::ports::posix_rt {
 
-/// Thread of one window. Storage only: GuardedHost is the one who uses it.
+/// Thread of one window. Storage and the size of its stack: GuardedHost starts and uses it.
 ///
 /// Work that hangs for ever keeps its thread, so this must have static storage.
 class WindowThread final {
@@ -33,6 +33,16 @@ class WindowThread final {
     WindowThread() noexcept = default;
     WindowThread(const WindowThread&) = delete;
     WindowThread& operator=(const WindowThread&) = delete;
+
+    /// Sets the stack of the thread for the next GuardedHost::open(). It holds the frames of all components
+    /// of the window and up to kThreadStackMin of the C library and a signal frame.
+    /// @param[in] size [byte]; the thread gets at least kThreadStackMin and whole pages. 0 (initially): the
+    /// size
+    ///            in the ThreadPlace of the host.
+    /// @return kOk; kPreconditionNotMet (the thread runs).
+    Status set_stack_size(std::size_t size) noexcept;
+    /// @return the size that was set [byte]; 0: that of the host.
+    std::size_t get_stack_size() const noexcept { return stack_size_; }
 
   private:
     friend class GuardedHost;
@@ -51,6 +61,7 @@ class WindowThread final {
     std::atomic<std::uint32_t> done_{0U};  ///< the last of them that has come back
     std::atomic<std::size_t> finished_count_{0U};
     std::atomic<bool> is_ending_{false};
+    std::size_t stack_size_{0U};
     int priority_{0};  ///< in force while the thread is not demoted
     bool is_open_{false};
     bool is_demoted_{false};
@@ -62,7 +73,8 @@ class GuardedHost final : public WindowHost {
   public:
     /// @param[in] threads one per window of the system table; must outlive the host, and for ever when work
     ///            of one hangs. @param[in] clock must outlive the host, and those threads.
-    /// @param[in] place of the threads of the windows. A fixed priority must be lower than that of the thread
+    /// @param[in] place of the threads of the windows, and the stack of each that has no size of its own
+    ///            (WindowThread::set_stack_size()). A fixed priority must be lower than that of the thread
     ///            that runs the windows; each gets it or, when it is denied, none. With priority 0 the
     ///            windows run in ordinary threads, whatever the thread has that opens the host.
     GuardedHost(Span<WindowThread> threads, const FrameClock& clock, ThreadPlace place) noexcept
@@ -72,9 +84,10 @@ class GuardedHost final : public WindowHost {
     ~GuardedHost() = default;
 
     /// Starts the threads; the calling thread is the one that will run the windows.
-    /// @return kOk; kPreconditionNotMet (open already); kOutOfResources (no more threads); kBadParameter (the
-    ///         windows have a fixed priority that is not below that of the thread that runs them, so a window
-    ///         that hangs would stop its own guard). On an error none of the threads that it started is left.
+    /// @return kOk; kPreconditionNotMet (open already); kOutOfResources (no thread, or none with its stack);
+    ///         kBadParameter (the windows have a fixed priority that is not below that of the thread that
+    ///         runs them, so a window that hangs would stop its own guard). On an error none of the threads
+    ///         that it started is left.
     Status open() noexcept;
     /// The same when another thread will run the windows. @param[in] runner_priority fixed priority that this
     /// thread has or will have, 1 .. 99; 0: none.

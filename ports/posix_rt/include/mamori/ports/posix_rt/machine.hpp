@@ -8,7 +8,7 @@
 ///
 /// The same program runs in virtual time with mamori::ports::virtual_time::Machine.
 ///
-/// @satisfies SWR-PRT-060, SWR-PRT-061, SWR-PRT-062, SWR-PRT-063, SWR-PRT-064
+/// @satisfies SWR-PRT-070, SWR-PRT-071, SWR-PRT-072, SWR-PRT-073, SWR-PRT-074
 ///     Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_MACHINE_HPP
 #define MAMORI_PORTS_POSIX_RT_MACHINE_HPP
@@ -103,7 +103,7 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
     static ThreadPlace get_place(const MachineOptions& options, std::size_t core) noexcept {
         const bool is_placed = core < options.processors.size();
         return {options.priority - MachineOptions::kPriorityStep,
-                is_placed ? options.processors[core] : ThreadPlace::kAnyProcessor};
+                is_placed ? options.processors[core] : ThreadPlace::kAnyProcessor, options.window_stack};
     }
 
     MachineOptions options_;

@@ -2,7 +2,7 @@
 /// @file
 /// What a machine in real time is told before a run, and what it reports after it.
 ///
-/// @satisfies SWR-PRT-060, SWR-PRT-063      Design: docs/design/posix_rt.md#machine
+/// @satisfies SWR-PRT-070, SWR-PRT-073      Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_MACHINE_OPTIONS_HPP
 #define MAMORI_PORTS_POSIX_RT_MACHINE_OPTIONS_HPP
 
@@ -32,6 +32,10 @@ struct MachineOptions {
     int priority{80};
     /// Processor of core 0, 1, ...; empty: any processor. Must outlive the machine.
     Span<const int> processors{};
+    /// Stack of each window thread, and of each thread that runs windows and calls the devices [byte]:
+    /// kThreadStackMin or more.
+    std::size_t window_stack{kThreadStack};
+    std::size_t runner_stack{std::size_t{1024U} * 1024U};
     /// From the start of the threads to the first major frame, > 0.
     Duration lead{50'000'000};
     /// When a window counts as overdue, and when a clock rate counts as wrong: see GridLimits. `lateness`

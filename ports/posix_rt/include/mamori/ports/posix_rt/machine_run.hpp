@@ -2,7 +2,7 @@
 /// @file
 /// Part of a machine in real time that does not depend on its table. Users construct a Machine.
 ///
-/// @satisfies SWR-PRT-060, SWR-PRT-061, SWR-PRT-062, SWR-PRT-063, SWR-PRT-064
+/// @satisfies SWR-PRT-070, SWR-PRT-071, SWR-PRT-072, SWR-PRT-073, SWR-PRT-074
 ///     Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_MACHINE_RUN_HPP
 #define MAMORI_PORTS_POSIX_RT_MACHINE_RUN_HPP

@@ -3,7 +3,7 @@
 /// A process of less trust beside the safety process: started with what it needs and no more, told apart from
 /// a dead one without waiting, and gone when the safety process is.
 ///
-/// @satisfies SWR-PRT-015, SWR-PRT-016, SWR-PRT-017, SWR-PRT-018
+/// @satisfies SWR-PRT-015, SWR-PRT-016, SWR-PRT-017, SWR-PRT-018, SWR-PRT-061, SWR-PRT-063
 /// Design:   docs/design/posix_rt.md#partition-process
 #ifndef MAMORI_PORTS_POSIX_RT_PARTITION_PROCESS_HPP
 #define MAMORI_PORTS_POSIX_RT_PARTITION_PROCESS_HPP
@@ -21,8 +21,10 @@
 namespace mamori::ports::posix_rt {
 
 /// Number of the first descriptor that is handed over, in the process that was started; 0 is /dev/null there,
-/// 1 and 2 are those of the safety process, and there is no other one.
+/// 1 and 2 are the streams of the order, and there is no other one.
 inline constexpr int kFirstPartitionDescriptor{3};
+/// Output to /dev/null.
+inline constexpr int kNoStream{-1};
 
 /// What bounds a process of less trust, beside what bounds every one: ordinary scheduling without the right
 /// to another, no capabilities, no locked memory, no core file, first in line when memory runs out.
@@ -51,6 +53,10 @@ struct PartitionOrder {
     Span<const int> descriptors{};        ///< become kFirstPartitionDescriptor and the next ones
     const FrameClock* clock{nullptr};     ///< time line for find_partition_clock(), or nullptr
     PartitionLimits limits{};
+    /// Descriptors that become standard output and standard error: a file, or those of a PartitionOutput.
+    /// With 1 or 2, the process writes to the stream of the safety process, which it can fill or change.
+    int output{kNoStream};
+    int errors{kNoStream};
 };
 
 /// Why a process was not started.
@@ -61,7 +67,7 @@ enum class PartitionError : std::uint8_t {
     kCannotPlace,     ///< the processor is not there
     kCannotRestrict,  ///< a limit is refused
     kCannotBecome,    ///< no right to become that user
-    kCannotHandOver,  ///< a descriptor is none
+    kCannotHandOver,  ///< a descriptor or a stream is none
     kCannotExecute,   ///< the program is not there or not a program
     kCannotWatch,     ///< the system has no descriptors of processes: older than Linux 5.9
 };
@@ -77,12 +83,18 @@ enum class PartitionState : std::uint8_t { kNone, kRunning, kEnded };
 ///
 /// Calling context: an ordinary thread, never a window. The process is killed when the thread that started it
 ///                  ends, so that thread must stay.
-/// Thread safety:   none. Time: start() takes as long as the system needs for a new program, the others O(1)
-///                  without waiting. Memory: none of its own.
+/// Children:        this class waits for its own child only. Before Linux 6.9, no other thread may wait for
+/// it
+///                  or let the system do so (waitpid(-1), SIGCHLD ignored): a group is killed by its number
+///                  there, right after a look whether the child still holds this number.
+/// Thread safety:   none. Time: start() takes as long as the system needs for a new program, the destructor
+/// as
+///                  long as it needs to end one, the others O(1) without waiting. Memory: none of its own.
 class PartitionProcess final {
   public:
     PartitionProcess() noexcept = default;
-    /// Kills it; does not wait for its end.
+    /// Kills it with its group and waits for its end, so no zombie remains. After 10 s it waits no longer,
+    /// for a process that the system cannot end, in a driver for example.
     ~PartitionProcess();
     PartitionProcess(const PartitionProcess&) = delete;
     PartitionProcess& operator=(const PartitionProcess&) = delete;
@@ -104,7 +116,14 @@ class PartitionProcess final {
     /// running).
     Status end() noexcept;
 
-    /// While it runs, and until check() has said that it ended; else -1.
+    /// Sends a signal to the process, never to another one that got its number. @param[in] signal as for
+    /// kill().
+    /// @return kOk; kPreconditionNotMet (none is running, or it has just ended); kBadParameter (no signal);
+    ///         kError (no right to signal its user).
+    Status send_signal(int signal) noexcept;
+
+    /// For display: send_signal() does not confuse processes. While it runs, and until check() has said that
+    /// it ended; else -1.
     pid_t get_pid() const noexcept { return pid_; }
     /// Of the last one that ended: its exit status, or -1 when a signal ended it, or none has ended.
     int get_exit_status() const noexcept { return exit_status_; }
@@ -117,6 +136,7 @@ class PartitionProcess final {
     int get_system_error() const noexcept { return system_error_; }
 
   private:
+    void end_and_wait() noexcept;
     PartitionError launch(const PartitionOrder& order) noexcept;
     void give_up() noexcept;
 

@@ -3,7 +3,8 @@
 /// What a process asks of Linux to keep its times: a fixed priority, a processor, memory that stays in place.
 /// Each may be refused; the process goes on, and what was refused goes into the evidence.
 ///
-/// @satisfies SWR-PRT-002, SWR-PRT-037, SWR-PRT-040, SWR-PRT-046      Design: docs/design/posix_rt.md#rights
+/// @satisfies SWR-PRT-002, SWR-PRT-037, SWR-PRT-040, SWR-PRT-046, SWR-PRT-060
+///     Design: docs/design/posix_rt.md#rights, docs/design/posix_rt.md#stacks
 #ifndef MAMORI_PORTS_POSIX_RT_REAL_TIME_RIGHTS_HPP
 #define MAMORI_PORTS_POSIX_RT_REAL_TIME_RIGHTS_HPP
 
@@ -26,12 +27,24 @@ constexpr Right combine(const Right& first, const Right& second) noexcept {
     return first.is_granted ? second : first;
 }
 
-/// Where a thread shall run.
+/// Stack of a thread of this port [byte], unless its ThreadPlace or WindowThread states another size. The
+/// default of Linux (8 MiB, ulimit -s) would be locked completely for each thread.
+inline constexpr std::size_t kThreadStack{std::size_t{256U} * 1024U};
+/// Minimum stack [byte]: data of the C library and one signal frame with all registers.
+inline constexpr std::size_t kThreadStackMin{std::size_t{32U} * 1024U};
+/// Inaccessible memory below the stack [byte]. An overflow is a SIGSEGV there; also one by a function whose
+/// frame is larger than a page.
+inline constexpr std::size_t kThreadStackGuard{std::size_t{64U} * 1024U};
+
+/// Where a thread shall run, and on how much stack.
 struct ThreadPlace {
     static constexpr int kAnyProcessor = -1;
 
     int priority{0};               ///< of SCHED_FIFO, 1 .. 99; 0: an ordinary thread (SCHED_OTHER)
     int processor{kAnyProcessor};  ///< number of the processor, 0, 1, ...
+    /// [byte]; the thread gets at least this size and at least kThreadStackMin. The C library may reuse a
+    /// larger stack of a thread that has ended.
+    std::size_t stack_size{kThreadStack};
 };
 
 /// Gives a thread a fixed priority (SCHED_FIFO). @param[in] priority 0: it gets the ordinary policy back.
@@ -55,9 +68,9 @@ struct ThreadRights {
     Right processor{};
 };
 
-/// Starts a thread that has the scheduling of `place` and inherits neither policy nor priority of the caller.
-/// A privilege that is denied does not prevent the start: the thread is an ordinary one then.
-/// @return kOk; kOutOfResources (no thread; `thread` and `rights` are unchanged).
+/// Starts a thread that has the scheduling and the stack of `place` and inherits neither policy nor priority
+/// of the caller. A privilege that is denied does not prevent the start: the thread is an ordinary one then.
+/// @return kOk; kOutOfResources (no thread, or no memory for its stack; `thread` and `rights` are unchanged).
 Status start_thread(pthread_t& thread, void* (*run)(void*), void* argument, ThreadPlace place,
                     ThreadRights& rights) noexcept;
 

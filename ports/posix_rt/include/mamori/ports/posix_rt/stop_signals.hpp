@@ -3,7 +3,7 @@
 /// SIGINT and SIGTERM as a request to stop the system. A handler that the application had before is called
 /// after the stop.
 ///
-/// @satisfies SWR-PRT-062      Design: docs/design/posix_rt.md#machine
+/// @satisfies SWR-PRT-072      Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_STOP_SIGNALS_HPP
 #define MAMORI_PORTS_POSIX_RT_STOP_SIGNALS_HPP
 
