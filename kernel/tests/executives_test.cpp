@@ -137,6 +137,16 @@ TEST_F(ExecutivesTest, FailedStartStopsTheCoresBeforeIt) {
     EXPECT_EQ(heard().back(), "left deactivate");
 }
 
+TEST_F(ExecutivesTest, FailedStartOfTheFirstCoreStartsNoOther) {
+    verifies("SWR-KRN-074", Technique::kFaultInjection, Polarity::kViolation);
+    g_left.fails = Fails::kActivate;
+
+    EXPECT_EQ(sut_.start(), Status::kOutOfResources);
+
+    EXPECT_EQ(sut_.get_failed_core(), 0U);
+    EXPECT_EQ(heard(), (std::vector<std::string>{"left initialize", "right initialize", "left activate"}));
+}
+
 TEST_F(ExecutivesTest, FailedStopOfOneCoreStopsTheOthersAndReturnsTheFirstFailure) {
     verifies("SWR-KRN-074", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(sut_.start(), Status::kOk);
