@@ -265,6 +265,23 @@ TEST_F(PartitionOutputTest, ItIsOpenedOnceAndUsesNoDescriptorAfterItsEnd) {
     EXPECT_EQ(refused.open(), Status::kOk);
 }
 
+TEST_F(PartitionOutputTest, ItsPipesMayHaveTheFirstNumbers) {
+    verifies("SWR-PRT-062", Technique::kBoundaryValues);
+    EXPECT_EQ(run_in_process([this] {
+                  ASSERT_EQ(::close(0), 0);
+                  {
+                      PartitionOutput sut{"first"};
+                      ASSERT_EQ(sut.open(), Status::kOk);
+                      EXPECT_EQ(sut.open(), Status::kPreconditionNotMet);
+                      say(sut.get_output(), "line\n");
+                      EXPECT_EQ(sut.forward(output_.get_writing_end(), errors_.get_writing_end()), 5U);
+                  }
+                  EXPECT_EQ(::fcntl(0, F_GETFD), -1) << "it is closed";
+              }),
+              0);
+    EXPECT_EQ(output_.read_all(), "[first] line\n");
+}
+
 TEST_F(PartitionOutputTest, APartitionThatStartsAgainKeepsItsStreams) {
     verifies("SWR-PRT-062", Technique::kInterface);
     PartitionProcess process;

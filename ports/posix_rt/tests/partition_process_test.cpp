@@ -21,6 +21,7 @@
 
 #include "mamori/trace/verifies.hpp"
 #include "support/line.hpp"
+#include "support/refused_call.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -139,6 +140,16 @@ TEST_F(PartitionProcessTest, AnEpochOfItsOwnIsNotHandedOnAndAWrongOneIsNone) {
     EXPECT_EQ(clock.get_epoch_ns(), 5);
 }
 
+TEST_F(PartitionProcessTest, AnotherEntryOfTheEnvironmentIsNoEpoch) {
+    verifies("SWR-PRT-015", Technique::kErrorGuessing, Polarity::kViolation);
+    constexpr const char* kSameLength = "MAMORI_OTHER_NS";  // as the name of the epoch
+    ASSERT_EQ(::setenv(kSameLength, "77", 1), 0);
+    FrameClock clock = FrameClock::at_epoch(5);
+    EXPECT_EQ(find_partition_clock(clock), Status::kPreconditionNotMet);
+    EXPECT_EQ(clock.get_epoch_ns(), 5);
+    ASSERT_EQ(::unsetenv(kSameLength), 0);
+}
+
 TEST_F(PartitionProcessTest, ItsStartCopiesNoMemory) {
     verifies("SWR-PRT-015", Technique::kErrorGuessing, Polarity::kViolation);
     if (kIsEachStartACopy) {
@@ -189,6 +200,19 @@ TEST_F(PartitionProcessTest, AnOrderOutOfRangeStartsNothing) {
     order.limits.processor = ThreadPlace::kAnyProcessor;
     EXPECT_EQ(sut_.start(order), Status::kOk);
     EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+}
+
+TEST_F(PartitionProcessTest, AnOrderAtItsLimitsIsStarted) {
+    verifies("SWR-PRT-015", Technique::kBoundaryValues);
+    std::array<const char*, PartitionOrder::kArgumentMax> arguments{};
+    arguments.fill("x");
+    std::array<int, PartitionOrder::kDescriptorMax> descriptors{};
+    descriptors.fill(line_.get_writing_end());
+    errno = EINTR;  // of an earlier call
+
+    EXPECT_EQ(sut_.start({"/bin/true", arguments, descriptors, nullptr, {}}), Status::kOk);
+    EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+    EXPECT_EQ(sut_.get_exit_status(), 0);
 }
 
 TEST_F(PartitionProcessTest, WhatCannotBeStartedIsToldWithItsCause) {
@@ -324,6 +348,19 @@ TEST_F(PartitionProcessTest, ItHasTheLimitsOfItsOrder) {
     EXPECT_EQ(find(facts, "Cpus_allowed_list:"), std::to_string(last));
     EXPECT_EQ(find(facts, "score"), "1000");
     EXPECT_EQ(find(facts, "nice"), "19");
+}
+
+TEST_F(PartitionProcessTest, ItIsNeverAboveTheSafetyProcess) {
+    verifies("SWR-PRT-016", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([this] {
+                  ASSERT_EQ(::setpriority(PRIO_PROCESS, 0, 15), 0);
+                  order_.limits.niceness = 10;
+                  errno = EIO;  // of an earlier call
+                  ASSERT_EQ(start("nice >&3"), Status::kOk);
+                  EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+              }),
+              0);
+    EXPECT_EQ(line_.read_all(), "15\n");
 }
 
 TEST_F(PartitionProcessTest, ItRunsAsAnotherUserWhereThatIsAllowed) {

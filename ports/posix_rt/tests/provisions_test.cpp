@@ -5,8 +5,10 @@
 // real watchdog would reset the machine.
 #include "mamori/ports/posix_rt/provisions.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
@@ -18,6 +20,7 @@
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/fake_driver.hpp"
+#include "support/refused_call.hpp"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -53,6 +56,21 @@ class MemoryLockedTest : public ::testing::Test {
     }
     MemoryLocked sut_;
 };
+
+TEST_F(MemoryLockedTest, TheFileMayHaveTheFirstNumber) {
+    verifies("SWR-AOU-011", Technique::kBoundaryValues);
+    EXPECT_EQ(run_in_process([] {
+                  ASSERT_EQ(::close(0), 0);
+                  {
+                      MemoryLocked sut;
+                      EXPECT_EQ(sut.open(), Status::kOk);
+                      EXPECT_EQ(sut.open(), Status::kPreconditionNotMet);
+                      EXPECT_NE(::fcntl(0, F_GETFD), -1);
+                  }
+                  EXPECT_EQ(::fcntl(0, F_GETFD), -1) << "it is closed";
+              }),
+              0);
+}
 
 TEST_F(MemoryLockedTest, LockedMemoryIsInEffect) {
     verifies("SWR-AOU-011");

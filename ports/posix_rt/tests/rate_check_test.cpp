@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "mamori/trace/verifies.hpp"
 #include "support/fake_clock.hpp"
 
@@ -85,6 +87,17 @@ TEST(RateCheckTest, WhatTheReadingsLeaveUncertainCountsForTheClock) {
     EXPECT_EQ(sut.look(at(1250, 55'001, 3_us)), Rate::kFast);
 }
 
+TEST(RateCheckTest, TheLimitOfASpanCountsEachNanosecond) {
+    verifies("SWR-PRT-032", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr RateLimits kHalf{1500_us, 500'000};  // 750 us
+    for (const std::int64_t gained_ns : {750'000, -750'000}) {
+        RateCheck sut{kHalf};
+        ASSERT_EQ(sut.look(at(0, 0)), Rate::kSound);
+        EXPECT_EQ(sut.look(at(1000, gained_ns)), Rate::kSound);
+        EXPECT_NE(sut.look(at(1250, gained_ns + (gained_ns > 0 ? 1 : -1))), Rate::kSound);
+    }
+}
+
 TEST(RateCheckTest, WhoLooksTooLateComparesByTheTimeThatPassed) {
     verifies("SWR-PRT-032", Technique::kErrorGuessing);
     RateCheck sut{kLimits};
@@ -92,6 +105,26 @@ TEST(RateCheckTest, WhoLooksTooLateComparesByTheTimeThatPassed) {
     ASSERT_EQ(sut.look(at(0, 0)), Rate::kSound);
     ASSERT_EQ(sut.look(at(1'000'000, 5'000'000)), Rate::kSound) << "0.5 % of a second";
     EXPECT_EQ(sut.look(at(3'000'000, 15'000'001)), Rate::kFast);
+}
+
+TEST(RateCheckTest, APairIsReadThreeTimesAndTheNarrowestCounts) {
+    verifies("SWR-PRT-032", Technique::kBoundaryValues);
+    /// Reads that take 30, 10 and 20 ns.
+    class SlowReading final : public ClockReading {
+      public:
+        std::int64_t read_ns() const noexcept override {
+            constexpr std::array<std::int64_t, 6U> kTimes{100, 130, 200, 210, 300, 320};
+            ++count;
+            return kTimes[(count - 1U) % kTimes.size()];
+        }
+        mutable std::size_t count{0U};
+    } reference;
+    FakeClock source{0};
+    const ClockPair pair = read_pair(FrameClock::starting_in(Duration{0}, source), reference);
+
+    EXPECT_EQ(reference.count, 6U);
+    EXPECT_EQ(pair.reference_ns, 205);
+    EXPECT_EQ(pair.uncertainty, Duration{6});
 }
 
 TEST(RateCheckTest, APairIsReadWithinItsUncertainty) {

@@ -9,6 +9,7 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,6 +17,7 @@
 #include <string>
 
 #include "mamori/trace/verifies.hpp"
+#include "support/refused_call.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -199,6 +201,48 @@ TEST(SharedMemoryTest, AMachineWithoutRoomIsTold) {
 
     EXPECT_EQ(sut.create("test", kSize, SharedAccess::kRead), Status::kOk);
     EXPECT_EQ(sut.get_error(), SharedMemoryError::kNone);
+    EXPECT_EQ(sut.get_system_error(), 0);
+}
+
+TEST(SharedMemoryTest, ACallThatTheSystemRefusesIsToldAndLeavesNothingOpen) {
+    verifies("SWR-PRT-012", Technique::kFaultInjection, Polarity::kViolation);
+    struct Case {
+        std::uint32_t call;
+        SharedAccess access;
+        SharedMemoryError error;
+    };
+    for (const Case example : {Case{SYS_fcntl, SharedAccess::kRead, SharedMemoryError::kCannotSeal},
+                               Case{SYS_fcntl, SharedAccess::kWrite, SharedMemoryError::kCannotSeal},
+                               Case{SYS_openat, SharedAccess::kRead, SharedMemoryError::kCannotReopen}}) {
+        EXPECT_EQ(run_in_process([&example] {
+                      const int next = ::dup(0);
+                      static_cast<void>(::close(next));
+                      ASSERT_TRUE(refuse_call(example.call, EPERM, false));
+                      SharedMemory sut;
+                      for (int i = 0; i < 2; ++i) {
+                          EXPECT_EQ(sut.create("test", kSize, example.access), Status::kError);
+                          EXPECT_EQ(sut.get_error(), example.error) << describe(sut.get_error());
+                          EXPECT_EQ(sut.get_system_error(), EPERM);
+                          EXPECT_FALSE(sut.is_open());
+                          EXPECT_TRUE(sut.get_region().empty());
+                          EXPECT_TRUE(sut.get_writable_region().empty());
+                      }
+                      EXPECT_EQ(::dup(0), next) << "a descriptor is left";
+                  }),
+                  0);
+    }
+}
+
+TEST(SharedMemoryTest, ACauseWithoutAnErrorOfTheSystemKeepsNoneOfAnEarlierOne) {
+    verifies("SWR-PRT-012", Technique::kErrorGuessing);
+    SharedMemory created;
+    ASSERT_EQ(created.create("test", kSize, SharedAccess::kWrite), Status::kOk);
+    SharedMemory sut;
+    EXPECT_EQ(sut.adopt(-1, kSize, SharedAccess::kRead), Status::kError);
+    EXPECT_EQ(sut.get_system_error(), EBADF);
+
+    EXPECT_EQ(sut.adopt(created.get_descriptor(), kSize + 1U, SharedAccess::kRead), Status::kError);
+    EXPECT_EQ(sut.get_error(), SharedMemoryError::kWrongSize);
     EXPECT_EQ(sut.get_system_error(), 0);
 }
 

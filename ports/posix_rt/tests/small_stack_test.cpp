@@ -6,12 +6,15 @@
 #include <limits.h>
 #include <pthread.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/refused_call.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -76,6 +79,16 @@ TEST(SmallStackTest, LockingOnASmallStackTouchesOnlyWhatIsThere) {
             EXPECT_TRUE(lock_on_stack(size, asked).has_returned) << size << " " << asked;
         }
     }
+}
+
+TEST(SmallStackTest, WithoutTheRightToLockTheStackIsInMemoryAllTheSame) {
+    verifies("SWR-PRT-046", Technique::kFaultInjection);
+    EXPECT_EQ(run_in_process([] {
+                  ASSERT_TRUE(refuse_call(SYS_mlockall, EPERM, false));
+                  constexpr std::size_t kStack = std::size_t{4U} * 1024U * 1024U;
+                  EXPECT_GE(lock_on_stack(kStack, 128U * kPage).resident_pages, 128U);
+              }),
+              0);
 }
 
 TEST(SmallStackTest, WhatWasAskedForIsInMemoryAfterwards) {
