@@ -23,6 +23,7 @@ from mamori_tools.timing.analysis import (
     list_components,
     list_drift_notes,
     list_findings,
+    list_limit_findings,
     list_misses,
     list_windows,
 )
@@ -67,8 +68,8 @@ class Report:
 
     @property
     def host_misses(self) -> list[Miss]:
-        """Window instances that the host lost: released too late, or without processor time."""
-        return [miss for miss in self.misses if miss.is_host]
+        """Window instances that were not lost to the program."""
+        return [miss for miss in self.misses if not miss.is_of_code]
 
     @property
     def status(self) -> int:
@@ -91,15 +92,27 @@ class Report:
         return marks
 
 
-def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: bool, was_stopped: bool, findings: Sequence[str]
-                ) -> Report:  # fmt: skip
+@dataclass(frozen=True)
+class Limits:
+    """Limits of --max-missed and --max-late; None for no limit."""
+
+    missed: int | None = None
+    late_ns: int | None = None
+
+
+NO_LIMITS = Limits()
+
+
+def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: bool, was_stopped: bool, findings: Sequence[str],
+                limits: Limits = NO_LIMITS) -> Report:  # fmt: skip
     """Analyses `run`. @param findings known findings that are not in its files."""
     windows, components, misses = list_windows(run), list_components(run), list_misses(run)
     (chains, chain_note), shifts = list_chains(run), list_shifts(run)
     indices = [index for index, one in enumerate(run.table.components) if one.window is not None]
     estimates = [estimate(calc_execution(run, index)[0].values, count_cut(run, index)) for index in indices]
     early = [] if was_stopped or not run.is_partial else [f"the program ended after {run.cycles_run} of {run.cycles_asked} cycles"]
-    found = [*findings, *early, *run.findings, *list_findings(windows, components, misses), *list_violations(chains),
+    found = [*findings, *early, *run.findings, *list_findings(windows, components, misses),
+             *list_limit_findings(windows, misses, limits.missed, limits.late_ns), *list_violations(chains),
              *list_shift_findings(run, shifts)]  # fmt: skip
     return Report(system, run, windows, components, misses, chains, chain_note, shifts, estimates, found, [*run.notes, *list_drift_notes(windows)],
                   host, with_load, was_stopped)  # fmt: skip
@@ -134,7 +147,7 @@ def make_record(report: Report, environment: dict[str, object]) -> dict[str, Any
         "chain_note": report.chain_note,
         "requests": None if run.requests is None else {**asdict(run.requests), "windows": [asdict(row) for row in report.shifts]},
         "miss_count": len(report.misses),
-        "misses": [asdict(miss) for miss in report.misses[:MISSES_STORED]],
+        "misses": [{**asdict(miss), "is_host": not miss.is_of_code} for miss in report.misses[:MISSES_STORED]],
     }
 
 

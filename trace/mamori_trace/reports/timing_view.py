@@ -252,7 +252,7 @@ def _make_misses(record: dict[str, Any]) -> Table:
     def make(row: dict[str, Any]) -> list[Cell]:
         return [
             Cell(str(row["cycle"])), Cell(row["window"], is_name=True), Cell(row["outcome"]),
-            Cell("host" if row["is_host"] else "code", is_bad=not row["is_host"]), Cell(row["component"] or ABSENT, is_name=True),
+            Cell(row.get("verdict", "host" if row["is_host"] else "code"), is_bad=not row["is_host"]), Cell(row["component"] or ABSENT, is_name=True),
             make_time(row["late_ns"]), Cell(row["reason"], is_long=True),
         ]  # fmt: skip
 

@@ -155,6 +155,29 @@ TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
     EXPECT_LE(read_row_count(folder_ + "/steps.npy"), 2U * run_count);
 }
 
+TEST_F(TimingRunTest, EachWindowAndStepHasARowOfItsUseOfTheProcessor) {
+    verifies("SWR-TIM-042", Technique::kInterface);
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    const std::size_t steps = read_row_count(folder_ + "/steps.npy");
+    EXPECT_EQ(read_row_count(folder_ + "/window_use.npy"), 5U);
+    EXPECT_EQ(read_row_count(folder_ + "/step_use.npy"), steps);
+    const std::string use = read_file(folder_ + "/step_use.npy");
+    for (std::size_t row = 0U; row < steps; ++row) {
+        std::int64_t cpu_ns = 0;
+        std::memcpy(&cpu_ns, &use[use.size() - 16U * (steps - row)], sizeof cpu_ns);
+        EXPECT_GT(cpu_ns, 0);
+    }
+    const Json switches = read_facts()["switches"];
+    ASSERT_EQ(switches["cores"].size(), 1U);
+    const Json& core = switches["cores"][0];
+    EXPECT_EQ(core["right"]["is_granted"], core["right"]["errno"] == 0);
+    EXPECT_GT(core["runner"], 0);
+    EXPECT_EQ(core["window_threads"].size(), 2U);
+    EXPECT_EQ(core["window_threads"][1], 0) << "this window belongs to the other core";
+    EXPECT_TRUE(switches["continued_ns"].empty());
+}
+
 TEST_F(TimingRunTest, PlannedInstantsAreWholePeriodsApart) {
     verifies("SWR-PRT-038");
     ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
