@@ -29,7 +29,7 @@ from mamori_tools.timing.verdict import COMPONENT, NOT_KNOWN
 from mamori_trace.base.errors import WorkError
 
 PROGRAM = "tools/probe/timing/mamori_timing_events"
-CYCLES_BEFORE, CYCLES_PER_EVENT, CYCLE_S = 60, 12, 0.01
+CYCLES_BEFORE, CYCLES_PER_EVENT, CYCLE_S = 60, 24, 0.01
 TARGET = "work"
 SHARE_MIN = 0.95
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from mamori_tools.table.document import Table, read_table
-from mamori_tools.timing.switches import SLICE, STEP_USE, WINDOW_USE, Switches, read_switches
+from mamori_tools.timing.switches import SLICE, STEP_USE, WINDOW_USE, State, Switches, read_states, read_switches
 from mamori_trace.base.errors import InputError
 from mamori_trace.base.json_node import JsonNode
 from mamori_trace.base.text_file import read_text
@@ -82,6 +82,8 @@ class Measurement:
     requests: Requests | None = None
     switches: Switches | None = None
     """Nothing for a program that was built with an earlier version."""
+    states: tuple[State, ...] = ()
+    """States of the system; empty if it has none."""
 
     def rows_of(self, window: int) -> slice:
         """The instances of one window, in order of time."""
@@ -112,10 +114,11 @@ def read_measurement(folder: Path) -> Measurement:
     steps, opening_of_step, kept, notes = _match_steps(steps, openings, table, is_partial, folder / "steps.npy")
     own = tuple(f"the program: {note.text()}" for note in run.at("notes").items())
     findings = tuple(f"the program: {finding.text()}" for finding in run.at("findings").items()) if run.has("findings") else ()
+    switches = _read_switches(folder, run.at("switches"), order, kept, count, len(table.windows)) if run.has("switches") else None
+    states = read_states(run.at("states"), switches.window_use) if switches is not None and run.has("states") else ()
     return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, (*own, *notes), findings,
                        _read_requests(run.at("requests"), openings, table) if run.has("requests") else None,
-                       _read_switches(folder, run.at("switches"), order, kept, count, len(table.windows)) if run.has("switches") else None
-                       )  # fmt: skip
+                       switches, states)  # fmt: skip
 
 
 def _read_switches(folder: Path, node: JsonNode, order: Array, kept: Array, step_count: int, windows: int) -> Switches:

@@ -17,7 +17,7 @@ from mamori_trace.base.json_node import JsonNode
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
-WINDOW_USE = np.dtype([("own_ns", "<i8"), ("outside_ns", "<i8"), ("thread", "<u4")])
+WINDOW_USE = np.dtype([("own_ns", "<i8"), ("outside_ns", "<i8"), ("thread", "<u4"), ("state", "<u4")])
 STEP_USE = np.dtype([("cpu_ns", "<i8"), ("voluntary", "<u4"), ("involuntary", "<u4")])
 SLICE = np.dtype([("begin_ns", "<i8"), ("end_ns", "<i8"), ("core", "<u4"), ("thread", "<u4"), ("process", "<u4"), ("left", "<u4")])
 KINDS = ("own", "other", "kernel")
@@ -26,6 +26,7 @@ PREEMPTED, WAITING = range(2)
 """Values of `left`: how a thread left the processor."""
 IDLE = 0
 UNKNOWN_THREAD = 2**32 - 1
+NO_STATE = 2**32 - 1
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,14 @@ class Thread:
             return f"thread {self.thread} of the program" + (f" ('{self.name}')" if self.name else "")
         what = "kernel thread" if self.kind == KERNEL else "process"
         return f"{what} {self.process}" + (f" ('{self.name}')" if self.name else "")
+
+
+@dataclass(frozen=True)
+class State:
+    """A state of the system. `is_operating`: it does its task."""
+
+    name: str
+    is_operating: bool
 
 
 @dataclass(frozen=True)
@@ -102,6 +111,15 @@ def read_switches(node: JsonNode, slices: Array, window_use: Array, step_use: Ar
                       one.at("name").text()) for one in node.at("threads").items()]  # fmt: skip
     return Switches(tuple(cores), {one.thread: one for one in threads}, window_use, step_use,
                     tuple(one.whole() for one in node.at("continued_ns").items()))  # fmt: skip
+
+
+def read_states(node: JsonNode, window_use: Array) -> tuple[State, ...]:
+    """@raise InputError if a window instance has a state that is not listed."""
+    states = tuple(State(one.at("name").text(), one.at("is_operating").truth()) for one in node.items())
+    found = window_use["state"][window_use["state"] != NO_STATE]
+    if len(found) and int(found.max()) >= len(states):
+        raise node.complain(f"has {len(states)} states, window_use.npy has state {int(found.max())}")
+    return states
 
 
 def _read_core(node: JsonNode, slices: Array, windows: int) -> CoreLog:

@@ -26,6 +26,7 @@ FINDINGS_SHOWN = 8
 def make_text(report: Report, is_whole: bool) -> str:
     """@param is_whole all rows and reasons; otherwise the rows that fit on a screen, and a note about the rest."""
     parts = [_make_head(report), _make_windows(report, is_whole), _make_uses(report, is_whole), _make_components(report, is_whole),
+             _make_states(report, is_whole), _make_state_components(report, is_whole),
              _make_chains(report, is_whole),
              _make_shifts(report, is_whole), _make_misses(report, is_whole), _make_estimates(report, is_whole), _make_verdict(report, is_whole)]  # fmt: skip
     return make_printable("\n\n".join("\n".join(part) for part in parts if part) + "\n")
@@ -79,6 +80,24 @@ def _make_uses(report: Report, is_whole: bool) -> list[str]:
 def _make_components(report: Report, is_whole: bool) -> list[str]:
     head = ("component", "window", "runs", "min", "p50", "p99", "p99.9", "max", "declared", "margin", "ratio p50", "not back")
     return _cut([head, *(_make_component(row, report.run.reference_ns) for row in report.components)], is_whole)
+
+
+def _make_states(report: Report, is_whole: bool) -> list[str]:
+    if not report.states:
+        return []
+    head = ("state", "operating", "window", "instances", "late p50", "max", "response p50", "max")
+    rows = [(one.state, "yes" if one.is_operating else "no", one.window, str(one.count), *_format_quantiles(one.lateness, ("p50", "max")),
+             *_format_quantiles(one.response, ("p50", "max"))) for one in report.states]  # fmt: skip
+    return _cut([head, *rows], is_whole)
+
+
+def _make_state_components(report: Report, is_whole: bool) -> list[str]:
+    """Only in the complete text."""
+    if not report.state_components or not is_whole:
+        return []
+    rows = [(one.state, one.component, str(one.execution.count), *_format_quantiles(one.execution, ("min", "p50", "p99", "max")))
+            for one in report.state_components]  # fmt: skip
+    return format_columns([("state", "component", "runs", "min", "p50", "p99", "max"), *rows])
 
 
 def _make_component(row: ComponentRow, reference_ns: int) -> tuple[str, ...]:

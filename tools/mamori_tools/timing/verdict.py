@@ -17,6 +17,8 @@ VERDICTS = (COMPONENT, OWN_PROCESS, OUTSIDE, NOT_KNOWN)
 
 CONTINUED_WITHIN_NS = 50_000_000
 """Latest note of a continuation after the fact: an ordinary thread takes it."""
+CONTINUED_AFTER_NS = 5_000_000
+"""The same, after the wait that contained the stop."""
 RUNNER_DUE_NS = 500_000
 """A runner that has not run for so long after the deadline was kept from running."""
 STEAL_NS_MIN = 50_000
@@ -116,14 +118,27 @@ class _Core:
         known = self.switches.threads.get(thread)
         return known is not None and known.kind == OWN
 
-    def was_stopped(self, begin_ns: int, end_ns: int, deadline_ns: int) -> bool:
-        """Whether the process did not run because it was stopped. A thread that merely waits leaves the runner free to run at the deadline."""
-        if any(begin_ns <= instant <= end_ns + CONTINUED_WITHIN_NS for instant in self.switches.continued_ns):
-            return True
-        if not begin_ns <= deadline_ns <= end_ns - RUNNER_DUE_NS:
-            return False
-        due = self.log.between(deadline_ns, deadline_ns + RUNNER_DUE_NS)
-        return bool(len(due)) and self.log.runner not in due["thread"]
+    def find_stop(self, begin_ns: int, end_ns: int, deadline_ns: int) -> int | None:
+        """@return instant [ns] within this wait at which the process was stopped; nothing if it only waited: then its runner runs at the
+        deadline, and no SIGCONT follows."""
+        quiet = self._list_quiet(begin_ns, end_ns)
+        for begin, end in quiet:
+            if begin <= deadline_ns <= end - RUNNER_DUE_NS:
+                return begin
+        noted = [instant for instant in self.switches.continued_ns if begin_ns <= instant <= end_ns + CONTINUED_AFTER_NS]
+        near = [(end - begin, begin) for begin, end in quiet for instant in noted
+                if instant - CONTINUED_WITHIN_NS <= end <= instant + CONTINUED_AFTER_NS]  # fmt: skip
+        return max(near)[1] if near else None
+
+    def _list_quiet(self, begin_ns: int, end_ns: int) -> list[tuple[int, int]]:
+        """Intervals of a wait without a thread of the program on the processor."""
+        known = self.switches.threads.get(self.log.runner)
+        quiet, last = [], begin_ns
+        for one in self.log.between(begin_ns, end_ns):
+            if known is not None and int(one["process"]) == known.process:
+                quiet.append((last, int(one["begin_ns"])))
+                last = int(one["end_ns"])
+        return [*quiet, (last, end_ns)]
 
 
 def _find_core(run: Measurement, window: int) -> _Core | None:
@@ -195,11 +210,12 @@ def _account_gap(core: _Core, blame: _Blame, begin: int, end: int, deadline: int
     if end <= begin:
         return 0
     if left == WAITING and _is_in_step(steps, begin):
-        if not core.was_stopped(begin, end, deadline):
+        stop = core.find_stop(begin, end, deadline)
+        if stop is None:
             return end - begin
-        blame.add(OUTSIDE, "the process was stopped", min(end, deadline) - begin)
-        blame.add(OUTSIDE, "the process was stopped", end - max(begin, deadline))
-        return 0
+        # What follows the stop is a wait for the processor.
+        blame.add(OUTSIDE, "the process was stopped or held", end - stop)
+        return stop - begin
     own = sum(min(end, deadline, int(one["end_ns"])) - max(begin, int(one["begin_ns"])) for one in core.log.between(begin, min(end, deadline))
               if int(one["thread"]) == core.log.runner)  # fmt: skip
     core.blame(blame, begin, min(end, deadline), core.thread, others)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mamori_tools.timing.reader import OPENING, STEP
-from mamori_tools.timing.switches import SLICE, STEP_USE, WINDOW_USE
+from mamori_tools.timing.switches import NO_STATE, SLICE, STEP_USE, WINDOW_USE
 
 REFERENCE_NS = 1_000
 US = 1_000
@@ -92,9 +92,14 @@ def make_switches(threads: Sequence[dict[str, Any]] = (), windows: int = 1, errn
     return {"cores": [core], "threads": [*own, *threads], "continued_ns": list(continued_ns)}
 
 
-def write_switches(folder: Path, openings: int, step_use: Sequence[tuple[int, int, int]], slices: Sequence[tuple[int, ...]]) -> None:
-    """@param step_use CPU time [ns], voluntary, involuntary switches. @param slices begin [ns], end [ns], thread, process, left."""
-    np.save(folder / "window_use.npy", np.zeros(openings, WINDOW_USE))
+def write_switches(folder: Path, openings: int, step_use: Sequence[tuple[int, int, int]], slices: Sequence[tuple[int, ...]],
+                   states: Sequence[int] = ()) -> None:  # fmt: skip
+    """@param states of the window instances; none if empty.
+    @param step_use CPU time [ns], voluntary, involuntary switches.
+    @param slices begin [ns], end [ns], thread, process, left."""
+    window_use = np.zeros(openings, WINDOW_USE)
+    window_use["state"] = states if states else NO_STATE
+    np.save(folder / "window_use.npy", window_use)
     np.save(folder / "step_use.npy", np.array(list(step_use), STEP_USE))
     np.save(folder / "slices.npy", np.array([(begin, end, 0, *rest) for begin, end, *rest in slices], SLICE))
 

@@ -14,6 +14,7 @@ from timing_run import make_run, make_switches, make_table, write_run, write_swi
 
 from mamori_tools.timing.analysis import Miss, list_findings, list_limit_findings, list_misses, list_windows
 from mamori_tools.timing.reader import COMPLETED, MISSED, NOT_BACK, OPENING, OVERRUN, STEP, Measurement, read_measurement
+from mamori_tools.timing.switches import NO_STATE
 from mamori_tools.timing.verdict import COMPONENT, NOT_KNOWN, OUTSIDE, OWN_PROCESS
 from mamori_trace.base.errors import InputError
 
@@ -100,9 +101,13 @@ def test_step_that_works_or_waits_by_itself_is_of_the_component(tmp_path: Path, 
     assert [miss.verdict for miss in (working, waiting)] == [COMPONENT, COMPONENT]
 
 
-@pytest.mark.verifies("SWR-TIM-044", technique="equivalence_classes")
-@pytest.mark.parametrize(("continued", "runner", "verdict"), [(1200, 1200, OUTSIDE), (None, 1200, OUTSIDE), (None, 211, COMPONENT)])
-def test_stopped_process_does_not_count_as_a_waiting_component(tmp_path: Path, continued: int | None, runner: int, verdict: str) -> None:
+@pytest.mark.verifies("SWR-TIM-044", technique="equivalence_classes", polarity="violation")
+@pytest.mark.parametrize(("runner", "continued", "verdict"), [
+    (1200, None, OUTSIDE),  # the runner did not run at the deadline
+    (211, None, COMPONENT), (211, 1200, COMPONENT),  # it ran; a stop long after the deadline is not the cause
+    (211, 100_000, COMPONENT),
+])  # fmt: skip
+def test_stopped_process_does_not_count_as_a_waiting_component(tmp_path: Path, runner: int, continued: int | None, verdict: str) -> None:
     slices = [(-5, 12, RUNNER, WAITS), (12, 50, WORK, WAITS), (50, runner, 0, PREEMPTED), (runner, runner + 5, RUNNER, WAITS),
               (runner + 5, 1250, 0, PREEMPTED), (1250, 1310, WORK, WAITS)]  # fmt: skip
     instants = [] if continued is None else [(2100 + continued) * US]
@@ -110,6 +115,18 @@ def test_stopped_process_does_not_count_as_a_waiting_component(tmp_path: Path, c
     miss = judge(tmp_path, (10, runner + 1, OVERRUN), (12, 1300), slices, continued_ns=instants)
 
     assert miss.verdict == verdict
+
+
+@pytest.mark.verifies("SWR-TIM-044", technique="equivalence_classes")
+def test_short_stop_before_the_deadline_is_recognised_by_the_continuation(tmp_path: Path) -> None:
+    slices = [(-5, 12, RUNNER, WAITS), (12, 50, WORK, WAITS), (50, 180, 0, PREEMPTED), (180, 211, WORK, PREEMPTED), (211, 215, RUNNER, WAITS),
+              (215, 300, WORK, WAITS)]  # fmt: skip
+
+    stopped = judge(tmp_path / "stopped", CUT, (12, 290), slices, continued_ns=[2281 * US])
+    waited = judge(tmp_path / "waited", CUT, (12, 290), slices)
+
+    assert (stopped.verdict, waited.verdict) == (OUTSIDE, COMPONENT)
+    assert "the process was stopped or held for 130.0 us" in stopped.reason
 
 
 @pytest.mark.verifies("SWR-TIM-044", technique="error_guessing")
@@ -183,7 +200,7 @@ def test_only_the_program_itself_causes_findings(tmp_path: Path) -> None:
 def test_use_of_the_processor_is_shown_per_window(tmp_path: Path) -> None:
     run = read(tmp_path, (10, 90, COMPLETED), (12, 80), [], use=(60 * US, 1, 2))
     assert run.switches is not None
-    run.switches.window_use[1] = (5 * US, 7 * US, OWN)
+    run.switches.window_use[1] = (5 * US, 7 * US, OWN, NO_STATE)
 
     use = list_windows(run)[0].use
 

@@ -88,6 +88,10 @@ void MeasuringHost::after_opening(const FrameSchedule::Opening& opening, WindowO
     if (switches_ != nullptr) {
         note_switches(opening);
     }
+    if (get_state_ != nullptr && !has_work_out()) {
+        state_ = static_cast<std::uint32_t>((*get_state_)());
+    }
+    current_.state = state_;
     log_.add_opening(current_);
     if (next_ != nullptr) {
         next_->after_opening(opening, outcome);

@@ -21,7 +21,7 @@ using ports::posix_rt::Right;
 constexpr std::size_t kRingPagesMax = 256U;
 constexpr std::size_t kRingPagesMin = 8U;
 /// Slices between two windows; a busy host has a hundred per major frame.
-constexpr std::size_t kBatch = 8192U;
+constexpr std::size_t kBatch = 16384U;
 
 /// Linux reads the rest of the structure as "not requested".
 perf_event_attr make_request() noexcept {
@@ -57,6 +57,7 @@ SwitchLog::~SwitchLog() {
 
 Right SwitchLog::open(int processor, const FrameClock& clock) noexcept {
     perf_event_attr request = make_request();
+    last_ = clock.get_now();
     const long file = syscall(SYS_perf_event_open, &request, -1, processor, -1, PERF_FLAG_FD_CLOEXEC);
     if (file < 0) {
         return {false, errno};
@@ -71,7 +72,6 @@ Right SwitchLog::open(int processor, const FrameClock& clock) noexcept {
             file_ = static_cast<int>(file);
             epoch_ns_ = clock.get_epoch_ns();
             process_ = static_cast<std::uint32_t>(getpid());
-            last_ = clock.get_now();
             return {true, 0};
         }
         refusal = errno;

@@ -219,6 +219,9 @@ std::string check(const std::vector<TimedCore>& cores, const TimingOptions& opti
         return std::to_string(options.cycles) +
                " cycles need more memory than this machine has free: run fewer";
     }
+    if (options.states.empty() == static_cast<bool>(options.get_state)) {
+        return "TimingOptions::states and get_state belong together: set both or neither";
+    }
     if (options.with_requests && options.introspection == nullptr) {
         return "this program has no introspection for --requests: set TimingOptions::introspection";
     }
@@ -369,6 +372,9 @@ std::unique_ptr<Session> make_session(const std::vector<TimedCore>& cores, const
                                                                place, i == 0U ? session->load.get() : nullptr,
                                                                Duration{block_cycles * frame.ns}));
         CoreSession& core = *session->cores.back();
+        if (options.get_state) {
+            core.host.set_state_source(options.get_state);
+        }
         core.window_count = cores[i].executive.get_view().windows.size();
         core.processor_number = processors[i];
         core.switch_right = core.switches.open(processors[i], *session->clock);
@@ -418,6 +424,7 @@ TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& o
     RunFacts facts = collect(*session, options, view.frame);
     session->load.reset();  // it would outlive this function together with the hanging work
     facts.reference = reference;
+    facts.states = options.states;
     facts.memory = memory;
     if (options.tell_notes) {
         facts.notes = options.tell_notes();

@@ -75,12 +75,13 @@ StepFiles make_steps(const std::vector<const RunLog*>& logs) {
 
 /// One row for each of openings.npy.
 std::string make_window_use(const std::vector<const RunLog*>& logs) {
-    NpyTable table{{{"own_ns", 8U}, {"outside_ns", 8U}, {"thread", 4U}}};
+    NpyTable table{{{"own_ns", 8U}, {"outside_ns", 8U}, {"thread", 4U}, {"state", 4U}}};
     for (const OpeningRow* row :
          merge<OpeningRow>(logs, [](const RunLog& log) { return log.get_openings(); })) {
         table.add(row->use.own.ns);
         table.add(row->use.outside.ns);
         table.add(row->use.thread);
+        table.add(row->state);
     }
     return table.make();
 }
@@ -178,6 +179,15 @@ std::string make_switches(const SwitchFacts& facts) {
            "]}";
 }
 
+std::string make_states(const std::vector<SystemState>& states) {
+    std::string list;
+    for (const SystemState& state : states) {
+        list += (list.empty() ? "{\"name\": \"" : ", {\"name\": \"") + make_plain(state.name) +
+                "\", \"is_operating\": " + (state.is_operating ? "true" : "false") + "}";
+    }
+    return list;
+}
+
 std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& facts) {
     std::uint64_t lost = 0U;
     for (const RunLog* log : logs) {
@@ -189,8 +199,8 @@ std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& f
            ",\n \"frame_ns\": " + std::to_string(facts.frame.ns) +
            ",\n \"reference_ns\": " + std::to_string(facts.reference.ns) +
            ",\n \"lost_rows\": " + std::to_string(lost) + ",\n \"notes\": " + make_list(facts.notes) +
-           ",\n \"findings\": " + make_list(facts.findings) + make_requests(facts) +
-           ",\n \"switches\": " + make_switches(facts.switches) +
+           ",\n \"findings\": " + make_list(facts.findings) + make_requests(facts) + ",\n \"states\": [" +
+           make_states(facts.states) + "]" + ",\n \"switches\": " + make_switches(facts.switches) +
            ",\n \"rights\": " + make_rights(facts.priority, facts.processor, facts.memory) + "\n}\n";
 }
 

@@ -13,6 +13,7 @@
 #include "mamori/timing/introspection_load.hpp"
 #include "mamori/timing/run_log.hpp"
 #include "mamori/timing/switch_log.hpp"
+#include "mamori/timing/timing_run.hpp"
 #include "thread_list.hpp"
 
 namespace mamori::timing {
@@ -47,6 +48,7 @@ struct RunFacts {
     std::vector<std::string> notes{};     ///< of the application
     std::vector<std::string> findings{};  ///< likewise
     SwitchFacts switches{};
+    std::vector<SystemState> states{};
 };
 
 /// Content of run.json of a cost run except the rows.

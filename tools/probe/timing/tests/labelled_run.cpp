@@ -4,7 +4,7 @@
 //
 //     mamori_timing_events timing --cycles N --out DIR [--seed S]
 //
-// One event begins every 12 cycles. Writes DIR/labels.json in addition to the files of the run.
+// One event begins every 24 cycles. Writes DIR/labels.json in addition to the files of the run.
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -37,7 +37,7 @@ using ports::posix_rt::set_processor;
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr Duration kFrame{10 * kMs};
-constexpr std::int64_t kDistance = 12;  ///< cycles from event to event
+constexpr std::int64_t kDistance = 24;  ///< cycles from event to event
 constexpr std::int64_t kFirst = 60;
 constexpr std::int64_t kWork = kMs * 8 / 10;
 

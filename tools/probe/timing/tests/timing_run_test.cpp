@@ -178,6 +178,34 @@ TEST_F(TimingRunTest, EachWindowAndStepHasARowOfItsUseOfTheProcessor) {
     EXPECT_TRUE(switches["continued_ns"].empty());
 }
 
+TEST_F(TimingRunTest, TheStateOfTheSystemIsWrittenForEachWindow) {
+    verifies("SWR-TIM-046");
+    options_.states = {{"slow", false}, {"fast \"one\"", true}};
+    options_.get_state = [this] { return static_cast<std::size_t>(first_.run_count > 2 ? 1 : 0); };
+
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    EXPECT_EQ(read_facts()["states"], (Json{{{"name", "slow"}, {"is_operating", false}},
+                                            {{"name", "fast  one "}, {"is_operating", true}}}));
+    const std::string use = read_file(folder_ + "/window_use.npy");
+    std::uint32_t last = 0U;
+    std::memcpy(&last, &use[use.size() - sizeof last], sizeof last);
+    EXPECT_EQ(last, 1U);
+}
+
+TEST_F(TimingRunTest, StatesWithoutTheirSourceAreRefused) {
+    verifies("SWR-TIM-046", Technique::kErrorGuessing, Polarity::kViolation);
+    options_.states = {{"slow", false}};
+
+    EXPECT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kRefused);
+    options_.states.clear();
+    options_.get_state = [] { return std::size_t{0U}; };
+    const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kRefused);
+    EXPECT_NE(result.message.find("get_state"), std::string::npos);
+}
+
 TEST_F(TimingRunTest, PlannedInstantsAreWholePeriodsApart) {
     verifies("SWR-PRT-038");
     ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);

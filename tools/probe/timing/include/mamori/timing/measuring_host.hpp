@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -50,6 +51,8 @@ class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningOb
     void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override;
     void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override;
 
+    /// @param[in] get_state asked after each window while no work is outstanding; must outlive this object.
+    void set_state_source(const std::function<std::size_t()>& get_state) noexcept { get_state_ = &get_state; }
     /// Reads the switches after the last window, for work that returned later. Without a switch log: nothing.
     void finish() noexcept;
     /// @return thread of a window; 0: it has not worked yet.
@@ -79,6 +82,8 @@ class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningOb
     std::vector<std::atomic<std::uint32_t>> threads_;
     Instant event_{kNever};  ///< end of the last window that was late or overran
     OpeningRow current_{};
+    const std::function<std::size_t()>* get_state_{nullptr};
+    std::uint32_t state_{kNoState};
 };
 
 }  // namespace mamori::timing

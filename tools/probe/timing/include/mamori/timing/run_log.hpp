@@ -21,6 +21,9 @@ namespace mamori::timing {
 /// Represents an instant that did not occur.
 inline constexpr Instant kNoInstant{-1};
 
+/// State of a system that does not tell its state.
+inline constexpr std::uint32_t kNoState = 0xFFFFFFFFU;
+
 /// One window instance.
 struct OpeningRow {
     Instant release{};  ///< planned
@@ -28,7 +31,8 @@ struct OpeningRow {
     Instant closed{};   ///< window end
     std::size_t window{0U};
     WindowOutcome outcome{WindowOutcome::kCompleted};
-    ProcessorUse use{};  ///< from the planned instant to the end; 0 without a switch log
+    std::uint32_t state{kNoState};  ///< of the system after the window, index in TimingOptions::states
+    ProcessorUse use{};             ///< from the planned instant to the end; 0 without a switch log
 };
 
 /// One step of a component. The thread that does the work writes `start` and `end`, possibly long after the
