@@ -37,8 +37,8 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.text_file import write_text
 
 CYCLES = 60_000
-RESULTS = ("timing.json", "timing.txt", *(f"{name}{suffix}" for name in ("release_lateness", "execution_time", "chain_latency")
-                                          for suffix in (".svg", ".png")))  # fmt: skip
+PICTURES = ("release_lateness", "execution_time", "chain_latency", "over_time")
+RESULTS = ("timing.json", "timing.txt", "timing.perfetto-trace", *(f"{name}{suffix}" for name in PICTURES for suffix in (".svg", ".png")))
 PROBE_S = 20.0
 """If cycle plus start take longer, the program does not run in real time."""
 TAIL_LINES = 10
@@ -228,6 +228,9 @@ def show(job: Job, report: Report) -> int:
     from mamori_tools.timing.picture import draw_report
 
     paths += draw_report(report, job.folder)
+    from mamori_tools.timing.trace_file import FILE, write_trace
+
+    paths.append(write_trace(job.folder / FILE, report.system, report.run, report.misses))
     screen.say(f"results: {job.folder}: {', '.join(path.name for path in paths)}")
     if job.request.accept is not None:
         _accept(job, report, job.request.accept)
