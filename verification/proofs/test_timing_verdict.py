@@ -3,6 +3,7 @@
 # of them next to stress-ng; `python -P -m verification.real_time.timing_verdict` runs more of them.
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ EVENTS = 24
 
 
 @pytest.mark.verifies("SWR-TIM-044", technique="fault_injection", polarity="violation")
-def test_cause_of_labelled_events_is_found(project: Project, tmp_path: Path) -> None:
+def test_cause_of_labelled_events_is_found(project: Project, tmp_path: Path, record_property: Callable[[str, object], None]) -> None:
     program = project.build / PROGRAM
     assert program.exists(), f"{program} is missing; run ./mamori build"
 
@@ -22,5 +23,8 @@ def test_cause_of_labelled_events_is_found(project: Project, tmp_path: Path) -> 
 
     if tally.refused:
         pytest.skip(f"verdict=not-shown: {tally.refused}")
-    assert tally.is_accepted, "\n".join(tally.faults)
+    record_property("verdict", tally.verdict)
+    assert tally.verdict != "failed", "\n".join(tally.faults)
+    if tally.verdict == "inconclusive":
+        pytest.skip(f"verdict=inconclusive: other processes disturbed {tally.disturbed_events} of {EVENTS} events")
     assert tally.correct.total() + tally.wrong.total() >= EVENTS // 2

@@ -3,7 +3,8 @@
 `python -P -m verification.real_time.timing_verdict [--events N] [--seed S] [--build DIR] [--without-log]`.
 
 Half of the events happen while stress-ng keeps all processors busy. Needs real-time privileges. Exit status 1 if less than 95 % of the
-verdicts are correct, a component is blamed for another cause, or another cause for a component.
+verdicts are correct, a component is blamed for another cause, or another cause for a component; 4 (inconclusive) if all of this is due to other
+processes that were on the processor in addition.
 
 Design: docs/design/timing.md#verdict
 """
@@ -20,12 +21,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK, EXIT_USAGE
+from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK, EXIT_UNFINISHED, EXIT_USAGE
 from mamori_tools.host.project import RELEASE, ROOT, Project
 from mamori_tools.timing.analysis import Miss, list_misses
 from mamori_tools.timing.reader import Measurement, read_measurement
 from mamori_tools.timing.run import make_load
-from mamori_tools.timing.verdict import COMPONENT, NOT_KNOWN
+from mamori_tools.timing.verdict import COMPONENT, NOT_KNOWN, OUTSIDE
 from mamori_trace.base.errors import WorkError
 
 PROGRAM = "tools/probe/timing/mamori_timing_events"
@@ -37,21 +38,28 @@ SHARE_MIN = 0.95
 @dataclass
 class Tally:
     """Events by kind. `silent` events did not disturb their window, so there is no verdict. `exchanged`: verdicts that
-    name a component instead of another cause, or the reverse. `strays`: misses that no event explains."""
+    name a component instead of another cause, or the reverse. `disturbed` of them, and `disturbed_events` of the wrong events, have the
+    verdict `outside`: another process was on the processor in addition to the event. `strays`: misses that no event explains."""
 
     correct: Counter[str] = field(default_factory=Counter)
     wrong: Counter[str] = field(default_factory=Counter)
     silent: Counter[str] = field(default_factory=Counter)
     faults: list[str] = field(default_factory=list)
     exchanged: int = 0
+    disturbed: int = 0
+    disturbed_events: int = 0
     strays: Counter[str] = field(default_factory=Counter)
     refused: str = ""
     """Why the host cannot show the verdicts; empty if it can."""
 
     @property
-    def is_accepted(self) -> bool:
+    def verdict(self) -> str:
+        """`inconclusive`: another process disturbed too many events; the evidence is the thread that the verdicts name."""
         good, bad = self.correct.total(), self.wrong.total()
-        return good + bad > 0 and good >= SHARE_MIN * (good + bad) and not self.exchanged
+        if good + bad > 0 and good >= SHARE_MIN * (good + bad) and not self.exchanged:
+            return "passed"
+        is_by_host = self.exchanged <= self.disturbed and good >= SHARE_MIN * (good + bad - self.disturbed_events)
+        return "inconclusive" if is_by_host else "failed"
 
 
 def run_events(program: Path, events: int, seed: int, with_load: bool, folder: Path) -> None:
@@ -81,7 +89,7 @@ def judge(run: Measurement, labels: Sequence[dict[str, object]], tally: Tally) -
     misses, explained = list_misses(run), set()
     for label in labels:
         kind, wanted, first, last = str(label["kind"]), str(label["label"]), int(str(label["cycle"])), int(str(label["last_cycle"]))
-        found = [(number, one) for number, one in enumerate(misses) if first <= one.cycle <= last or one.since_cycle == first]
+        found = [(number, one) for number, one in enumerate(misses) if first <= one.cycle <= last or first <= one.since_cycle <= last]
         explained |= {number for number, _ in found}
         targets = [one for _, one in found if one.window == TARGET and one.cycle == first]
         if not targets or targets[0].since_cycle < first:  # earlier work is still outstanding
@@ -89,8 +97,11 @@ def judge(run: Measurement, labels: Sequence[dict[str, object]], tally: Tally) -
             continue
         is_correct = targets[0].verdict == wanted
         (tally.correct if is_correct else tally.wrong)[kind] += 1
+        tally.disturbed_events += not is_correct and targets[0].verdict == OUTSIDE
         own = [one for _, one in found if one.window == TARGET and one.since_cycle >= first]
-        tally.exchanged += sum(one.verdict not in (wanted, NOT_KNOWN) and COMPONENT in (one.verdict, wanted) for one in own)
+        exchanged = [one for one in own if one.verdict not in (wanted, NOT_KNOWN) and COMPONENT in (one.verdict, wanted)]
+        tally.exchanged += len(exchanged)
+        tally.disturbed += sum(one.verdict == OUTSIDE for one in exchanged)
         tally.faults += [_describe(kind, one) for one in own if one.verdict != wanted]
     for number, one in enumerate(misses):
         if number not in explained:
@@ -143,7 +154,8 @@ def main(arguments: Sequence[str]) -> int:
         print(f"| {kind} | {tally.correct[kind]} | {tally.wrong[kind]} | {tally.silent[kind]} |")
     print(f"{tally.correct.total()} of {tally.correct.total() + tally.wrong.total()} correct; component exchanged with another cause: "
           f"{tally.exchanged}; misses without an event: {dict(tally.strays)}")  # fmt: skip
-    return EXIT_OK if tally.is_accepted else EXIT_FAILED
+    print(f"verdict: {tally.verdict}")
+    return {"passed": EXIT_OK, "failed": EXIT_FAILED, "inconclusive": EXIT_UNFINISHED}[tally.verdict]
 
 
 if __name__ == "__main__":

@@ -104,6 +104,11 @@ class _Core:
                 blame.add(OWN_PROCESS, f"{self.switches.name(thread, int(one['process']))} ran", end - begin)
         blame.add(NOT_KNOWN, "", end_ns - covered)
 
+    def calc_presence(self, thread: int, begin_ns: int, end_ns: int) -> int:
+        """Time [ns] of a thread on the processor within an interval."""
+        return sum(min(end_ns, int(one["end_ns"])) - max(begin_ns, int(one["begin_ns"])) for one in self.log.between(begin_ns, end_ns)
+                   if int(one["thread"]) == thread)  # fmt: skip
+
     def _find_component(self, thread: int, instant: int) -> str:
         """@return the component of another window whose work this thread did at the instant, with the same or no fixed priority; or empty."""
         if thread not in self.log.window_threads or self.get_priority(thread) > 0:
@@ -181,7 +186,8 @@ def judge_overrun(run: Measurement, opening: Array, steps: Array, uses: Array | 
     stolen = 0 if uses is None else _calc_stolen(core, steps, uses)
     if stolen >= STEAL_NS_MIN:
         needed -= stolen
-        blame.add(OUTSIDE, "the hypervisor or interrupts used the processor", stolen)
+        # At most what the thread was present before the deadline: the rest came too late to cause the loss.
+        blame.add(OUTSIDE, "the hypervisor or interrupts used the processor", min(stolen, core.calc_presence(core.thread, woke, deadline_ns)))
     if needed > budget:
         return Cause(COMPONENT)
     core.blame(blame, int(opening["release_ns"]), woke, core.log.runner, frozenset())
@@ -216,10 +222,8 @@ def _account_gap(core: _Core, blame: _Blame, begin: int, end: int, deadline: int
         # What follows the stop is a wait for the processor.
         blame.add(OUTSIDE, "the process was stopped or held", end - stop)
         return stop - begin
-    own = sum(min(end, deadline, int(one["end_ns"])) - max(begin, int(one["begin_ns"])) for one in core.log.between(begin, min(end, deadline))
-              if int(one["thread"]) == core.log.runner)  # fmt: skip
     core.blame(blame, begin, min(end, deadline), core.thread, others)
-    return own
+    return core.calc_presence(core.log.runner, begin, min(end, deadline))
 
 
 def _is_in_step(steps: Array, instant: int) -> bool:
@@ -231,9 +235,7 @@ def _calc_stolen(core: _Core, steps: Array, uses: Array) -> int:
     stolen = 0
     for step, use in zip(steps, uses, strict=True):
         if int(use["cpu_ns"]) >= 0:
-            start, end = int(step["start_ns"]), int(step["end_ns"])
-            present = sum(min(end, int(one["end_ns"])) - max(start, int(one["begin_ns"])) for one in core.log.between(start, end)
-                          if int(one["thread"]) == core.thread)  # fmt: skip
+            present = core.calc_presence(core.thread, int(step["start_ns"]), int(step["end_ns"]))
             stolen += max(0, present - int(use["cpu_ns"]))
     return stolen
 

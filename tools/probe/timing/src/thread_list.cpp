@@ -101,6 +101,7 @@ std::vector<std::int64_t> end_continuations() {
     set_handler(SIG_DFL);
     const std::size_t count = std::min(continued_count.load(std::memory_order_relaxed), continued_ns.size());
     std::vector<std::int64_t> instants;
+    instants.reserve(count);
     for (std::size_t i = 0U; i < count; ++i) {
         instants.push_back(continued_ns[i].load(std::memory_order_relaxed));
     }
